@@ -1,0 +1,120 @@
+#include "algorithms/core/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+// Each extent is a sum of at most four products of a few factors: fewer than 16 roundings, each of
+// at most half an ulp of a partial sum, and each partial sum is at most the sum of magnitudes.
+constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+
+struct Interval {
+  double low, high;
+};
+
+// The extent along a world axis of {row . x : x in the shape}, where row is that axis' row of the
+// rotation. `magnitude` becomes a bound on the sum of magnitudes that went into it.
+Interval extent(const Shape& shape, const Vec3d& row, double& magnitude) {
+  const auto symmetric = [&](double half) {
+    magnitude = half;
+    return Interval{-half, half};
+  };
+  const double disc = shape.radius * std::hypot(row.x(), row.y());
+  const double along = shape.half_length * row.z();
+  switch (shape.kind) {
+    case ShapeKind::sphere: return symmetric(shape.radius);
+    case ShapeKind::capsule: return symmetric(std::abs(along) + shape.radius);
+    case ShapeKind::box: return symmetric(row.cwiseAbs().dot(shape.half_extents));
+    case ShapeKind::cylinder: return symmetric(std::abs(along) + disc);
+    case ShapeKind::ellipsoid: return symmetric(row.cwiseProduct(shape.radii).stableNorm());
+    case ShapeKind::cone:
+      magnitude = std::abs(along) + disc;
+      return {std::min(along, -along - disc), std::max(along, -along + disc)};
+    case ShapeKind::hull: {
+      Interval range{inf, -inf};
+      magnitude = 0;
+      for (const Vec3d& vertex : shape.hull->vertices) {
+        const double value = row.dot(vertex);
+        range = {std::min(range.low, value), std::max(range.high, value)};
+        magnitude = std::max(magnitude, row.cwiseAbs().dot(vertex.cwiseAbs()));
+      }
+      return range;
+    }
+    case ShapeKind::halfspace: break;
+  }
+  return {-inf, inf};
+}
+
+Aabb halfspace_box(const Shape& shape, const Pose& pose) {
+  const Vec3d normal = pose.rotation * shape.normal;
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  Aabb box{{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (normal[(axis + 1) % 3] != 0 || normal[(axis + 2) % 3] != 0) continue;
+    // Points x = R p + t with n . p <= offset; R maps n to a multiple of this axis. With R
+    // orthonormal that is (x - t) . (R n) <= offset.
+    const double face = shape.offset / normal[axis];
+    const double slack = rounding * (std::abs(face) + std::abs(pose.translation[axis]));
+    const double at = pose.translation[axis] + face;
+    if (normal[axis] > 0) box.max[axis] = round_up(at + slack);
+    if (normal[axis] < 0) box.min[axis] = round_down(at - slack);
+  }
+  return box;
+}
+
+}  // namespace
+
+Aabb tight_box(const Shape& shape, const Pose& pose) {
+  if (shape.kind == ShapeKind::halfspace) return halfspace_box(shape, pose);
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    double magnitude = 0;
+    const Interval range = extent(shape, pose.rotation.row(axis), magnitude);
+    const double t = pose.translation[axis];
+    const double slack =
+        rounding * (magnitude + std::abs(t)) + std::numeric_limits<double>::denorm_min();
+    box.min[axis] = round_down(t + range.low - slack);
+    box.max[axis] = round_up(t + range.high + slack);
+  }
+  return box;
+}
+
+Aabb loose_box(double reach, const Vec3d& translation) {
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double t = translation[axis];
+    const double slack = rounding * (reach + std::abs(t));
+    box.min[axis] = round_down(t - reach - slack);
+    box.max[axis] = round_up(t + reach + slack);
+  }
+  return box;
+}
+
+double loose_reach(const Shape& shape, const Mat3d& rotation) {
+  double reach = 0;
+  switch (shape.kind) {
+    case ShapeKind::sphere: reach = shape.radius; break;
+    case ShapeKind::capsule: reach = shape.half_length + shape.radius; break;
+    case ShapeKind::box: reach = shape.half_extents.stableNorm(); break;
+    case ShapeKind::cylinder: reach = std::hypot(shape.half_length, shape.radius); break;
+    case ShapeKind::cone: reach = std::hypot(shape.half_length, shape.radius); break;
+    case ShapeKind::ellipsoid: reach = shape.radii.maxCoeff(); break;
+    case ShapeKind::hull:
+      for (const Vec3d& vertex : shape.hull->vertices) {
+        reach = std::max(reach, vertex.stableNorm());
+      }
+      break;
+    case ShapeKind::halfspace: return inf;
+  }
+  // |R|^2 is the greatest eigenvalue of R'R, which is at most 1 + |R'R - I|. The ball of a sphere
+  // or capsule is not deformed by R, so its reach may be a little too great.
+  const double stretch =
+      std::sqrt(1 + (rotation.transpose() * rotation - Mat3d::Identity()).norm());
+  return reach * stretch * (1 + rounding);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,27 @@
+// Every algorithm there is, ours and the peers', built or not. The list itself is in CMakeLists.txt
+// beside this file, one line each.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/narrow_phase.h"
+
+namespace touchstone {
+
+// In the order of the list. Names are unique within each.
+std::span<const BroadPhaseEntry> broad_phases();
+std::span<const NarrowPhaseEntry> narrow_phases();
+
+// Null where there is none of that name.
+const BroadPhaseEntry* find_broad_phase(std::string_view name);
+const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
+
+inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
+bool offers(const NarrowPhaseEntry& entry, Task task);
+bool offers(const NarrowPhaseEntry& entry, Precision scalar);
+// Also asks for the kinds, in either order.
+bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
+
+}  // namespace touchstone

@@ -1,0 +1,76 @@
+// CSV: rows read by column name with exact numbers, and files that are whole or not there.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone {
+
+// Reads a CSV file (RFC 4180) with a header line, through libcsv. Throws InputError with file and
+// line.
+class CsvReader {
+ public:
+  // One row, valid during the callback.
+  class Row {
+   public:
+    std::string_view text(std::size_t column) const { return (*fields_)[column]; }
+    // Exact (std::from_chars). InputError names file, line, column and what was found.
+    double number(std::size_t column) const;
+    std::int64_t integer(std::size_t column) const;
+    std::int64_t line() const { return line_; }
+    [[noreturn]] void fail(const std::string& message) const;
+
+   private:
+    friend class CsvReader;
+    const std::vector<std::string>* fields_ = nullptr;
+    const CsvReader* reader_ = nullptr;
+    std::int64_t line_ = 0;
+  };
+
+  // `columns` must all be in the header, in any order; others are passed over. Row columns are
+  // numbered in the order of `columns`.
+  CsvReader(std::filesystem::path file, std::vector<std::string> columns);
+  // Calls row for each line behind the header, in order. A line with another number of fields than
+  // the header is an InputError.
+  void read(const std::function<void(const Row&)>& row) const;
+
+ private:
+  friend class Row;
+  std::filesystem::path file_;
+  std::vector<std::string> columns_;
+};
+
+// Writes a CSV file under a temporary name beside it and renames it when `close` is called: readers
+// see a whole file or none. Without close (an exception on the way) nothing is left behind. Every
+// failure to write, such as a full disk, is an InputError with the file's name.
+class CsvWriter {
+ public:
+  CsvWriter(std::filesystem::path file, const std::vector<std::string>& header);
+  ~CsvWriter();
+  CsvWriter(const CsvWriter&) = delete;
+  CsvWriter& operator=(const CsvWriter&) = delete;
+
+  // Fields of one row in order; numbers in shortest round-trip form, NaN as an empty field.
+  CsvWriter& field(std::string_view text);  // quoted where it has to be
+  CsvWriter& field(double value);
+  CsvWriter& field(std::int64_t value);
+  CsvWriter& field(int value) { return field(static_cast<std::int64_t>(value)); }
+  CsvWriter& field(std::size_t value) { return field(static_cast<std::int64_t>(value)); }
+  void
+  end_row();  // throws std::logic_error when the row has another number of fields than the header
+  void flush();  // so that what was written survives this process
+  void close();
+
+ private:
+  std::filesystem::path file_, temporary_;
+  std::FILE* stream_ = nullptr;
+  std::string line_;
+  std::size_t columns_ = 0, fields_ = 0;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,47 @@
+// The program: one subcommand, one job.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+
+#include "algorithms/core/isa.h"
+#include "harness/commands/commands.h"
+#include "harness/error.h"
+
+int main(int argc, char** argv) {
+  using namespace touchstone;
+  CLI::App app{"Touchstone: a benchmark of collision detection that checks what it measures"};
+  app.name("touchstone");
+  app.require_subcommand(1);
+  app.fallthrough();
+  std::string isa_name = "best";
+  app.add_option("--isa", isa_name,
+                 "Vector instructions: best of this machine, or at most this level")
+      ->check(CLI::IsMember({"baseline", "avx2", "avx512", "best"}))
+      ->capture_default_str();
+  app.parse_complete_callback([&] {
+    if (isa_name == "baseline") limit_isa(Isa::baseline);
+    if (isa_name == "avx2") limit_isa(Isa::avx2);
+  });
+  int status = exit_done;
+  add_run(app, status);
+  add_list(app, status);
+  add_query(app, status);
+  add_pairs(app, status);
+  add_draw(app, status);
+  add_record(app, status);
+  try {
+    app.parse(argc, argv);
+    return status;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_bad_request;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "touchstone: {}\n", error.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "touchstone: out of memory\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "touchstone: {}\n", error.what());
+  }
+  return exit_bad_request;
+}

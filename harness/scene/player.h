@@ -1,0 +1,46 @@
+// Plays a scene frame by frame: poses, boxes, and what changed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/broad_phase.h"
+#include "harness/scene/scene.h"
+
+namespace touchstone {
+
+// Starts at frame 0. The same scene gives the same bits each time it is played, on every platform.
+class ScenePlayer {
+ public:
+  ScenePlayer(const Scene& scene, BoxKind kind);
+
+  int frame() const { return frame_; }
+  // Goes to the next frame; false at the last one. The boxes of the frame before stay valid (and
+  // those only), as BroadPhase::update wants.
+  bool next();
+
+  std::span<const Pose> poses() const { return poses_; }  // of each body; empty for a recording
+  // Finite boxes in world coordinates. A half-space's infinite extents are cut to the region that
+  // the bounded bodies' boxes fill over all frames, so that no pair is lost.
+  std::span<const Aabb> boxes() const { return boxes_[current_]; }
+  // Against the frame before: moved lists every body whose box changed. Empty lists at frame 0.
+  FrameChange change() const { return {boxes(), moved_, {}, {}}; }
+
+ private:
+  void make_boxes();
+
+  const Scene* scene_;
+  BoxKind kind_;
+  int frame_ = 0;
+  std::vector<Pose> poses_;
+  std::vector<Vec3d> velocities_;
+  std::vector<Vec3d> angular_velocities_;
+  std::vector<double> reach_;  // loose boxes
+  Aabb world_ = Aabb::empty();
+  std::vector<Aabb> boxes_[2];
+  int current_ = 0;
+  std::vector<std::uint32_t> moved_;
+};
+
+}  // namespace touchstone

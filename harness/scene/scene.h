@@ -1,0 +1,78 @@
+// A scene: bodies with shapes and poses, and how they move from frame to frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/pose.h"
+#include "algorithms/core/shape.h"
+
+namespace touchstone {
+
+// How a body's box is made (core/bounds.h).
+enum class BoxKind : std::uint8_t { tight, loose };
+std::string_view to_string(BoxKind kind);
+
+struct Body {
+  std::uint32_t shape = 0;                 // index into Scene::shapes
+  Pose pose;                               // at frame 0
+  Vec3d velocity = Vec3d::Zero();          // metres a second, world
+  Vec3d angular_velocity = Vec3d::Zero();  // radians a second, world, about the body's origin
+  bool moving = true;                      // false: stays at its pose whatever its velocities say
+};
+
+// How velocities change. All motion is kinematic: bodies pass through each other.
+enum class MotionKind : std::uint8_t {
+  inertial,          // velocities stay as they are
+  brownian,          // each frame one body in a hundred is given a new random velocity
+  free_fall,         // constant acceleration along -z
+  rotating_gravity,  // constant acceleration whose direction turns in the x-z plane
+};
+
+struct Motion {
+  MotionKind kind = MotionKind::inertial;
+  double time_step = 1.0 / 30;  // seconds
+  double acceleration = 0;      // metres a second squared: free_fall, rotating_gravity
+  double period = 0;            // seconds a turn: rotating_gravity
+  double speed = 0;             // metres a second, greatest: brownian's new velocities
+  std::uint64_t seed = 0;       // brownian
+  // Elastic walls: a body whose origin would leave comes back with that component of its velocity
+  // turned. Without walls, min > max.
+  Vec3d wall_min = Vec3d::Constant(1);
+  Vec3d wall_max = Vec3d::Constant(-1);
+};
+
+struct Scene {
+  std::string name;  // the file's stem, unless it says otherwise
+  std::vector<Shape> shapes;
+  std::vector<Body> bodies;
+  int frames = 1;  // at least one
+  Motion motion;
+  // A recording of boxes alone, one array a frame, as Broadmark's files hold; such a scene has no
+  // bodies and no narrow phase. Empty otherwise.
+  std::vector<std::vector<Aabb>> recording;
+
+  std::size_t size() const { return recording.empty() ? bodies.size() : recording.front().size(); }
+};
+
+// What a user may change of a scene file from outside: a campaign's axes.
+struct SceneOverrides {
+  std::int64_t count = -1;  // bodies, of a generated scene; -1: as the file says
+  std::int64_t seed = -1;   // of a generated scene; -1: as the file says
+  int frames = -1;          // -1: as the file says
+};
+
+// Reads a scene file: TOML (a generator, bodies, or an import), rigid-ipc's JSON, or Broadmark's
+// .aabbs. Paths inside a scene file are relative to it. Throws InputError with file, line and what
+// was expected; an override that the scene cannot take (a count for listed bodies) is one too.
+Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
+
+// 16 hexadecimal digits over everything that decides what an algorithm is given: shapes, every
+// frame's poses, or the recording. The same on every platform.
+std::string scene_hash(const Scene& scene);
+
+}  // namespace touchstone
