@@ -1,0 +1,39 @@
+#include "harness/run/guarded_solve.h"
+
+#include <algorithm>
+
+#include "harness/run/clock.h"
+#include "harness/run/isolate.h"
+
+namespace touchstone {
+
+void solve_guarded(NarrowPhase& algorithm, const PairBatch& batch, std::span<Outcome> outcomes,
+                   double time_limit) {
+  SharedArray<Outcome> shared(batch.size());
+  const Stopwatch total;
+  const IsolationReport report =
+      isolate(batch.size(), {.item_seconds = time_limit, .failures = 3}, [&]() -> ItemWork {
+        return [&](std::size_t i) {
+          if (total.seconds() > time_limit) {
+            shared[i].status = Status::timed_out;
+            return;
+          }
+          PairBatch one = batch;
+          one.first = batch.first.subspan(i, 1);
+          one.second = batch.second.subspan(i, 1);
+          algorithm.solve(one, shared.span().subspan(i, 1));
+        };
+      });
+  std::ranges::copy(shared.span(), outcomes.begin());
+  Status last = Status::crashed;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (report.states[i] == ItemState::done) continue;
+    if (report.states[i] != ItemState::not_run) {
+      last = report.states[i] == ItemState::timed_out ? Status::timed_out : Status::crashed;
+    }
+    outcomes[i] = Outcome{};
+    outcomes[i].status = last;
+  }
+}
+
+}  // namespace touchstone

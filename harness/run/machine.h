@@ -1,0 +1,23 @@
+// Where and with what a campaign ran.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/run/campaign.h"
+
+namespace touchstone {
+
+// Facts as name and value, "unknown" where the system does not tell: processor, cores, caches,
+// governor, turbo, kernel, memory, compiler and flags, vector instructions in use, versions of the
+// libraries, commit and whether the tree was changed since.
+std::vector<std::pair<std::string, std::string>> machine_facts();
+
+// machine.csv (name,value): the facts, the campaign's name and seed, and each scene's hash.
+void write_machine(const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes,
+                   const std::filesystem::path& file);
+
+}  // namespace touchstone

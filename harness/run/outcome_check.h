@@ -1,0 +1,66 @@
+// Compares the outcomes of a narrow phase with the reference's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/outcome.h"
+#include "algorithms/core/pose.h"
+#include "algorithms/core/shape.h"
+#include "harness/run/pair_groups.h"
+
+namespace touchstone {
+
+// What the reference says of a pair. It is one more algorithm and no proof: the comparison says who
+// disagrees, on which pair and by how much, not who is wrong.
+struct ReferenceOutcome {
+  Answer answer = Answer::unknown;
+  double distance = Outcome::none;  // signed, metres
+  double size = 0;                  // greatest extent of the two bodies, metres
+  double reach = 0;                 // greatest coordinate of the two bodies, metres
+};
+
+// Who disagrees, counted over pairs.
+struct OutcomeFaults {
+  std::int64_t compared = 0;              // the reference and the algorithm both gave an answer
+  std::int64_t disagree = 0;              // the other side of contact, beyond the grazing band
+  std::int64_t grazing = 0;               // the other side of contact, within it
+  std::int64_t failed = 0;                // not_converged, degenerate, capacity: an honest failure
+  std::int64_t crashed = 0;               // crashed or timed out
+  std::int64_t unanswered = 0;            // unsupported or unknown without a failure
+  std::int64_t contacts = 0;              // answered touching or overlapping
+  double worst = 0;                       // metres: greatest |reference distance| among `disagree`
+  std::optional<std::size_t> worst_pair;  // its place in the group
+  std::int64_t values = 0;                // distances or depths that both gave
+  double worst_value_error = 0;           // greatest difference, as a part of the size of the pair
+
+  void add(const OutcomeFaults& other);  // sums and maxima; the pair is the worse one's
+};
+
+// The band about contact in which scalars of this precision cannot be held to a side: its width in
+// metres for this pair, from the rounding of sizes and of coordinates.
+double grazing_band(const ReferenceOutcome& reference, Precision scalar);
+
+OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
+                             std::span<const ReferenceOutcome> reference, Task task,
+                             Precision scalar);
+
+// Runs the reference algorithm over a group: signed distances by a distance and a penetration
+// query.
+class ReferenceNarrowPhase {
+ public:
+  // `shapes` stay alive. The reference is the GJK of ours in double.
+  explicit ReferenceNarrowPhase(std::span<const Shape> shapes);
+  std::vector<ReferenceOutcome> solve(const PairGroup& group,
+                                      std::span<const std::uint32_t> shape_of,
+                                      std::span<const Pose> poses);
+  static std::string_view name() { return "gjk"; }
+
+ private:
+  std::span<const Shape> shapes_;
+  std::unique_ptr<NarrowPhase> algorithm_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,34 @@
+// Pairs of bodies, sorted into batches of one kind of shapes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algorithms/core/pair_sink.h"
+#include "algorithms/core/shape.h"
+#include "algorithms/narrow_phase.h"
+
+namespace touchstone {
+
+// Pairs of one kind pair, kind_a <= kind_b. Body first[i] has kind_a; it need not have the smaller
+// index.
+struct PairGroup {
+  ShapeKind kind_a, kind_b;
+  std::vector<std::uint32_t> first, second;
+
+  std::size_t size() const { return first.size(); }
+  std::string name() const;  // "box-sphere"
+  // Pairs [begin, end) of the group as a batch.
+  PairBatch batch(Task task, std::span<const std::uint32_t> shape_of, std::span<const Pose> poses,
+                  std::size_t begin, std::size_t end) const;
+};
+
+// In the order of the kinds; within a group in the order of `pairs`. Groups without pairs are left
+// out.
+std::vector<PairGroup> group_by_kind(std::span<const IndexPair> pairs,
+                                     std::span<const Shape> shapes,
+                                     std::span<const std::uint32_t> shape_of);
+
+}  // namespace touchstone
