@@ -1,14 +1,15 @@
-// The one clock that everything is timed with.
+// The clock of all measurements.
 #pragma once
 
 #include <chrono>
 
 namespace touchstone {
 
-// Seconds since it was made, by the monotonic clock.
+// Wall-clock time since it was made, from a clock that never goes back.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  void restart() { start_ = Clock::now(); }
 
  private:
   using Clock = std::chrono::steady_clock;
