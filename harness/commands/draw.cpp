@@ -1,5 +1,119 @@
+// touchstone draw: a picture of a scene's frame.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "algorithms/core/executor.h"
+#include "algorithms/registry.h"
 #include "harness/commands/commands.h"
+#include "harness/draw/scene_picture.h"
+#include "harness/error.h"
+#include "harness/run/pair_groups.h"
+#include "harness/scene/player.h"
 
 namespace touchstone {
-void add_draw(CLI::App&, int&) {}
+namespace {
+
+struct Options {
+  std::string scene, out, view = "corner";
+  SceneOverrides overrides;
+  int frame = 0, width = 1280, height = 960;
+};
+
+Vec3d direction(const std::string& view) {
+  if (view == "front") return {0, 1, 0};
+  if (view == "side") return {-1, 0, 0};
+  if (view == "top") return {0, 0, -1};
+  return {-1, 1.6, -1.1};
+}
+
+std::vector<BodyState> states_of(const Scene& scene, const ScenePlayer& player) {
+  std::vector<BodyState> states(scene.size(), BodyState::apart);
+  Executor executor(1);
+  const std::unique_ptr<BroadPhase> broad = find_broad_phase("sweep-and-prune")->make(executor);
+  PairSink sink;
+  broad->build(player.boxes());
+  broad->find_pairs(sink);
+  const std::vector<IndexPair> pairs = sink.gather();
+  const auto mark = [&](std::uint32_t body, BodyState state) {
+    states[body] = std::max(states[body], state);
+  };
+  for (const IndexPair& pair : pairs) {
+    mark(pair.a, BodyState::possible);
+    mark(pair.b, BodyState::possible);
+  }
+  if (!scene.recording.empty()) return states;
+
+  std::vector<std::uint32_t> shape_of;
+  for (const Body& body : scene.bodies) shape_of.push_back(body.shape);
+  const std::unique_ptr<NarrowPhase> narrow = find_narrow_phase("gjk")->make({});
+  narrow->bind(scene.shapes);
+  for (const PairGroup& group : group_by_kind(pairs, scene.shapes, shape_of)) {
+    std::vector<Outcome> outcomes(group.size());
+    narrow->solve(group.batch(Task::intersect, shape_of, player.poses(), 0, group.size()),
+                  outcomes);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (outcomes[i].answer != Answer::overlapping && outcomes[i].answer != Answer::touching)
+        continue;
+      mark(group.first[i], BodyState::overlapping);
+      mark(group.second[i], BodyState::overlapping);
+    }
+  }
+  return states;
+}
+
+void draw(const Options& options) {
+  const Scene scene = load_scene(options.scene, options.overrides);
+  if (options.frame < 0 || options.frame >= scene.frames) {
+    throw InputError(fmt::format("--frame {}: {} has frames 0 to {}", options.frame, options.scene,
+                                 scene.frames - 1));
+  }
+  ScenePlayer player(scene, BoxKind::tight);
+  while (player.frame() < options.frame) player.next();
+  const std::vector<BodyState> states = states_of(scene, player);
+  Canvas canvas(options.width, options.height, View(direction(options.view)));
+  draw_scene(canvas, scene, player.poses(), player.boxes(), states);
+  canvas.write_png(options.out);
+  fmt::print(
+      "{}: frame {} of {}, {} bodies: {} certainly apart (red), {} possibly in contact (green), "
+      "{} {} (blue)\n",
+      options.out, options.frame, scene.name, scene.size(),
+      std::ranges::count(states, BodyState::apart), std::ranges::count(states, BodyState::possible),
+      std::ranges::count(states, BodyState::overlapping),
+      scene.recording.empty() ? "overlapping" : "overlapping: a recording has no bodies to tell");
+}
+
+}  // namespace
+
+void add_draw(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("draw", "Draw a frame of a scene as a PNG");
+  command->add_option("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
+      ->required();
+  command->add_option("--out", options->out, "The picture, .png")
+      ->required()
+      ->check([](const std::string& name) {
+        return name.ends_with(".png") ? "" : "the picture's name must end in .png";
+      });
+  command->add_option("--frame", options->frame, "Which frame")->capture_default_str();
+  command->add_option("--view", options->view, "From where")
+      ->check(CLI::IsMember({"corner", "front", "side", "top"}))
+      ->capture_default_str();
+  command->add_option("--width", options->width, "Pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  command->add_option("--height", options->height, "Pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  command->add_option("--count", options->overrides.count, "Bodies of a generated scene")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->overrides.seed, "Seed of a generated scene")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([options, &status] {
+    draw(*options);
+    status = exit_done;
+  });
+}
+
 }  // namespace touchstone

@@ -1,0 +1,27 @@
+// Draws a frame of a scene.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/pose.h"
+#include "harness/draw/canvas.h"
+#include "harness/scene/scene.h"
+
+namespace touchstone {
+
+// What is known of a body after both phases.
+enum class BodyState : std::uint8_t {
+  apart,        // its box overlaps no other: certainly apart
+  possible,     // the broad phase reports it in a pair; the narrow phase finds it apart from all
+  overlapping,  // the narrow phase finds it in contact
+};
+
+// Bodies by their state: apart red, possible green, overlapping blue. Curved shapes are drawn as
+// polytopes; a half-space as its face, cut to the region of the other bodies. For a recording,
+// which has no bodies, `poses` is empty and the boxes are drawn.
+void draw_scene(Canvas& canvas, const Scene& scene, std::span<const Pose> poses,
+                std::span<const Aabb> boxes, std::span<const BodyState> states);
+
+}  // namespace touchstone

@@ -1,0 +1,152 @@
+// The rule of who may include whom, and how a file opens.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SourceFile {
+  std::string path;  // from the project's root
+  std::string text;
+  std::vector<std::string> own;    // included with quotes
+  std::vector<std::string> other;  // included with angle brackets
+};
+
+const std::vector<SourceFile>& files() {
+  static const std::vector<SourceFile> all = [] {
+    std::vector<SourceFile> list;
+    const fs::path root = TOUCHSTONE_SOURCE_DIR;
+    static const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
+    for (const char* folder : {"algorithms", "harness", "tests"}) {
+      for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+        const std::string ending = entry.path().extension().string();
+        if (ending != ".h" && ending != ".cpp") continue;
+        SourceFile file{fs::relative(entry.path(), root).string(), "", {}, {}};
+        std::ifstream stream(entry.path());
+        for (std::string line; std::getline(stream, line);) {
+          file.text += line + "\n";
+          std::smatch match;
+          if (std::regex_search(line, match, include)) {
+            (match[1] == "\"" ? file.own : file.other).push_back(match[2]);
+          }
+        }
+        list.push_back(std::move(file));
+      }
+    }
+    return list;
+  }();
+  return all;
+}
+
+bool in(const std::string& path, const std::string& folder) {
+  return path.starts_with(folder + "/");
+}
+
+bool is_contract(const std::string& path) {
+  return path == "algorithms/broad_phase.h" || path == "algorithms/narrow_phase.h" ||
+         path == "algorithms/algorithm_info.h";
+}
+
+// Whether a file may include one of the project's own.
+bool may_include(const std::string& from, const std::string& to) {
+  if (in(to, "algorithms/core")) return true;
+  if (in(from, "algorithms/core") || in(from, "algorithms/oracle"))
+    return in(to, "algorithms/oracle");
+  if (is_contract(to)) return !in(from, "algorithms/kernels");
+  if (is_contract(from)) return false;
+  if (in(from, "algorithms/kernels") || in(from, "algorithms/broad_phase") ||
+      in(from, "algorithms/narrow_phase")) {
+    return in(to, "algorithms/kernels");
+  }
+  if (in(from, "algorithms/peers")) return false;
+  if (from == "algorithms/registry.h") return false;
+  if (in(from, "harness")) return to == "algorithms/registry.h" || in(to, "harness");
+  return in(from, "tests");
+}
+
+TEST(IncludeRule, NobodyIncludesWhatIsNotForThem) {
+  ASSERT_GT(files().size(), 20u);
+  for (const SourceFile& file : files()) {
+    for (const std::string& to : file.own) {
+      EXPECT_TRUE(may_include(file.path, to)) << file.path << " includes " << to;
+    }
+  }
+}
+
+TEST(IncludeRule, IncludesAreWrittenFromTheRoot) {
+  std::set<std::string> known = {"harness/run/build_info.h"};  // written by CMake
+  for (const SourceFile& file : files()) known.insert(file.path);
+  for (const SourceFile& file : files()) {
+    for (const std::string& to : file.own) {
+      EXPECT_TRUE(known.contains(to)) << file.path << " includes " << to;
+    }
+  }
+}
+
+TEST(IncludeRule, OnlyPeersIncludeTheLibrariesThatWeCompareWith) {
+  for (const SourceFile& file : files()) {
+    std::set<std::string> libraries;
+    for (const std::string& to : file.other) {
+      const std::string first = to.substr(0, to.find('/'));
+      if (first == "fcl" || first == "ccd") libraries.insert(first);
+      if (first == "bullet" || to.starts_with("bt") || first == "BulletCollision" ||
+          first == "LinearMath") {
+        libraries.insert("bullet");
+      }
+    }
+    if (!in(file.path, "algorithms/peers")) {
+      EXPECT_THAT(libraries, testing::IsEmpty()) << file.path;
+    }
+    EXPECT_LE(libraries.size(), 1u) << file.path;
+  }
+}
+
+TEST(IncludeRule, NoFileIncludesItselfInACircle) {
+  std::map<std::string, const SourceFile*> by_path;
+  for (const SourceFile& file : files()) by_path[file.path] = &file;
+  std::set<std::string> done;
+  std::vector<std::string> open;
+  const std::function<void(const std::string&)> visit = [&](const std::string& path) {
+    if (done.contains(path) || !by_path.contains(path)) return;
+    ASSERT_EQ(std::ranges::find(open, path), open.end()) << "a circle through " << path;
+    open.push_back(path);
+    for (const std::string& to : by_path[path]->own) visit(to);
+    open.pop_back();
+    done.insert(path);
+  };
+  for (const SourceFile& file : files()) visit(file.path);
+}
+
+TEST(House, AnAlgorithmHasNoHeader) {
+  for (const SourceFile& file : files()) {
+    if (in(file.path, "algorithms/broad_phase") || in(file.path, "algorithms/narrow_phase") ||
+        in(file.path, "algorithms/peers")) {
+      EXPECT_TRUE(file.path.ends_with(".cpp")) << file.path;
+    }
+  }
+}
+
+TEST(House, AnAlgorithmSaysWhatItIsBeforeItBegins) {
+  for (const SourceFile& file : files()) {
+    const bool ours =
+        in(file.path, "algorithms/broad_phase") || in(file.path, "algorithms/narrow_phase");
+    if (!ours) continue;
+    const std::string opening = file.text.substr(0, file.text.find("#include"));
+    for (const char* heading : {"// Paper: ", "// Fails: ", "// Cost: "}) {
+      EXPECT_NE(opening.find(heading), std::string::npos) << file.path << " lacks " << heading;
+    }
+  }
+}
+
+}  // namespace
