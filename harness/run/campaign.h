@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ struct NarrowChoice {
 
 // How broad and narrow phases are put together.
 enum class Pairing : std::uint8_t {
-  separate,  // each narrow phase once a frame, on the reference's pairs
+  separate,  // each narrow phase once a frame, on the true pairs
   product,   // each narrow phase on the pairs of each broad phase, as that one reports them
 };
 
@@ -47,20 +46,9 @@ struct Campaign {
   std::vector<CampaignGroup> groups;
 };
 
-// A choice of algorithms by name, as campaigns and the command line give it: "all" is every built
-// one, "ours" and "peers" those of that origin, "none" is none. Throws InputError with the names
-// there are when one is unknown, and with the reason when one is not built.
-std::vector<const BroadPhaseEntry*> choose_broad_phases(const std::vector<std::string>& names);
-std::vector<const NarrowPhaseEntry*> choose_narrow_phases(const std::vector<std::string>& names);
-
-// Each with each scalar that it offers and each tolerance.
-std::vector<NarrowChoice> with_settings(const std::vector<const NarrowPhaseEntry*>& entries,
-                                        const std::vector<Precision>& scalars,
-                                        const std::vector<std::optional<double>>& tolerances,
-                                        std::optional<int> max_iterations);
-
-// Reads a campaign file. Keys at the top level are defaults of each [[group]]; scenes are relative
-// to the file. Throws InputError with file, line and what was expected.
+// Reads a campaign file: the keys are documented in datasets/README.md. Keys at the top level are
+// defaults of each [[group]]; scenes are relative to the file. Throws InputError with file, line
+// and what was expected.
 Campaign read_campaign(const std::filesystem::path& file);
 
 }  // namespace touchstone

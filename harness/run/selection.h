@@ -14,9 +14,10 @@
 
 namespace touchstone {
 
-// The entries of these names, in the order named, each once; "all" stands for every one that is
-// built. InputError for an unknown name, with those that there are, and for one that is not built,
-// with the reason. `what` is "broad phase" or "narrow phase".
+// The entries of these names, in the order named, each once. "all" stands for every one that is
+// built, "ours" and "peers" for those of that origin, "none" for none. InputError for an unknown
+// name, with those that there are, and for one that is not built, with the reason. `what` is "broad
+// phase" or "narrow phase".
 template <class Entry>
 std::vector<const Entry*> select(std::span<const Entry> entries,
                                  const std::vector<std::string>& names, std::string_view what) {
@@ -25,16 +26,19 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     if (std::ranges::find(chosen, &entry) == chosen.end()) chosen.push_back(&entry);
   };
   for (const std::string& name : names) {
-    if (name == "all") {
+    if (name == "none") continue;
+    if (name == "all" || name == "ours" || name == "peers") {
       for (const Entry& entry : entries) {
-        if (is_built(entry.info)) choose(entry);
+        const bool ours = entry.info.origin == Origin::ours;
+        const bool wanted = name == "all" || ours == (name == "ours");
+        if (wanted && is_built(entry.info)) choose(entry);
       }
       continue;
     }
     const auto at =
         std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
     if (at == entries.end()) {
-      std::string known = "all";
+      std::string known = "all, ours, peers, none";
       for (const Entry& entry : entries) known += ", " + entry.info.name;
       throw InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
     }
@@ -44,7 +48,6 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     }
     choose(*at);
   }
-  if (chosen.empty()) throw InputError(fmt::format("no {} is built", what));
   return chosen;
 }
 
