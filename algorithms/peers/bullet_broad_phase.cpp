@@ -1,0 +1,194 @@
+// Bullet's broad phases: the dynamic AABB tree and the 32-bit three-axis sweep and prune.
+// Paper:   none; Bullet 3.24, btDbvtBroadphase and bt32BitAxisSweep3 (E. Coumans, N. Presson,
+//          S. Hobbs), each with its btHashedOverlappingPairCache.
+// Departs: as few margins as Bullet allows: gDbvtMargin is 0, collisions are found in the query
+//          (m_deferedcollide), every stale pair is looked at in each frame (m_cupdates = 100), and
+//          only boxes that moved are set. Bullet's cache still holds more than the closed pairs
+//          (leaves that shrank, quantised end points, boxes beyond the world), so each of its pairs
+//          is tested against the given boxes, which have the same bits in Bullet's floats.
+//          The sweep needs a world and a capacity: both are made twice as large as needed, and the
+//          sweep is made anew when a box leaves the world or the capacity is used up.
+// Fails:   removing a body looks through all cached pairs, so churn is quadratic; the sweep moves
+//          each new end point through the whole axis, so building it is quadratic. The tree's pairs
+//          come in an order that depends on addresses (its balancing compares pointers).
+// Cost:    tree: O(log n) a moved box, and a query in which all moved boxes meet both trees; sweep:
+//          O(distance moved in the order) an end point. O(n + k) memory for k cached pairs.
+#include <algorithm>
+#include <cstdint>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/core/world.h"
+#if TOUCHSTONE_BUILT
+#include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+
+namespace touchstone {
+namespace {
+
+static_assert(sizeof(btScalar) == sizeof(float), "the boxes' bits would not be Bullet's");
+
+btVector3 corner(const std::array<float, 3>& x) { return {x[0], x[1], x[2]}; }
+
+// The proxy's client pointer carries the body's id.
+void* to_client(std::uint32_t id) {
+  return reinterpret_cast<void*>(std::uintptr_t{id});  // NOLINT(performance-no-int-to-ptr)
+}
+std::uint32_t to_id(const btBroadphaseProxy* proxy) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
+}
+
+class Tree {
+ public:
+  Tree() {
+    // A global of Bullet's, read where a leaf grows (btDbvt::update). It is set once, before the
+    // first tree of this process exists, under the lock of a static's initialiser; nobody writes it
+    // later, so workers with trees of their own may read it.
+    [[maybe_unused]] static const btScalar margin = gDbvtMargin = 0;
+  }
+  ~Tree() { clear(); }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+
+  btBroadphaseInterface& start(std::span<const Aabb>) {
+    clear();
+    cache_ = std::make_unique<btHashedOverlappingPairCache>();
+    broad_ = std::make_unique<btDbvtBroadphase>(cache_.get());
+    broad_->m_deferedcollide = true;
+    broad_->m_cupdates = 100;
+    return *broad_;
+  }
+  bool takes(const FrameChange&) const { return true; }
+
+ private:
+  // Bullet's destructor leaves the proxies behind, and destroyProxy looks through the pairs for
+  // each; so they are destroyed against a cache that holds none.
+  void clear() {
+    if (!broad_) return;
+    btNullPairCache none;
+    broad_->m_paircache = &none;
+    for (btDbvtProxy* list : broad_->m_stageRoots) {
+      while (list != nullptr) {
+        btDbvtProxy* next = list->links[1];
+        broad_->destroyProxy(list, nullptr);
+        list = next;
+      }
+    }
+    broad_.reset();
+  }
+
+  std::unique_ptr<btHashedOverlappingPairCache> cache_;
+  std::unique_ptr<btDbvtBroadphase> broad_;
+};
+
+class AxisSweep {
+ public:
+  btBroadphaseInterface& start(std::span<const Aabb> boxes) {
+    world_ = World::around(boxes);
+    used_ = count(boxes);
+    capacity_ = std::max(2 * used_, std::size_t{64});
+    // Within these bounds no step of the quantisation overflows; it clamps, in order, what is
+    // beyond, so that no pair is lost.
+    constexpr double limit = 1e18;
+    btVector3 low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      low[axis] = static_cast<float>(std::clamp(world_.min[i], -limit, limit / 2));
+      high[axis] = static_cast<float>(std::clamp(world_.max[i], -limit / 2, limit));
+    }
+    constexpr bool without_ray_accelerator = true;
+    broad_ = std::make_unique<bt32BitAxisSweep3>(low, high, static_cast<unsigned>(capacity_),
+                                                 nullptr, without_ray_accelerator);
+    return *broad_;
+  }
+
+  bool takes(const FrameChange& change) {
+    used_ += change.inserted.size();
+    used_ -= change.removed.size();
+    const auto held = [&](std::uint32_t id) { return world_.holds(change.boxes[id]); };
+    // Removed bodies make room before the inserted ones come.
+    return used_ <= capacity_ && std::ranges::all_of(change.moved, held) &&
+           std::ranges::all_of(change.inserted, held);
+  }
+
+ private:
+  static std::size_t count(std::span<const Aabb> boxes) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(boxes, [](const Aabb& box) { return !box.is_empty(); }));
+  }
+
+  World world_;
+  std::size_t used_ = 0, capacity_ = 0;
+  std::unique_ptr<bt32BitAxisSweep3> broad_;
+};
+
+template <class Structure>
+class BulletBroadPhase final : public BroadPhase {
+ public:
+  void build(std::span<const Aabb> boxes) override {
+    boxes_ = boxes;
+    broad_ = &structure_.start(boxes);
+    proxies_.assign(boxes.size(), nullptr);
+    for (std::uint32_t id = 0; id < boxes.size(); ++id) {
+      if (!boxes[id].is_empty()) insert(id);
+    }
+  }
+
+  void update(const FrameChange& change) override {
+    if (!structure_.takes(change)) return build(change.boxes);
+    boxes_ = change.boxes;
+    proxies_.resize(boxes_.size(), nullptr);
+    for (const std::uint32_t id : change.removed) {
+      broad_->destroyProxy(proxies_[id], nullptr);
+      proxies_[id] = nullptr;
+    }
+    for (const std::uint32_t id : change.moved) {
+      broad_->setAabb(proxies_[id], corner(boxes_[id].min), corner(boxes_[id].max), nullptr);
+    }
+    for (const std::uint32_t id : change.inserted) insert(id);
+  }
+
+  Status find_pairs(PairSink& sink) override {
+    sink.start(1);
+    PairBuffer& out = sink.chunk(0);
+    broad_->calculateOverlappingPairs(nullptr);
+    const btBroadphasePairArray& pairs = broad_->getOverlappingPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) {
+      const std::uint32_t a = to_id(pairs[i].m_pProxy0);
+      const std::uint32_t b = to_id(pairs[i].m_pProxy1);
+      if (overlap(boxes_[a], boxes_[b])) out.push(a, b);
+    }
+    return Status::ok;
+  }
+
+ private:
+  void insert(std::uint32_t id) {
+    constexpr int everything = btBroadphaseProxy::DefaultFilter;
+    proxies_[id] = broad_->createProxy(corner(boxes_[id].min), corner(boxes_[id].max), 0,
+                                       to_client(id), everything, everything, nullptr);
+  }
+
+  Structure structure_;
+  btBroadphaseInterface* broad_ = nullptr;
+  std::span<const Aabb> boxes_;
+  std::vector<btBroadphaseProxy*> proxies_;  // by id; null where there is no body
+};
+
+}  // namespace
+}  // namespace touchstone
+#endif
+
+TOUCHSTONE_BROAD_PHASE {
+  using namespace touchstone;
+  return {
+      {.info = {.name = "bullet-tree",
+                .citation = "Bullet 3.24, btDbvtBroadphase (setAabb, calculateOverlappingPairs)",
+                .origin = Origin::peer},
+       .make = TOUCHSTONE_IF_BUILT(
+           [](Executor&) { return std::make_unique<BulletBroadPhase<Tree>>(); })},
+      {.info = {.name = "bullet-axis-sweep",
+                .citation = "Bullet 3.24, bt32BitAxisSweep3 (setAabb, calculateOverlappingPairs)",
+                .origin = Origin::peer},
+       .make = TOUCHSTONE_IF_BUILT(
+           [](Executor&) { return std::make_unique<BulletBroadPhase<AxisSweep>>(); })},
+  };
+}

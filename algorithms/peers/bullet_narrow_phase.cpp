@@ -1,0 +1,2 @@
+#include "algorithms/narrow_phase.h"
+TOUCHSTONE_NARROW_PHASE { return {}; }

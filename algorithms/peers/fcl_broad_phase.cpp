@@ -1,0 +1,279 @@
+// FCL's seven broad-phase managers.
+// Paper:   none; FCL 0.7, the managers of fcl/broadphase for double (J. Pan, S. Chitta,
+//          D. Manocha, "FCL: A General Purpose Library for Collision and Proximity Queries", ICRA
+//          2012).
+// Departs: the boxes are written into the objects' protected `aabb`, since computeAABB puts a box
+//          around a turned body's bounding sphere; floats are exact in FCL's doubles. Each pair that
+//          a manager calls back with is tested against the given boxes: the hash does no box test,
+//          and the trees keep the larger box of a body that shrank.
+//          Three managers are made anew where FCL 0.7 cannot update them:
+//          - SaP, in a frame in which bodies come or go, or a box does more than slide.
+//            unregisterObject reads a list node that it has freed; registerObject misses the boxes
+//            that contain the new one; update links an end point to itself, and then runs for ever,
+//            when a box's two ends on an axis do not both rise, both fall or both stay.
+//          - the interval tree, in every frame: update(objects) never moves upper end points, and
+//            update() does the work of a fresh set-up and loses its old intervals.
+//          - the hash, when a box leaves the limits: two boxes that overlap only outside are lost.
+// Fails:   SaP and the interval tree order equal end points at random, so they miss pairs that
+//          merely touch. SaP and the hash are quadratic in dense scenes.
+// Cost:    naive O(n^2); SSaP and interval tree O(n log n + pairs on the axis); SaP as the number of
+//          end points passed, times the number of pairs; trees O(n log n) to build.
+#include "algorithms/broad_phase.h"
+#include "algorithms/core/world.h"
+#if TOUCHSTONE_BUILT
+#include <fcl/broadphase/broadphase_SSaP.h>
+#include <fcl/broadphase/broadphase_SaP.h>
+#include <fcl/broadphase/broadphase_bruteforce.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
+#include <fcl/broadphase/broadphase_interval_tree.h>
+#include <fcl/broadphase/broadphase_spatialhash.h>
+
+#include <new>
+
+namespace touchstone {
+namespace {
+
+using Manager = fcl::BroadPhaseCollisionManager<double>;
+using Object = fcl::CollisionObject<double>;
+
+fcl::AABB<double> to_fcl(const Aabb& box) {
+  return {fcl::Vector3d(box.min[0], box.min[1], box.min[2]),
+          fcl::Vector3d(box.max[0], box.max[1], box.max[2])};
+}
+
+// A body that is nothing but its box.
+class BoxObject final : public Object {
+ public:
+  explicit BoxObject(std::uint32_t id) : Object(nullptr), id_(id) {}
+  std::uint32_t id() const { return id_; }
+  void set(const Aabb& box) { aabb = to_fcl(box); }
+
+ private:
+  std::uint32_t id_;
+};
+
+// How a manager is made, and which changes it takes; the others are answered by making it anew.
+template <class M>
+struct Incremental {
+  std::unique_ptr<Manager> make(std::span<const Aabb>) { return std::make_unique<M>(); }
+  bool takes(const FrameChange&, std::span<const BoxObject>) const { return true; }
+};
+
+struct SortAndSweep {
+  std::unique_ptr<Manager> make(std::span<const Aabb>) {
+    return std::make_unique<fcl::SaPCollisionManager<double>>();
+  }
+  bool takes(const FrameChange& change, std::span<const BoxObject> objects) const {
+    if (!change.inserted.empty() || !change.removed.empty()) return false;
+    return std::ranges::all_of(change.moved, [&](std::uint32_t id) {
+      const fcl::AABB<double>& before = objects[id].getAABB();
+      const fcl::AABB<double> now = to_fcl(change.boxes[id]);
+      // FCL leaves out what it takes for equal, and would then not know where the box was.
+      if (before.equal(now)) return false;
+      const auto slides = [&](int i) {
+        const double low = now.min_[i] - before.min_[i], high = now.max_[i] - before.max_[i];
+        return (low > 0 && high > 0) || (low < 0 && high < 0) || (low == 0 && high == 0);
+      };
+      return slides(0) && slides(1) && slides(2);
+    });
+  }
+};
+
+struct IntervalTree {
+  std::unique_ptr<Manager> make(std::span<const Aabb>) {
+    return std::make_unique<fcl::IntervalTreeCollisionManager<double>>();
+  }
+  bool takes(const FrameChange&, std::span<const BoxObject>) const { return false; }
+};
+
+struct SpatialHash {
+  // FCL gives no rule for the cell. Here it is the mean of the boxes' longest sides (Teschner et
+  // al., "Optimized Spatial Hashing for Collision Detection of Deformable Objects", VMV 2003), but
+  // at least a 64th of the limits, or one huge box would fill the memory with its cells. A bucket a
+  // body, at least FCL's own 1000.
+  std::unique_ptr<Manager> make(std::span<const Aabb> boxes) {
+    limits_ = World::around(boxes);
+    double sum = 0;
+    unsigned count = 0;
+    for (const Aabb& box : boxes) {
+      if (box.is_empty()) continue;
+      const fcl::AABB<double> b = to_fcl(box);
+      sum += (b.max_ - b.min_).maxCoeff();
+      ++count;
+    }
+    const double mean = count > 0 ? sum / count : 0;
+    // FCL's cells are half open, [floor, ceil): two boxes that touch on a border of cells would
+    // miss each other, and a flat box there would be in no cell. This factor keeps the borders off
+    // all coordinates that come up in practice.
+    constexpr double odd = 1.00073612984531;
+    const double cell = odd * std::max(mean, limits_.widest() / 64);
+    return std::make_unique<fcl::SpatialHashingCollisionManager<double>>(
+        cell, fcl::Vector3d(limits_.min.data()), fcl::Vector3d(limits_.max.data()),
+        std::max(count, 1000U));
+  }
+  bool takes(const FrameChange& change, std::span<const BoxObject>) const {
+    const auto held = [&](std::uint32_t id) { return limits_.holds(change.boxes[id]); };
+    return std::ranges::all_of(change.moved, held) && std::ranges::all_of(change.inserted, held);
+  }
+
+ private:
+  World limits_;
+};
+
+template <class Rules>
+class FclBroadPhase final : public BroadPhase {
+ public:
+  void build(std::span<const Aabb> boxes) override {
+    boxes_ = boxes;
+    guard([&] { make(); });
+  }
+
+  void update(const FrameChange& change) override {
+    boxes_ = change.boxes;
+    const bool room = boxes_.size() <= objects_.capacity();
+    guard([&] {
+      if (status_ == Status::ok && room && rules_.takes(change, objects_)) {
+        apply(change);
+      } else {
+        make();
+      }
+    });
+  }
+
+  Status find_pairs(PairSink& sink) override {
+    sink.start(1);
+    if (status_ != Status::ok) return status_;
+    Found found{boxes_, sink.chunk(0)};
+    guard([&] { manager_->collide(&found, &Found::add); });
+    return status_;
+  }
+
+ private:
+  // What FCL's callback is given.
+  struct Found {
+    std::span<const Aabb> boxes;
+    PairBuffer& out;
+
+    static bool add(Object* first, Object* second, void* data) {
+      auto& found = *static_cast<Found*>(data);
+      const std::uint32_t a = static_cast<const BoxObject*>(first)->id();
+      const std::uint32_t b = static_cast<const BoxObject*>(second)->id();
+      if (overlap(found.boxes[a], found.boxes[b])) found.out.push(a, b);
+      constexpr bool stop = false;
+      return stop;
+    }
+  };
+
+  // FCL throws on input that it does not take; the pairs of the frame are then not known.
+  template <class Action>
+  void guard(Action action) {
+    try {
+      action();
+    } catch (const std::bad_alloc&) {
+      status_ = Status::capacity;
+    } catch (const std::exception&) {
+      status_ = Status::degenerate;
+    }
+  }
+
+  void make() {
+    status_ = Status::ok;
+    manager_.reset();
+    objects_.clear();
+    if (boxes_.size() > objects_.capacity()) {
+      objects_.reserve(std::max(boxes_.size(), 2 * objects_.capacity()));
+    }
+    extend();
+    batch_.clear();
+    for (std::uint32_t id = 0; id < boxes_.size(); ++id) {
+      if (boxes_[id].is_empty()) continue;
+      objects_[id].set(boxes_[id]);
+      batch_.push_back(&objects_[id]);
+    }
+    live_ = batch_.size();
+    manager_ = rules_.make(boxes_);
+    manager_->registerObjects(batch_);
+    manager_->setup();
+  }
+
+  void apply(const FrameChange& change) {
+    extend();
+    // Before their boxes change: managers look for a body where its box says that it is.
+    for (const std::uint32_t id : change.removed) manager_->unregisterObject(&objects_[id]);
+    batch_.clear();
+    for (const std::uint32_t id : change.moved) {
+      objects_[id].set(boxes_[id]);
+      batch_.push_back(&objects_[id]);
+    }
+    for (const std::uint32_t id : change.inserted) {
+      objects_[id].set(boxes_[id]);
+      manager_->registerObject(&objects_[id]);
+    }
+    live_ += change.inserted.size();
+    live_ -= change.removed.size();
+    manager_->update();
+  }
+
+  // One object for each slot, without moving those that there are.
+  void extend() {
+    while (objects_.size() < boxes_.size()) {
+      objects_.emplace_back(static_cast<std::uint32_t>(objects_.size()));
+    }
+  }
+
+  Rules rules_;
+  std::span<const Aabb> boxes_;
+  // By id, in one array: two managers keep sets ordered by address, and so the order of their pairs
+  // is that of the ids. The managers hold pointers, so it is never reallocated under them.
+  std::vector<BoxObject> objects_;
+  std::unique_ptr<Manager> manager_;
+  std::vector<Object*> batch_;  // scratch
+  std::size_t live_ = 0;
+  Status status_ = Status::ok;
+};
+
+}  // namespace
+}  // namespace touchstone
+#endif
+
+TOUCHSTONE_BROAD_PHASE {
+  using namespace touchstone;
+  const auto info = [](const char* name, const char* manager, const char* known_defect = "") {
+    return AlgorithmInfo{
+        .name = name,
+        .citation = std::string("FCL 0.7, ") + manager + " (Pan, Chitta, Manocha, ICRA 2012)",
+        .origin = Origin::peer,
+        .known_defect = known_defect};
+  };
+  return {
+      {.info = info("fcl-naive", "NaiveCollisionManager"),
+       .make = TOUCHSTONE_IF_BUILT(([](Executor&) {
+         return std::make_unique<FclBroadPhase<Incremental<fcl::NaiveCollisionManager<double>>>>();
+       }))},
+      {.info = info("fcl-ssap", "SSaPCollisionManager"),
+       .make = TOUCHSTONE_IF_BUILT(([](Executor&) {
+         return std::make_unique<FclBroadPhase<Incremental<fcl::SSaPCollisionManager<double>>>>();
+       }))},
+      {.info = info("fcl-sap", "SaPCollisionManager", "misses some pairs that only touch"),
+       .make = TOUCHSTONE_IF_BUILT(
+           [](Executor&) { return std::make_unique<FclBroadPhase<SortAndSweep>>(); })},
+      {.info = info("fcl-dynamic-tree", "DynamicAABBTreeCollisionManager"),
+       .make = TOUCHSTONE_IF_BUILT(([](Executor&) {
+         return std::make_unique<
+             FclBroadPhase<Incremental<fcl::DynamicAABBTreeCollisionManager<double>>>>();
+       }))},
+      {.info = info("fcl-dynamic-tree-array", "DynamicAABBTreeCollisionManager_Array"),
+       .make = TOUCHSTONE_IF_BUILT(([](Executor&) {
+         return std::make_unique<
+             FclBroadPhase<Incremental<fcl::DynamicAABBTreeCollisionManager_Array<double>>>>();
+       }))},
+      {.info = info("fcl-interval-tree", "IntervalTreeCollisionManager",
+                    "misses some pairs that only touch"),
+       .make = TOUCHSTONE_IF_BUILT(
+           [](Executor&) { return std::make_unique<FclBroadPhase<IntervalTree>>(); })},
+      {.info = info("fcl-spatial-hash", "SpatialHashingCollisionManager"),
+       .make = TOUCHSTONE_IF_BUILT(
+           [](Executor&) { return std::make_unique<FclBroadPhase<SpatialHash>>(); })},
+  };
+}
