@@ -1,0 +1,316 @@
+// FCL: its two narrow-phase solvers, each with FCL's closed forms for some kind pairs.
+// Paper:   Pan, Chitta, Manocha, "FCL: A general purpose library for collision and proximity
+//          queries", ICRA 2012; the library is FCL 0.7. fcl-libccd: libccd's MPR for collision and
+//          FCL's continuation of libccd's GJK for distance. fcl-indep: FCL's own GJK and EPA.
+// Departs: the solvers that fcl::collide and fcl::distance look up are called without the look-up:
+//          the same answers, with the iteration caps in reach (requests have no field for them) and
+//          without a result object to allocate. The defaults are those of the requests.
+//          tolerance: fcl-libccd takes it as MPR's, or as the least gain of a step of its distance;
+//          fcl-indep as a length for EPA and for "inside", and as a part of the distance for GJK.
+//          max_iterations: of fcl-libccd the distance loops and MPR's search for the depth have a
+//          cap, MPR's first loops have none; of fcl-indep both loops, and EPA's stores grow with it.
+//          The closed forms know neither. FCL never tells that a cap has ended a query.
+//          fcl-indep's EPA hands out the depth negated and the normal in a's frame: both are turned
+//          back here. Witness points of a penetration are not reported: FCL gives one contact point,
+//          with another meaning for each kind pair. Without faces a hull is scanned, not walked on.
+//          In float, fcl-libccd still computes in double: only shapes and poses are floats.
+// Fails:   MPR's depth is along its portal, an upper bound. fcl-indep: gaps below 1e-6 m are
+//          overlaps; EPA's depth is off by half and more where supports are coplanar. A cone on a
+//          half-space is taken for a ball when its tip points down. Distance says "overlapping"
+//          where it ran out of iterations. Poses become quaternions in fcl-libccd, so a rotation
+//          that is not orthonormal is another problem to it.
+// Cost:    fcl-libccd allocates two objects a query, EPA of fcl-indep its stores.
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "algorithms/core/bounds.h"
+#include "algorithms/narrow_phase.h"
+
+#if TOUCHSTONE_BUILT
+// GCC sees FCL's contacts of separated bodies, which are never read, once they are inlined here.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/detail/gjk_solver_indep.h>
+#include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+#include <fcl/narrowphase/distance_request.h>
+
+namespace touchstone {
+namespace {
+
+template <class S, ShapeKind kind>
+auto fcl_type() {
+  if constexpr (kind == ShapeKind::sphere) return std::type_identity<fcl::Sphere<S>>{};
+  if constexpr (kind == ShapeKind::capsule) return std::type_identity<fcl::Capsule<S>>{};
+  if constexpr (kind == ShapeKind::box) return std::type_identity<fcl::Box<S>>{};
+  if constexpr (kind == ShapeKind::cylinder) return std::type_identity<fcl::Cylinder<S>>{};
+  if constexpr (kind == ShapeKind::cone) return std::type_identity<fcl::Cone<S>>{};
+  if constexpr (kind == ShapeKind::ellipsoid) return std::type_identity<fcl::Ellipsoid<S>>{};
+  if constexpr (kind == ShapeKind::hull) return std::type_identity<fcl::Convex<S>>{};
+  if constexpr (kind == ShapeKind::halfspace) return std::type_identity<fcl::Halfspace<S>>{};
+}
+template <class S, ShapeKind kind>
+using FclShape = typename decltype(fcl_type<S, kind>())::type;
+
+// Calls visit<kind>() with the kind as a constant.
+template <class Visit>
+void with_kind(ShapeKind kind, Visit&& visit) {
+  switch (kind) {
+    case ShapeKind::sphere: return visit.template operator()<ShapeKind::sphere>();
+    case ShapeKind::capsule: return visit.template operator()<ShapeKind::capsule>();
+    case ShapeKind::box: return visit.template operator()<ShapeKind::box>();
+    case ShapeKind::cylinder: return visit.template operator()<ShapeKind::cylinder>();
+    case ShapeKind::cone: return visit.template operator()<ShapeKind::cone>();
+    case ShapeKind::ellipsoid: return visit.template operator()<ShapeKind::ellipsoid>();
+    case ShapeKind::hull: return visit.template operator()<ShapeKind::hull>();
+    case ShapeKind::halfspace: return visit.template operator()<ShapeKind::halfspace>();
+  }
+}
+
+template <class S>
+std::unique_ptr<fcl::Convex<S>> make_convex(const Hull& hull) {
+  auto vertices = std::make_shared<std::vector<Vec3<S>>>();
+  for (const Vec3d& vertex : hull.vertices) vertices->push_back(vertex.cast<S>());
+  auto faces = std::make_shared<std::vector<int>>();  // each: its count, then its vertices
+  for (const Hull::Face& face : hull.faces) {
+    faces->push_back(static_cast<int>(face.loop.size()));
+    for (const std::uint32_t vertex : face.loop) faces->push_back(static_cast<int>(vertex));
+  }
+  return std::make_unique<fcl::Convex<S>>(vertices, static_cast<int>(hull.faces.size()), faces);
+}
+
+template <class S>
+std::unique_ptr<fcl::ShapeBase<S>> make_fcl_shape(const Shape& shape) {
+  const S radius = static_cast<S>(shape.radius);
+  const S length = static_cast<S>(2 * shape.half_length);
+  switch (shape.kind) {
+    case ShapeKind::sphere: return std::make_unique<fcl::Sphere<S>>(radius);
+    case ShapeKind::capsule: return std::make_unique<fcl::Capsule<S>>(radius, length);
+    case ShapeKind::box:
+      return std::make_unique<fcl::Box<S>>(Vec3<S>((2 * shape.half_extents).cast<S>()));
+    case ShapeKind::cylinder: return std::make_unique<fcl::Cylinder<S>>(radius, length);
+    case ShapeKind::cone: return std::make_unique<fcl::Cone<S>>(radius, length);
+    case ShapeKind::ellipsoid:
+      return std::make_unique<fcl::Ellipsoid<S>>(Vec3<S>(shape.radii.cast<S>()));
+    case ShapeKind::hull: return make_convex<S>(*shape.hull);
+    case ShapeKind::halfspace: {
+      const double length_of_normal = shape.normal.stableNorm();
+      return std::make_unique<fcl::Halfspace<S>>(
+          Vec3<S>((shape.normal / length_of_normal).cast<S>()),
+          static_cast<S>(shape.offset / length_of_normal));
+    }
+  }
+  return nullptr;
+}
+
+template <class S>
+fcl::Transform3<S> to_fcl(const Pose& pose) {
+  fcl::Transform3<S> transform;
+  transform.linear() = pose.rotation.cast<S>();
+  transform.translation() = pose.translation.cast<S>();
+  transform.makeAffine();
+  return transform;
+}
+
+// What the requests of fcl::collide and fcl::distance hand on to the solver.
+template <class S>
+void set_tolerance(fcl::detail::GJKSolver_libccd<S>& solver, S tolerance) {
+  solver.collision_tolerance = tolerance;
+  solver.distance_tolerance = tolerance;
+}
+template <class S>
+void set_tolerance(fcl::detail::GJKSolver_indep<S>& solver, S tolerance) {
+  solver.gjk_tolerance = tolerance;
+  solver.epa_tolerance = tolerance;
+}
+template <class S>
+void set_max_iterations(fcl::detail::GJKSolver_libccd<S>& solver, unsigned int cap) {
+  solver.max_collision_iterations = cap;
+  solver.max_distance_iterations = cap;
+}
+template <class S>
+void set_max_iterations(fcl::detail::GJKSolver_indep<S>& solver, unsigned int cap) {
+  solver.gjk_max_iterations = static_cast<S>(cap);
+  solver.epa_max_iterations = cap;
+  solver.epa_max_vertex_num = cap + 4;  // a vertex an iteration, and two faces a vertex
+  solver.epa_max_face_num = 2 * solver.epa_max_vertex_num;
+}
+
+// Whether FCL answers a collision of these kinds without either solver.
+constexpr bool has_closed_form(ShapeKind a, ShapeKind b) {
+  using enum ShapeKind;
+  if (b == halfspace || (a == box && b == box)) return true;
+  return a == sphere && (b == sphere || b == capsule || b == box || b == cylinder);
+}
+
+// No distance to a half-space, and no contact of two.
+bool supports(ShapeKind kind_a, ShapeKind kind_b, Task task) {
+  if (task == Task::distance) return kind_b != ShapeKind::halfspace;
+  return task == Task::intersect || kind_a != ShapeKind::halfspace;
+}
+
+template <class S, template <class> class Solver>
+class Fcl final : public NarrowPhase {
+ public:
+  explicit Fcl(const NarrowPhaseSettings& settings) : tolerance_(settings.tolerance) {
+    if (settings.max_iterations) {
+      set_max_iterations(solver_, static_cast<unsigned int>(*settings.max_iterations));
+    }
+  }
+
+  void bind(std::span<const Shape> shapes) override {
+    shapes_.clear();
+    reaches_.clear();
+    for (const Shape& shape : shapes) {
+      shapes_.push_back(make_fcl_shape<S>(shape));
+      const double reach = loose_reach(shape, Mat3d::Identity());
+      reaches_.push_back(std::isfinite(reach) ? reach : 0);
+    }
+  }
+
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    with_kind(batch.kind_a, [&]<ShapeKind kind_a>() {
+      with_kind(batch.kind_b, [&]<ShapeKind kind_b>() {
+        if constexpr (kind_a <= kind_b) solve_kinds<kind_a, kind_b>(batch, outcomes);
+      });
+    });
+  }
+
+ private:
+  template <ShapeKind kind_a, ShapeKind kind_b>
+  void solve_kinds(const PairBatch& batch, std::span<Outcome> outcomes) {
+    set_tolerance(solver_, default_tolerance(batch.task));
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::uint32_t first = batch.first[i], second = batch.second[i];
+      const std::uint32_t shape_a = batch.shape_of[first], shape_b = batch.shape_of[second];
+      const auto& a = static_cast<const FclShape<S, kind_a>&>(*shapes_[shape_a]);
+      const auto& b = static_cast<const FclShape<S, kind_b>&>(*shapes_[shape_b]);
+      const fcl::Transform3<S> pose_a = to_fcl<S>(batch.poses[first]);
+      const fcl::Transform3<S> pose_b = to_fcl<S>(batch.poses[second]);
+      if (tolerance_) {
+        set_tolerance(solver_, static_cast<S>(*tolerance_ * (reaches_[shape_a] + reaches_[shape_b])));
+      }
+      Outcome& outcome = outcomes[i];
+      outcome.status = Status::not_reported;
+      try {
+        switch (batch.task) {
+          case Task::intersect:
+            outcome.answer = solver_.shapeIntersect(a, pose_a, b, pose_b, nullptr)
+                                 ? Answer::overlapping
+                                 : Answer::separated;
+            break;
+          case Task::distance:
+            if constexpr (kind_b != ShapeKind::halfspace) distance(a, pose_a, b, pose_b, outcome);
+            break;
+          case Task::penetration:
+            penetration<has_closed_form(kind_a, kind_b)>(a, pose_a, b, pose_b, outcome);
+            break;
+        }
+      } catch (...) {
+        outcome.answer = Answer::unknown;
+        outcome.status = Status::degenerate;
+      }
+    }
+  }
+
+  static S default_tolerance(Task task) {
+    return task == Task::distance ? fcl::DistanceRequest<S>().distance_tolerance
+                                  : fcl::CollisionRequest<S>().gjk_tolerance;
+  }
+
+  template <class A, class B>
+  void distance(const A& a, const fcl::Transform3<S>& pose_a, const B& b,
+                const fcl::Transform3<S>& pose_b, Outcome& outcome) const {
+    S gap = std::numeric_limits<S>::quiet_NaN();
+    Vec3<S> witness_a, witness_b;
+    solver_.shapeDistance(a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
+    if (std::isnan(gap)) {
+      outcome.answer = Answer::unknown;
+      outcome.status = Status::degenerate;
+    } else if (gap < 0) {
+      outcome.answer = Answer::overlapping;
+    } else {
+      outcome.answer = gap > 0 ? Answer::separated : Answer::touching;
+      outcome.distance = static_cast<double>(gap);
+      outcome.witness_a = witness_a.template cast<double>();
+      outcome.witness_b = witness_b.template cast<double>();
+    }
+  }
+
+  template <bool closed_form, class A, class B>
+  void penetration(const A& a, const fcl::Transform3<S>& pose_a, const B& b,
+                   const fcl::Transform3<S>& pose_b, Outcome& outcome) {
+    contacts_.clear();
+    const bool found = solver_.shapeIntersect(a, pose_a, b, pose_b, &contacts_);
+    outcome.answer = found ? Answer::overlapping : Answer::separated;
+    if (!found || contacts_.empty()) return;
+    const fcl::ContactPoint<S>& deepest =
+        *std::ranges::max_element(contacts_, {}, &fcl::ContactPoint<S>::penetration_depth);
+    S depth = deepest.penetration_depth;
+    Vec3<S> normal = deepest.normal;
+    if constexpr (!closed_form && std::is_same_v<Solver<S>, fcl::detail::GJKSolver_indep<S>>) {
+      depth = -depth;
+      normal = pose_a.linear() * normal;
+    }
+    if (!(depth >= 0)) {
+      outcome.status = Status::degenerate;
+      return;
+    }
+    outcome.distance = 0 - static_cast<double>(depth);
+    // FCL gives a zero vector where it knows no direction.
+    if (normal.squaredNorm() > S(0.5)) outcome.normal = normal.template cast<double>();
+  }
+
+  std::optional<double> tolerance_;
+  Solver<S> solver_;
+  std::vector<std::unique_ptr<fcl::ShapeBase<S>>> shapes_;
+  std::vector<double> reaches_;
+  std::vector<fcl::ContactPoint<S>> contacts_;
+};
+
+template <template <class> class Solver>
+std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
+  if (settings.scalar == Precision::float32) return std::make_unique<Fcl<float, Solver>>(settings);
+  return std::make_unique<Fcl<double, Solver>>(settings);
+}
+
+}  // namespace
+}  // namespace touchstone
+#endif
+
+TOUCHSTONE_NARROW_PHASE {
+  using enum touchstone::Task;
+  using touchstone::Origin;
+  const std::vector<touchstone::Task> tasks = {intersect, distance, penetration};
+  const std::vector<touchstone::Precision> scalars = {touchstone::Precision::float32,
+                                                      touchstone::Precision::float64};
+  return {
+      {.info = {.name = "fcl-libccd",
+                .citation = "FCL 0.7, GJKSolver_libccd: shapeIntersect, shapeDistance",
+                .origin = Origin::peer,
+                .known_defect = "the depth is MPR's, an upper bound; cone on half-space is wrong"},
+       .tasks = tasks,
+       .scalars = scalars,
+       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .make = TOUCHSTONE_IF_BUILT(touchstone::make<fcl::detail::GJKSolver_libccd>)},
+      {.info = {.name = "fcl-indep",
+                .citation = "FCL 0.7, GJKSolver_indep: shapeIntersect, shapeDistance",
+                .origin = Origin::peer,
+                .known_defect = "gaps below 1e-6 are overlaps; EPA fails on coplanar supports; cone "
+                                "on half-space is wrong"},
+       .tasks = tasks,
+       .scalars = scalars,
+       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .make = TOUCHSTONE_IF_BUILT(touchstone::make<fcl::detail::GJKSolver_indep>)},
+  };
+}

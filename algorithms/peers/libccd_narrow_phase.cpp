@@ -1,0 +1,304 @@
+// libccd: GJK, GJK with EPA, and MPR (XenoCollide), over support functions of our own.
+// Paper:   D. Fiser, libccd 2.1; GJK of Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation
+//          1988; EPA of van den Bergen, GDC 2001; MPR of Snethen, Game Programming Gems 7, 2008.
+// Departs: libccd brings no shapes, so the support functions are here: exact for the affine image of
+//          the body, balls not deformed; hulls are scanned from end to end. It works in world
+//          coordinates. It has no distance query, and a half-space has no support point.
+//          max_iterations (1000 without) reaches GJK's loop as libccd's own setting. The loops of
+//          EPA and MPR have no cap, so their support points are counted: past the cap, that of all
+//          loops of the query together, the support functions answer with points far behind, which
+//          each of these loops takes for its end, and the status is not_converged.
+//          tolerance reaches MPR as a length, and EPA as its square, which is what EPA compares;
+//          without one they have libccd's 1e-4. GJK here has none: it goes by 2^-52, absolute.
+//          Witness points are not reported: libccd gives one point, an average.
+// Fails:   GJK: overlap for gaps below about 1e-8 m; wrong at millimetre scale and far below.
+//          EPA: too shallow, at worst 1e-8 for deep hulls, as it replaces one face at a time where
+//          there should be a horizon. MPR: the depth is along the portal and so an upper bound.
+//          libccd's -1 stands for "separated" and for "gave up": the status is not_reported.
+// Cost:    one support call of both bodies an iteration; EPA allocates its polytope in each query.
+#include <cmath>
+
+#include "algorithms/core/bounds.h"
+#include "algorithms/narrow_phase.h"
+
+#if TOUCHSTONE_BUILT
+#include <ccd/ccd.h>
+
+namespace touchstone {
+namespace {
+
+enum class Method : std::uint8_t { gjk, epa, mpr };
+
+constexpr int default_max_iterations = 1000;
+
+// Support points that the query has asked for, and after how many it is to end.
+struct Query {
+  long support_calls = 0;
+  long limit = 0;
+};
+
+// What libccd is given as an object.
+struct Body {
+  const Shape* shape;
+  const Pose* pose;
+  Vec3d center;  // in body coordinates, an interior point
+  Query* query;
+};
+
+const Body& body_of(const void* object) { return *static_cast<const Body*>(object); }
+Vec3d to_eigen(const ccd_vec3_t& v) { return {v.v[0], v.v[1], v.v[2]}; }
+void set(ccd_vec3_t* out, const Vec3d& v) { ccdVec3Set(out, v.x(), v.y(), v.z()); }
+
+// Zero where the direction is zero or NaN, so that the answer stays a point of the body.
+template <class Direction>
+Direction normalized_or_zero(const Direction& direction) {
+  const double norm = direction.norm();
+  return norm > 0 ? Direction(direction / norm) : Direction(Direction::Zero());
+}
+
+Vec3d on_disk(double radius, const Vec3d& direction, double z) {
+  const Eigen::Vector2d rim = radius * normalized_or_zero(Eigen::Vector2d(direction.head<2>()));
+  return {rim.x(), rim.y(), z};
+}
+
+// The farthest point of the shape, balls taken off, in body coordinates.
+template <ShapeKind kind>
+Vec3d core_support(const Shape& shape, const Vec3d& direction) {
+  if constexpr (kind == ShapeKind::sphere) {
+    return Vec3d::Zero();
+  } else if constexpr (kind == ShapeKind::capsule) {
+    return {0, 0, std::copysign(shape.half_length, direction.z())};
+  } else if constexpr (kind == ShapeKind::box) {
+    return (direction.array() < 0).select(-shape.half_extents, shape.half_extents);
+  } else if constexpr (kind == ShapeKind::cylinder) {
+    return on_disk(shape.radius, direction, std::copysign(shape.half_length, direction.z()));
+  } else if constexpr (kind == ShapeKind::cone) {
+    const Vec3d tip(0, 0, shape.half_length);
+    const Vec3d base = on_disk(shape.radius, direction, -shape.half_length);
+    return tip.dot(direction) > base.dot(direction) ? tip : base;
+  } else if constexpr (kind == ShapeKind::ellipsoid) {
+    const Vec3d on_ball = normalized_or_zero(Vec3d(shape.radii.cwiseProduct(direction)));
+    return shape.radii.cwiseProduct(on_ball);
+  } else {
+    static_assert(kind == ShapeKind::hull);
+    const std::vector<Vec3d>& vertices = shape.hull->vertices;
+    std::size_t best = 0;
+    double farthest = vertices[0].dot(direction);
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      const double value = vertices[i].dot(direction);
+      if (value > farthest) {
+        farthest = value;
+        best = i;
+      }
+    }
+    return vertices[best];
+  }
+}
+
+template <ShapeKind kind>
+void support(const void* object, const ccd_vec3_t* ccd_direction, ccd_vec3_t* out) {
+  const Body& body = body_of(object);
+  const Vec3d direction = to_eigen(*ccd_direction);
+  if (++body.query->support_calls > body.query->limit) {
+    set(out, -1e100 * direction);
+    return;
+  }
+  const Vec3d local = body.pose->rotation.transpose() * direction;
+  Vec3d point = (*body.pose)(core_support<kind>(*body.shape, local));
+  if constexpr (kind == ShapeKind::sphere || kind == ShapeKind::capsule) {
+    point += body.shape->radius * normalized_or_zero(direction);
+  }
+  set(out, point);
+}
+
+ccd_support_fn support_of(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::sphere: return support<ShapeKind::sphere>;
+    case ShapeKind::capsule: return support<ShapeKind::capsule>;
+    case ShapeKind::box: return support<ShapeKind::box>;
+    case ShapeKind::cylinder: return support<ShapeKind::cylinder>;
+    case ShapeKind::cone: return support<ShapeKind::cone>;
+    case ShapeKind::ellipsoid: return support<ShapeKind::ellipsoid>;
+    case ShapeKind::hull: return support<ShapeKind::hull>;
+    case ShapeKind::halfspace: break;
+  }
+  return nullptr;
+}
+
+void center(const void* object, ccd_vec3_t* out) {
+  const Body& body = body_of(object);
+  set(out, (*body.pose)(body.center));
+}
+
+bool supports(ShapeKind, ShapeKind kind_b, Task) { return kind_b != ShapeKind::halfspace; }
+
+class Libccd final : public NarrowPhase {
+ public:
+  Libccd(Method method, const NarrowPhaseSettings& settings)
+      : method_(method),
+        tolerance_(settings.tolerance),
+        max_iterations_(settings.max_iterations.value_or(default_max_iterations)) {}
+
+  void bind(std::span<const Shape> shapes) override {
+    shapes_ = shapes;
+    centers_.clear();
+    reaches_.clear();
+    for (const Shape& shape : shapes) {
+      Vec3d sum = Vec3d::Zero();
+      if (shape.kind == ShapeKind::hull) {
+        for (const Vec3d& vertex : shape.hull->vertices) sum += vertex;
+        sum /= static_cast<double>(shape.hull->vertices.size());
+      }
+      centers_.push_back(sum);
+      reaches_.push_back(loose_reach(shape, Mat3d::Identity()));
+    }
+  }
+
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ccd_t ccd;
+    CCD_INIT(&ccd);
+    ccd.support1 = support_of(batch.kind_a);
+    ccd.support2 = support_of(batch.kind_b);
+    ccd.center1 = center;
+    ccd.center2 = center;
+    const long limit = support_limit(batch.task);
+    // One iteration more than is allowed tells the end of the search from the end of the allowance.
+    // MPR looks at this only where its direction is NaN, which no support point can end.
+    ccd.max_iterations = static_cast<unsigned long>(
+        method_ == Method::mpr ? limit : static_cast<long>(max_iterations_) + 1);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      Query query{.limit = 2 * limit};
+      const Body a = body(batch, batch.first[i], &query);
+      const Body b = body(batch, batch.second[i], &query);
+      if (tolerance_) set_tolerance(ccd, *tolerance_ * size(batch, i));
+      if (batch.task == Task::intersect) {
+        intersect(ccd, a, b, outcomes[i]);
+      } else {
+        penetration(ccd, a, b, outcomes[i]);
+      }
+    }
+  }
+
+ private:
+  // Support points of both bodies that a query may ask for. GJK asks for one before its loop, EPA for
+  // up to eight between the loops, MPR for two before its first loop.
+  long support_limit(Task task) const {
+    const long cap = max_iterations_;
+    switch (method_) {
+      case Method::gjk: return 1 + cap + 1;
+      case Method::epa: return 1 + cap + 1 + 8 + cap;
+      case Method::mpr: return 2 + cap * (task == Task::intersect ? 2 : 3);
+    }
+    return 0;
+  }
+
+  Body body(const PairBatch& batch, std::uint32_t id, Query* query) const {
+    const std::uint32_t shape = batch.shape_of[id];
+    return {&shapes_[shape], &batch.poses[id], centers_[shape], query};
+  }
+
+  // The sum of the bodies' reaches, each from its origin.
+  double size(const PairBatch& batch, std::size_t i) const {
+    return reaches_[batch.shape_of[batch.first[i]]] + reaches_[batch.shape_of[batch.second[i]]];
+  }
+
+  static void set_tolerance(ccd_t& ccd, double length) {
+    ccd.mpr_tolerance = length;
+    ccd.epa_tolerance = length * length;
+  }
+
+  // Whether GJK, which has said "separated", was at the end of its allowance, or whether the support
+  // functions have put an end to the query.
+  bool gave_up(const Query& query, bool found) const {
+    const long calls = query.support_calls / 2;
+    if (query.support_calls > query.limit) return true;
+    return method_ != Method::mpr && !found && calls - 1 > max_iterations_;
+  }
+
+  void answer(const Query& query, bool found, Outcome& outcome) const {
+    outcome.support_calls = static_cast<std::int32_t>(query.support_calls / 2);
+    const bool stopped = gave_up(query, found);
+    outcome.status = stopped ? Status::not_converged : Status::not_reported;
+    outcome.answer = found     ? Answer::overlapping
+                     : stopped ? Answer::unknown
+                               : Answer::separated;
+  }
+
+  void intersect(const ccd_t& ccd, const Body& a, const Body& b, Outcome& outcome) const {
+    const int found =
+        method_ == Method::gjk ? ccdGJKIntersect(&a, &b, &ccd) : ccdMPRIntersect(&a, &b, &ccd);
+    answer(*a.query, found != 0, outcome);
+  }
+
+  void penetration(const ccd_t& ccd, const Body& a, const Body& b, Outcome& outcome) const {
+    ccd_real_t depth = Outcome::none;
+    ccd_vec3_t direction, position;
+    ccdVec3Set(&direction, 0, 0, 0);
+    const int result = method_ == Method::epa
+                           ? ccdGJKPenetration(&a, &b, &ccd, &depth, &direction, &position)
+                           : ccdMPRPenetration(&a, &b, &ccd, &depth, &direction, &position);
+    answer(*a.query, result == 0, outcome);
+    if (result == -2) {  // out of memory, or a polytope that cannot be expanded
+      outcome.answer = Answer::unknown;
+      outcome.status = Status::degenerate;
+    }
+    if (result != 0) return;
+    if (!(depth >= 0)) {
+      outcome.status = Status::degenerate;
+      return;
+    }
+    if (depth == 0) outcome.answer = Answer::touching;
+    outcome.distance = 0 - depth;
+    // libccd moves b by depth along it. Touching bodies are given a zero vector or NaN.
+    const Vec3d normal = to_eigen(direction);
+    if (normal.squaredNorm() > 0.5) outcome.normal = normal;
+  }
+
+  Method method_;
+  std::optional<double> tolerance_;
+  int max_iterations_;
+  std::span<const Shape> shapes_;
+  std::vector<Vec3d> centers_;
+  std::vector<double> reaches_;
+};
+
+template <Method method>
+std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
+  return std::make_unique<Libccd>(method, settings);
+}
+
+}  // namespace
+}  // namespace touchstone
+#endif
+
+TOUCHSTONE_NARROW_PHASE {
+  using enum touchstone::Task;
+  using touchstone::Origin;
+  const std::vector<touchstone::Precision> scalars = {touchstone::Precision::float64};
+  return {
+      {.info = {.name = "libccd-gjk",
+                .citation = "libccd 2.1, ccdGJKIntersect",
+                .origin = Origin::peer,
+                .known_defect = "thresholds are absolute: gaps below 1e-8 are overlaps"},
+       .tasks = {intersect},
+       .scalars = scalars,
+       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .make = TOUCHSTONE_IF_BUILT(touchstone::make<touchstone::Method::gjk>)},
+      {.info = {.name = "libccd-epa",
+                .citation = "libccd 2.1, ccdGJKPenetration",
+                .origin = Origin::peer,
+                .known_defect = "expands one face at a time, without a horizon: depths too small"},
+       .tasks = {penetration},
+       .scalars = scalars,
+       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .make = TOUCHSTONE_IF_BUILT(touchstone::make<touchstone::Method::epa>)},
+      {.info = {.name = "libccd-mpr",
+                .citation = "libccd 2.1, ccdMPRIntersect and ccdMPRPenetration",
+                .origin = Origin::peer,
+                .known_defect = "the depth is along the portal: an upper bound"},
+       .tasks = {intersect, penetration},
+       .scalars = scalars,
+       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .make = TOUCHSTONE_IF_BUILT(touchstone::make<touchstone::Method::mpr>)},
+  };
+}
