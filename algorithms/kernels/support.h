@@ -54,7 +54,7 @@ struct SupportShape {
   Vec3d normal = Vec3d::UnitZ();
   double offset = 0;
 
-  // No point of the turned body is further from its centre (metres).
+  // About how far the turned body reaches from its centre (metres): within a factor of two.
   double reach(const Mat3d& rotation) const {
     return size * rotation.cwiseAbs().maxCoeff() + radius;
   }
@@ -123,10 +123,6 @@ class SupportPair {
   Scalar radius_a() const { return a_.radius(); }
   Scalar radius_b() const { return b_.radius(); }
   Scalar radius() const { return a_.radius() + b_.radius(); }
-  // No point of the turned body is further from its centre (metres).
-  double reach(const Mat3d& rotation) const {
-    return size * rotation.cwiseAbs().maxCoeff() + radius;
-  }
   bool is_polytope() const { return is_polytope_; }  // both cores are
   double unit() const { return unit_; }              // metres, a power of two
   // A support call is one point of the difference.
