@@ -11,17 +11,20 @@
 
 namespace touchstone {
 
-// Body a is bounded, body b is a half-space. The distance is exact up to rounding, whichever task;
-// where rounding hides its sign, the answer is unknown and the status not_converged.
+// Body a is bounded, body b is a half-space. Writes what the task asks for into the outcome. The
+// distance is exact up to rounding; where rounding hides its sign, the answer is unknown and the
+// status not_converged.
 template <class Scalar>
-Outcome solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
-                        const SupportShape<Scalar>& b, const Pose& pose_b, Task task);
+void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
+                     const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
+                     Outcome& outcome);
 
 // Two half-spaces overlap unless their normals are opposite: then the gap or the common slab says
 // how far. Normals that are opposite up to rounding are taken to be so. Other pairs overlap without
 // bound: no translation separates them, and a penetration query is degenerate.
 template <class Scalar>
-Outcome solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
-                         const SupportShape<Scalar>& b, const Pose& pose_b, Task task);
+void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
+                      const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
+                      Outcome& outcome);
 
 }  // namespace touchstone

@@ -102,12 +102,6 @@ void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
   }
 }
 
-// A bound on the pair's coordinates, for the choice of its unit (metres).
-template <class Scalar>
-double reach(const SupportShape<Scalar>& shape, const Pose& pose) {
-  return shape.size * pose.rotation.cwiseAbs().maxCoeff() + shape.radius;
-}
-
 }  // namespace
 
 double power_of_two_above(double length) {
@@ -218,8 +212,8 @@ template <class Scalar>
 SupportPair<Scalar>::SupportPair(const SupportShape<Scalar>& a, const Pose& pose_a,
                                  const SupportShape<Scalar>& b, const Pose& pose_b)
     : offset_(centre_offset(a, pose_a, b, pose_b)),
-      unit_(power_of_two_above(
-          std::max({offset_.cwiseAbs().maxCoeff(), reach(a, pose_a), reach(b, pose_b)}))),
+      unit_(power_of_two_above(std::max(
+          {offset_.cwiseAbs().maxCoeff(), a.reach(pose_a.rotation), b.reach(pose_b.rotation)}))),
       a_(a, pose_a.rotation, unit_),
       b_(b, pose_b.rotation, unit_),
       centre_b_((offset_ / unit_).template cast<Scalar>()),

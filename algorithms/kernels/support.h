@@ -54,6 +54,10 @@ struct SupportShape {
   Vec3d normal = Vec3d::UnitZ();
   double offset = 0;
 
+  // About how far the turned body reaches from its centre (metres): within a factor of two.
+  double reach(const Mat3d& rotation) const {
+    return size * rotation.cwiseAbs().maxCoeff() + radius;
+  }
   bool is_polytope() const { return core <= Core::box || core == Core::hull; }
 };
 
