@@ -1,0 +1,240 @@
+#include "algorithms/kernels/polytope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "algorithms/kernels/support.h"
+
+namespace touchstone {
+namespace {
+
+using Wide = long double;
+using Vec = Vec3<Wide>;
+
+// Gathers faces and edges in long double, relative to `centre`.
+struct Builder {
+  struct Edge {
+    Vec direction, point;
+    std::uint32_t left, right;
+  };
+  std::vector<Vec> vertices;
+  std::vector<Vec> normals;
+  std::vector<Edge> edges;
+  bool complete = true;
+
+  std::uint32_t add_face(const Vec& normal) {
+    normals.push_back(normal);
+    return static_cast<std::uint32_t>(normals.size() - 1);
+  }
+  void add_edge(const Vec& tail, const Vec& head, std::uint32_t left, std::uint32_t right) {
+    const Vec along = head - tail;
+    const Wide length = along.stableNorm();
+    if (length > 0) edges.push_back({along / length, tail, left, right});
+  }
+
+  // The box about `middle` along the columns of `frame`.
+  void add_box(const Vec& middle, const Mat3<Wide>& frame, const Vec& half) {
+    for (int axis = 0; axis < 3; ++axis) {
+      add_face(-frame.col(axis));
+      add_face(frame.col(axis));
+    }
+    const auto face = [](int axis, int side) {
+      return static_cast<std::uint32_t>(2 * axis + (side > 0 ? 1 : 0));
+    };
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      for (const int si : {-1, 1}) {
+        for (const int sj : {-1, 1}) {
+          // Frame column i x column j is column k: the direction of left x right is si * sj * k.
+          const Vec corner =
+              middle + frame.col(i) * (si * half[i]) + frame.col(j) * (sj * half[j]);
+          const Vec along = frame.col(k) * (si * sj * half[k]);
+          add_edge(corner - along, corner + along, face(i, si), face(j, sj));
+        }
+      }
+    }
+  }
+};
+
+std::size_t farthest_from(const std::vector<Vec>& points, const Vec& from) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if ((points[k] - from).squaredNorm() > (points[best] - from).squaredNorm()) best = k;
+  }
+  return best;
+}
+
+void build_segment(Builder& out) {
+  const Vec p = out.vertices[farthest_from(out.vertices, out.vertices[0])];
+  const Vec q = out.vertices[farthest_from(out.vertices, p)];
+  const Wide length = (q - p).stableNorm();
+  Mat3<Wide> frame = Mat3<Wide>::Identity();
+  if (length > 0) {
+    frame.col(0) = (q - p) / length;
+    frame.col(1) = frame.col(0).unitOrthogonal();
+    frame.col(2) = frame.col(0).cross(frame.col(1));
+  }
+  out.add_box((p + q) / 2, frame, Vec(length / 2, 0, 0));
+}
+
+// The boundary of a flat set as indices, anticlockwise about `normal`: Andrew's monotone chain in
+// the coordinate plane that the normal is most nearly across.
+std::vector<std::size_t> boundary_loop(const std::vector<Vec>& points, const Vec& normal) {
+  Eigen::Index drop = 0;
+  normal.cwiseAbs().maxCoeff(&drop);
+  Eigen::Index u = (drop + 1) % 3, v = (drop + 2) % 3;
+  if (normal[drop] < 0) std::swap(u, v);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto before = [&](std::size_t a, std::size_t b) {
+    if (points[a][u] != points[b][u]) return points[a][u] < points[b][u];
+    return points[a][v] < points[b][v];
+  };
+  std::sort(order.begin(), order.end(), before);
+  const auto turns_left = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return (points[b][u] - points[a][u]) * (points[c][v] - points[a][v]) >
+           (points[b][v] - points[a][v]) * (points[c][u] - points[a][u]);
+  };
+  std::vector<std::size_t> loop;
+  const auto add_chain = [&](auto first, auto last) {
+    const std::size_t start = loop.size();
+    for (auto at = first; at != last; ++at) {
+      while (loop.size() >= start + 2 && !turns_left(loop[loop.size() - 2], loop.back(), *at)) {
+        loop.pop_back();
+      }
+      loop.push_back(*at);
+    }
+    loop.pop_back();  // the other chain begins with it
+  };
+  add_chain(order.begin(), order.end());
+  add_chain(order.rbegin(), order.rend());
+  return loop;
+}
+
+void build_flat(Builder& out) {
+  const std::vector<Vec>& points = out.vertices;
+  const Vec p = points[farthest_from(points, points[0])];
+  const Vec q = points[farthest_from(points, p)];
+  Vec normal = Vec::Zero();
+  for (const Vec& r : points) {
+    const Vec cross = (q - p).cross(r - p);
+    if (cross.squaredNorm() > normal.squaredNorm()) normal = cross;
+  }
+  const Wide length = normal.norm();
+  if (!(length > 0)) {
+    out.complete = false;
+    return;
+  }
+  normal /= length;
+  const std::uint32_t top = out.add_face(normal), bottom = out.add_face(-normal);
+  const std::vector<std::size_t> loop = boundary_loop(points, normal);
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Vec &tail = points[loop[k]], &head = points[loop[(k + 1) % loop.size()]];
+    const Vec outward = (head - tail).cross(normal);
+    if (!(outward.norm() > 0)) continue;
+    const std::uint32_t side = out.add_face(outward.normalized());
+    out.add_edge(tail, head, top, side);
+    out.add_edge(tail, head, side, bottom);
+  }
+}
+
+// Twice the area vector of the loop (Newell), so that each vertex counts; the hull's own normal
+// where that vanishes.
+Vec face_normal(const std::vector<Vec>& vertices, const Hull::Face& face) {
+  Vec area = Vec::Zero();
+  const Vec& first = vertices[face.loop[0]];
+  for (std::size_t k = 1; k + 1 < face.loop.size(); ++k) {
+    area += (vertices[face.loop[k]] - first).cross(vertices[face.loop[k + 1]] - first);
+  }
+  const Vec stated = face.normal.cast<Wide>();
+  const Wide length = area.norm();
+  if (!(length > 0)) return stated.normalized();
+  return area.dot(stated) < 0 ? Vec(-area / length) : Vec(area / length);
+}
+
+void build_solid(Builder& out, const Hull& hull) {
+  out.complete = !hull.faces.empty();
+  for (const Hull::Face& face : hull.faces) out.add_face(face_normal(out.vertices, face));
+  for (const Hull::Edge& edge : hull.edges) {
+    out.add_edge(out.vertices[edge.tail], out.vertices[edge.head], edge.left, edge.right);
+  }
+}
+
+template <class Scalar>
+Polytope<Scalar> finish(const Builder& from) {
+  Polytope<Scalar> to;
+  to.complete = from.complete;
+  to.count = from.vertices.size();
+  for (const Vec& v : from.vertices) {
+    to.x.push_back(static_cast<Scalar>(v.x()));
+    to.y.push_back(static_cast<Scalar>(v.y()));
+    to.z.push_back(static_cast<Scalar>(v.z()));
+    to.reach = std::max(to.reach, static_cast<Scalar>(v.norm()));
+  }
+  while (to.x.size() % Polytope<Scalar>::lanes != 0) {
+    to.x.push_back(to.x[0]);
+    to.y.push_back(to.y[0]);
+    to.z.push_back(to.z[0]);
+  }
+  for (const Vec& normal : from.normals) {
+    Wide offset = normal.dot(from.vertices[0]);
+    for (const Vec& v : from.vertices) offset = std::max(offset, normal.dot(v));
+    to.faces.push_back({normal.template cast<Scalar>(), static_cast<Scalar>(offset)});
+  }
+  for (const Builder::Edge& edge : from.edges) {
+    to.edges.push_back({edge.direction.template cast<Scalar>(), edge.point.template cast<Scalar>(),
+                        edge.left, edge.right});
+  }
+  return to;
+}
+
+}  // namespace
+
+template <class Scalar>
+Polytope<Scalar> make_polytope(const Shape& shape) {
+  Builder builder;
+  Vec3d centre = Vec3d::Zero();
+  double scale = 1;
+  if (shape.kind == ShapeKind::box) {
+    scale = power_of_two_above(shape.half_extents.stableNorm());
+    const Vec half = shape.half_extents.cast<Wide>() / scale;
+    for (int k = 0; k < 8; ++k) {
+      builder.vertices.emplace_back((k & 1) != 0 ? half.x() : -half.x(),
+                                    (k & 2) != 0 ? half.y() : -half.y(),
+                                    (k & 4) != 0 ? half.z() : -half.z());
+    }
+    builder.add_box(Vec::Zero(), Mat3<Wide>::Identity(), half);
+  } else {
+    const Hull& hull = *shape.hull;
+    Vec3d low = hull.vertices[0], high = hull.vertices[0];
+    for (const Vec3d& v : hull.vertices) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    const Vec3d middle = low + (high - low) / 2;
+    // Nearer its origin a body gains nothing from another centre, and a query would pay for it.
+    if (middle.stableNorm() > (high - low).stableNorm()) centre = middle;
+    double reach = 0;
+    for (const Vec3d& v : hull.vertices) reach = std::max(reach, (v - centre).stableNorm());
+    scale = power_of_two_above(reach);
+    for (const Vec3d& v : hull.vertices) {
+      builder.vertices.push_back((v.cast<Wide>() - centre.cast<Wide>()) / scale);
+    }
+    switch (hull.dimension) {
+      case 0:
+      case 1: build_segment(builder); break;
+      case 2: build_flat(builder); break;
+      default: build_solid(builder, hull); break;
+    }
+  }
+  Polytope<Scalar> polytope = finish<Scalar>(builder);
+  polytope.centre = centre;
+  polytope.scale = scale;
+  return polytope;
+}
+
+template Polytope<float> make_polytope(const Shape&);
+template Polytope<double> make_polytope(const Shape&);
+
+}  // namespace touchstone

@@ -1,0 +1,64 @@
+// The closest points of two segments.
+// Paper: Ericson, "Real-Time Collision Detection", 2005, section 5.1.9. Departs: the crossing of the
+// two lines comes from cross products, which keep their digits where the lines are almost parallel,
+// and is refined from there; the ends are candidates beside it, so that no case depends on a
+// threshold.
+#pragma once
+
+#include <algorithm>
+
+#include "algorithms/core/vec.h"
+
+namespace touchstone {
+
+template <class Scalar>
+struct Segment {
+  Vec3<Scalar> start, along;  // the points start + s * along, s in [0, 1]
+
+  Vec3<Scalar> at(Scalar s) const { return start + s * along; }
+  // Parameter of the point closest to `point`.
+  Scalar nearest(const Vec3<Scalar>& point) const {
+    const Scalar square = along.squaredNorm();
+    if (!(square > 0)) return 0;
+    return std::clamp(along.dot(point - start) / square, Scalar{0}, Scalar{1});
+  }
+};
+
+template <class Scalar>
+struct SegmentPoints {
+  Scalar s, t;  // parameters on the first and the second
+  Vec3<Scalar> first, second;
+  Scalar square;  // of their distance
+};
+
+template <class Scalar>
+SegmentPoints<Scalar> closest_points(const Segment<Scalar>& p, const Segment<Scalar>& q) {
+  const auto points = [&](Scalar s, Scalar t) {
+    const Vec3<Scalar> first = p.at(s), second = q.at(t);
+    return SegmentPoints<Scalar>{s, t, first, second, (first - second).squaredNorm()};
+  };
+  SegmentPoints<Scalar> best = points(0, q.nearest(p.start));
+  const auto offer = [&](const SegmentPoints<Scalar>& candidate) {
+    if (candidate.square < best.square) best = candidate;
+  };
+  offer(points(1, q.nearest(p.at(1))));
+  offer(points(p.nearest(q.start), 0));
+  offer(points(p.nearest(q.at(1)), 1));
+
+  const Vec3<Scalar> across = p.along.cross(q.along);
+  const Scalar square = across.squaredNorm();
+  if (!(square > 0)) return best;
+  Scalar s = 0, t = 0;
+  for (int step = 0; step < 3; ++step) {
+    // How far the lines' closest points are from where s and t now stand.
+    const Vec3<Scalar> between = q.at(t) - p.at(s);
+    const Scalar ds = between.cross(q.along).dot(across) / square;
+    const Scalar dt = between.cross(p.along).dot(across) / square;
+    s = std::clamp(s + ds, Scalar{0}, Scalar{1});
+    t = std::clamp(t + dt, Scalar{0}, Scalar{1});
+  }
+  offer(points(s, t));
+  return best;
+}
+
+}  // namespace touchstone
