@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algorithms/broad_phase.h"
+#include "harness/scene/kinematics.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone {
@@ -20,25 +21,25 @@ class ScenePlayer {
   // those only), as BroadPhase::update wants.
   bool next();
 
-  std::span<const Pose> poses() const { return poses_; }  // of each body; empty for a recording
-  // Finite boxes in world coordinates. A half-space's infinite extents are cut to the region that
-  // the bounded bodies' boxes fill over all frames, so that no pair is lost.
+  std::span<const Pose> poses() const { return kinematics_.poses(); }  // empty for a recording
+  // Finite boxes in world coordinates. A half-space's box is tight in either kind, and its infinite
+  // extents are cut to the region that all finite extents fill over all frames, so that no pair is
+  // lost.
   std::span<const Aabb> boxes() const { return boxes_[current_]; }
   // Against the frame before: moved lists every body whose box changed. Empty lists at frame 0.
   FrameChange change() const { return {boxes(), moved_, {}, {}}; }
 
  private:
-  void make_boxes();
+  Aabb box_of(std::size_t body) const;
+  void fill_world();
 
   const Scene* scene_;
   BoxKind kind_;
+  Kinematics kinematics_;
   int frame_ = 0;
-  std::vector<Pose> poses_;
-  std::vector<Vec3d> velocities_;
-  std::vector<Vec3d> angular_velocities_;
-  std::vector<double> reach_;  // loose boxes
-  Aabb world_ = Aabb::empty();
-  std::vector<Aabb> boxes_[2];
+  std::vector<double> reach_;   // of each body; loose boxes only
+  Aabb world_ = Aabb::empty();  // what half-spaces are cut to
+  std::vector<Aabb> boxes_[2];  // this frame's and the one before
   int current_ = 0;
   std::vector<std::uint32_t> moved_;
 };

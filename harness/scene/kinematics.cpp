@@ -1,0 +1,92 @@
+#include "harness/scene/kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/scene/random.h"
+
+namespace touchstone {
+namespace {
+
+// The acceleration of all bodies while the frame after `frame` is reached.
+Vec3d acceleration(const Motion& motion, int frame) {
+  switch (motion.kind) {
+    case MotionKind::inertial:
+    case MotionKind::brownian: break;
+    case MotionKind::free_fall: return {0, 0, -motion.acceleration};
+    case MotionKind::rotating_gravity: {
+      const SinCos turn = sin_cos_turns(frame * motion.time_step / motion.period);
+      return {motion.acceleration * turn.sin, 0, -motion.acceleration * turn.cos};
+    }
+  }
+  return Vec3d::Zero();
+}
+
+// Brings x back between the walls by mirroring it at them, and turns the velocity where that took
+// an odd number of mirrors. With an acceleration, the speed is then that of the height reached.
+void reflect(double low, double high, double acceleration, double& x, double& velocity) {
+  if (x >= low && x <= high) return;
+  const double width = high - low;
+  if (!(width > 0)) {
+    x = low;
+    return;
+  }
+  const double period = 2 * width;
+  double place = (x - low) - period * std::floor((x - low) / period);  // [0, 2 width]
+  const bool turned = place > width;
+  if (turned) place = period - place;
+  const double mirrored = std::clamp(low + place, low, high);
+  const double squared = velocity * velocity + 2 * acceleration * (mirrored - x);
+  const double speed = std::sqrt(std::max(0.0, squared));
+  const bool negative = (velocity < 0) != turned;
+  velocity = negative ? -speed : speed;
+  x = mirrored;
+}
+
+}  // namespace
+
+Kinematics::Kinematics(const Scene& scene) : scene_(&scene) {
+  poses_.reserve(scene.bodies.size());
+  velocities_.reserve(scene.bodies.size());
+  for (const Body& body : scene.bodies) {
+    poses_.push_back(body.pose);
+    velocities_.push_back(body.velocity);
+  }
+}
+
+// The bodies take turns, as in Broadmark: after a hundred frames each has had a new velocity.
+void Kinematics::kick_some() {
+  const std::size_t n = poses_.size(), share = (n + 99) / 100;
+  Random random(scene_->motion.seed, static_cast<std::uint64_t>(frame_));
+  const std::size_t first = share * static_cast<std::size_t>(frame_) % n;
+  for (std::size_t k = 0; k < share; ++k) {
+    velocities_[(first + k) % n] = scene_->motion.speed * random.in_ball();
+  }
+}
+
+void Kinematics::next() {
+  const Motion& motion = scene_->motion;
+  if (motion.kind == MotionKind::brownian && !poses_.empty()) kick_some();
+  const Vec3d a = acceleration(motion, frame_);
+  const double dt = motion.time_step;
+  ++frame_;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const Body& body = scene_->bodies[i];
+    if (!body.moving) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      double& x = poses_[i].translation[axis];
+      double& v = velocities_[i][axis];
+      x += (v + 0.5 * a[axis] * dt) * dt;
+      v += a[axis] * dt;
+      if (motion.wall_min[axis] <= motion.wall_max[axis]) {
+        reflect(motion.wall_min[axis], motion.wall_max[axis], a[axis], x, v);
+      }
+    }
+    const Vec3d& w = body.angular_velocity;
+    if (w.x() != 0 || w.y() != 0 || w.z() != 0) {
+      poses_[i].rotation = product(rotation_over(w, frame_ * dt), body.pose.rotation);
+    }
+  }
+}
+
+}  // namespace touchstone

@@ -1,0 +1,115 @@
+#include "harness/scene/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "algorithms/core/bounds.h"
+
+namespace touchstone {
+namespace {
+
+bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof(Aabb)) == 0; }
+
+void include(Aabb& region, const Aabb& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float end : {box.min[axis], box.max[axis]}) {
+      if (!std::isfinite(end)) continue;
+      region.min[axis] = std::min(region.min[axis], end);
+      region.max[axis] = std::max(region.max[axis], end);
+    }
+  }
+}
+
+// The reach must hold for every attitude of a body that turns, though each is orthonormal up to
+// rounding only.
+double reach_of(const Shape& shape, const Body& body) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  return loose_reach(shape, body.pose.rotation) * (1 + rounding);
+}
+
+}  // namespace
+
+std::string_view to_string(BoxKind kind) { return kind == BoxKind::tight ? "tight" : "loose"; }
+
+ScenePlayer::ScenePlayer(const Scene& scene, BoxKind kind)
+    : scene_(&scene), kind_(kind), kinematics_(scene) {
+  if (!scene.recording.empty()) {
+    boxes_[0] = scene.recording.front();
+    return;
+  }
+  if (kind == BoxKind::loose) {
+    reach_.reserve(scene.bodies.size());
+    for (const Body& body : scene.bodies) {
+      reach_.push_back(reach_of(scene.shapes[body.shape], body));
+    }
+  }
+  fill_world();
+  boxes_[0].resize(scene.bodies.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) boxes_[0][i] = box_of(i);
+}
+
+// Half-spaces need the whole region beforehand, so all frames are played once; other scenes do not.
+void ScenePlayer::fill_world() {
+  const auto& bodies = scene_->bodies;
+  const auto is_halfspace = [&](const Body& body) {
+    return scene_->shapes[body.shape].kind == ShapeKind::halfspace;
+  };
+  if (std::none_of(bodies.begin(), bodies.end(), is_halfspace)) return;
+  Aabb region = Aabb::empty();
+  for (;;) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (bodies[i].moving || kinematics_.frame() == 0) include(region, box_of(i));
+    }
+    if (kinematics_.frame() + 1 >= scene_->frames) break;
+    kinematics_.next();
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (region.min[axis] > region.max[axis]) region.min[axis] = region.max[axis] = 0;
+  }
+  world_ = region;
+  kinematics_ = Kinematics(*scene_);
+}
+
+Aabb ScenePlayer::box_of(std::size_t body) const {
+  const Shape& shape = scene_->shapes[scene_->bodies[body].shape];
+  const Pose& pose = kinematics_.poses()[body];
+  if (shape.kind != ShapeKind::halfspace) {
+    return kind_ == BoxKind::loose ? loose_box(reach_[body], pose.translation)
+                                   : tight_box(shape, pose);
+  }
+  Aabb box = tight_box(shape, pose);
+  if (world_.is_empty()) return box;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::isinf(box.min[axis])) box.min[axis] = world_.min[axis];
+    if (std::isinf(box.max[axis])) box.max[axis] = world_.max[axis];
+  }
+  return box;
+}
+
+bool ScenePlayer::next() {
+  const bool recorded = !scene_->recording.empty();
+  const int frames = recorded ? static_cast<int>(scene_->recording.size()) : scene_->frames;
+  if (frame_ + 1 >= frames) return false;
+  ++frame_;
+  const std::vector<Aabb>& before = boxes_[current_];
+  current_ = 1 - current_;
+  std::vector<Aabb>& now = boxes_[current_];
+  if (recorded) {
+    now = scene_->recording[static_cast<std::size_t>(frame_)];
+  } else {
+    kinematics_.next();
+    now.resize(before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      now[i] = scene_->bodies[i].moving ? box_of(i) : before[i];
+    }
+  }
+  moved_.clear();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!same_bits(before[i], now[i])) moved_.push_back(static_cast<std::uint32_t>(i));
+  }
+  return true;
+}
+
+}  // namespace touchstone

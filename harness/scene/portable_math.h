@@ -1,0 +1,85 @@
+// Arithmetic that gives the same bits on every platform, for seeded scenes.
+//
+// Only + - * / and square root are rounded the same everywhere (IEEE 754); the functions of libm
+// are not, and a matrix product of Eigen may be fused or reordered where the vector unit is
+// another.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "algorithms/core/vec.h"
+
+namespace touchstone {
+
+struct SinCos {
+  double sin, cos;
+};
+
+// Sine and cosine of an angle in turns (1 = 360 degrees), right to about an ulp of the angle; exact
+// at multiples of a quarter.
+inline SinCos sin_cos_turns(double turns) {
+  turns -= std::floor(turns);
+  const int quarter = static_cast<int>(std::floor(4 * turns + 0.5));  // 0 to 4
+  const double x = 6.283185307179586476925 * (turns - 0.25 * quarter);
+  const double xx = x * x;
+  // Taylor's series on [-pi/4, pi/4], from the smallest term; the next one is below half an ulp.
+  double s = 0, c = 0;
+  for (int n = 16; n > 0; n -= 2) {
+    s = (1 - s) * xx / (n * (n + 1));
+    c = (1 - c) * xx / (n * (n - 1));
+  }
+  s = x - x * s;
+  c = 1 - c;
+  switch (quarter % 4) {
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
+  }
+}
+
+// x > 0.
+inline double cube_root(double x) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);  // [0.5, 1)
+  const int third = exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
+  const double target = std::ldexp(mantissa, exponent - 3 * third);  // [0.5, 4)
+  double root = 1;
+  for (int step = 0; step < 8; ++step) root -= (root - target / (root * root)) / 3;  // Newton
+  return std::ldexp(root, third);
+}
+
+inline double length(const Vec3d& v) {
+  return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
+}
+
+inline Mat3d product(const Mat3d& a, const Mat3d& b) {
+  Mat3d c;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) c(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
+  }
+  return c;
+}
+
+// The rotation of a quaternion (w, x, y, z) of any length but zero.
+inline Mat3d rotation_of(const std::array<double, 4>& q) {
+  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  const double w = q[0] / norm, x = q[1] / norm, y = q[2] / norm, z = q[3] / norm;
+  Mat3d r;
+  r << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),  //
+      2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),   //
+      2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
+  return r;
+}
+
+// The rotation by angular velocity w (radians a second) over a time (seconds): the exponential map.
+inline Mat3d rotation_over(const Vec3d& w, double time) {
+  const double rate = length(w);
+  if (!(rate > 0)) return Mat3d::Identity();
+  const SinCos half = sin_cos_turns(rate * time / (2 * 6.283185307179586476925));
+  const double s = half.sin / rate;
+  return rotation_of({half.cos, s * w.x(), s * w.y(), s * w.z()});
+}
+
+}  // namespace touchstone
