@@ -118,13 +118,18 @@ std::size_t TomlTable::choice(std::string_view key, std::span<const std::string_
                               std::optional<std::size_t> fallback) {
   if (fallback && !has(key)) return *fallback;
   const std::string expected = fmt::format("one of {}", fmt::join(names, ", "));
-  const toml::node& found = required(key, expected);
-  if (const auto* value = found.as_string()) {
+  return choice_of(required(key, expected), key, names);
+}
+
+std::size_t TomlTable::choice_of(const toml::node& node, std::string_view key,
+                                 std::span<const std::string_view> names) const {
+  if (const auto* value = node.as_string()) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (value->get() == names[i]) return i;
     }
   }
-  fail_at(found, key, fmt::format("found {}; expected {}", show(found), expected));
+  fail_at(node, key,
+          fmt::format("found {}; expected one of {}", show(node), fmt::join(names, ", ")));
 }
 
 std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count, Limits limits) {

@@ -40,6 +40,8 @@ class TomlTable {
 
   const std::string& file() const { return file_; }
   bool has(std::string_view key) { return node(key) != nullptr; }
+  // The same without making the key a known one.
+  bool contains(std::string_view key) const { return table_->contains(key); }
 
   double number(std::string_view key, Limits limits, std::optional<double> fallback = {});
   std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
@@ -49,6 +51,9 @@ class TomlTable {
   // The place in `names` of the one that is given.
   std::size_t choice(std::string_view key, std::span<const std::string_view> names,
                      std::optional<std::size_t> fallback = {});
+  // The same for an element of an array.
+  std::size_t choice_of(const toml::node& node, std::string_view key,
+                        std::span<const std::string_view> names) const;
   Vec3d vector(std::string_view key, Limits limits, std::optional<Vec3d> fallback = {});
   std::vector<double> numbers(std::string_view key, std::size_t count, Limits limits);
   // Any number of points, at least one.
