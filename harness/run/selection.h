@@ -14,6 +14,17 @@
 
 namespace touchstone {
 
+// The names of a list such as "sap,naive".
+inline std::vector<std::string> split_names(std::string_view list) {
+  std::vector<std::string> names;
+  for (;;) {
+    const std::size_t comma = list.find(',');
+    names.emplace_back(list.substr(0, comma));
+    if (comma == std::string_view::npos) return names;
+    list.remove_prefix(comma + 1);
+  }
+}
+
 // The entries of these names, in the order named, each once. "all" stands for every one that is
 // built, "ours" and "peers" for those of that origin, "none" for none. InputError for an unknown
 // name, with those that there are, and for one that is not built, with the reason. `what` is "broad
