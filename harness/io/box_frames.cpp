@@ -108,4 +108,19 @@ std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file) {
   return frames;
 }
 
+void write_box_frames(std::span<const std::vector<Aabb>> frames, const std::filesystem::path& file) {
+  CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    for (std::size_t id = 0; id < frames[frame].size(); ++id) {
+      const Aabb& box = frames[frame][id];
+      if (box.is_empty()) continue;
+      csv.field(frame).field(id);
+      for (const float value : box.min) csv.field(double{value});
+      for (const float value : box.max) csv.field(double{value});
+      csv.end_row();
+    }
+  }
+  csv.close();
+}
+
 }  // namespace touchstone
