@@ -1,0 +1,243 @@
+// Loose octree: each box lies in one cell, at the level of its size; its partners lie nearby.
+// Paper:   Ulrich, "Loose Octrees", Game Programming Gems, 2000; Gargantini, "An Effective Way to
+//          Represent Quadtrees", CACM 1982 (linear: sorted codes instead of nodes).
+// Departs: no nodes: the cells are runs of boxes sorted by level and Morton code, found through a
+//          hash table. A level's cells are as wide as its largest boxes, the looseness is 2, so a
+//          box reaches half a cell beyond its own. Pairs are sought at the own level and at coarser
+//          ones only.
+// Fails:   crowds of boxes of a size within one cell (stacks), where it is quadratic; a few dozen
+//          look-ups for each box and level make it slow where sizes are of many orders.
+// Cost:    O(n log n + n l + k) time, O(n) memory beside the output; l = levels in use, at most 20,
+//          k = pairs in neighbouring cells.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/kernels/box_scan.h"
+#include "algorithms/kernels/cell_space.h"
+#include "algorithms/kernels/morton.h"
+#include "algorithms/kernels/radix_sort.h"
+
+namespace touchstone {
+namespace {
+
+class LooseOctree final : public BroadPhase {
+ public:
+  explicit LooseOctree(Executor& executor)
+      : executor_(executor), scratch_(static_cast<std::size_t>(executor.width())) {}
+
+  void build(std::span<const Aabb> boxes) override {
+    list_bodies(executor_, boxes, ids_);
+    choose_cells(boxes);
+    items_.resize(ids_.size());
+    for_each_block(executor_, ids_.size(), 4096,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) {
+                       items_[i] = {cell_of(boxes[ids_[i]]), ids_[i]};
+                     }
+                   });
+    radix_sort_(executor_, items_, 3 * top_ + std::bit_width(static_cast<unsigned>(top_)),
+                [](const Item& item) { return item.cell; });
+    arrays_.gather(executor_, boxes, items_.size(), [&](std::size_t i) { return items_[i].id; });
+    list_cells();
+  }
+
+  void update(const FrameChange& change) override { build(change.boxes); }
+
+  Status find_pairs(PairSink& sink) override {
+    const std::size_t tasks = block_count(items_.size(), rows_a_task);
+    sink.start(tasks);
+    const auto scan = [&](std::size_t task, int worker) {
+      const std::size_t first = task * rows_a_task;
+      scan_rows({first, std::min(first + rows_a_task, items_.size())},
+                scratch_[static_cast<std::size_t>(worker)], sink.chunk(task));
+    };
+    executor_.run(tasks, std::cref(scan));
+    return Status::ok;
+  }
+
+ private:
+  static constexpr int most_levels = 20;  // 3 * 19 bits of code, 5 of level
+  static constexpr std::size_t rows_a_task = 512;
+  static constexpr std::uint64_t no_cell = ~std::uint64_t{0};
+
+  struct Item {
+    std::uint64_t cell;  // level above, Morton code in the level's own cells below
+    std::uint32_t id;
+  };
+  struct Cell {
+    std::uint64_t cell = no_cell;
+    std::uint32_t first = 0, last = 0;  // its boxes
+  };
+  // The cells of a level where partners of a group of boxes may be.
+  struct Window {
+    CellNumbers low, high;
+    friend bool operator==(const Window&, const Window&) = default;
+  };
+  struct Scratch {
+    std::vector<IndexRange> columns;
+    // The last window at each level and its runs of boxes: small boxes that are near each other in
+    // the order mostly share their windows at the coarser levels.
+    std::array<Window, most_levels> windows;
+    std::array<std::vector<IndexRange>, most_levels> runs;
+  };
+
+  // Level l has cells of finest_ * 2^l. Levels are set so that the usual box just fits in a cell.
+  // At the top there is one cell for all.
+  void choose_cells(std::span<const Aabb> boxes) {
+    const BoxSample sample = sample_boxes(boxes, ids_);
+    const double extent = sample.extent();
+    const double least = std::ldexp(extent, 1 - most_levels);
+    finest_ = sample.usual_side * (1 + 1.0 / 64);  // boxes of one size differ by rounding
+    if (finest_ == 0) finest_ = extent > 0 ? least : 1;
+    for (int halvings = 0; halvings < most_levels; ++halvings) {
+      if (finest_ / 2 < std::max(sample.smallest_side, least)) break;
+      finest_ /= 2;
+    }
+    while (finest_ < least) finest_ *= 2;
+    top_ = 0;
+    while (std::ldexp(finest_, top_) < extent && top_ < most_levels - 1) ++top_;
+    space_.origin = sample.low;
+    space_.inverse_side = 1 / finest_;
+    space_.last.fill((1u << top_) - 1);
+  }
+
+  std::uint64_t cell_of(const Aabb& box) const {
+    const int level = level_of(longest_side(box));
+    CellNumbers cell;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double centre = 0.5 * (double{box.min[axis]} + box.max[axis]);
+      cell[axis] = space_.cell(centre, axis) >> level;
+    }
+    return static_cast<std::uint64_t>(level) << (3 * top_) | morton_code(cell);
+  }
+
+  // The least level whose cells are at least as wide, or the top.
+  int level_of(double side) const {
+    const double ratio = side * space_.inverse_side;
+    if (!(ratio > 1)) return 0;
+    const auto bits = std::bit_cast<std::uint64_t>(ratio);
+    const bool is_power = (bits & ((std::uint64_t{1} << 52) - 1)) == 0;
+    const int level = static_cast<int>(bits >> 52) - 1023 + (is_power ? 0 : 1);
+    return std::min(level, top_);
+  }
+
+  void list_cells() {
+    cells_.clear();
+    levels_ = 0;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      const auto place = static_cast<std::uint32_t>(i);
+      if (cells_.empty() || items_[i].cell != cells_.back().cell) {
+        cells_.push_back({items_[i].cell, place, place});
+        levels_ |= 1u << (items_[i].cell >> (3 * top_));
+      }
+      cells_.back().last = place + 1;
+    }
+    table_.assign(std::bit_ceil(2 * cells_.size() + 1), {});
+    for (const Cell& cell : cells_) table_[slot(cell.cell)] = cell;
+  }
+
+  // Where a cell is in the table, or where it would go. Linear probing; the table is at most half
+  // full.
+  std::size_t slot(std::uint64_t cell) const {
+    const std::size_t mask = table_.size() - 1;
+    std::size_t at = (cell * 0x9e3779b97f4a7c15) >> 32 & mask;
+    while (table_[at].cell != cell && table_[at].cell != no_cell) at = (at + 1) & mask;
+    return at;
+  }
+
+  // Finds the pairs of these boxes with those behind them in their cell, in half of the cells
+  // around it and at the coarser levels.
+  void scan_rows(IndexRange rows, Scratch& scratch, PairBuffer& out) const {
+    for (auto& runs : scratch.runs) runs.clear();
+    scratch.windows.fill({{1, 1, 1}, {0, 0, 0}});
+    auto cell = std::ranges::upper_bound(cells_, rows.first, {}, &Cell::first) - 1;
+    for (std::size_t first = rows.first; first < rows.last; ++cell) {
+      const IndexRange group{first, std::min<std::size_t>(cell->last, rows.last)};
+      scratch.columns.assign(1, {cell->first, cell->last});
+      add_partners(group, cell->cell, scratch);
+      scan_boxes(arrays_, group, scratch.columns, out);
+      first = cell->last;
+    }
+  }
+
+  void add_partners(IndexRange group, std::uint64_t cell, Scratch& scratch) const {
+    std::array<double, 3> low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      const float* min = arrays_.min(axis);
+      const float* max = arrays_.max(axis);
+      low[k] = *std::min_element(min + group.first, min + group.last);
+      high[k] = *std::max_element(max + group.first, max + group.last);
+    }
+    const int own_level = static_cast<int>(cell >> (3 * top_));
+    for (unsigned levels = levels_ >> own_level << own_level; levels != 0; levels &= levels - 1) {
+      const int level = std::countr_zero(levels);
+      const auto l = static_cast<std::size_t>(level);
+      // The centre of a partner is at most half a cell away. The 64th part is for rounding, in
+      // centres and sides: cells are never that small compared with a coordinate's last bit.
+      const double reach = std::ldexp(finest_, level) * (0.5 + 1.0 / 64);
+      Window window;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        window.low[axis] = space_.cell(low[axis] - reach, axis) >> level;
+        window.high[axis] = space_.cell(high[axis] + reach, axis) >> level;
+      }
+      if (level == own_level) {
+        const std::uint64_t code = cell & ((std::uint64_t{1} << (3 * top_)) - 1);
+        find_runs(window, level, morton_cell(code), scratch.columns);
+        continue;
+      }
+      if (window != scratch.windows[l]) {
+        scratch.windows[l] = window;
+        scratch.runs[l].clear();
+        find_runs(window, level, {}, scratch.runs[l]);
+      }
+      scratch.columns.insert(scratch.columns.end(), scratch.runs[l].begin(), scratch.runs[l].end());
+    }
+  }
+
+  // Adds the runs of boxes of the window's cells, and of those only that come behind `own` (by z,
+  // y, x) where the level is the boxes' own.
+  void find_runs(const Window& window, int level, const std::optional<CellNumbers>& own,
+                 std::vector<IndexRange>& runs) const {
+    const std::uint64_t prefix = static_cast<std::uint64_t>(level) << (3 * top_);
+    for (std::uint32_t z = window.low[2]; z <= window.high[2]; ++z) {
+      for (std::uint32_t y = window.low[1]; y <= window.high[1]; ++y) {
+        for (std::uint32_t x = window.low[0]; x <= window.high[0]; ++x) {
+          if (own && std::tuple(z, y, x) <= std::tuple((*own)[2], (*own)[1], (*own)[0])) continue;
+          const Cell& found = table_[slot(prefix | morton_code({x, y, z}))];
+          if (found.cell != no_cell) runs.push_back({found.first, found.last});
+        }
+      }
+    }
+  }
+
+  Executor& executor_;
+  std::vector<std::uint32_t> ids_;
+  CellSpace space_;      // the finest level's cells
+  double finest_ = 1;    // metres
+  int top_ = 0;          // the coarsest level
+  unsigned levels_ = 0;  // bit l: there are boxes at level l
+  std::vector<Item> items_;
+  RadixSort<Item> radix_sort_;
+  BoxArrays arrays_;
+  std::vector<Cell> cells_;  // in the boxes' order
+  std::vector<Cell> table_;
+  std::vector<Scratch> scratch_;  // of each worker
+};
+
+}  // namespace
+}  // namespace touchstone
+
+TOUCHSTONE_BROAD_PHASE {
+  return {{.info = {.name = "loose-octree",
+                    .citation = "Ulrich, \"Loose Octrees\", Game Programming Gems, 2000; "
+                                "Gargantini, CACM 1982 (linear)"},
+           .make = [](touchstone::Executor& executor) {
+             return std::make_unique<touchstone::LooseOctree>(executor);
+           }}};
+}

@@ -1,0 +1,74 @@
+// Least-significant-digit radix sort, in parallel, stable, the same at every width.
+// Paper: Zagha, Blelloch, "Radix Sort for Vector Multiprocessors", Supercomputing 1991 (a histogram
+// for each block, one prefix sum over all of them, each block scatters its own items).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "algorithms/core/executor.h"
+#include "algorithms/kernels/blocks.h"
+
+namespace touchstone {
+
+// Keeps its scratch memory from call to call.
+template <class Item>
+class RadixSort {
+ public:
+  // Sorts by the `bits` bits of key(item) (an unsigned integer); higher bits must be zero.
+  template <class Key>
+  void operator()(Executor& executor, std::vector<Item>& items, int bits, const Key& key) {
+    if (items.size() < 2 || bits == 0) return;
+    // Wider digits need fewer passes, but a histogram that few items do not pay for.
+    const int widest = items.size() < 4096 ? 8 : 11;
+    const int passes = (bits + widest - 1) / widest;
+    const int width = (bits + passes - 1) / passes;
+    scratch_.resize(items.size());
+    for (int pass = 0; pass < passes; ++pass) {
+      const int shift = pass * width;
+      const std::size_t mask = (std::size_t{1} << width) - 1;
+      scatter(executor, items, mask + 1, [&](const Item& item) {
+        return static_cast<std::size_t>(key(item) >> shift) & mask;
+      });
+    }
+  }
+
+ private:
+  static constexpr std::size_t block_size = 16384;
+
+  template <class Digit>
+  void scatter(Executor& executor, std::vector<Item>& items, std::size_t digits,
+               const Digit& digit) {
+    const std::size_t blocks = block_count(items.size(), block_size);
+    places_.assign(blocks * digits, 0);
+    for_each_block(executor, items.size(), block_size,
+                   [&](std::size_t block, std::size_t first, std::size_t last) {
+                     std::uint32_t* counts = &places_[block * digits];
+                     for (std::size_t i = first; i < last; ++i) ++counts[digit(items[i])];
+                   });
+    std::uint32_t place = 0;
+    for (std::size_t d = 0; d < digits; ++d) {
+      const std::uint32_t before = place;
+      for (std::size_t block = 0; block < blocks; ++block) {
+        place += std::exchange(places_[block * digits + d], place);
+      }
+      if (place - before == items.size()) return;  // one digit holds them all: nothing moves
+    }
+    for_each_block(executor, items.size(), block_size,
+                   [&](std::size_t block, std::size_t first, std::size_t last) {
+                     std::uint32_t* next = &places_[block * digits];
+                     for (std::size_t i = first; i < last; ++i) {
+                       scratch_[next[digit(items[i])]++] = items[i];
+                     }
+                   });
+    items.swap(scratch_);
+  }
+
+  std::vector<Item> scratch_;
+  std::vector<std::uint32_t> places_;  // [block][digit]: the count, then where the next item goes
+};
+
+}  // namespace touchstone
