@@ -87,8 +87,8 @@ CommonPoint<Scalar> common_point(const PlacedPolytope<Scalar>& a, const PlacedPo
     const auto &a0 = of_a[i], &a1 = of_a[i + 1 < of_a.size() ? i + 1 : 0];
     for (std::size_t j = 0; j < of_b.size(); ++j) {
       const auto &b0 = of_b[j], &b1 = of_b[j + 1 < of_b.size() ? j + 1 : 0];
-      const auto seen = closest_points<Scalar>({a0.seen, a1.seen - a0.seen},
-                                               {b0.seen, b1.seen - b0.seen});
+      const auto seen =
+          closest_points<Scalar>({a0.seen, a1.seen - a0.seen}, {b0.seen, b1.seen - b0.seen});
       if (!(seen.square < least)) continue;
       least = seen.square;
       best = {a0.point + seen.s * (a1.point - a0.point), b0.point + seen.t * (b1.point - b0.point)};
@@ -97,9 +97,8 @@ CommonPoint<Scalar> common_point(const PlacedPolytope<Scalar>& a, const PlacedPo
   return best;
 }
 
-template CommonPoint<float> common_point(const PlacedPolytope<float>&,
-                                         const PlacedPolytope<float>&, const Vec3<float>&, float,
-                                         float);
+template CommonPoint<float> common_point(const PlacedPolytope<float>&, const PlacedPolytope<float>&,
+                                         const Vec3<float>&, float, float);
 template CommonPoint<double> common_point(const PlacedPolytope<double>&,
                                           const PlacedPolytope<double>&, const Vec3<double>&,
                                           double, double);

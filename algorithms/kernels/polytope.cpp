@@ -47,8 +47,7 @@ struct Builder {
       for (const int si : {-1, 1}) {
         for (const int sj : {-1, 1}) {
           // Frame column i x column j is column k: the direction of left x right is si * sj * k.
-          const Vec corner =
-              middle + frame.col(i) * (si * half[i]) + frame.col(j) * (sj * half[j]);
+          const Vec corner = middle + frame.col(i) * (si * half[i]) + frame.col(j) * (sj * half[j]);
           const Vec along = frame.col(k) * (si * sj * half[k]);
           add_edge(corner - along, corner + along, face(i, si), face(j, sj));
         }

@@ -37,8 +37,8 @@ struct Polytope {
 
   Vec3d centre = Vec3d::Zero();
   double scale = 1;
-  Scalar reach = 0;                 // >= |v| of each stored vertex v
-  std::size_t count = 0;            // vertices; behind them the first is repeated up to whole lanes
+  Scalar reach = 0;       // >= |v| of each stored vertex v
+  std::size_t count = 0;  // vertices; behind them the first is repeated up to whole lanes
   std::vector<Scalar> x, y, z;
   std::vector<Face> faces;
   std::vector<Edge> edges;

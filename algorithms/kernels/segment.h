@@ -1,8 +1,8 @@
 // The closest points of two segments.
-// Paper: Ericson, "Real-Time Collision Detection", 2005, section 5.1.9. Departs: the crossing of the
-// two lines comes from cross products, which keep their digits where the lines are almost parallel,
-// and is refined from there; the ends are candidates beside it, so that no case depends on a
-// threshold.
+// Paper: Ericson, "Real-Time Collision Detection", 2005, section 5.1.9. Departs: the crossing of
+// the two lines comes from cross products, which keep their digits where the lines are almost
+// parallel, and is refined from there; the ends are candidates beside it, so that no case depends
+// on a threshold.
 #pragma once
 
 #include <algorithm>

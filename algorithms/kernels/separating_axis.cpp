@@ -47,8 +47,7 @@ Axis<Scalar> best_face(const PlacedPolytope<Scalar>& from, const PlacedPolytope<
   for (const auto& face : from.shape->faces) {
     const Vec3<Scalar> outward = from.normals * face.normal;
     const Scalar length = outward.norm();
-    const Scalar gap =
-        (outward.dot(offset) - to.support(-outward) - scale * face.offset) / length;
+    const Scalar gap = (outward.dot(offset) - to.support(-outward) - scale * face.offset) / length;
     ++tested;
     if (gap > best.gap) best = {gap, outward / length};
     if (gap > enough) break;

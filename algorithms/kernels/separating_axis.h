@@ -1,11 +1,11 @@
 // A pair of polytopes and the axes that may separate them.
-// Paper: Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996 (the axes of two boxes); Gregorius, "The
-// Separating Axis Test between Convex Polyhedra", GDC 2013 (of two polytopes).
+// Paper: Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996 (the axes of two boxes); Gregorius,
+// "The Separating Axis Test between Convex Polyhedra", GDC 2013 (of two polytopes).
 //
-// The gap along a unit vector n is min n.b - max n.a: where positive, a lower bound of the distance;
-// where negative, minus an upper bound of the penetration depth. Every axis is a valid bound, so an
-// axis too many does no harm, and the depth is exact as soon as the axes hold all facet normals of
-// the Minkowski difference.
+// The gap along a unit vector n is min n.b - max n.a: where positive, a lower bound of the
+// distance; where negative, minus an upper bound of the penetration depth. Every axis is a valid
+// bound, so an axis too many does no harm, and the depth is exact as soon as the axes hold all
+// facet normals of the Minkowski difference.
 #pragma once
 
 #include <limits>
@@ -18,8 +18,8 @@
 
 namespace touchstone {
 
-// Body coordinates v (as stored) become scale * matrix * v + origin in the pair's frame: world axes,
-// seen from the centre of body a, in units of the greater of the two bodies (a power of two).
+// Body coordinates v (as stored) become scale * matrix * v + origin in the pair's frame: world
+// axes, seen from the centre of body a, in units of the greater of the two bodies (a power of two).
 template <class Scalar>
 struct PlacedPolytope {
   const Polytope<Scalar>* shape;
@@ -70,17 +70,18 @@ class PolytopePair {
   // raised by the number of axes.
   Axis<Scalar> face_axis(int& tested) const;
 
-  // Writes answer and status for the greatest gap of all axes, and for a penetration query of bodies
-  // that are not apart, distance, bounds, normal and witness points. `exact`: the axes held all facet
-  // normals, so that the gap bounds the signed distance from both sides, not just from below.
+  // Writes answer and status for the greatest gap of all axes, and for a penetration query of
+  // bodies that are not apart, distance, bounds, normal and witness points. `exact`: the axes held
+  // all facet normals, so that the gap bounds the signed distance from both sides, not just from
+  // below.
   void report(const Axis<Scalar>& best, Task task, bool exact, Outcome& outcome) const;
 
  private:
   PlacedPolytope<Scalar> a_, b_;
   Scalar error_;
   bool far_apart_, complete_;
-  double unit_;    // metres
-  Vec3d anchor_;   // the frame's origin in the world, metres
+  double unit_;   // metres
+  Vec3d anchor_;  // the frame's origin in the world, metres
 };
 
 extern template class PolytopePair<float>;

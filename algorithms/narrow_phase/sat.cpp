@@ -1,7 +1,7 @@
 // Separating axis test, complete: face normals of both bodies, and cross products of their edges.
 // Paper:   Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996; Gregorius, "The Separating Axis Test
-//          between Convex Polyhedra", GDC 2013 (an edge pair counts only where its arcs cross on the
-//          Gauss map).
+//          between Convex Polyhedra", GDC 2013 (an edge pair counts only where its arcs cross on
+//          the Gauss map).
 // Departs: edges and normals have unit length in the arc test, and what rounding leaves open is
 //          kept: such an axis is measured over all vertices, which is right for any axis. Axes of
 //          almost parallel edges are made orthogonal to one edge again; what is then left of the
@@ -60,8 +60,8 @@ class Sat final : public NarrowPhase {
       const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
       const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
       if (batch.kind_b == ShapeKind::halfspace) {
-        outcomes[i] = solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b,
-                                      batch.task);
+        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task,
+                        outcomes[i]);
       } else {
         const PolytopePair<Scalar> pair(polytopes_[a], pose_a, polytopes_[b], pose_b);
         solve_pair(pair, batch.task, outcomes[i]);
@@ -74,7 +74,7 @@ class Sat final : public NarrowPhase {
   // Unit vectors with a few roundings each: a product below this may have either sign.
   static constexpr Scalar uncertain = 16 * epsilon;
   // Sine of the angle of two edges under which their axis is looked after.
-  static constexpr Scalar almost_parallel = Scalar{0.1};
+  static constexpr Scalar almost_parallel = Scalar{0.5};
   // Under which the axis is noise.
   static constexpr Scalar parallel = 1024 * epsilon;
 
@@ -105,18 +105,21 @@ class Sat final : public NarrowPhase {
       for (std::size_t k = 0; k < against_.size(); ++k) {
         against_[k] = sign(turned_b_.normals[k].dot(of_a.direction));
       }
-      const Vec3<Scalar>&left = turned_a_.normals[of_a.left], &right = turned_a_.normals[of_a.right];
+      const Vec3<Scalar>&left = turned_a_.normals[of_a.left],
+            &right = turned_a_.normals[of_a.right];
       for (const auto& of_b : turned_b_.edges) {
         const int b_left = against_[of_b.left], b_right = against_[of_b.right];
         if (b_left * b_right > 0) continue;
-        const int a_left = sign(left.dot(of_b.direction)), a_right = sign(right.dot(of_b.direction));
+        const int a_left = sign(left.dot(of_b.direction)),
+                  a_right = sign(right.dot(of_b.direction));
         if (a_left * a_right > 0) continue;
-        // The circles meet in two opposite points, and the arcs of a and of -b must do so in the same.
+        // The circles meet in two opposite points, and the arcs of a and of -b must do so in the
+        // same.
         const int side_b = b_left != 0 ? b_left : -b_right;
         const int side_a = a_left != 0 ? a_left : -a_right;
         if (side_a * side_b < 0) continue;
         const bool crossing = a_left * a_right * b_left * b_right != 0;
-        test_edge_pair(pair, of_a, of_b, side_a, crossing, best);
+        test_edge_pair(pair, of_a, of_b, side_a != 0 ? side_a : side_b, crossing, best);
         if (pair.separates(best)) return;
       }
     }
@@ -136,7 +139,7 @@ class Sat final : public NarrowPhase {
       const auto& ends = turned_a_.normals;
       const Vec3<Scalar> middle = ends[of_a.left] + ends[of_a.right];
       const Scalar length = middle.norm();
-      if (length < Scalar{1.4} && length > 0) offer(pair.axis_along(middle / length), best);
+      if (length < Scalar{1.5} && length > 0) offer(pair.axis_along(middle / length), best);
       return;
     }
     normal /= side < 0 ? -sine : sine;

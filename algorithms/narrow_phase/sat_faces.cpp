@@ -3,15 +3,17 @@
 //          Detection", SIGGRAPH 1996; section 5.2 reports on leaving out the axes of edge pairs.
 // Departs: any two convex polytopes. Flat hulls, segments and points have the sides of a prism or
 //          box of no thickness. Stops at the first axis that separates, after that of the centres.
-// Answers: "separated" is proven. "Overlapping" says that no face normal separates: bodies that only
+// Answers: "separated" is proven. "Overlapping" says that no face normal separates: bodies that
+// only
 //          an axis across an edge of each keeps apart are called overlapping as well. The depth is
 //          the least overlap along a face normal. Where the bodies do overlap it is an upper bound
-//          of the penetration depth, and exact unless an edge pair is shallower; moving b by it along
-//          the normal always separates the bodies. So the lower bound of the signed distance is
-//          certified, and there is no upper one. The witness points are the closest points of the
-//          two supporting features as seen along the normal; where an edge pair is shallower these
-//          need not lie on one line along it.
-// Fails:   says not_converged where the greatest gap is below its rounding error, and degenerate for
+//          of the penetration depth, and exact unless an edge pair is shallower; moving b by it
+//          along the normal always separates the bodies. So the lower bound of the signed distance
+//          is certified, and there is no upper one. The witness points are the closest points of
+//          the two supporting features as seen along the normal; where an edge pair is shallower
+//          these need not lie on one line along it.
+// Fails:   says not_converged where the greatest gap is below its rounding error, and degenerate
+// for
 //          a solid hull that came without faces and that no axis tried separates.
 // Cost:    O(Fa Vb + Fb Va) time; no memory.
 #include "algorithms/kernels/halfspace.h"
@@ -36,8 +38,8 @@ class SatFaces final : public NarrowPhase {
       const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
       const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
       if (batch.kind_b == ShapeKind::halfspace) {
-        outcomes[i] = solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b,
-                                      batch.task);
+        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task,
+                        outcomes[i]);
       } else {
         const PolytopePair<Scalar> pair(polytopes_[a], pose_a, polytopes_[b], pose_b);
         solve_pair(pair, batch.task, outcomes[i]);
@@ -74,15 +76,16 @@ bool takes(ShapeKind a, ShapeKind b, Task) {
 
 TOUCHSTONE_NARROW_PHASE {
   using namespace touchstone;
-  return {{.info = {.name = "sat-faces",
-                    .citation = "Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996: separating axes, "
-                                "face normals only"},
-           .tasks = {Task::intersect, Task::penetration},
-           .scalars = {Precision::float32, Precision::float64},
-           .supports = takes,
-           .approximate = true,
-           .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
-             if (settings.scalar == Precision::float32) return std::make_unique<SatFaces<float>>();
-             return std::make_unique<SatFaces<double>>();
-           }}};
+  return {
+      {.info = {.name = "sat-faces",
+                .citation = "Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996: separating axes, "
+                            "face normals only"},
+       .tasks = {Task::intersect, Task::penetration},
+       .scalars = {Precision::float32, Precision::float64},
+       .supports = takes,
+       .approximate = true,
+       .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
+         if (settings.scalar == Precision::float32) return std::make_unique<SatFaces<float>>();
+         return std::make_unique<SatFaces<double>>();
+       }}};
 }
