@@ -1,0 +1,106 @@
+#include "algorithms/kernels/halfspace.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+namespace {
+
+// Far from the world's origin a plane's place is a small difference of large numbers.
+using Wide = long double;
+using Wide3 = Eigen::Matrix<Wide, 3, 1>;
+
+Wide3 wide(const Vec3d& x) { return x.cast<Wide>(); }
+
+template <class Scalar>
+Wide3 world_normal(const SupportShape<Scalar>& halfspace, const Pose& pose, Wide& length) {
+  const Wide3 normal = pose.rotation.cast<Wide>() * wide(halfspace.normal);
+  length = normal.stableNorm();
+  return normal / length;
+}
+
+// Writes what the task asks for. Lengths in metres; `normal` from a to b; `on_a` is the witness
+// point on a.
+void answer(Task task, double distance, double rounding, const Vec3d& normal, const Vec3d& on_a,
+            Outcome& outcome) {
+  const bool apart = distance > rounding;
+  const bool common = distance < -rounding;
+  outcome.answer = apart ? Answer::separated : common ? Answer::overlapping : Answer::unknown;
+  outcome.status = apart || common ? Status::ok : Status::not_converged;
+  if (task == Task::intersect || (task == Task::distance && common) ||
+      (task == Task::penetration && apart)) {
+    return;
+  }
+  outcome.distance = distance;
+  outcome.lower = distance - rounding;
+  outcome.upper = distance + rounding;
+  outcome.normal = normal;
+  outcome.witness_a = on_a;
+  outcome.witness_b = on_a + distance * normal;
+}
+
+}  // namespace
+
+template <class Scalar>
+void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
+                     const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
+                     Outcome& outcome) {
+  Wide length = 0;
+  const Wide3 plane = world_normal(b, pose_b, length);
+  const Wide3 turned_centre = pose_a.rotation.cast<Wide>() * wide(a.centre);
+  const Wide3 from_b = turned_centre + (wide(pose_a.translation) - wide(pose_b.translation));
+  const auto height = static_cast<double>(plane.dot(from_b) - b.offset / length);
+
+  const double unit = power_of_two_above(std::max(std::abs(height), a.reach(pose_a.rotation)));
+  TurnedShape<Scalar> turned(a, pose_a.rotation, unit);
+  const Vec3<Scalar> outward = plane.template cast<Scalar>();
+  const Vec3<Scalar> lowest = turned.support(-outward);
+  const Scalar distance =
+      static_cast<Scalar>(height / unit) + outward.dot(lowest) - turned.radius();
+
+  const Vec3d normal = -plane.template cast<double>();
+  const Vec3d on_a = pose_a(a.centre) + unit * (lowest.template cast<double>() +
+                                                static_cast<double>(turned.radius()) * normal);
+  constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
+  answer(task, static_cast<double>(distance) * unit, rounding * unit, normal, on_a, outcome);
+  outcome.iterations = 0;
+  outcome.support_calls = 1;
+}
+
+template <class Scalar>
+void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
+                      const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
+                      Outcome& outcome) {
+  Wide length_a = 0;
+  Wide length_b = 0;
+  const Wide3 normal_a = world_normal(a, pose_a, length_a);
+  const Wide3 normal_b = world_normal(b, pose_b, length_b);
+  constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
+  outcome.iterations = 0;
+  outcome.support_calls = 0;
+  if (normal_a.dot(normal_b) > 0 || normal_a.cross(normal_b).norm() > rounding) {
+    outcome.answer = Answer::overlapping;
+    outcome.status = task == Task::penetration ? Status::degenerate : Status::ok;
+    return;
+  }
+  // Heights of the two planes along a's normal, over the origin of body a.
+  const Wide height_a = a.offset / length_a;
+  const Wide place_b = normal_a.dot(wide(pose_b.translation) - wide(pose_a.translation));
+  const Wide height_b = place_b - b.offset / length_b;
+  const double size =
+      static_cast<double>(std::max({std::abs(height_a), std::abs(place_b), std::abs(height_b)}));
+  const Vec3d normal = normal_a.template cast<double>();
+  answer(task, static_cast<double>(height_b - height_a), rounding * size, normal,
+         pose_a.translation + static_cast<double>(height_a) * normal, outcome);
+}
+
+template void solve_halfspace(const SupportShape<float>&, const Pose&, const SupportShape<float>&,
+                              const Pose&, Task, Outcome&);
+template void solve_halfspace(const SupportShape<double>&, const Pose&, const SupportShape<double>&,
+                              const Pose&, Task, Outcome&);
+template void solve_halfspaces(const SupportShape<float>&, const Pose&, const SupportShape<float>&,
+                               const Pose&, Task, Outcome&);
+template void solve_halfspaces(const SupportShape<double>&, const Pose&,
+                               const SupportShape<double>&, const Pose&, Task, Outcome&);
+
+}  // namespace touchstone
