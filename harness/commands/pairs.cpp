@@ -100,6 +100,7 @@ void pairs(const PairsOptions& options) {
       if (pairs_csv) write_pairs(*pairs_csv, frame, contender);
     }
   }
+  csv.flush();  // a full disk is to be found before either file is there
   if (pairs_csv) pairs_csv->close();
   csv.close();
   print_summary(contenders, frames.size());

@@ -1,0 +1,46 @@
+// The program, run as a user runs it.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "harness/io/csv.h"
+
+namespace touchstone {
+
+struct Ran {
+  int status = -1;   // the exit status; -1 where a signal ended it
+  std::string text;  // what it printed, to either stream
+};
+
+// Runs the program with these arguments, as the shell splits them.
+inline Ran run_program(const std::string& arguments) {
+  std::FILE* const pipe = popen((TOUCHSTONE_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("popen");
+  Ran ran;
+  std::array<char, 4096> bytes;
+  for (std::size_t got; (got = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
+    ran.text.append(bytes.data(), got);
+  }
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
+  return ran;
+}
+
+// The rows of a CSV file with these columns.
+inline std::vector<std::vector<std::string>> read_rows(const std::filesystem::path& file,
+                                                       const std::vector<std::string>& columns) {
+  std::vector<std::vector<std::string>> rows;
+  CsvReader(file, columns).read([&](const CsvReader::Row& row) {
+    std::vector<std::string>& texts = rows.emplace_back();
+    for (std::size_t i = 0; i < columns.size(); ++i) texts.emplace_back(row.text(i));
+  });
+  return rows;
+}
+
+}  // namespace touchstone
