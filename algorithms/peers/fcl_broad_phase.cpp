@@ -21,6 +21,7 @@
 //          - the hash, when a box leaves the limits: two boxes that overlap only outside are lost.
 // Fails:   SaP and the interval tree order equal end points at random, so they miss pairs that
 //          merely touch, and pairs of flat boxes. SaP and the hash are quadratic in dense scenes.
+//          The tree in an array leaks its leaves (about 80 bytes a body) each time that it is made.
 // Cost:    naive O(n^2); SSaP and interval tree O(n log n + pairs on the axis); SaP as the number
 // of
 //          end points passed, times the number of pairs; trees O(n log n) to build.
@@ -39,8 +40,21 @@
 #include <limits>
 #include <new>
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
+
 namespace touchstone {
 namespace {
+
+// The tree in an array loses its copy of the leaves (see above): that is no news to a leak check.
+void register_all(fcl::BroadPhaseCollisionManager<double>& manager,
+                  const std::vector<fcl::CollisionObject<double>*>& objects) {
+#if defined(__SANITIZE_ADDRESS__)
+  __lsan::ScopedDisabler known;
+#endif
+  manager.registerObjects(objects);
+}
 
 using Manager = fcl::BroadPhaseCollisionManager<double>;
 using Object = fcl::CollisionObject<double>;
@@ -234,7 +248,7 @@ class FclBroadPhase final : public BroadPhase {
     }
     live_ = batch_.size();
     manager_ = rules_.make(boxes_);
-    manager_->registerObjects(batch_);
+    register_all(*manager_, batch_);
     manager_->setup();
   }
 
