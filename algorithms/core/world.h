@@ -20,15 +20,14 @@ struct World {
   // flat scene keeps its room too. Empty boxes do not count; without any, two metres a side.
   static World around(std::span<const Aabb> boxes);
 
+  // Strictly inside.
   bool holds(const Aabb& box) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (box.min[axis] < min[axis] || box.max[axis] > max[axis]) return false;
+      if (!(box.min[axis] > min[axis] && box.max[axis] < max[axis])) return false;
     }
     return true;
   }
-  double widest() const {
-    return std::max({max[0] - min[0], max[1] - min[1], max[2] - min[2]});
-  }
+  double widest() const { return std::max({max[0] - min[0], max[1] - min[1], max[2] - min[2]}); }
 };
 
 inline World World::around(std::span<const Aabb> boxes) {
@@ -47,8 +46,8 @@ inline World World::around(std::span<const Aabb> boxes) {
     double& low = bounds.min[axis];
     double& high = bounds.max[axis];
     // The last two keep room above the rounding of coordinates, and above zero.
-    const double room = std::max({(high - low) / 2, widest / 1000,
-                                  1e-6 * std::max(std::abs(low), std::abs(high)), 1e-20});
+    const double room = std::max(
+        {(high - low) / 2, widest / 1000, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-20});
     low -= room;
     high += room;
   }

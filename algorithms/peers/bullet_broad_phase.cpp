@@ -151,7 +151,8 @@ class BulletBroadPhase final : public BroadPhase {
     sink.start(1);
     PairBuffer& out = sink.chunk(0);
     broad_->calculateOverlappingPairs(nullptr);
-    const btBroadphasePairArray& pairs = broad_->getOverlappingPairCache()->getOverlappingPairArray();
+    const btBroadphasePairArray& pairs =
+        broad_->getOverlappingPairCache()->getOverlappingPairArray();
     for (int i = 0; i < pairs.size(); ++i) {
       const std::uint32_t a = to_id(pairs[i].m_pProxy0);
       const std::uint32_t b = to_id(pairs[i].m_pProxy1);
