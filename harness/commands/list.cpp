@@ -1,5 +1,114 @@
+// list: what there is, and what is not built and why.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/registry.h"
 #include "harness/commands/commands.h"
+#include "harness/error.h"
+#include "harness/io/csv.h"
 
 namespace touchstone {
-void add_list(CLI::App&, int&) {}
+namespace {
+
+struct Listed {
+  const AlgorithmInfo* info;
+  std::string_view kind;
+  std::string tasks, scalars;  // joined by ';'
+};
+
+template <class Enumeration>
+std::string joined(const std::vector<Enumeration>& values) {
+  std::string text;
+  for (const Enumeration value : values) {
+    if (!text.empty()) text += ';';
+    text += to_string(value);
+  }
+  return text;
+}
+
+std::vector<Listed> all_algorithms() {
+  std::vector<Listed> all;
+  for (const BroadPhaseEntry& entry : broad_phases()) {
+    all.push_back({&entry.info, "broad", "pairs", std::string(to_string(Precision::float32))});
+  }
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    all.push_back({&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars)});
+  }
+  return all;
+}
+
+std::string as_csv(const std::vector<Listed>& all) {
+  std::string text = "name,kind,origin,built,reason,tasks,scalars,citation\n";
+  for (const Listed& row : all) {
+    const std::array<std::string_view, 8> fields = {row.info->name,
+                                                    row.kind,
+                                                    to_string(row.info->origin),
+                                                    is_built(*row.info) ? "true" : "false",
+                                                    row.info->reason,
+                                                    row.tasks,
+                                                    row.scalars,
+                                                    row.info->citation};
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (i > 0) text += ',';
+      append_csv_field(text, fields[i]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string as_table(const std::vector<Listed>& all) {
+  const auto widest = [&](std::string_view title, auto width_of) {
+    std::size_t width = title.size();
+    for (const Listed& row : all) width = std::max(width, width_of(row));
+    return width;
+  };
+  const std::size_t name = widest("name", [](const Listed& r) { return r.info->name.size(); });
+  const std::size_t tasks = widest("tasks", [](const Listed& r) { return r.tasks.size(); });
+  const std::size_t scalars = widest("scalars", [](const Listed& r) { return r.scalars.size(); });
+  std::string text;
+  const auto line = [&](std::string_view n, std::string_view kind, std::string_view origin,
+                        std::string_view t, std::string_view s, std::string_view about) {
+    text += fmt::format("{:<{}}  {:<6}  {:<6}  {:<{}}  {:<{}}  {}\n", n, name, kind, origin, t,
+                        tasks, s, scalars, about);
+  };
+  line("name", "kind", "origin", "tasks", "scalars", "from");
+  for (const Listed& row : all) {
+    std::string about =
+        is_built(*row.info) ? row.info->citation : "not built, because " + row.info->reason;
+    if (!row.info->known_defect.empty()) about += " (known defect: " + row.info->known_defect + ")";
+    line(row.info->name, row.kind, to_string(row.info->origin), row.tasks, row.scalars, about);
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, int& status) {
+  const auto format = std::make_shared<std::string>("table");
+  CLI::App& command = *app.add_subcommand("list", "List the algorithms, built or not");
+  command.add_option("--format", *format, "How to print them")
+      ->check(CLI::IsMember({"table", "csv"}))
+      ->capture_default_str();
+  command.callback([format, &status] {
+    const std::vector<Listed> all = all_algorithms();
+    const std::string text = *format == "csv" ? as_csv(all) : as_table(all);
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
+        std::fflush(stdout) != 0) {
+      throw InputError("standard output", 0,
+                       fmt::format("cannot be written: {}", std::strerror(errno)));
+    }
+    status = exit_done;
+  });
+}
+
 }  // namespace touchstone

@@ -1,5 +1,211 @@
+// query: cases through narrow phases, one answer a row.
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/selection.h"
+#include "harness/io/cases.h"
+#include "harness/io/csv.h"
+#include "harness/run/isolate.h"
+#include "harness/run/ordered_pair.h"
 
 namespace touchstone {
-void add_query(CLI::App&, int&) {}
+namespace {
+
+struct QueryOptions {
+  std::string cases, narrow, out;
+  Task task = Task::intersect;
+  NarrowPhaseSettings settings;
+  double time_limit = 5;  // seconds a query
+};
+
+constexpr std::size_t shown_failures = 5;  // of one algorithm, on the terminal
+
+// One algorithm's outcomes for all cases.
+struct Answers {
+  const NarrowPhaseEntry* entry;
+  std::vector<Outcome> outcomes;
+};
+
+// Leaves what the task asks for. An algorithm may know more, but then knows it by chance.
+Outcome asked_for(Outcome outcome, Task task) {
+  const bool apart = outcome.answer == Answer::separated || outcome.answer == Answer::touching;
+  const bool met = outcome.answer == Answer::overlapping || outcome.answer == Answer::touching;
+  if ((task == Task::distance && apart) || (task == Task::penetration && met)) return outcome;
+  outcome.distance = Outcome::none;
+  outcome.normal = outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
+  return outcome;
+}
+
+// The algorithm is made for the query and given its two shapes alone, so that no case can spoil
+// another's answer.
+Outcome answer(const NarrowPhaseEntry& entry, const Case& c, const QueryOptions& options) {
+  const std::array<Shape, 2> shapes = {c.shape_a, c.shape_b};
+  const std::array<Pose, 2> poses = {c.pose_a, c.pose_b};
+  constexpr std::array<std::uint32_t, 2> bodies = {0, 1};
+  const bool swap = needs_swap(c.shape_a.kind, c.shape_b.kind);
+  const std::span<const std::uint32_t> a(&bodies[swap ? 1 : 0], 1);
+  const std::span<const std::uint32_t> b(&bodies[swap ? 0 : 1], 1);
+  const PairBatch batch = {.task = options.task,
+                           .kind_a = shapes[a[0]].kind,
+                           .kind_b = shapes[b[0]].kind,
+                           .first = a,
+                           .second = b,
+                           .shape_of = bodies,
+                           .poses = poses};
+  Outcome outcome;
+  const std::unique_ptr<NarrowPhase> narrow_phase = entry.make(options.settings);
+  narrow_phase->bind(shapes);
+  narrow_phase->solve(batch, {&outcome, 1});
+  return swap ? swapped(outcome) : outcome;
+}
+
+// All cases that the algorithm takes, in a child process; the failures go to the terminal.
+Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
+            const QueryOptions& options) {
+  Answers answers = {&entry, std::vector<Outcome>(cases.size())};
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < cases.size() && offers(entry, options.settings.scalar); ++i) {
+    if (offers(entry, cases[i].shape_a.kind, cases[i].shape_b.kind, options.task)) {
+      taken.push_back(i);
+    }
+  }
+  SharedArray<Outcome> shared(taken.size());
+  const IsolationLimits limits = {.item_seconds = options.time_limit};
+  const IsolationReport report = isolate(taken.size(), limits, [&]() -> ItemWork {
+    return [&](std::size_t item) { shared[item] = answer(entry, cases[taken[item]], options); };
+  });
+  for (std::size_t item = 0; item < taken.size(); ++item) {
+    Outcome& outcome = answers.outcomes[taken[item]];
+    if (report.states[item] == ItemState::done) {
+      outcome = asked_for(shared[item], options.task);
+    } else {
+      outcome.status = report.states[item] == ItemState::timed_out ? Status::timed_out  //
+                                                                   : Status::crashed;
+    }
+  }
+  for (std::size_t i = 0; i < report.failures.size() && i < shown_failures; ++i) {
+    fmt::print(stderr, "{}, case '{}': {}\n", entry.info.name,
+               cases[taken[report.failures[i].item]].id, report.failures[i].reason());
+  }
+  if (report.failures.size() > shown_failures) {
+    fmt::print(stderr, "{}: {} more failures\n", entry.info.name,
+               report.failures.size() - shown_failures);
+  }
+  return answers;
+}
+
+void write_row(CsvWriter& csv, const Case& c, const Answers& answers, const Outcome& outcome,
+               const QueryOptions& options) {
+  csv.field(c.id).field(answers.entry->info.name);
+  csv.field(to_string(options.settings.scalar)).field(to_string(options.task));
+  csv.field(to_string(outcome.answer)).field(to_string(outcome.status));
+  csv.field(outcome.distance).field(outcome.lower).field(outcome.upper);
+  for (const Vec3d& v : {outcome.normal, outcome.witness_a, outcome.witness_b}) {
+    for (const double x : v) csv.field(x);
+  }
+  for (const std::int32_t count : {outcome.iterations, outcome.support_calls}) {
+    if (count < 0) {
+      csv.field("");
+    } else {
+      csv.field(count);
+    }
+  }
+  csv.end_row();
+}
+
+// How often each algorithm gave which answer with which status.
+void print_summary(const std::vector<Answers>& all) {
+  fmt::print("{:<28} {:>9} {:>8} {:>11} {:>7}  {}\n", "algorithm", "separated", "touching",
+             "overlapping", "unknown", "status");
+  for (const Answers& answers : all) {
+    std::array<std::size_t, 4> counts{};
+    std::map<Status, std::size_t> statuses;
+    for (const Outcome& outcome : answers.outcomes) {
+      ++counts[static_cast<std::size_t>(outcome.answer)];
+      ++statuses[outcome.status];
+    }
+    std::string text;
+    for (const auto& [status, count] : statuses) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
+    }
+    fmt::print("{:<28} {:>9} {:>8} {:>11} {:>7}  {}\n", answers.entry->info.name, counts[0],
+               counts[1], counts[2], counts[3], text);
+  }
+}
+
+void query(const QueryOptions& options) {
+  const auto entries = select(narrow_phases(), split_names(options.narrow), "narrow phase");
+  const std::vector<Case> cases = read_cases(options.cases);
+  check_output(options.out);
+  std::vector<Answers> all;
+  for (const NarrowPhaseEntry* entry : entries) all.push_back(ask(*entry, cases, options));
+  CsvWriter csv(options.out, {"id",       "algorithm", "scalar", "task",       "answer",
+                              "status",   "distance",  "lower",  "upper",      "normal_x",
+                              "normal_y", "normal_z",  "a_x",    "a_y",        "a_z",
+                              "b_x",      "b_y",       "b_z",    "iterations", "support_calls"});
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const Answers& answers : all) {
+      write_row(csv, cases[i], answers, answers.outcomes[i], options);
+    }
+  }
+  csv.close();
+  print_summary(all);
+}
+
+}  // namespace
+
+void add_query(CLI::App& app, int& status) {
+  const auto options = std::make_shared<QueryOptions>();
+  CLI::App& command = *app.add_subcommand("query", "Ask narrow phases about pairs of bodies");
+  command.add_option("CASES", options->cases, "Cases: JSON, one object a line")->required();
+  command.add_option("--narrow", options->narrow, "Narrow phases: names joined by commas, or all")
+      ->required();
+  command
+      .add_option_function<std::string>(
+          "--task",
+          [options](const std::string& name) {
+            for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+              if (name == to_string(task)) options->task = task;
+            }
+          },
+          "What is asked")
+      ->check(CLI::IsMember({"intersect", "distance", "penetration"}))
+      ->required();
+  command
+      .add_option_function<std::string>(
+          "--scalar",
+          [options](const std::string& name) {
+            options->settings.scalar = name == "float" ? Precision::float32 : Precision::float64;
+          },
+          "What is calculated in")
+      ->check(CLI::IsMember({"float", "double"}))
+      ->default_str("double");
+  command
+      .add_option("--tolerance", options->settings.tolerance,
+                  "Error of a distance at which to stop, as a part of the pair's size")
+      ->check(positive_number);
+  command
+      .add_option("--max-iterations", options->settings.max_iterations,
+                  "Greatest number of iterations of each loop of a query")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()).description(""));
+  command.add_option("--time-limit", options->time_limit, "Seconds that a query may take")
+      ->check(positive_number)
+      ->capture_default_str();
+  command.add_option("--out", options->out, "The CSV file to write")->required();
+  command.callback([options, &status] {
+    query(*options);
+    status = exit_done;
+  });
+}
+
 }  // namespace touchstone

@@ -45,9 +45,16 @@ class CsvReader {
   std::vector<std::string> columns_;
 };
 
+// Appends one field, quoted where it has to be: what goes to a terminal or a pipe as CSV.
+void append_csv_field(std::string& line, std::string_view text);
+
+// Throws what CsvWriter's constructor would, and leaves nothing behind: asked before long work.
+void check_output(const std::filesystem::path& file);
+
 // Writes a CSV file under a temporary name beside it and renames it when `close` is called: readers
 // see a whole file or none. Without close (an exception on the way) nothing is left behind. Every
-// failure to write, such as a full disk, is an InputError with the file's name.
+// failure to write, such as a full disk, is an InputError with the file's name. A device or a pipe
+// is written as it is.
 class CsvWriter {
  public:
   CsvWriter(std::filesystem::path file, const std::vector<std::string>& header);
@@ -67,7 +74,10 @@ class CsvWriter {
   void close();
 
  private:
-  std::filesystem::path file_, temporary_;
+  void discard();
+  [[noreturn]] void fail();  // with errno
+
+  std::filesystem::path file_, temporary_;  // no temporary: `file` itself is written
   std::FILE* stream_ = nullptr;
   std::string line_;
   std::size_t columns_ = 0, fields_ = 0;

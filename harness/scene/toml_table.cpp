@@ -55,6 +55,13 @@ void TomlTable::fail_at(const toml::node& node, std::string_view key,
   throw InputError(file_, line_of(node), place + ": " + message);
 }
 
+std::int64_t TomlTable::line() const { return line_of(*table_); }
+
+std::int64_t TomlTable::line(std::string_view key) const {
+  const toml::node* found = table_->get(key);
+  return found == nullptr ? 0 : line_of(*found);
+}
+
 void TomlTable::fail(std::string_view key, const std::string& message) const {
   const toml::node* found = table_->get(key);
   fail_at(found != nullptr ? *found : *table_, key, message);

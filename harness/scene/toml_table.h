@@ -39,6 +39,9 @@ class TomlTable {
       : table_(&table), file_(std::move(file)), where_(std::move(where)) {}
 
   const std::string& file() const { return file_; }
+  const std::string& where() const { return where_; }
+  std::int64_t line() const;                      // of the table
+  std::int64_t line(std::string_view key) const;  // 0 where there is no such key
   bool has(std::string_view key) { return node(key) != nullptr; }
   // The same without making the key a known one.
   bool contains(std::string_view key) const { return table_->contains(key); }

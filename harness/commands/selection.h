@@ -1,0 +1,62 @@
+// Algorithms by the names that a user gave.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/error.h"
+
+namespace touchstone {
+
+// The names of a list such as "sap,naive".
+inline std::vector<std::string> split_names(std::string_view list) {
+  std::vector<std::string> names;
+  for (;;) {
+    const std::size_t comma = list.find(',');
+    names.emplace_back(list.substr(0, comma));
+    if (comma == std::string_view::npos) return names;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+// The entries of these names, in the order named, each once; "all" stands for every one that is
+// built. InputError for an unknown name, with those that there are, and for one that is not built,
+// with the reason. `what` is "broad phase" or "narrow phase".
+template <class Entry>
+std::vector<const Entry*> select(std::span<const Entry> entries,
+                                 const std::vector<std::string>& names, std::string_view what) {
+  std::vector<const Entry*> chosen;
+  const auto choose = [&](const Entry& entry) {
+    if (std::ranges::find(chosen, &entry) == chosen.end()) chosen.push_back(&entry);
+  };
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (const Entry& entry : entries) {
+        if (is_built(entry.info)) choose(entry);
+      }
+      continue;
+    }
+    const auto at =
+        std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
+    if (at == entries.end()) {
+      std::string known = "all";
+      for (const Entry& entry : entries) known += ", " + entry.info.name;
+      throw InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
+    }
+    if (!is_built(at->info)) {
+      throw InputError(
+          fmt::format("the {} '{}' is not built, because {}", what, name, at->info.reason));
+    }
+    choose(*at);
+  }
+  if (chosen.empty()) throw InputError(fmt::format("no {} is built", what));
+  return chosen;
+}
+
+}  // namespace touchstone

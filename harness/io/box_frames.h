@@ -1,0 +1,33 @@
+// Frames of boxes from files: what the broad phases alone are run on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "algorithms/broad_phase.h"
+
+namespace touchstone {
+
+struct BoxFrame {
+  std::int64_t number = 0;  // as in the file
+  std::size_t count = 0;    // boxes of this frame; their ids are 0 .. count - 1
+  // Those boxes, and empty ones for the ids that only earlier frames had: FrameChange's array.
+  std::vector<Aabb> boxes;
+  // Against the frame before; empty lists in the first.
+  std::vector<std::uint32_t> moved, inserted, removed;
+
+  FrameChange change() const { return {boxes, moved, inserted, removed}; }
+  // For a build that knows of no earlier frame.
+  std::span<const Aabb> own_boxes() const { return std::span(boxes).first(count); }
+};
+
+// Reads a CSV file with the columns frame, id, min_x, min_y, min_z, max_x, max_y, max_z (metres),
+// or a Broadmark recording, told by the ending .aabbs. In CSV the frames' numbers rise, and each
+// frame's ids are 0, 1, 2, ... in order; frames may differ in how many. Numbers are rounded outward
+// to float. Throws InputError with file and line: no box at all, NaN, infinity, a number beyond the
+// range of float, min > max, an id or a frame out of order.
+std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file);
+
+}  // namespace touchstone

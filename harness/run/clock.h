@@ -1,0 +1,19 @@
+// The clock of all measurements.
+#pragma once
+
+#include <chrono>
+
+namespace touchstone {
+
+// Wall-clock time since it was made, from a clock that never goes back.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  void restart() { start_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace touchstone

@@ -1,0 +1,279 @@
+#include "harness/run/isolate.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include "harness/run/clock.h"
+
+namespace touchstone {
+namespace {
+
+constexpr int tick_milliseconds = 20;
+constexpr std::size_t kept_words = 400;  // bytes
+
+// What a child tells its parent, in shared memory.
+struct Progress {
+  // Items begun since the parent made this, counting the setup of each child: goes up whenever the
+  // child's time starts afresh.
+  std::atomic<std::uint64_t> beats = 0;
+  std::atomic<bool> in_setup = false;
+  std::atomic<std::size_t> item = 0;  // at hand
+  std::atomic<ItemState> end = ItemState::running;
+  std::array<char, kept_words> thrown{};
+};
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+
+void allow_memory(std::size_t bytes) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static_cast<void>(bytes);  // a sanitizer maps terabytes
+#else
+  unsigned long long pages = 0;
+  if (std::FILE* const file = std::fopen("/proc/self/statm", "re")) {
+    if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
+    std::fclose(file);
+  }
+  if (pages == 0) return;
+  const rlim_t used = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, used + bytes);
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+void keep_thrown(Progress& progress, std::string_view what) {
+  const std::size_t size = std::min(what.size(), progress.thrown.size() - 1);
+  std::copy_n(what.data(), size, progress.thrown.data());
+  progress.thrown[size] = '\0';
+  progress.end.store(ItemState::threw);
+}
+
+// Never returns: what the parent has open, buffered and registered for its exit is none of the
+// child's.
+[[noreturn]] void be_child(pid_t parent, int output, const IsolationLimits& limits,
+                           std::size_t first, Progress& progress, SharedArray<ItemState>& states,
+                           const std::function<ItemWork()>& setup) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could be asked for
+  prctl(PR_SET_DUMPABLE, 0);                     // no core dump, not even into a pipe
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP}) {
+    std::signal(signal, SIG_DFL);
+  }
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  allow_memory(limits.memory);
+  try {
+    const ItemWork work = setup();
+    progress.beats.fetch_add(1);  // first: or the setup's time would be held against an item
+    progress.in_setup.store(false);
+    for (std::size_t item = first; item < states.size(); ++item) {
+      progress.item.store(item);
+      states[item] = ItemState::running;
+      progress.beats.fetch_add(1);
+      work(item);
+      states[item] = ItemState::done;
+    }
+    progress.end.store(ItemState::done);
+    _exit(EXIT_SUCCESS);
+  } catch (const std::exception& error) {
+    keep_thrown(progress, error.what());
+  } catch (...) {
+    keep_thrown(progress, "something that is no std::exception");
+  }
+  _exit(EXIT_FAILURE);
+}
+
+// The end of what a child prints.
+class LastWords {
+ public:
+  explicit LastWords(int descriptor) : descriptor_(descriptor) {}
+  ~LastWords() { close(descriptor_); }
+  LastWords(const LastWords&) = delete;
+  LastWords& operator=(const LastWords&) = delete;
+
+  // Takes what is there, and waits for a tick when it is nothing.
+  void listen(int milliseconds) {
+    if (at_end_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(std::min(milliseconds, 1)));
+      return;
+    }
+    pollfd waiting{.fd = descriptor_, .events = POLLIN, .revents = 0};
+    if (poll(&waiting, 1, milliseconds) <= 0) return;
+    std::array<char, 4096> bytes;
+    const ssize_t got = read(descriptor_, bytes.data(), bytes.size());
+    if (got > 0) {
+      text_.append(bytes.data(), static_cast<std::size_t>(got));
+      if (text_.size() > kept_words) text_.erase(0, text_.size() - kept_words);
+    }
+    at_end_ = got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN);
+    heard_ = got > 0;
+  }
+  std::string take() {
+    do {
+      heard_ = false;
+      listen(0);
+    } while (heard_);
+    while (!text_.empty() && (text_.back() == '\n' || text_.back() == ' ')) text_.pop_back();
+    return text_;
+  }
+
+ private:
+  int descriptor_;
+  bool at_end_ = false;
+  bool heard_ = false;
+  std::string text_;
+};
+
+// The child at work, as its parent sees it.
+class Child {
+ public:
+  Child(const IsolationLimits& limits, std::size_t first, Progress& progress,
+        SharedArray<ItemState>& states, const std::function<ItemWork()>& setup)
+      : limits_(limits), progress_(progress), pid_(start(limits, first, progress, states, setup)) {}
+  ~Child() {
+    if (pid_ > 0) stop();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  // Returns when the child has ended; stops it when it takes too long over one thing.
+  void watch() {
+    std::uint64_t beats = progress_.beats.load();
+    Stopwatch stopwatch;
+    while (waitpid(pid_, &status_, WNOHANG) == 0) {
+      const double allowed =
+          progress_.in_setup.load() ? limits_.setup_seconds : limits_.item_seconds;
+      if (const std::uint64_t now = progress_.beats.load(); now != beats) {
+        beats = now;
+        stopwatch.restart();
+      }
+      if (stopwatch.seconds() > allowed) {
+        stop();
+        stopped_ = true;
+        too_late_ = progress_.beats.load() != beats;
+        break;
+      }
+      words_->listen(tick_milliseconds);
+    }
+    pid_ = -1;
+  }
+
+  // After watch(): it was stopped just when it had gone on to another item, which has no fault.
+  bool stopped_too_late() const { return too_late_; }
+
+  // After watch(), of a child that did not do all.
+  IsolationFailure failure() {
+    IsolationFailure failure;
+    failure.item = progress_.item.load();
+    failure.in_setup = progress_.in_setup.load();
+    failure.words = words_->take();
+    if (stopped_) {
+      failure.state = ItemState::timed_out;
+    } else if (progress_.end.load() == ItemState::threw) {
+      failure.state = ItemState::threw;
+      failure.words = progress_.thrown.data();
+    } else if (WIFSIGNALED(status_)) {
+      failure.signal = WTERMSIG(status_);
+    } else {
+      failure.exit_code = WEXITSTATUS(status_);
+    }
+    return failure;
+  }
+
+ private:
+  pid_t start(const IsolationLimits& limits, std::size_t first, Progress& progress,
+              SharedArray<ItemState>& states, const std::function<ItemWork()>& setup) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "pipe");
+    words_ = std::make_unique<LastWords>(ends[0]);
+    std::fflush(nullptr);  // or the child would have a copy of what is not written yet
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    const int error = errno;
+    if (child == 0) be_child(parent, ends[1], limits, first, progress, states, setup);
+    close(ends[1]);
+    if (child < 0) throw std::system_error(error, std::generic_category(), "fork");
+    return child;
+  }
+  void stop() {
+    kill(pid_, SIGKILL);
+    while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+    }
+  }
+
+  const IsolationLimits& limits_;
+  Progress& progress_;
+  std::unique_ptr<LastWords> words_;
+  pid_t pid_;
+  int status_ = 0;
+  bool stopped_ = false;
+  bool too_late_ = false;
+};
+
+}  // namespace
+
+std::string IsolationFailure::reason() const {
+  std::string text;
+  switch (state) {
+    case ItemState::timed_out: text = "no answer in time"; break;
+    case ItemState::threw: text = "threw"; break;
+    default:
+      text = signal != 0 ? fmt::format("killed by signal {} ({})", signal, strsignal(signal))
+                         : fmt::format("left by exit({})", exit_code);
+  }
+  if (in_setup) text += " while it was set up";
+  return words.empty() ? text : text + ": " + words;
+}
+
+IsolationReport isolate(std::size_t items, const IsolationLimits& limits,
+                        const std::function<ItemWork()>& setup) {
+  IsolationReport report;
+  SharedArray<ItemState> states(items);
+  SharedArray<Progress> shared(1);
+  Progress& progress = shared[0];
+  for (std::size_t first = 0; first < items && report.failures.size() < limits.failures;) {
+    progress.item.store(first);
+    progress.in_setup.store(true);
+    progress.end.store(ItemState::running);
+    progress.beats.fetch_add(1);
+    Child child(limits, first, progress, states, setup);
+    child.watch();
+    if (progress.end.load() == ItemState::done) break;
+    if (child.stopped_too_late()) {
+      first = progress.item.load();
+      continue;
+    }
+    report.failures.push_back(child.failure());
+    const IsolationFailure& failure = report.failures.back();
+    if (failure.in_setup) {
+      std::ranges::fill(states.span().subspan(first), failure.state);
+      break;
+    }
+    states[failure.item] = failure.state;
+    first = failure.item + 1;
+  }
+  report.states.assign(states.span().begin(), states.span().end());
+  return report;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,375 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "algorithms/core/bounds.h"
+#include "harness/io/aabbs.h"
+#include "harness/scene/generators.h"
+#include "harness/scene/polytope.h"
+#include "harness/scene/rigid_ipc.h"
+#include "harness/scene/scene.h"
+#include "harness/scene/shape_reader.h"
+#include "harness/scene/toml_table.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::int64_t most_bodies = 100'000'000;
+constexpr std::int64_t most_frames = 1'000'000;
+constexpr int generated_frames = 10;
+constexpr double broadmark_gravity = 0.0981;  // sides of the world a second squared
+constexpr double broadmark_period = 6.2;      // seconds
+
+constexpr std::string_view motion_names[] = {"inertial", "brownian", "free_fall",
+                                             "rotating_gravity"};
+
+bool has_walls(const Motion& motion) { return motion.wall_min.x() <= motion.wall_max.x(); }
+
+void refuse_count(const std::string& file, const SceneOverrides& overrides) {
+  if (overrides.count == -1) return;
+  throw InputError(file, 0,
+                   fmt::format("a count of {} was asked for; expected none, as the bodies are "
+                               "listed and only a generator makes as many as one likes",
+                               overrides.count));
+}
+
+void refuse_seed(const std::string& file, const SceneOverrides& overrides) {
+  if (overrides.seed == -1) return;
+  throw InputError(file, 0, "a seed was asked for; expected none, as nothing is random");
+}
+
+std::uint64_t read_seed(TomlTable& table, const SceneOverrides& overrides) {
+  const std::int64_t seed = table.integer("seed", 0, INT64_MAX, 1);
+  const std::int64_t used = overrides.seed == -1 ? seed : overrides.seed;
+  if (used < 0) {
+    throw InputError(table.file(), 0,
+                     fmt::format("a seed of {} was asked for; expected 0 or more", used));
+  }
+  return static_cast<std::uint64_t>(used);
+}
+
+// Reads `motion` and what belongs to it; the scene's own motion gives the defaults. `side` is the
+// width of a generated world, 0 for others.
+void read_motion(TomlTable& table, double side, Motion& motion) {
+  motion.time_step = table.number("time_step", {.low = 1e-9, .high = 1e6}, motion.time_step);
+  motion.kind = static_cast<MotionKind>(
+      table.choice("motion", motion_names, static_cast<std::size_t>(motion.kind)));
+  if (motion.kind == MotionKind::free_fall || motion.kind == MotionKind::rotating_gravity) {
+    const double factor = motion.kind == MotionKind::free_fall ? 1 : 4;
+    const double fallback = side > 0 ? factor * broadmark_gravity * side : 9.81;
+    motion.acceleration = table.number("acceleration", not_negative, fallback);
+  }
+  if (motion.kind == MotionKind::rotating_gravity) {
+    motion.period = table.number("period", {.low = 1e-9, .high = 1e9}, broadmark_period);
+  }
+}
+
+// What listed and imported scenes may add: walls, and what brownian motion needs.
+void read_motion_of_listed(TomlTable& table, const SceneOverrides& overrides, Scene& scene) {
+  Motion& motion = scene.motion;
+  read_motion(table, 0, motion);
+  if (motion.kind == MotionKind::brownian) {
+    motion.speed = table.number("speed", not_negative, 1.0);
+    motion.seed = read_seed(table, overrides);
+  } else {
+    refuse_seed(table.file(), overrides);
+  }
+  if (!table.has("wall_min") && !table.has("wall_max")) return;
+  motion.wall_min = table.vector("wall_min", any_number);
+  motion.wall_max = table.vector("wall_max", any_number);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (motion.wall_min[axis] > motion.wall_max[axis]) {
+      table.fail("wall_max", fmt::format("found {} below wall_min {}; expected min <= max",
+                                         motion.wall_max[axis], motion.wall_min[axis]));
+    }
+  }
+}
+
+// Row-major, and kept as it stands where it is a rotation to a thousandth.
+Mat3d read_matrix(TomlTable& table) {
+  const std::vector<double> m = table.numbers("rotation", 9, any_number);
+  Mat3d rotation;
+  rotation << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
+  const double error = (rotation.transpose() * rotation - Mat3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error <= 1e-3) || rotation.determinant() < 0) {
+    table.fail("rotation", fmt::format("the columns are not orthonormal or not right-handed (off "
+                                       "by {:.3g}); expected a rotation matrix, row by row",
+                                       error));
+  }
+  return rotation;
+}
+
+Mat3d read_rotation(TomlTable& table) {
+  if (table.has("rotation")) {
+    if (table.contains("quaternion_wxyz")) {
+      table.fail("quaternion_wxyz", "given beside rotation; expected one of the two");
+    }
+    return read_matrix(table);
+  }
+  if (!table.has("quaternion_wxyz")) return Mat3d::Identity();
+  const std::vector<double> q = table.numbers("quaternion_wxyz", 4, any_number);
+  // Scaled first, so that no square overflows or vanishes.
+  const double size = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
+  if (!(size > 0)) {
+    table.fail("quaternion_wxyz", "found [0, 0, 0, 0]; expected a quaternion that is not zero");
+  }
+  return rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
+}
+
+// A scene file's lists of shapes and bodies.
+class BodyReader {
+ public:
+  BodyReader(TomlTable& table, ShapeReader& shapes, Scene& scene)
+      : table_(table), shapes_(shapes), scene_(scene) {}
+
+  // Returns the line of each body.
+  std::vector<std::int64_t> read() {
+    if (table_.has("shapes")) {
+      TomlTable named = table_.inside("shapes", "shapes");
+      for (const std::string& name : named.keys()) {
+        TomlTable shape = named.inside(name, "shapes." + name);
+        named_.emplace(name, add(shape));
+      }
+    }
+    std::vector<std::int64_t> lines;
+    for (TomlTable& body : table_.tables("body")) {
+      read_body(body);
+      lines.push_back(body.line());
+    }
+    return lines;
+  }
+
+ private:
+  struct Placed {
+    std::uint32_t shape;
+    Mat3d turn;
+  };
+
+  Placed add(TomlTable& table) {
+    const TurnedShape turned = shapes_.read(table);
+    table.finish();
+    scene_.shapes.push_back(turned.shape);
+    return {static_cast<std::uint32_t>(scene_.shapes.size() - 1), turned.turn};
+  }
+
+  // The key "shape" is a name or a table; "mesh" and "scale" stand in the body itself.
+  Placed shape_of(TomlTable& body) {
+    const toml::node* node = body.node("shape");
+    if (node == nullptr && body.contains("mesh")) return mesh_of(body);
+    if (node == nullptr) body.fail("shape", "missing; expected a table, a name or a mesh");
+    if (body.contains("mesh")) body.fail("mesh", "given beside shape; expected one of the two");
+    if (!node->is_string()) {
+      TomlTable shape = body.inside("shape", body.where() + ": shape");
+      return add(shape);
+    }
+    const std::string name = body.text("shape");
+    const auto found = named_.find(name);
+    if (found != named_.end()) return found->second;
+    std::string names;
+    for (const auto& [known, placed] : named_) names += (names.empty() ? "" : ", ") + known;
+    body.fail("shape", fmt::format("found \"{}\"; expected one of the names in [shapes]: {}", name,
+                                   names.empty() ? "there are none" : names));
+  }
+
+  // Bodies of one mesh and scale share their shape.
+  Placed mesh_of(TomlTable& body) {
+    const Shape shape = shapes_.read(body).shape;
+    const auto same = std::find_if(
+        scene_.shapes.begin(), scene_.shapes.end(),
+        [&](const Shape& other) { return other.hull != nullptr && other.hull == shape.hull; });
+    const auto index = static_cast<std::uint32_t>(same - scene_.shapes.begin());
+    if (same == scene_.shapes.end()) scene_.shapes.push_back(shape);
+    return {index, Mat3d::Identity()};
+  }
+
+  void read_body(TomlTable& table) {
+    const Placed placed = shape_of(table);
+    const bool halfspace = scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
+    Body body;
+    body.shape = placed.shape;
+    body.pose.rotation = product(read_rotation(table), placed.turn);
+    body.pose.translation = table.vector("translation", any_number, Vec3d::Zero());
+    body.velocity = table.vector("velocity", any_number, Vec3d::Zero());
+    body.angular_velocity = table.vector("angular_velocity", any_number, Vec3d::Zero());
+    body.moving = table.boolean("moving", !halfspace);
+    table.finish();
+    scene_.bodies.push_back(body);
+  }
+
+  TomlTable& table_;
+  ShapeReader& shapes_;
+  Scene& scene_;
+  std::map<std::string, Placed> named_;
+};
+
+Scene generate(TomlTable& table, ShapeReader& shapes, const SceneOverrides& overrides) {
+  std::vector<std::string_view> names;
+  for (const Generator& generator : generators()) names.push_back(generator.name);
+  const Generator& generator = generators()[table.choice("generator", names)];
+  std::int64_t count = table.integer("count", 1, most_bodies, 1000);
+  if (overrides.count != -1) count = overrides.count;
+  if (count < 1 || count > most_bodies) {
+    throw InputError(
+        table.file(), 0,
+        fmt::format("a count of {} was asked for; expected 1 to {}", count, most_bodies));
+  }
+  GeneratorInput input{table, shapes, count, read_seed(table, overrides)};
+  Generated made = generator.make(input);
+  made.scene.motion.seed = input.random(GeneratorInput::motion_stream).next();
+  read_motion(table, made.side, made.scene.motion);
+  return std::move(made.scene);
+}
+
+Scene load_recording(const std::filesystem::path& file) {
+  Scene scene;
+  scene.recording = read_aabbs(file).frames;
+  scene.frames = static_cast<int>(scene.recording.size());
+  return scene;
+}
+
+Scene import_scene(const std::filesystem::path& file) {
+  if (file.extension() == ".json") return import_rigid_ipc(file);
+  if (file.extension() == ".aabbs") return load_recording(file);
+  throw InputError(file.string(), 0,
+                   "unknown kind of file; expected .toml, .json (rigid-ipc) or .aabbs (Broadmark)");
+}
+
+// Of a recording, the first frames.
+void set_frames(const std::string& file, std::int64_t line, std::int64_t frames, Scene& scene) {
+  const auto recorded = static_cast<std::int64_t>(scene.recording.size());
+  const std::int64_t most = recorded > 0 ? recorded : most_frames;
+  if (frames < 1 || frames > most) {
+    throw InputError(file, line, fmt::format("{} frames; expected 1 to {}", frames, most));
+  }
+  scene.frames = static_cast<int>(frames);
+  if (recorded > 0) scene.recording.resize(static_cast<std::size_t>(frames));
+}
+
+// `lines` becomes the lines of listed bodies.
+Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrides,
+                std::vector<std::int64_t>& lines) {
+  const toml::table content = parse_toml(path);
+  const std::string file = path.string();
+  TomlTable table(content, file, "");
+  ShapeReader shapes(path.parent_path());
+  constexpr std::string_view forms[] = {"generator", "body", "import"};
+  const auto given = std::count_if(std::begin(forms), std::end(forms),
+                                   [&](std::string_view key) { return table.contains(key); });
+  if (given != 1) {
+    table.fail(given == 0                 ? "scene"
+               : table.contains("import") ? "import"
+                                          : "body",
+               given == 0 ? "missing; expected generator = \"...\", [[body]] or import = \"...\""
+                          : "given beside another; expected one of generator, [[body]] and import");
+  }
+
+  Scene scene;
+  int frames = 1;
+  if (table.contains("generator")) {
+    scene = generate(table, shapes, overrides);
+    frames = generated_frames;
+  } else {
+    if (table.contains("body")) {
+      lines = BodyReader(table, shapes, scene).read();
+    } else {
+      const std::string name = table.text("import");
+      const std::filesystem::path imported = path.parent_path() / name;
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(imported, error)) {
+        table.fail("import", "no file " + imported.string() + "; expected a .json or .aabbs file");
+      }
+      scene = import_scene(imported);
+      frames = scene.frames;
+    }
+    refuse_count(file, overrides);
+    if (scene.recording.empty()) {
+      read_motion_of_listed(table, overrides, scene);
+    } else {
+      refuse_seed(file, overrides);
+    }
+  }
+  scene.name = table.text("name", path.stem().string());
+  const std::int64_t asked = table.integer("frames", 1, most_frames, frames);
+  if (overrides.frames == -1) {
+    set_frames(file, table.line("frames"), asked, scene);
+  } else {
+    set_frames(file, 0, overrides.frames, scene);
+  }
+  if (scene.recording.empty() && table.has("polytope")) {
+    const int level = static_cast<int>(table.integer("polytope", 0, 5));
+    for (Shape& shape : scene.shapes) {
+      if (shape.kind != ShapeKind::halfspace) shape = as_polytope(shape, level);
+    }
+  }
+  table.finish();
+  return scene;
+}
+
+// Bodies must start between the walls, and no box may leave the range of float in any frame.
+void check_bodies(const std::string& file, std::span<const std::int64_t> lines,
+                  const Scene& scene) {
+  if (scene.recording.empty() && scene.bodies.empty()) {
+    throw InputError(file, 0, "no bodies; expected at least one");
+  }
+  const Motion& motion = scene.motion;
+  const double time = motion.time_step * scene.frames;
+  constexpr double most = 1e38;
+  std::vector<double> reach;
+  for (const Shape& shape : scene.shapes) {
+    const double size = loose_reach(shape, Mat3d::Identity());
+    reach.push_back(shape.kind == ShapeKind::halfspace ? 0 : 2 * size);
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const std::int64_t line = i < lines.size() ? lines[i] : 0;
+    double farthest = body.pose.translation.cwiseAbs().maxCoeff() + reach[body.shape];
+    if (body.moving) {
+      const double speed = std::max(body.velocity.cwiseAbs().maxCoeff(), motion.speed);
+      farthest += (speed + motion.acceleration * time) * time;
+    }
+    if (!(farthest <= most) || !(body.angular_velocity.cwiseAbs().maxCoeff() * time <= most)) {
+      throw InputError(file, line,
+                       fmt::format("body {} reaches {:.3g} m or turns beyond measure; expected "
+                                   "less than {:g}, for boxes are in float",
+                                   i + 1, farthest, most));
+    }
+    if (!body.moving || !has_walls(motion)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = body.pose.translation[axis];
+      if (x >= motion.wall_min[axis] && x <= motion.wall_max[axis]) continue;
+      throw InputError(
+          file, 0,
+          fmt::format("body {} starts at {} = {}; expected a place between the walls "
+                      "{} and {}",
+                      i + 1, "xyz"[axis], x, motion.wall_min[axis], motion.wall_max[axis]));
+    }
+  }
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overrides) {
+  const std::string file = path.string();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw InputError(file, 0, "no such file; expected a scene: .toml, .json or .aabbs");
+  }
+  Scene scene;
+  std::vector<std::int64_t> lines;
+  if (path.extension() == ".toml") {
+    scene = read_toml(path, overrides, lines);
+  } else {
+    scene = import_scene(path);
+    refuse_count(file, overrides);
+    refuse_seed(file, overrides);
+    scene.name = path.stem().string();
+    if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
+  }
+  check_bodies(file, lines, scene);
+  return scene;
+}
+
+}  // namespace touchstone
