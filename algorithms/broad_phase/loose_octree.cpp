@@ -1,7 +1,8 @@
 // Loose octree: each box lies in one cell, at the level of its size; its partners lie nearby.
 // Paper:   Ulrich, "Loose Octrees", Game Programming Gems, 2000; Gargantini, "An Effective Way to
 //          Represent Quadtrees", CACM 1982 (linear: sorted codes instead of nodes).
-// Departs: no nodes: the cells are runs of boxes sorted by level and Morton code, found through a
+// Departs: the cells have the proportions of the usual box. No nodes: the cells are runs of boxes
+// sorted by level and Morton code, found through a
 //          hash table. A level's cells are as wide as its largest boxes, the looseness is 2, so a
 //          box reaches half a cell beyond its own. Pairs are sought at the own level and at coarser
 //          ones only.
@@ -13,8 +14,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
-#include <tuple>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
@@ -63,6 +62,7 @@ class LooseOctree final : public BroadPhase {
  private:
   static constexpr int most_levels = 20;  // 3 * 19 bits of code, 5 of level
   static constexpr std::size_t rows_a_task = 512;
+  static constexpr std::size_t filter_share = 8;  // bits a slot of the table
   static constexpr std::uint64_t no_cell = ~std::uint64_t{0};
 
   struct Item {
@@ -86,28 +86,31 @@ class LooseOctree final : public BroadPhase {
     std::array<std::vector<IndexRange>, most_levels> runs;
   };
 
-  // Level l has cells of finest_ * 2^l. Levels are set so that the usual box just fits in a cell.
-  // At the top there is one cell for all.
+  // Level l has cells of finest * 2^l usual boxes. Levels are set so that the usual box just fits
+  // in a cell. At the top there is one cell for all.
   void choose_cells(std::span<const Aabb> boxes) {
     const BoxSample sample = sample_boxes(boxes, ids_);
     const double extent = sample.extent();
     const double least = std::ldexp(extent, 1 - most_levels);
-    finest_ = sample.usual_side * (1 + 1.0 / 64);  // boxes of one size differ by rounding
-    if (finest_ == 0) finest_ = extent > 0 ? least : 1;
+    double finest = sample.usual * (1 + 1.0 / 64);  // boxes of one size differ by rounding
+    if (finest == 0) finest = extent > 0 ? least : 1;
     for (int halvings = 0; halvings < most_levels; ++halvings) {
-      if (finest_ / 2 < std::max(sample.smallest_side, least)) break;
-      finest_ /= 2;
+      if (finest / 2 < std::max(sample.smallest, least)) break;
+      finest /= 2;
     }
-    while (finest_ < least) finest_ *= 2;
+    while (finest < least) finest *= 2;
     top_ = 0;
-    while (std::ldexp(finest_, top_) < extent && top_ < most_levels - 1) ++top_;
+    while (std::ldexp(finest, top_) < extent && top_ < most_levels - 1) ++top_;
     space_.origin = sample.low;
-    space_.inverse_side = 1 / finest_;
     space_.last.fill((1u << top_) - 1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      side_[axis] = finest * sample.side[axis];
+      space_.inverse_side[axis] = 1 / side_[axis];
+    }
   }
 
   std::uint64_t cell_of(const Aabb& box) const {
-    const int level = level_of(longest_side(box));
+    const int level = level_of(space_.size(box));
     CellNumbers cell;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double centre = 0.5 * (double{box.min[axis]} + box.max[axis]);
@@ -116,11 +119,10 @@ class LooseOctree final : public BroadPhase {
     return static_cast<std::uint64_t>(level) << (3 * top_) | morton_code(cell);
   }
 
-  // The least level whose cells are at least as wide, or the top.
-  int level_of(double side) const {
-    const double ratio = side * space_.inverse_side;
-    if (!(ratio > 1)) return 0;
-    const auto bits = std::bit_cast<std::uint64_t>(ratio);
+  // The least level whose cells are at least as large, or the top. `size` is in finest cells.
+  int level_of(double size) const {
+    if (!(size > 1)) return 0;
+    const auto bits = std::bit_cast<std::uint64_t>(size);
     const bool is_power = (bits & ((std::uint64_t{1} << 52) - 1)) == 0;
     const int level = static_cast<int>(bits >> 52) - 1023 + (is_power ? 0 : 1);
     return std::min(level, top_);
@@ -137,17 +139,33 @@ class LooseOctree final : public BroadPhase {
       }
       cells_.back().last = place + 1;
     }
-    table_.assign(std::bit_ceil(2 * cells_.size() + 1), {});
-    for (const Cell& cell : cells_) table_[slot(cell.cell)] = cell;
+    table_bits_ = static_cast<int>(std::bit_width(2 * cells_.size()));
+    table_.assign(std::size_t{1} << table_bits_, {});
+    filter_.assign(block_count(table_.size() * filter_share, 64), 0);
+    for (const Cell& cell : cells_) {
+      table_[slot(cell.cell)] = cell;
+      const std::size_t bit = filter_bit(cell.cell);
+      filter_[bit / 64] |= std::uint64_t{1} << bit % 64;
+    }
   }
+
+  // Multiplicative hashing (Knuth, The Art of Computer Programming, volume 3, section 6.4).
+  static std::uint64_t hash(std::uint64_t cell) { return cell * 0x9e3779b97f4a7c15; }
 
   // Where a cell is in the table, or where it would go. Linear probing; the table is at most half
   // full.
   std::size_t slot(std::uint64_t cell) const {
-    const std::size_t mask = table_.size() - 1;
-    std::size_t at = (cell * 0x9e3779b97f4a7c15) >> 32 & mask;
-    while (table_[at].cell != cell && table_[at].cell != no_cell) at = (at + 1) & mask;
+    std::size_t at = hash(cell) >> (64 - table_bits_);
+    while (table_[at].cell != cell && table_[at].cell != no_cell) {
+      at = (at + 1) & (table_.size() - 1);
+    }
     return at;
+  }
+
+  // Set for each cell of the table. Most cells that are asked for are empty, and this many bits
+  // stay in the cache where the table does not.
+  std::size_t filter_bit(std::uint64_t cell) const {
+    return hash(cell) >> (64 - table_bits_ - std::countr_zero(filter_share));
   }
 
   // Finds the pairs of these boxes with those behind them in their cell, in half of the cells
@@ -178,23 +196,24 @@ class LooseOctree final : public BroadPhase {
     for (unsigned levels = levels_ >> own_level << own_level; levels != 0; levels &= levels - 1) {
       const int level = std::countr_zero(levels);
       const auto l = static_cast<std::size_t>(level);
-      // The centre of a partner is at most half a cell away. The 64th part is for rounding, in
-      // centres and sides: cells are never that small compared with a coordinate's last bit.
-      const double reach = std::ldexp(finest_, level) * (0.5 + 1.0 / 64);
+      // The centre of a partner is at most half a cell away. The 64th part is for rounding; a box
+      // for which that is not enough has no length on the axis, and its centre is its end.
+      const double reach = std::ldexp(0.5 + 1.0 / 64, level);
       Window window;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        window.low[axis] = space_.cell(low[axis] - reach, axis) >> level;
-        window.high[axis] = space_.cell(high[axis] + reach, axis) >> level;
+        window.low[axis] = space_.cell(low[axis] - reach * side_[axis], axis) >> level;
+        window.high[axis] = space_.cell(high[axis] + reach * side_[axis], axis) >> level;
       }
       if (level == own_level) {
         const std::uint64_t code = cell & ((std::uint64_t{1} << (3 * top_)) - 1);
-        find_runs(window, level, morton_cell(code), scratch.columns);
+        const CellNumbers own = morton_cell(code);
+        find_runs(window, level, &own, scratch.columns);
         continue;
       }
       if (window != scratch.windows[l]) {
         scratch.windows[l] = window;
         scratch.runs[l].clear();
-        find_runs(window, level, {}, scratch.runs[l]);
+        find_runs(window, level, nullptr, scratch.runs[l]);
       }
       scratch.columns.insert(scratch.columns.end(), scratch.runs[l].begin(), scratch.runs[l].end());
     }
@@ -202,31 +221,49 @@ class LooseOctree final : public BroadPhase {
 
   // Adds the runs of boxes of the window's cells, and of those only that come behind `own` (by z,
   // y, x) where the level is the boxes' own.
-  void find_runs(const Window& window, int level, const std::optional<CellNumbers>& own,
+  void find_runs(const Window& window, int level, const CellNumbers* own,
                  std::vector<IndexRange>& runs) const {
     const std::uint64_t prefix = static_cast<std::uint64_t>(level) << (3 * top_);
-    for (std::uint32_t z = window.low[2]; z <= window.high[2]; ++z) {
-      for (std::uint32_t y = window.low[1]; y <= window.high[1]; ++y) {
-        for (std::uint32_t x = window.low[0]; x <= window.high[0]; ++x) {
-          if (own && std::tuple(z, y, x) <= std::tuple((*own)[2], (*own)[1], (*own)[0])) continue;
-          const Cell& found = table_[slot(prefix | morton_code({x, y, z}))];
-          if (found.cell != no_cell) runs.push_back({found.first, found.last});
+    const std::uint64_t first_x = spread_bits(window.low[0]);
+    for (std::uint32_t z = own != nullptr ? (*own)[2] : window.low[2]; z <= window.high[2]; ++z) {
+      const bool own_slab = own != nullptr && z == (*own)[2];
+      for (std::uint32_t y = own_slab ? (*own)[1] : window.low[1]; y <= window.high[1]; ++y) {
+        const bool own_row = own_slab && y == (*own)[1];
+        const std::uint64_t row = prefix | spread_bits(y) << 1 | spread_bits(z) << 2;
+        std::uint64_t x_bits = own_row ? next_spread(spread_bits((*own)[0])) : first_x;
+        for (std::uint32_t x = own_row ? (*own)[0] + 1 : window.low[0]; x <= window.high[0]; ++x) {
+          add_run(row | x_bits, runs);
+          x_bits = next_spread(x_bits);
         }
       }
     }
   }
 
+  void add_run(std::uint64_t cell, std::vector<IndexRange>& runs) const {
+    const std::size_t bit = filter_bit(cell);
+    if ((filter_[bit / 64] >> bit % 64 & 1) == 0) return;
+    const Cell& found = table_[slot(cell)];
+    if (found.cell == no_cell) return;
+    if (!runs.empty() && runs.back().last == found.first) {
+      runs.back().last = found.last;
+    } else {
+      runs.push_back({found.first, found.last});
+    }
+  }
+
   Executor& executor_;
   std::vector<std::uint32_t> ids_;
-  CellSpace space_;      // the finest level's cells
-  double finest_ = 1;    // metres
-  int top_ = 0;          // the coarsest level
-  unsigned levels_ = 0;  // bit l: there are boxes at level l
+  CellSpace space_;               // the finest level's cells
+  std::array<double, 3> side_{};  // of a finest cell: metres
+  int top_ = 0;                   // the coarsest level
+  unsigned levels_ = 0;           // bit l: there are boxes at level l
   std::vector<Item> items_;
   RadixSort<Item> radix_sort_;
   BoxArrays arrays_;
   std::vector<Cell> cells_;  // in the boxes' order
   std::vector<Cell> table_;
+  int table_bits_ = 0;
+  std::vector<std::uint64_t> filter_;
   std::vector<Scratch> scratch_;  // of each worker
 };
 

@@ -2,7 +2,8 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 7.1; the home-cell rule is the
 //          reference-point method of Dittrich, Seeger, "Data Redundancy and Duplicate Detection in
 //          Spatial Join Processing", ICDE 2000.
-// Departs: the cells are runs of sorted entries, so empty cells cost nothing. A pair is reported
+// Departs: the cells have the proportions of the usual box, twice its size. They are runs of sorted
+//          entries, so empty cells cost nothing. A pair is reported
 //          only in its home cell, which holds the component-wise greater of the two minimum
 //          corners, so there is nothing to sort out afterwards. Boxes that touch more than 64 cells
 //          are kept apart and tested against all.
@@ -80,14 +81,14 @@ class UniformGrid final : public BroadPhase {
 
   void choose_cells(std::span<const Aabb> boxes) {
     const BoxSample sample = sample_boxes(boxes, ids_);
-    double side = std::max(2 * sample.usual_side, sample.extent() / most_cells_an_axis);
-    if (side == 0) side = 1;  // all boxes are the same point
     space_.origin = sample.low;
-    space_.inverse_side = 1 / side;
     int bits = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double cells = (sample.high[axis] - sample.low[axis]) / side;
-      space_.last[axis] = static_cast<std::uint32_t>(std::min(cells, most_cells_an_axis - 1));
+      const double extent = sample.high[axis] - sample.low[axis];
+      const double side = std::max(2 * sample.side[axis], extent / most_cells_an_axis);
+      space_.inverse_side[axis] = 1 / side;
+      space_.last[axis] =
+          static_cast<std::uint32_t>(std::min(extent / side, most_cells_an_axis - 1));
       shift_[axis] = bits;
       bits += std::bit_width(space_.last[axis]);
     }

@@ -8,8 +8,8 @@ namespace touchstone {
 
 void BoxArrays::resize(std::size_t count) {
   if (count + padding > stride_) {
-    stride_ = count + count / 2 + padding;
-    extents_ = std::make_unique_for_overwrite<float[]>(6 * stride_);
+    stride_ = (count + count / 2) / padding * padding + 2 * padding;
+    extents_.reset(new (alignment) float[6 * stride_]);
     ids_ = std::make_unique_for_overwrite<std::uint32_t[]>(stride_);
   }
   size_ = count;

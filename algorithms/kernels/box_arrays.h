@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct IndexRange {
 // Boxes with their ids; behind the last one, a vector's width of empty boxes. Keeps its memory.
 class BoxArrays {
  public:
-  static constexpr std::size_t padding = 16;
+  static constexpr std::size_t padding = 16;  // the widest vector's floats
 
   // Makes room for `count` boxes, whose contents are whatever was there.
   void resize(std::size_t count);
@@ -54,10 +55,15 @@ class BoxArrays {
   }
 
  private:
-  std::unique_ptr<float[]> extents_;  // min x, y, z, max x, y, z, `stride_` each
+  static constexpr std::align_val_t alignment{padding * sizeof(float)};
+  struct Deleter {
+    void operator()(float* extents) const { operator delete[](extents, alignment); }
+  };
+
+  std::unique_ptr<float[], Deleter> extents_;  // min x, y, z, max x, y, z, `stride_` each
   std::unique_ptr<std::uint32_t[]> ids_;
   std::size_t size_ = 0;
-  std::size_t stride_ = 0;
+  std::size_t stride_ = 0;  // a multiple of the padding, so that each array is aligned
 };
 
 // The ids of the boxes that are not empty, ascending, into `ids`.

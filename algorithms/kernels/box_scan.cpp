@@ -17,6 +17,24 @@
 namespace touchstone {
 namespace {
 
+// The arrays' places by value, so that the loops keep them in registers whatever they write.
+struct Columns {
+  const float* min[3];
+  const float* max[3];
+  const std::uint32_t* ids;
+};
+
+struct Marks {
+  const std::uint32_t* marks;
+  const std::uint32_t* wants;
+};
+
+Columns columns_of(const BoxArrays& boxes) {
+  return {{boxes.min(0), boxes.min(1), boxes.min(2)},
+          {boxes.max(0), boxes.max(1), boxes.max(2)},
+          boxes.ids()};
+}
+
 // The ids of one box and of those among ids[0..] whose bit is set.
 inline void write_pairs(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
                         PairBuffer& out) {
@@ -156,29 +174,28 @@ namespace avx512 = baseline;
 void scan_boxes(const BoxArrays& boxes, IndexRange rows, std::span<const IndexRange> columns,
                 PairBuffer& out) {
   switch (isa()) {
-    case Isa::avx512: return avx512::scan(boxes, rows, columns, out);
-    case Isa::avx2: return avx2::scan(boxes, rows, columns, out);
-    case Isa::baseline: return baseline::scan(boxes, rows, columns, out);
+    case Isa::avx512: return avx512::scan(columns_of(boxes), rows, columns, out);
+    case Isa::avx2: return avx2::scan(columns_of(boxes), rows, columns, out);
+    case Isa::baseline: return baseline::scan(columns_of(boxes), rows, columns, out);
   }
 }
 
 void scan_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> marks,
                        std::span<const std::uint32_t> wants, IndexRange rows, IndexRange columns,
                        PairBuffer& out) {
-  const std::uint32_t* m = marks.data();
-  const std::uint32_t* w = wants.data();
+  const Marks m{marks.data(), wants.data()};
   switch (isa()) {
-    case Isa::avx512: return avx512::scan_marked(boxes, m, w, rows, columns, out);
-    case Isa::avx2: return avx2::scan_marked(boxes, m, w, rows, columns, out);
-    case Isa::baseline: return baseline::scan_marked(boxes, m, w, rows, columns, out);
+    case Isa::avx512: return avx512::scan_marked(columns_of(boxes), m, rows, columns, out);
+    case Isa::avx2: return avx2::scan_marked(columns_of(boxes), m, rows, columns, out);
+    case Isa::baseline: return baseline::scan_marked(columns_of(boxes), m, rows, columns, out);
   }
 }
 
 void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out) {
   switch (isa()) {
-    case Isa::avx512: return avx512::sweep(boxes, axis, rows, out);
-    case Isa::avx2: return avx2::sweep(boxes, axis, rows, out);
-    case Isa::baseline: return baseline::sweep(boxes, axis, rows, out);
+    case Isa::avx512: return avx512::sweep(columns_of(boxes), axis, rows, out);
+    case Isa::avx2: return avx2::sweep(columns_of(boxes), axis, rows, out);
+    case Isa::baseline: return baseline::sweep(columns_of(boxes), axis, rows, out);
   }
 }
 

@@ -26,6 +26,12 @@ constexpr std::uint64_t gather_bits(std::uint64_t x) {
   return (x | x >> 32) & 0x00000000001fffff;
 }
 
+// spread_bits(x + 1) from spread_bits(x).
+constexpr std::uint64_t next_spread(std::uint64_t spread) {
+  constexpr std::uint64_t others = ~std::uint64_t{0x1249249249249249};
+  return ((spread | others) + 1) & ~others;
+}
+
 using CellNumbers = std::array<std::uint32_t, 3>;
 
 constexpr std::uint64_t morton_code(const CellNumbers& cell) {
