@@ -1,5 +1,7 @@
-// Seeded frames of boxes for the peers' broad phases, and the pairs by definition.
+// Seeded frames of boxes for the peers' broad phases, the pairs by definition, and the comparison.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithms/broad_phase.h"
+#include "algorithms/registry.h"
 
 namespace touchstone {
 
@@ -150,6 +152,49 @@ inline std::vector<Style> styles() {
       {.name = "one", .count = 1},
       {.name = "two", .count = 2, .world = 1},
   };
+}
+
+// How many pairs there were, by definition, and how many were missed although they only touch.
+struct Tally {
+  std::size_t pairs = 0, possible = 0, missed_touching = 0;
+};
+
+// Plays the frames and compares every frame's pairs, as a list without repetition, with the
+// definition. Pairs that only touch may be missed where `touching_may_be_missed`.
+inline void play(const BroadPhaseEntry& entry, const Style& style, std::uint64_t seed,
+                 bool touching_may_be_missed, Tally& tally) {
+  SCOPED_TRACE(entry.info.name + ", " + style.name + ", seed " + std::to_string(seed));
+  Frames frames(style, seed);
+  Executor executor(1);
+  const std::unique_ptr<BroadPhase> algorithm = entry.make(executor);
+  PairSink sink;
+  algorithm->build(frames.boxes());
+  for (int frame = 0; frame < 15; ++frame) {
+    SCOPED_TRACE("frame " + std::to_string(frame));
+    if (frame == 9) {
+      frames.next();
+      algorithm->build(frames.boxes());
+    } else if (frame > 0) {
+      algorithm->update(frames.next());
+    }
+    ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
+    std::vector<IndexPair> found = sink.gather();
+    std::ranges::sort(found);
+    ASSERT_EQ(std::ranges::adjacent_find(found), found.end()) << "a pair comes twice";
+    const std::vector<Aabb>& boxes = frames.boxes();
+    const std::vector<IndexPair> pairs = closed_pairs(boxes);
+    tally.pairs += pairs.size();
+    tally.possible += boxes.size() * (boxes.size() - (boxes.empty() ? 0 : 1)) / 2;
+    std::vector<IndexPair> missing, extra;
+    std::ranges::set_difference(pairs, found, std::back_inserter(missing));
+    std::ranges::set_difference(found, pairs, std::back_inserter(extra));
+    ASSERT_TRUE(extra.empty()) << extra.size() << " extra, as " << extra[0].a << " " << extra[0].b;
+    for (const IndexPair& pair : missing) {
+      ASSERT_TRUE(touching_may_be_missed && only_touch(boxes[pair.a], boxes[pair.b]))
+          << missing.size() << " missing, as " << pair.a << " " << pair.b;
+    }
+    tally.missed_touching += missing.size();
+  }
 }
 
 }  // namespace touchstone

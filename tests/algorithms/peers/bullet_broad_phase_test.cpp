@@ -1,0 +1,96 @@
+#include "tests/algorithms/peers/broad_phase_frames.h"
+
+namespace touchstone {
+namespace {
+
+class BulletBroadPhaseTest : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    entry_ = find_broad_phase(GetParam());
+    ASSERT_NE(entry_, nullptr);
+    if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;
+  }
+  const BroadPhaseEntry* entry_ = nullptr;
+};
+
+TEST_P(BulletBroadPhaseTest, FindsTheClosedPairsOfEveryFrame) {
+  EXPECT_TRUE(entry_->info.known_defect.empty());
+  Tally tally;
+  for (const Style& style : styles()) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) play(*entry_, style, seed, false, tally);
+  }
+  EXPECT_GT(tally.pairs, tally.possible / 100);
+  EXPECT_LT(tally.pairs, tally.possible / 2);
+}
+
+TEST_P(BulletBroadPhaseTest, KeepsPairsThatTouch) {
+  // Against the first: a face, an edge, a corner, the same box, a point on its corner; and two gaps
+  // of one float.
+  const float beyond = std::nextafter(1.0F, 2.0F);
+  const std::vector<Aabb> boxes = {
+      {{0, 0, 0}, {1, 1, 1}},      {{1, 0, 0}, {2, 1, 1}},      {{1, 1, 0}, {2, 2, 1}},
+      {{1, 1, 1}, {2, 2, 2}},      {{0, 0, 0}, {1, 1, 1}},      {{1, 1, 1}, {1, 1, 1}},
+      {{beyond, 0, 0}, {3, 1, 1}}, {{0, beyond, 0}, {1, 2, 1}},
+  };
+  Executor executor(1);
+  const auto algorithm = entry_->make(executor);
+  algorithm->build(boxes);
+  PairSink sink;
+  ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
+  std::vector<IndexPair> found = sink.gather();
+  std::ranges::sort(found);
+  EXPECT_EQ(found, closed_pairs(boxes));
+  for (const std::uint32_t id : {1U, 2U, 3U, 4U, 5U}) {
+    EXPECT_TRUE(std::ranges::count(found, IndexPair{0, id})) << id;
+  }
+  for (const std::uint32_t id : {6U, 7U}) {
+    EXPECT_FALSE(std::ranges::count(found, IndexPair{0, id})) << id;
+  }
+}
+
+TEST_P(BulletBroadPhaseTest, ForgetsPairsThatCameApart) {
+  // The tree keeps the first box's larger leaf, and the cache its pair.
+  const std::vector<Aabb> before = {{{0, 0, 0}, {4, 4, 4}}, {{3, 3, 3}, {5, 5, 5}}};
+  const std::vector<Aabb> after = {{{0, 0, 0}, {1, 1, 1}}, {{3, 3, 3}, {5, 5, 5}}};
+  const std::vector<std::uint32_t> moved = {0};
+  Executor executor(1);
+  const auto algorithm = entry_->make(executor);
+  PairSink sink;
+  algorithm->build(before);
+  algorithm->find_pairs(sink);
+  EXPECT_EQ(sink.size(), 1U);
+  algorithm->update({after, moved, {}, {}});
+  algorithm->find_pairs(sink);
+  EXPECT_EQ(sink.size(), 0U);
+  algorithm->update({before, moved, {}, {}});
+  algorithm->find_pairs(sink);
+  EXPECT_EQ(sink.size(), 1U);
+}
+
+TEST_P(BulletBroadPhaseTest, TakesBoxesAtTheEndsOfTheFloats) {
+  constexpr float most = std::numeric_limits<float>::max();
+  const std::vector<Aabb> boxes = {{{-most, -most, -most}, {most, most, most}},
+                                   {{most, most, most}, {most, most, most}},
+                                   {{-1, -1, -1}, {1e-40F, 1e-40F, 1e-40F}},
+                                   {{1e-40F, 1e-40F, 1e-40F}, {1, 1, 1}},
+                                   {{2e38F, 0, 0}, {3e38F, 1, 1}}};
+  Executor executor(1);
+  const auto algorithm = entry_->make(executor);
+  algorithm->build(boxes);
+  PairSink sink;
+  ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
+  std::vector<IndexPair> found = sink.gather();
+  std::ranges::sort(found);
+  EXPECT_EQ(found, closed_pairs(boxes));
+}
+
+INSTANTIATE_TEST_SUITE_P(Peers, BulletBroadPhaseTest,
+                         testing::Values("bullet-tree", "bullet-axis-sweep"),
+                         [](const auto& param) {
+                           std::string name = param.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,76 @@
+#include "tests/algorithms/peers/broad_phase_frames.h"
+
+namespace touchstone {
+namespace {
+
+class FclBroadPhaseTest : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    entry_ = find_broad_phase(GetParam());
+    ASSERT_NE(entry_, nullptr);
+    if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;
+  }
+  const BroadPhaseEntry* entry_ = nullptr;
+};
+
+TEST_P(FclBroadPhaseTest, FindsTheClosedPairsOfEveryFrame) {
+  const bool misses_touching = !entry_->info.known_defect.empty();
+  Tally tally;
+  for (const Style& style : styles()) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      play(*entry_, style, seed, misses_touching, tally);
+    }
+  }
+  EXPECT_GT(tally.pairs, tally.possible / 100);
+  EXPECT_LT(tally.pairs, tally.possible / 2);
+  // The defect that is declared is there, and only there.
+  EXPECT_EQ(tally.missed_touching > 0, misses_touching);
+}
+
+TEST_P(FclBroadPhaseTest, TakesBodiesOfWhichNoneIsLeft) {
+  std::vector<Aabb> boxes(40, Aabb{{0, 0, 0}, {2, 2, 2}});
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t id = 0; id < boxes.size(); ++id) {
+    const auto at = static_cast<float>(id);
+    boxes[id] = {{at, 0, 0}, {at + 1.5F, 1, 1}};
+    all.push_back(id);
+  }
+  const std::vector<Aabb> none(boxes.size(), Aabb::empty());
+  Executor executor(1);
+  const auto algorithm = entry_->make(executor);
+  PairSink sink;
+  algorithm->build(boxes);
+  ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
+  EXPECT_EQ(sink.size(), 39U);
+  for (int round = 0; round < 3; ++round) {
+    algorithm->update({none, {}, {}, all});
+    ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
+    EXPECT_EQ(sink.size(), 0U);
+    algorithm->update({boxes, {}, all, {}});
+    ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
+    EXPECT_EQ(sink.size(), 39U);
+  }
+}
+
+TEST(PeerBroadPhases, AreBuiltOrSayWhyNot) {
+  int peers = 0;
+  for (const BroadPhaseEntry& entry : broad_phases()) {
+    peers += entry.info.origin == Origin::peer;
+    EXPECT_EQ(static_cast<bool>(entry.make), entry.info.reason.empty()) << entry.info.name;
+    EXPECT_FALSE(entry.info.citation.empty()) << entry.info.name;
+  }
+  EXPECT_GE(peers, 9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Peers, FclBroadPhaseTest,
+                         testing::Values("fcl-naive", "fcl-ssap", "fcl-sap", "fcl-dynamic-tree",
+                                         "fcl-dynamic-tree-array", "fcl-interval-tree",
+                                         "fcl-spatial-hash"),
+                         [](const auto& param) {
+                           std::string name = param.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace touchstone
