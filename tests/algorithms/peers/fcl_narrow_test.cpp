@@ -72,7 +72,9 @@ TEST_F(FclTest, TellsSeparatedFromOverlappingForEveryKindPair) {
         ASSERT_TRUE(std::isnan(outcome.distance));
         const bool right =
             outcome.answer == (pair.gap > 0 ? Answer::separated : Answer::overlapping);
-        if (scalar == Precision::float64) ASSERT_TRUE(right) << kinds_of(pair);
+        if (scalar == Precision::float64) {
+          ASSERT_TRUE(right) << kinds_of(pair);
+        }
         ++pairs;
         wrong += !right;
       });
@@ -165,8 +167,8 @@ TEST_F(FclTest, IndepSolverGivesDepthAndNormalInMostPairs) {
 }
 
 TEST_F(FclTest, ToleranceAndCapReachTheSolvers) {
-  const Placed a{shapes_of(ShapeKind::ellipsoid)[0], {}};
-  Placed b{shapes_of(ShapeKind::ellipsoid)[1], {}};
+  const Placed a = placed(shapes_of(ShapeKind::ellipsoid)[0]);
+  Placed b = placed(shapes_of(ShapeKind::ellipsoid)[1]);
   b.pose.translation = {1.7, 1.2, -0.8};
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     const double fine = ask(*entry, Task::distance, a, b, {.tolerance = 1e-13}).distance;
@@ -175,14 +177,14 @@ TEST_F(FclTest, ToleranceAndCapReachTheSolvers) {
     EXPECT_GT(std::abs(coarse - fine), 1e-6) << entry->info.name;
     EXPECT_LT(std::abs(coarse - fine), 0.05) << entry->info.name;
     // Both solvers answer a search that is cut short as they answer an overlap.
-    const NarrowPhaseSettings two_steps{.tolerance = 1e-13, .max_iterations = 2};
+    const Ask two_steps{.tolerance = 1e-13, .max_iterations = 2};
     EXPECT_EQ(ask(*entry, Task::distance, a, b, two_steps).answer, Answer::overlapping);
   }
   const Vec3d normal = Vec3d(1, 2, 3).normalized();
   b.pose.translation = 0.9 * normal;
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
-    const auto depth = [&](const NarrowPhaseSettings& settings) {
-      return ask(*entry, Task::penetration, a, b, settings).distance;
+    const auto depth = [&](const Ask& how) {
+      return ask(*entry, Task::penetration, a, b, how).distance;
     };
     EXPECT_GT(std::abs(depth({.tolerance = 1e-2}) - depth({.tolerance = 1e-9})), 1e-6);
     EXPECT_GT(std::abs(depth({.tolerance = 1e-9, .max_iterations = 5}) -
@@ -213,15 +215,13 @@ TEST_F(FclTest, TakesFlatHulls) {
   };
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     for (const Shape& shape : flat) {
-      const Placed body{shape, {}};
-      Placed box{{.kind = ShapeKind::box, .half_extents = {1, 1, 1}}, {}};
-      box.pose.translation = {0.3, 0.2, 0.4};
-      EXPECT_EQ(ask(*entry, Task::intersect, body, box).answer, Answer::overlapping);
-      box.pose.translation.z() = 1.9;
-      EXPECT_EQ(ask(*entry, Task::intersect, body, box).answer, Answer::separated);
-      EXPECT_NEAR(ask(*entry, Task::distance, body, box).distance, 0.9, 1e-6);
-      Placed ground{{.kind = ShapeKind::halfspace}, {}};
-      ground.pose.translation.z() = 0.25;
+      const Placed body = placed(shape);
+      Placed cube = placed(box({1, 1, 1}), {0.3, 0.2, 0.4});
+      EXPECT_EQ(ask(*entry, Task::intersect, body, cube).answer, Answer::overlapping);
+      cube.pose.translation.z() = 1.9;
+      EXPECT_EQ(ask(*entry, Task::intersect, body, cube).answer, Answer::separated);
+      EXPECT_NEAR(ask(*entry, Task::distance, body, cube).distance, 0.9, 1e-6);
+      const Placed ground = placed(halfspace(Vec3d::UnitZ(), 0), {0, 0, 0.25});
       EXPECT_NEAR(ask(*entry, Task::penetration, body, ground).distance, -0.25, 1e-9);
     }
   }
@@ -234,8 +234,8 @@ TEST_F(FclTest, TakesHullsWithPointsInside) {
   for (Hull::Face& face_of : hull.faces) {
     for (std::uint32_t& vertex : face_of.loop) ++vertex;
   }
-  const Placed body{hull_shape(std::make_shared<const Hull>(std::move(hull))), {}};
-  const Placed ball{{.kind = ShapeKind::sphere, .radius = 0.5}, {Mat3d::Identity(), {0, 0, 1.5}}};
+  const Placed body = placed(hull_shape(std::make_shared<const Hull>(std::move(hull))));
+  const Placed ball = placed(sphere(0.5), {0, 0, 1.5});
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     EXPECT_NEAR(ask(*entry, Task::distance, body, ball).distance, 0.3, 1e-4);
   }
@@ -245,7 +245,7 @@ TEST_F(FclTest, EndsOnCoincidentCentres) {
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     for (const ShapeKind kind : all_shape_kinds) {
       if (kind == ShapeKind::halfspace) continue;
-      const Placed body{shapes_of(kind)[0], {}};
+      const Placed body = placed(shapes_of(kind)[0]);
       for (const Task task : entry->tasks) {
         EXPECT_EQ(ask(*entry, task, body, body).answer, Answer::overlapping)
             << entry->info.name << " " << to_string(task) << " " << to_string(kind);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
 #include <span>
 #include <utility>
@@ -18,6 +19,18 @@ namespace touchstone::narrow_pairs {
 struct Placed {
   Shape shape;
   Pose pose;
+};
+
+inline Placed placed(Shape shape, const Vec3d& at = Vec3d::Zero()) {
+  return {std::move(shape), {Mat3d::Identity(), at}};
+}
+
+struct Ask {
+  Precision scalar = Precision::float64;
+  std::optional<double> tolerance = {};
+  std::optional<int> max_iterations = {};
+
+  NarrowPhaseSettings settings() const { return {scalar, tolerance, max_iterations}; }
 };
 
 // A point of a shape's boundary, in body coordinates, at which `normal` (unit length) is an outward
@@ -92,8 +105,43 @@ inline std::shared_ptr<const Hull> prism(std::uint32_t sides, double radius, dou
   return complete(std::move(hull));
 }
 
+inline Shape sphere(double radius) {
+  Shape shape;
+  shape.radius = radius;
+  return shape;
+}
+// A capsule, cylinder or cone.
+inline Shape along_z(ShapeKind kind, double radius, double half_length) {
+  Shape shape;
+  shape.kind = kind;
+  shape.radius = radius;
+  shape.half_length = half_length;
+  return shape;
+}
+inline Shape box(const Vec3d& half_extents) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.half_extents = half_extents;
+  return shape;
+}
+inline Shape ellipsoid(const Vec3d& radii) {
+  Shape shape;
+  shape.kind = ShapeKind::ellipsoid;
+  shape.radii = radii;
+  return shape;
+}
+inline Shape halfspace(const Vec3d& normal, double offset) {
+  Shape shape;
+  shape.kind = ShapeKind::halfspace;
+  shape.normal = normal;
+  shape.offset = offset;
+  return shape;
+}
 inline Shape hull_shape(std::shared_ptr<const Hull> hull) {
-  return {.kind = ShapeKind::hull, .hull = std::move(hull)};
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = std::move(hull);
+  return shape;
 }
 inline Shape flat_hull(std::vector<Vec3d> points, int dimension) {
   Hull hull;
@@ -106,19 +154,14 @@ inline Shape flat_hull(std::vector<Vec3d> points, int dimension) {
 // Two shapes of each kind, of unlike proportions; one for half-spaces, with a normal of length 2.
 inline std::vector<Shape> shapes_of(ShapeKind kind) {
   switch (kind) {
-    case ShapeKind::sphere: return {{.kind = kind, .radius = 0.7}, {.kind = kind, .radius = 1.6}};
+    case ShapeKind::sphere: return {sphere(0.7), sphere(1.6)};
     case ShapeKind::capsule:
     case ShapeKind::cylinder:
-    case ShapeKind::cone:
-      return {{.kind = kind, .radius = 0.5, .half_length = 1.1},
-              {.kind = kind, .radius = 1.2, .half_length = 0.6}};
-    case ShapeKind::box:
-      return {{.kind = kind, .half_extents = {0.5, 0.8, 1.3}},
-              {.kind = kind, .half_extents = {1, 1, 1}}};
-    case ShapeKind::ellipsoid:
-      return {{.kind = kind, .radii = {0.5, 0.9, 1.4}}, {.kind = kind, .radii = {1.2, 1.1, 0.8}}};
+    case ShapeKind::cone: return {along_z(kind, 0.5, 1.1), along_z(kind, 1.2, 0.6)};
+    case ShapeKind::box: return {box({0.5, 0.8, 1.3}), box({1, 1, 1})};
+    case ShapeKind::ellipsoid: return {ellipsoid({0.5, 0.9, 1.4}), ellipsoid({1.2, 1.1, 0.8})};
     case ShapeKind::hull: return {hull_shape(tetrahedron()), hull_shape(prism(20, 0.9, 0.7))};
-    case ShapeKind::halfspace: return {{.kind = kind, .normal = {0, 1.2, 1.6}, .offset = 0.8}};
+    case ShapeKind::halfspace: return {halfspace({0, 1.2, 1.6}, 0.8)};
   }
   return {};
 }
@@ -223,9 +266,9 @@ inline double outside(const Placed& body, const Vec3d& world) {
 
 // Asks for one pair, in the order of kinds that the contract wants, and turns the answer back.
 inline Outcome ask(const NarrowPhaseEntry& entry, Task task, const Placed& a, const Placed& b,
-                   const NarrowPhaseSettings& settings = {}) {
+                   const Ask& how = {}) {
   if (a.shape.kind > b.shape.kind) {
-    Outcome outcome = ask(entry, task, b, a, settings);
+    Outcome outcome = ask(entry, task, b, a, how);
     outcome.normal = -outcome.normal;
     std::swap(outcome.witness_a, outcome.witness_b);
     return outcome;
@@ -234,7 +277,7 @@ inline Outcome ask(const NarrowPhaseEntry& entry, Task task, const Placed& a, co
   const std::array<Pose, 2> poses = {a.pose, b.pose};
   const std::array<std::uint32_t, 2> ids = {0, 1};
   const std::span<const std::uint32_t> all(ids);
-  const std::unique_ptr<NarrowPhase> algorithm = entry.make(settings);
+  const std::unique_ptr<NarrowPhase> algorithm = entry.make(how.settings());
   algorithm->bind(shapes);
   Outcome outcome;
   algorithm->solve({.task = task,
@@ -290,7 +333,7 @@ struct Agreement {
 // Asks both whether random pairs intersect, leaving out those whose answer, by the first, changes
 // when b is moved by 1e-3 along the line of the origins.
 inline Agreement agreement(const NarrowPhaseEntry& one, const NarrowPhaseEntry& other, int rounds,
-                           const NarrowPhaseSettings& settings) {
+                           const Ask& how) {
   std::mt19937_64 random(21);
   std::uniform_real_distribution<double> spread(0.5, 3.5);
   Agreement count;
@@ -308,7 +351,7 @@ inline Agreement agreement(const NarrowPhaseEntry& one, const NarrowPhaseEntry& 
           return Placed{of_b[(i / 2) % of_b.size()], {turn, d * apart}};
         };
         const auto answer = [&](const NarrowPhaseEntry& entry, double d) {
-          return ask(entry, Task::intersect, a, at(d), settings).answer;
+          return ask(entry, Task::intersect, a, at(d), how).answer;
         };
         const Answer first = answer(one, distance);
         if (first != answer(one, distance - 1e-3) || first != answer(one, distance + 1e-3))
