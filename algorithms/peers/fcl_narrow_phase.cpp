@@ -8,12 +8,13 @@
 //          tolerance: fcl-libccd takes it as MPR's, or as the least gain of a step of its distance;
 //          fcl-indep as a length for EPA and for "inside", and as a part of the distance for GJK.
 //          max_iterations: of fcl-libccd the distance loops and MPR's search for the depth have a
-//          cap, MPR's first loops have none; of fcl-indep both loops, and EPA's stores grow with it.
-//          The closed forms know neither. FCL never tells that a cap has ended a query.
+//          cap, MPR's first loops have none; of fcl-indep both loops, and EPA's stores grow with
+//          it. The closed forms know neither. FCL never tells that a cap has ended a query.
 //          fcl-indep's EPA hands out the depth negated and the normal in a's frame: both are turned
-//          back here. Witness points of a penetration are not reported: FCL gives one contact point,
-//          with another meaning for each kind pair. Without faces a hull is scanned, not walked on.
-//          In float, fcl-libccd still computes in double: only shapes and poses are floats.
+//          back here. Witness points of a penetration are not reported: FCL gives one contact
+//          point, with another meaning for each kind pair. Without faces a hull is scanned, not
+//          walked on. In float, fcl-libccd still computes in double: only shapes and poses are
+//          floats.
 // Fails:   MPR's depth is along its portal, an upper bound. fcl-indep: gaps below 1e-6 m are
 //          overlaps; EPA's depth is off by half and more where supports are coplanar. A cone on a
 //          half-space is taken for a ball when its tip points down. Distance says "overlapping"
@@ -198,7 +199,8 @@ class Fcl final : public NarrowPhase {
       const fcl::Transform3<S> pose_a = to_fcl<S>(batch.poses[first]);
       const fcl::Transform3<S> pose_b = to_fcl<S>(batch.poses[second]);
       if (tolerance_) {
-        set_tolerance(solver_, static_cast<S>(*tolerance_ * (reaches_[shape_a] + reaches_[shape_b])));
+        set_tolerance(solver_,
+                      static_cast<S>(*tolerance_ * (reaches_[shape_a] + reaches_[shape_b])));
       }
       Outcome& outcome = outcomes[i];
       outcome.status = Status::not_reported;
@@ -306,8 +308,9 @@ TOUCHSTONE_NARROW_PHASE {
       {.info = {.name = "fcl-indep",
                 .citation = "FCL 0.7, GJKSolver_indep: shapeIntersect, shapeDistance",
                 .origin = Origin::peer,
-                .known_defect = "gaps below 1e-6 are overlaps; EPA fails on coplanar supports; cone "
-                                "on half-space is wrong"},
+                .known_defect =
+                    "gaps below 1e-6 are overlaps; EPA fails on coplanar supports; cone "
+                    "on half-space is wrong"},
        .tasks = tasks,
        .scalars = scalars,
        .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),

@@ -1,7 +1,8 @@
 // libccd: GJK, GJK with EPA, and MPR (XenoCollide), over support functions of our own.
 // Paper:   D. Fiser, libccd 2.1; GJK of Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation
 //          1988; EPA of van den Bergen, GDC 2001; MPR of Snethen, Game Programming Gems 7, 2008.
-// Departs: libccd brings no shapes, so the support functions are here: exact for the affine image of
+// Departs: libccd brings no shapes, so the support functions are here: exact for the affine image
+// of
 //          the body, balls not deformed; hulls are scanned from end to end. It works in world
 //          coordinates. It has no distance query, and a half-space has no support point.
 //          max_iterations (1000 without) reaches GJK's loop as libccd's own setting. The loops of
@@ -29,12 +30,14 @@ namespace {
 
 enum class Method : std::uint8_t { gjk, epa, mpr };
 
-constexpr int default_max_iterations = 1000;
+constexpr long default_max_iterations = 1000;
 
-// Support points that the query has asked for, and after how many it is to end.
+// How many support points the query has asked for, each of a pair of calls, and may ask for.
 struct Query {
-  long support_calls = 0;
-  long limit = 0;
+  long calls = 0;
+  long limit = 0;  // in calls
+  long support_points() const { return calls / 2; }
+  bool stopped() const { return calls > limit; }
 };
 
 // What libccd is given as an object.
@@ -99,7 +102,8 @@ template <ShapeKind kind>
 void support(const void* object, const ccd_vec3_t* ccd_direction, ccd_vec3_t* out) {
   const Body& body = body_of(object);
   const Vec3d direction = to_eigen(*ccd_direction);
-  if (++body.query->support_calls > body.query->limit) {
+  ++body.query->calls;
+  if (body.query->stopped()) {
     set(out, -1e100 * direction);
     return;
   }
@@ -137,7 +141,8 @@ class Libccd final : public NarrowPhase {
   Libccd(Method method, const NarrowPhaseSettings& settings)
       : method_(method),
         tolerance_(settings.tolerance),
-        max_iterations_(settings.max_iterations.value_or(default_max_iterations)) {}
+        max_iterations_(settings.max_iterations ? *settings.max_iterations
+                                                : default_max_iterations) {}
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = shapes;
@@ -162,10 +167,10 @@ class Libccd final : public NarrowPhase {
     ccd.center1 = center;
     ccd.center2 = center;
     const long limit = support_limit(batch.task);
-    // One iteration more than is allowed tells the end of the search from the end of the allowance.
-    // MPR looks at this only where its direction is NaN, which no support point can end.
-    ccd.max_iterations = static_cast<unsigned long>(
-        method_ == Method::mpr ? limit : static_cast<long>(max_iterations_) + 1);
+    // GJK is let into one iteration more than is allowed, so that who asks for it is found out. MPR
+    // comes to its own cap only where its direction is NaN, which no support point can end.
+    ccd.max_iterations =
+        static_cast<unsigned long>(method_ == Method::mpr ? limit : max_iterations_ + 1);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       Query query{.limit = 2 * limit};
       const Body a = body(batch, batch.first[i], &query);
@@ -180,14 +185,13 @@ class Libccd final : public NarrowPhase {
   }
 
  private:
-  // Support points of both bodies that a query may ask for. GJK asks for one before its loop, EPA for
-  // up to eight between the loops, MPR for two before its first loop.
+  // Support points that a query may ask for. GJK asks for one before its loop, EPA for up to eight
+  // between GJK's loop and its own, MPR for two before its first loop.
   long support_limit(Task task) const {
-    const long cap = max_iterations_;
     switch (method_) {
-      case Method::gjk: return 1 + cap + 1;
-      case Method::epa: return 1 + cap + 1 + 8 + cap;
-      case Method::mpr: return 2 + cap * (task == Task::intersect ? 2 : 3);
+      case Method::gjk: return 1 + max_iterations_;
+      case Method::epa: return 2 + max_iterations_ + 8 + max_iterations_;
+      case Method::mpr: return 2 + max_iterations_ * (task == Task::intersect ? 2 : 3);
     }
     return 0;
   }
@@ -207,21 +211,13 @@ class Libccd final : public NarrowPhase {
     ccd.epa_tolerance = length * length;
   }
 
-  // Whether GJK, which has said "separated", was at the end of its allowance, or whether the support
-  // functions have put an end to the query.
-  bool gave_up(const Query& query, bool found) const {
-    const long calls = query.support_calls / 2;
-    if (query.support_calls > query.limit) return true;
-    return method_ != Method::mpr && !found && calls - 1 > max_iterations_;
-  }
-
   void answer(const Query& query, bool found, Outcome& outcome) const {
-    outcome.support_calls = static_cast<std::int32_t>(query.support_calls / 2);
-    const bool stopped = gave_up(query, found);
-    outcome.status = stopped ? Status::not_converged : Status::not_reported;
-    outcome.answer = found     ? Answer::overlapping
-                     : stopped ? Answer::unknown
-                               : Answer::separated;
+    // EPA's limit is not that of the GJK before it, which may have used up its own.
+    const bool gjk_gave_up = !found && query.support_points() > 1 + max_iterations_;
+    const bool gave_up = query.stopped() || (method_ == Method::epa && gjk_gave_up);
+    outcome.support_calls = static_cast<std::int32_t>(query.support_points());
+    outcome.status = gave_up ? Status::not_converged : Status::not_reported;
+    outcome.answer = found ? Answer::overlapping : gave_up ? Answer::unknown : Answer::separated;
   }
 
   void intersect(const ccd_t& ccd, const Body& a, const Body& b, Outcome& outcome) const {
@@ -247,7 +243,6 @@ class Libccd final : public NarrowPhase {
       outcome.status = Status::degenerate;
       return;
     }
-    if (depth == 0) outcome.answer = Answer::touching;
     outcome.distance = 0 - depth;
     // libccd moves b by depth along it. Touching bodies are given a zero vector or NaN.
     const Vec3d normal = to_eigen(direction);
@@ -256,7 +251,7 @@ class Libccd final : public NarrowPhase {
 
   Method method_;
   std::optional<double> tolerance_;
-  int max_iterations_;
+  long max_iterations_;
   std::span<const Shape> shapes_;
   std::vector<Vec3d> centers_;
   std::vector<double> reaches_;
