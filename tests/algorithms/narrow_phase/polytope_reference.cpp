@@ -1,4 +1,4 @@
-#include "tests/algorithms/narrow_phase/reference.h"
+#include "tests/algorithms/narrow_phase/polytope_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace touchstone::test {
+namespace touchstone::reference {
 namespace {
 
 Real3 wide(const Vec3d& x) { return x.cast<Real>(); }
@@ -297,4 +297,4 @@ Mat3d Random::rotation() {
   return Eigen::AngleAxisd(uniform(0, std::numbers::pi), direction()).toRotationMatrix();
 }
 
-}  // namespace touchstone::test
+}  // namespace touchstone::reference
