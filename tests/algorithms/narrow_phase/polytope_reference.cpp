@@ -40,6 +40,14 @@ double ball(const Body& body) {
   return round ? body.shape.radius : 0;
 }
 
+// The cross product without the part that rounding leaves along the longer of the two: of nearly
+// parallel vectors that part would be what tilts it the most.
+Real3 normal_of(const Real3& e, const Real3& f) {
+  const Real3& longer = e.squaredNorm() > f.squaredNorm() ? e : f;
+  const Real3 n = e.cross(f);
+  return longer.squaredNorm() > 0 ? Real3(n - n.dot(longer) / longer.squaredNorm() * longer) : n;
+}
+
 struct Nearest {
   Real distance = std::numeric_limits<Real>::infinity();
   Real3 difference = Real3::Zero();  // from a to b
@@ -63,7 +71,7 @@ void offer_segments(const Real3& p0, const Real3& p1, const Real3& q0, const Rea
                     Nearest& nearest) {
   const Real3 e = p1 - p0;
   const Real3 f = q1 - q0;
-  const Real3 n = e.cross(f);
+  const Real3 n = normal_of(e, f);
   const Real nn = n.squaredNorm();
   if (!(nn > 1e-30L * e.squaredNorm() * f.squaredNorm())) return;
   const Real3 between = q0 - p0;
@@ -77,7 +85,7 @@ void offer_point_triangle(const Real3& p, const Real3& a, const Real3& b, const 
                           Nearest& nearest) {
   const Real3 e = b - a;
   const Real3 f = c - a;
-  const Real3 n = e.cross(f);
+  const Real3 n = normal_of(e, f);
   const Real nn = n.squaredNorm();
   if (!(nn > 1e-30L * e.squaredNorm() * f.squaredNorm())) return;
   const Real3 q = p - a;
@@ -146,7 +154,7 @@ Depth least_height(const std::vector<Real3>& a, const std::vector<Real3>& b) {
   const std::vector<Real3> edges_a = edges(a);
   const std::vector<Real3> edges_b = edges(b);
   const auto offer_cross = [&](const Real3& e, const Real3& f) {
-    const Real3 n = e.cross(f);
+    const Real3 n = normal_of(e, f);
     if (n.squaredNorm() > 1e-32L * e.squaredNorm() * f.squaredNorm()) offer(n);
   };
   for (const auto& own : {a, b}) {
