@@ -47,8 +47,8 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
   Scalar held = infinity;  // the nearest of the faces that cannot be expanded
   result.end = ExpansionEnd::cap;
   for (int iteration = 1; iteration <= max_iterations_; ++iteration) {
-    const int nearest = pop_nearest();
-    const Scalar distance = nearest < 0 ? result.upper : faces_[nearest].distance;
+    Scalar distance = result.upper;
+    const int nearest = pop_nearest(distance);
     result.lower = std::max(result.lower, std::min({distance, held, result.upper}));
     if (nearest < 0) {
       const bool met = result.upper - result.lower <= goal.tolerance;
@@ -64,12 +64,16 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
     const DifferencePoint<Scalar> point = pair.support(normal);
     const Scalar height = normal.dot(point.difference);
     // So written that NaN ends the loop.
-    const bool met = !(height - distance > goal.tolerance);
+    const bool met = !(height - std::min(distance, faces_[nearest].distance) > goal.tolerance);
     if (met || height < result.upper) {
       result.upper = height;
       result.normal = normal;
       best_face_ = nearest;
       best_vertices_ = faces_[nearest].vertices;
+    }
+    if (height < -SupportPair<Scalar>::rounding) {
+      result.end = ExpansionEnd::apart;
+      break;
     }
     if (met) {
       const bool bounded = height - std::min(distance, held) <= goal.tolerance;
@@ -87,6 +91,10 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
       }
       held = std::min(held, distance);
     }
+  }
+  if (goal.doubtful && !encloses_origin()) {
+    result.lower = 0;
+    if (result.end != ExpansionEnd::apart) result.end = ExpansionEnd::stuck;
   }
   find_witnesses(result);
   return result;
@@ -175,7 +183,7 @@ bool ExpandingPolytope<Scalar>::start(Simplex<Scalar> tetrahedron) {
   for (int f = 0; f < 4; ++f) {
     if (new_face(corners[f][0], corners[f][1], corners[f][2], -1) != f) return false;
     faces_[f].neighbours = beside[f];
-    push(f);
+    push(f, faces_[f].distance);
   }
   return true;
 }
@@ -207,30 +215,62 @@ int ExpandingPolytope<Scalar>::new_face(int a, int b, int c, int behind) {
   face.vertices = {a, b, c};
   face.neighbours = {behind, -1, -1};
   face.born = ++births_;
+  face.measured = false;
   face.seen = 0;
   face.visible = false;
   return index;
 }
 
 template <class Scalar>
-void ExpandingPolytope<Scalar>::push(int face) {
+void ExpandingPolytope<Scalar>::push(int face, Scalar distance) {
   if (heap_.size() == heap_.capacity()) {
     std::erase_if(heap_, [&](const HeapEntry& e) { return faces_[e.face].born != e.born; });
     std::make_heap(heap_.begin(), heap_.end());
   }
-  heap_.push_back({faces_[face].distance, face, faces_[face].born});
+  heap_.push_back({distance, face, faces_[face].born});
   std::push_heap(heap_.begin(), heap_.end());
 }
 
+// Planes are never further than their triangles, so they serve until one comes up.
 template <class Scalar>
-int ExpandingPolytope<Scalar>::pop_nearest() {
+int ExpandingPolytope<Scalar>::pop_nearest(Scalar& distance) {
   while (!heap_.empty()) {
     const HeapEntry top = heap_.front();
     std::pop_heap(heap_.begin(), heap_.end());
     heap_.pop_back();
-    if (faces_[top.face].born == top.born) return top.face;
+    Face& face = faces_[top.face];
+    if (face.born != top.born) continue;
+    if (!face.measured) {
+      face.measured = true;
+      Simplex<Scalar> triangle;
+      triangle.size = 3;
+      for (int i = 0; i < 3; ++i) triangle.points[i].difference = at(face.vertices[i]);
+      const Scalar measured = reduce_to_nearest(triangle).distance;
+      if (measured > top.distance && !heap_.empty() && measured > heap_.front().distance) {
+        push(top.face, measured);
+        continue;
+      }
+      distance = measured;
+      return top.face;
+    }
+    distance = top.distance;
+    return top.face;
   }
   return -1;
+}
+
+// True where the origin is on the inner side of every face, beyond doubt.
+template <class Scalar>
+bool ExpandingPolytope<Scalar>::encloses_origin() const {
+  for (int f = 0; f < first_fresh_; ++f) {
+    const Face& face = faces_[f];
+    if (face.born == 0 || face.flat) continue;
+    const std::array<Vec3<Scalar>, 3> corners = {at(face.vertices[0]), at(face.vertices[1]),
+                                                 at(face.vertices[2])};
+    const Scalar doubt = lever(project_origin(triangle_plane(corners), corners));
+    if (!(face.distance > doubt * SupportPair<Scalar>::rounding)) return false;
+  }
+  return true;
 }
 
 // Puts the cone from the point over the horizon in the place of the faces that the point sees.
@@ -266,7 +306,8 @@ bool ExpandingPolytope<Scalar>::expand_face(int face, const DifferencePoint<Scal
     }
     faces_[made_[i]].neighbours[1] = made_[(i + 1) % count];
     faces_[made_[i]].neighbours[2] = made_[(i + count - 1) % count];
-    if (!(faces_[made_[i]].distance > upper)) push(made_[i]);
+    const Scalar distance = faces_[made_[i]].distance;
+    if (!(distance > upper)) push(made_[i], distance);
   }
   for (const int gone : visible_) {
     faces_[gone].born = 0;

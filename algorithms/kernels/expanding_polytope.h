@@ -26,11 +26,15 @@ struct ExpansionGoal {
   // The lower bound exceeds `enough`, or the upper bound is no greater: for queries that only ask
   // for a verdict. Negative: go on to the tolerance.
   Scalar enough = -1;
+  // The origin may prove to be outside: then a plane between is looked for, and a positive depth is
+  // only claimed after all faces were checked.
+  bool doubtful = false;
 };
 
 enum class ExpansionEnd : std::uint8_t {
   converged,  // the bounds are within the tolerance
   enough,     // they are on one side of goal.enough
+  apart,      // a plane separates the origin from the difference: `upper` is negative
   flat,       // the difference has no volume: the depth is zero
   stuck,      // rounding: no face can be expanded
   cap,        // too many iterations
@@ -63,7 +67,8 @@ class ExpandingPolytope {
     std::array<int, 3> vertices;    // anticlockwise seen from outside
     std::array<int, 3> neighbours;  // across the edge from vertices[i] to vertices[i + 1]
     Vec3<Scalar> normal;
-    Scalar distance;     // of the plane from the origin; the origin is inside
+    Scalar distance;     // of the plane from the origin, which is inside
+    bool measured;       // the heap has the distance of the triangle, not only of its plane
     std::uint64_t born;  // which face this was made as; 0: not in use
     std::uint64_t seen;  // the last search for a horizon that came by ...
     bool visible;        // ... and what it found
@@ -86,8 +91,9 @@ class ExpandingPolytope {
                            Expansion<Scalar>& result);
   bool start(Simplex<Scalar> tetrahedron);
   int new_face(int a, int b, int c, int behind);  // -1: no such face
-  void push(int face);
-  int pop_nearest();  // -1: none
+  void push(int face, Scalar distance);
+  int pop_nearest(Scalar& distance);  // -1: none
+  bool encloses_origin() const;
   bool expand_face(int face, const DifferencePoint<Scalar>& point, Scalar upper);
   bool find_horizon(int face, const Vec3<Scalar>& point);
   void find_witnesses(Expansion<Scalar>& result) const;

@@ -1,7 +1,9 @@
 #include "algorithms/kernels/simplex.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -86,22 +88,33 @@ class Search {
     static constexpr std::array<std::array<int, 4>, 4> faces = {
         {{1, 2, 3, 0}, {0, 2, 3, 1}, {0, 1, 3, 2}, {0, 1, 2, 3}}};
     std::array<bool, 4> beyond{};
+    std::array<TrianglePlane<Scalar>, 4> planes;
     bool inside = true;
     bool flat = false;
-    depth = std::numeric_limits<Scalar>::infinity();
     for (int f = 0; f < 4; ++f) {
       const auto& [i, j, k, opposite] = faces[f];
-      const TrianglePlane<Scalar> plane = triangle_plane<Scalar>({point(i), point(j), point(k)});
-      const Vec3<Scalar>& base = point(faces[f][plane.base]);
-      const Scalar length = plane.normal.norm();
-      const Scalar side_of_origin = -plane.normal.dot(base);
-      const Scalar side_of_vertex = plane.normal.dot(point(opposite) - base);
-      flat = flat || plane.flat || !(std::abs(side_of_vertex) > flat_height<Scalar> * length);
+      planes[f] = triangle_plane<Scalar>({point(i), point(j), point(k)});
+      const Vec3<Scalar>& normal = planes[f].normal;
+      const Vec3<Scalar>& base = point(faces[f][planes[f].base]);
+      const Scalar side_of_origin = -normal.dot(base);
+      const Scalar side_of_vertex = normal.dot(point(opposite) - base);
+      constexpr Scalar limit = flat_height<Scalar> * flat_height<Scalar>;
+      flat = flat || planes[f].flat ||
+             !(side_of_vertex * side_of_vertex > limit * normal.squaredNorm());
       beyond[f] = !(side_of_vertex > 0 ? side_of_origin > 0 : side_of_origin < 0);
       inside = inside && !beyond[f];
-      depth = std::min(depth, std::abs(side_of_origin) / length);
     }
-    if (inside && !flat) return true;
+    if (inside && !flat) {
+      depth = std::numeric_limits<Scalar>::infinity();
+      for (int f = 0; f < 4; ++f) {
+        const auto& [i, j, k, opposite] = faces[f];
+        const std::array<Vec3<Scalar>, 3> corners = {point(i), point(j), point(k)};
+        const Scalar height =
+            std::abs(planes[f].normal.dot(corners[planes[f].base])) / planes[f].normal.norm();
+        depth = std::min(depth, height / lever(project_origin(planes[f], corners)));
+      }
+      return true;
+    }
     for (int f = 0; f < 4; ++f) {
       if (flat || beyond[f]) triangle(faces[f][0], faces[f][1], faces[f][2]);
     }
@@ -128,10 +141,14 @@ TrianglePlane<Scalar> triangle_plane(const std::array<Vec3<Scalar>, 3>& corners)
                                           : (opposite[1] >= opposite[2] ? 1 : 2);
   plane.edge_1 = corners[(plane.base + 1) % 3] - corners[plane.base];
   plane.edge_2 = corners[(plane.base + 2) % 3] - corners[plane.base];
+  plane.longest = corners[(plane.base + 2) % 3] - corners[(plane.base + 1) % 3];
   plane.normal = plane.edge_1.cross(plane.edge_2);
+  // The product's rounding may point along a needle, where it would tilt the plane the most.
+  const Scalar length = opposite[plane.base];
+  if (length > 0) plane.normal -= plane.normal.dot(plane.longest) / length * plane.longest;
   // The least height stands on the longest edge.
   constexpr Scalar limit = flat_height<Scalar> * flat_height<Scalar>;
-  plane.flat = !(plane.normal.squaredNorm() > limit * opposite[plane.base]);
+  plane.flat = !(plane.normal.squaredNorm() > limit * length);
   return plane;
 }
 
@@ -144,9 +161,17 @@ std::array<Scalar, 3> project_origin(const TrianglePlane<Scalar>& plane,
   const Scalar last = plane.normal.dot(base.cross(plane.edge_1)) / area;
   std::array<Scalar, 3> weights;
   weights[plane.base] = 1 - next - last;
-  weights[(plane.base + 1) % 3] = next;
-  weights[(plane.base + 2) % 3] = last;
+  // What these leave along the longest edge, its ends make up for.
+  const Vec3<Scalar> left = base + next * plane.edge_1 + last * plane.edge_2;
+  const Scalar shift = left.dot(plane.longest) / plane.longest.squaredNorm();
+  weights[(plane.base + 1) % 3] = next + shift;
+  weights[(plane.base + 2) % 3] = last - shift;
   return weights;
+}
+
+template <class Scalar>
+Scalar lever(const std::array<Scalar, 3>& weights) {
+  return std::abs(weights[0]) + std::abs(weights[1]) + std::abs(weights[2]);
 }
 
 template <class Scalar>
@@ -177,6 +202,8 @@ template NearestPoint<float> reduce_to_nearest(Simplex<float>&);
 template NearestPoint<double> reduce_to_nearest(Simplex<double>&);
 template TrianglePlane<float> triangle_plane(const std::array<Vec3<float>, 3>&);
 template TrianglePlane<double> triangle_plane(const std::array<Vec3<double>, 3>&);
+template float lever(const std::array<float, 3>&);
+template double lever(const std::array<double, 3>&);
 template std::array<float, 3> project_origin(const TrianglePlane<float>&,
                                              const std::array<Vec3<float>, 3>&);
 template std::array<double, 3> project_origin(const TrianglePlane<double>&,

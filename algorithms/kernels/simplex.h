@@ -44,6 +44,7 @@ template <class Scalar>
 struct TrianglePlane {
   int base = 0;                 // the corner opposite the longest edge; the others follow in turn
   Vec3<Scalar> edge_1, edge_2;  // from the base to the next corner and to the one after
+  Vec3<Scalar> longest;         // from that next corner to the one after
   Vec3<Scalar> normal;          // edge_1 x edge_2: twice the area long
   bool flat = false;            // three points on a line, up to rounding
 };
@@ -56,5 +57,10 @@ TrianglePlane<Scalar> triangle_plane(const std::array<Vec3<Scalar>, 3>& corners)
 template <class Scalar>
 std::array<Scalar, 3> project_origin(const TrianglePlane<Scalar>& plane,
                                      const std::array<Vec3<Scalar>, 3>& corners);
+
+// What rounding of the corners is multiplied by in the plane's distance from the origin: 1 where
+// the projection falls inside, and much for a sliver that is far from it.
+template <class Scalar>
+Scalar lever(const std::array<Scalar, 3>& weights);
 
 }  // namespace touchstone

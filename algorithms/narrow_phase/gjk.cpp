@@ -130,7 +130,7 @@ Approach<Scalar> Gjk<Scalar>::approach(SupportPair<Scalar>& pair, Task task,
     found.lower = std::max(found.lower, -direction.dot(point.difference));
     const bool apart = found.lower - radius > rounding;
     // Comparisons are written so that NaN ends the loop.
-    const bool open = found.upper - found.lower > tolerance;
+    const bool open = found.nearest.distance - found.lower > tolerance || simplex.size == 0;
     switch (task) {
       case Task::intersect:
         if (apart) found.end = End::decided;
@@ -188,8 +188,8 @@ void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outc
     const bool asked = (task == Task::distance && outcome.answer != Answer::overlapping) ||
                        (task == Task::penetration && outcome.answer != Answer::separated);
     // A bound that the answer did not need may be open.
-    const bool known =
-        outcome.answer != Answer::unknown && (!asked || !(found.upper - found.lower > tolerance));
+    const bool known = outcome.answer != Answer::unknown &&
+                       (!asked || !(found.nearest.distance - found.lower > tolerance));
     outcome.status = known ? Status::ok : Status::not_converged;
     if (asked) {
       Vec3<Scalar> a = Vec3<Scalar>::Zero();
@@ -205,22 +205,38 @@ void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outc
   outcome.support_calls = pair.support_calls();
 }
 
+// How far the nearest point, as its weights have it, is from the origin.
+template <class Scalar>
+Scalar off_core(const Simplex<Scalar>& simplex) {
+  Vec3<Scalar> sum = Vec3<Scalar>::Zero();
+  for (int i = 0; i < simplex.size; ++i) sum += simplex.weights[i] * simplex.points[i].difference;
+  return sum.norm();
+}
+
 // The cores share a point, up to rounding.
 template <class Scalar>
 void Gjk<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
                                 Scalar tolerance, Outcome& outcome) {
   const Scalar radius = pair.radius();
-  const bool proven =
-      radius > 2 * rounding || (found.nearest.inside && found.nearest.distance > rounding);
-  if (proven) outcome.answer = Answer::overlapping;
-  if (proven) outcome.status = Status::ok;
-  if (proven && task != Task::penetration) return;
-
-  ExpansionGoal<Scalar> goal{.tolerance = tolerance};
+  const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
+  const bool on_core = !found.nearest.inside && off_core(found.simplex) <= 4 * rounding;
+  const bool proven = inside_core || (on_core && radius > 8 * rounding);
+  if (proven && task != Task::penetration) {
+    outcome.answer = Answer::overlapping;
+    outcome.status = Status::ok;
+    return;
+  }
+  ExpansionGoal<Scalar> goal{.tolerance = tolerance, .doubtful = !inside_core && !on_core};
   if (task != Task::penetration) goal.enough = rounding;
   const Expansion<Scalar> depth = polytope_.expand(pair, found.simplex, goal);
   outcome.iterations += depth.iterations;
-  const bool inside = proven || depth.lower + radius > rounding;
+  if (depth.end == ExpansionEnd::apart && -depth.upper - radius > rounding) {
+    outcome.answer = Answer::separated;
+    outcome.status = task == Task::distance ? Status::not_converged : Status::ok;
+    return;
+  }
+  const bool inside =
+      proven || depth.lower > rounding || (!goal.doubtful && depth.lower + radius > rounding);
   const bool known = depth.end == ExpansionEnd::converged || depth.end == ExpansionEnd::flat;
   outcome.answer = inside ? Answer::overlapping : Answer::unknown;
   outcome.status = Status::not_converged;

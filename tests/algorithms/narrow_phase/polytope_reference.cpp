@@ -1,4 +1,4 @@
-#include "tests/algorithms/narrow_phase/reference.h"
+#include "tests/algorithms/narrow_phase/polytope_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace touchstone::test {
+namespace touchstone::reference {
 namespace {
 
 Real3 wide(const Vec3d& x) { return x.cast<Real>(); }
@@ -40,6 +40,14 @@ double ball(const Body& body) {
   return round ? body.shape.radius : 0;
 }
 
+// The cross product without the part that rounding leaves along the longer of the two: of nearly
+// parallel vectors that part would be what tilts it the most.
+Real3 normal_of(const Real3& e, const Real3& f) {
+  const Real3& longer = e.squaredNorm() > f.squaredNorm() ? e : f;
+  const Real3 n = e.cross(f);
+  return longer.squaredNorm() > 0 ? Real3(n - n.dot(longer) / longer.squaredNorm() * longer) : n;
+}
+
 struct Nearest {
   Real distance = std::numeric_limits<Real>::infinity();
   Real3 difference = Real3::Zero();  // from a to b
@@ -63,7 +71,7 @@ void offer_segments(const Real3& p0, const Real3& p1, const Real3& q0, const Rea
                     Nearest& nearest) {
   const Real3 e = p1 - p0;
   const Real3 f = q1 - q0;
-  const Real3 n = e.cross(f);
+  const Real3 n = normal_of(e, f);
   const Real nn = n.squaredNorm();
   if (!(nn > 1e-30L * e.squaredNorm() * f.squaredNorm())) return;
   const Real3 between = q0 - p0;
@@ -77,7 +85,7 @@ void offer_point_triangle(const Real3& p, const Real3& a, const Real3& b, const 
                           Nearest& nearest) {
   const Real3 e = b - a;
   const Real3 f = c - a;
-  const Real3 n = e.cross(f);
+  const Real3 n = normal_of(e, f);
   const Real nn = n.squaredNorm();
   if (!(nn > 1e-30L * e.squaredNorm() * f.squaredNorm())) return;
   const Real3 q = p - a;
@@ -146,7 +154,7 @@ Depth least_height(const std::vector<Real3>& a, const std::vector<Real3>& b) {
   const std::vector<Real3> edges_a = edges(a);
   const std::vector<Real3> edges_b = edges(b);
   const auto offer_cross = [&](const Real3& e, const Real3& f) {
-    const Real3 n = e.cross(f);
+    const Real3 n = normal_of(e, f);
     if (n.squaredNorm() > 1e-32L * e.squaredNorm() * f.squaredNorm()) offer(n);
   };
   for (const auto& own : {a, b}) {
@@ -172,31 +180,57 @@ double extent(const Body& body) {
   return result + ball(body);
 }
 
+Shape make_round(ShapeKind kind, double radius, double half_length) {
+  Shape shape;
+  shape.kind = kind;
+  shape.radius = radius;
+  shape.half_length = half_length;
+  return shape;
+}
+
 }  // namespace
 
-Shape make_sphere(double radius) { return {.kind = ShapeKind::sphere, .radius = radius}; }
-Shape make_capsule(double radius, double half_length) {
-  return {.kind = ShapeKind::capsule, .radius = radius, .half_length = half_length};
+Shape make_sphere(double radius) {
+  Shape shape;
+  shape.kind = ShapeKind::sphere;
+  shape.radius = radius;
+  return shape;
 }
-Shape make_box(double x, double y, double z) {
-  return {.kind = ShapeKind::box, .half_extents = {x, y, z}};
+Shape make_capsule(double radius, double half_length) {
+  return make_round(ShapeKind::capsule, radius, half_length);
 }
 Shape make_cylinder(double radius, double half_length) {
-  return {.kind = ShapeKind::cylinder, .radius = radius, .half_length = half_length};
+  return make_round(ShapeKind::cylinder, radius, half_length);
 }
 Shape make_cone(double radius, double half_length) {
-  return {.kind = ShapeKind::cone, .radius = radius, .half_length = half_length};
+  return make_round(ShapeKind::cone, radius, half_length);
+}
+Shape make_box(double x, double y, double z) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.half_extents = {x, y, z};
+  return shape;
 }
 Shape make_ellipsoid(double x, double y, double z) {
-  return {.kind = ShapeKind::ellipsoid, .radii = {x, y, z}};
+  Shape shape;
+  shape.kind = ShapeKind::ellipsoid;
+  shape.radii = {x, y, z};
+  return shape;
 }
 Shape make_hull(std::vector<Vec3d> vertices) {
   auto hull = std::make_shared<Hull>();
   hull->vertices = std::move(vertices);
-  return {.kind = ShapeKind::hull, .hull = std::move(hull)};
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = std::move(hull);
+  return shape;
 }
 Shape make_halfspace(const Vec3d& normal, double offset) {
-  return {.kind = ShapeKind::halfspace, .normal = normal, .offset = offset};
+  Shape shape;
+  shape.kind = ShapeKind::halfspace;
+  shape.normal = normal;
+  shape.offset = offset;
+  return shape;
 }
 
 Real signed_distance(const Body& a, const Body& b, Vec3d& normal) {
@@ -297,4 +331,4 @@ Mat3d Random::rotation() {
   return Eigen::AngleAxisd(uniform(0, std::numbers::pi), direction()).toRotationMatrix();
 }
 
-}  // namespace touchstone::test
+}  // namespace touchstone::reference

@@ -9,7 +9,7 @@
 
 #include "algorithms/narrow_phase.h"
 
-namespace touchstone::test {
+namespace touchstone::reference {
 
 using Real = long double;
 using Real3 = Eigen::Matrix<Real, 3, 1>;
@@ -60,4 +60,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace touchstone::test
+}  // namespace touchstone::reference
