@@ -1,0 +1,273 @@
+// GJK: walk on the difference A - B towards the origin, one support point at a time; EPA for depth.
+// Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; the sub-distance
+// of
+//          Montanari, Petrinic, Barbieri, ACM TOG 36(3), 2017; for depth van den Bergen, GDC 2001.
+// Departs: stops by the duality gap: the simplex bounds the distance from above, each support plane
+//          from below. Round shapes are cores with a radius, so that shallow overlaps of theirs
+//          need no EPA. Where the origin is on the simplex, EPA decides: a verdict is `ok` only
+//          where a bound proves it beyond rounding. Never answers `touching`.
+// Fails:   says unknown / not_converged within 2e-15 (double) or 1e-6 (float) of touching, as a
+// part
+//          of the pair's size. Depth of smooth, nearly round bodies far inside each other:
+//          EPA's cap comes first, not_converged with bounds.
+// Cost:    O(1) space; a few support calls for each digit on smooth shapes, finite on polytopes.
+//          Caps: 128 iterations of GJK, 256 of EPA. Tolerance, as a part of the size: 1e-10
+//          (double) or 1e-5 (float); polytopes go on until nothing is left but rounding.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/kernels/expanding_polytope.h"
+#include "algorithms/kernels/halfspace.h"
+#include "algorithms/kernels/simplex.h"
+#include "algorithms/kernels/support.h"
+#include "algorithms/narrow_phase.h"
+
+namespace touchstone {
+namespace {
+
+constexpr int default_gjk_cap = 128;
+constexpr int default_epa_cap = 256;
+
+// What GJK knows of the distance between the cores, in the pair's unit.
+template <class Scalar>
+struct Approach {
+  enum class End {
+    decided,    // as far as the task needs
+    contact,    // the origin is inside the simplex, or on it up to rounding
+    no_better,  // rounding
+    cap,
+  };
+  End end = End::cap;
+  Simplex<Scalar> simplex;
+  NearestPoint<Scalar> nearest;
+  Scalar lower = 0;
+  Scalar upper = std::numeric_limits<Scalar>::infinity();
+  int iterations = 0;
+};
+
+template <class Scalar>
+class Gjk final : public NarrowPhase {
+ public:
+  explicit Gjk(const NarrowPhaseSettings& settings)
+      : tolerance_(settings.tolerance),
+        gjk_cap_(std::max(1, settings.max_iterations.value_or(default_gjk_cap))),
+        polytope_(std::max(1, settings.max_iterations.value_or(default_epa_cap))) {}
+
+  void bind(std::span<const Shape> shapes) override {
+    shapes_ = make_support_shapes<Scalar>(shapes);
+  }
+
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::uint32_t a = batch.first[i];
+      const std::uint32_t b = batch.second[i];
+      const SupportShape<Scalar>& shape_a = shapes_[batch.shape_of[a]];
+      const SupportShape<Scalar>& shape_b = shapes_[batch.shape_of[b]];
+      if (batch.kind_a == ShapeKind::halfspace) {
+        solve_halfspaces(shape_a, batch.poses[a], shape_b, batch.poses[b], batch.task, outcomes[i]);
+      } else if (batch.kind_b == ShapeKind::halfspace) {
+        solve_halfspace(shape_a, batch.poses[a], shape_b, batch.poses[b], batch.task, outcomes[i]);
+      } else {
+        SupportPair<Scalar> pair(shape_a, batch.poses[a], shape_b, batch.poses[b]);
+        solve_pair(pair, batch.task, outcomes[i]);
+      }
+    }
+  }
+
+ private:
+  static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+
+  void solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
+  Approach<Scalar> approach(SupportPair<Scalar>& pair, Task task, Scalar tolerance) const;
+  void solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
+                     Scalar tolerance, Outcome& outcome);
+  Scalar tolerance_for(const SupportPair<Scalar>& pair) const {
+    const double smooth = sizeof(Scalar) == 8 ? 1e-10 : 1e-5;
+    const double own = pair.is_polytope() ? 0 : smooth;
+    return std::max(static_cast<Scalar>(tolerance_.value_or(own)), rounding);
+  }
+
+  std::optional<double> tolerance_;
+  int gjk_cap_;
+  ExpandingPolytope<Scalar> polytope_;
+  std::vector<SupportShape<Scalar>> shapes_;
+};
+
+// Writes a distance between the bodies, all in the pair's unit: `distance` and its bounds signed;
+// `normal` from a to b; `a` and `b` witness points of the cores.
+template <class Scalar>
+void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scalar upper,
+           const Vec3<Scalar>& normal, const Vec3<Scalar>& a, const Vec3<Scalar>& b,
+           Outcome& outcome) {
+  constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
+  outcome.distance = pair.unit() * static_cast<double>(distance);
+  outcome.lower = pair.unit() * (static_cast<double>(lower) - rounding);
+  outcome.upper = pair.unit() * (static_cast<double>(upper) + rounding);
+  outcome.normal = normal.template cast<double>();
+  outcome.witness_a = pair.to_world(a + pair.radius_a() * normal);
+  outcome.witness_b = pair.to_world(b - pair.radius_b() * normal);
+}
+
+template <class Scalar>
+Approach<Scalar> Gjk<Scalar>::approach(SupportPair<Scalar>& pair, Task task,
+                                       Scalar tolerance) const {
+  using End = typename Approach<Scalar>::End;
+  // Steps that do not come nearer may still turn the plane; but not for ever.
+  constexpr int patience = 8;
+  const Scalar radius = pair.radius();
+  Approach<Scalar> found;
+  found.lower = -std::numeric_limits<Scalar>::infinity();
+  Simplex<Scalar>& simplex = found.simplex;
+
+  const Scalar length = pair.centre_b().norm();
+  Vec3<Scalar> direction =
+      length > 0 ? Vec3<Scalar>(pair.centre_b() / length) : Vec3<Scalar>::UnitX();
+  int stalled = 0;
+  while (found.iterations < gjk_cap_) {
+    ++found.iterations;
+    const DifferencePoint<Scalar> point = pair.support(direction);
+    found.lower = std::max(found.lower, -direction.dot(point.difference));
+    const bool apart = found.lower - radius > rounding;
+    // Comparisons are written so that NaN ends the loop.
+    const bool open = found.nearest.distance - found.lower > tolerance || simplex.size == 0;
+    switch (task) {
+      case Task::intersect:
+        if (apart) found.end = End::decided;
+        break;
+      case Task::distance:
+        if (apart && !open) found.end = End::decided;
+        break;
+      case Task::penetration:
+        if (apart || (!open && found.lower > rounding)) found.end = End::decided;
+        break;
+    }
+    if (found.end == End::decided) return found;
+    for (int i = 0; i < simplex.size; ++i) {
+      if (simplex.points[i].difference == point.difference) {
+        found.end = End::no_better;
+        return found;
+      }
+    }
+
+    simplex.points[simplex.size++] = point;
+    found.nearest = reduce_to_nearest(simplex);
+    if (found.nearest.inside || !(found.nearest.distance > rounding)) {
+      found.upper = 0;
+      found.end = End::contact;
+      return found;
+    }
+    if (!(found.nearest.distance < found.upper) && ++stalled > patience) {
+      found.end = End::no_better;
+      return found;
+    }
+    found.upper = std::min(found.upper, found.nearest.distance);
+    if (task != Task::penetration && found.upper - radius < -rounding) {
+      found.end = End::decided;
+      return found;
+    }
+    direction = -found.nearest.direction;
+  }
+  return found;
+}
+
+template <class Scalar>
+void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome) {
+  using End = typename Approach<Scalar>::End;
+  const Scalar tolerance = tolerance_for(pair);
+  const Approach<Scalar> found = approach(pair, task, tolerance);
+  outcome.iterations = found.iterations;
+  if (found.end == End::contact) {
+    solve_contact(pair, found, task, tolerance, outcome);
+  } else {
+    const Scalar lower = found.lower - pair.radius();
+    const Scalar upper = found.upper - pair.radius();
+    outcome.answer = lower > rounding    ? Answer::separated
+                     : upper < -rounding ? Answer::overlapping
+                                         : Answer::unknown;
+    const bool asked = (task == Task::distance && outcome.answer != Answer::overlapping) ||
+                       (task == Task::penetration && outcome.answer != Answer::separated);
+    // A bound that the answer did not need may be open.
+    const bool known = outcome.answer != Answer::unknown &&
+                       (!asked || !(found.nearest.distance - found.lower > tolerance));
+    outcome.status = known ? Status::ok : Status::not_converged;
+    if (asked) {
+      Vec3<Scalar> a = Vec3<Scalar>::Zero();
+      Vec3<Scalar> b = Vec3<Scalar>::Zero();
+      for (int i = 0; i < found.simplex.size; ++i) {
+        a += found.simplex.weights[i] * found.simplex.points[i].a;
+        b += found.simplex.weights[i] * found.simplex.points[i].b;
+      }
+      const Vec3<Scalar> normal = -found.nearest.direction;
+      write(pair, found.nearest.distance - pair.radius(), lower, upper, normal, a, b, outcome);
+    }
+  }
+  outcome.support_calls = pair.support_calls();
+}
+
+// How far the nearest point, as its weights have it, is from the origin.
+template <class Scalar>
+Scalar off_core(const Simplex<Scalar>& simplex) {
+  Vec3<Scalar> sum = Vec3<Scalar>::Zero();
+  for (int i = 0; i < simplex.size; ++i) sum += simplex.weights[i] * simplex.points[i].difference;
+  return sum.norm();
+}
+
+// The cores share a point, up to rounding.
+template <class Scalar>
+void Gjk<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
+                                Scalar tolerance, Outcome& outcome) {
+  const Scalar radius = pair.radius();
+  const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
+  const bool on_core = !found.nearest.inside && off_core(found.simplex) <= 4 * rounding;
+  const bool proven = inside_core || (on_core && radius > 8 * rounding);
+  if (proven && task != Task::penetration) {
+    outcome.answer = Answer::overlapping;
+    outcome.status = Status::ok;
+    return;
+  }
+  ExpansionGoal<Scalar> goal{.tolerance = tolerance, .doubtful = !inside_core && !on_core};
+  if (task != Task::penetration) goal.enough = rounding;
+  const Expansion<Scalar> depth = polytope_.expand(pair, found.simplex, goal);
+  outcome.iterations += depth.iterations;
+  if (depth.end == ExpansionEnd::apart && -depth.upper - radius > rounding) {
+    outcome.answer = Answer::separated;
+    outcome.status = task == Task::distance ? Status::not_converged : Status::ok;
+    return;
+  }
+  const bool inside =
+      proven || depth.lower > rounding || (!goal.doubtful && depth.lower + radius > rounding);
+  const bool known = depth.end == ExpansionEnd::converged || depth.end == ExpansionEnd::flat;
+  outcome.answer = inside ? Answer::overlapping : Answer::unknown;
+  outcome.status = Status::not_converged;
+  if (inside && (known || task != Task::penetration)) outcome.status = Status::ok;
+  if (!inside && depth.end == ExpansionEnd::flat) outcome.status = Status::degenerate;
+  if (depth.end == ExpansionEnd::capacity) outcome.status = Status::capacity;
+  if (task == Task::intersect || (inside && task == Task::distance)) return;
+  write(pair, -(radius + depth.upper), -(radius + depth.upper), -(radius + depth.lower),
+        depth.normal, depth.a, depth.b, outcome);
+}
+
+template <class Scalar>
+std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
+  return std::make_unique<Gjk<Scalar>>(settings);
+}
+
+}  // namespace
+}  // namespace touchstone
+
+TOUCHSTONE_NARROW_PHASE {
+  using namespace touchstone;
+  return {{.info = {.name = "gjk",
+                    .citation = "Gilbert, Johnson, Keerthi, \"A fast procedure for computing the "
+                                "distance between complex objects in three-dimensional space\", "
+                                "IEEE J. Robotics and Automation 4(2), 1988; van den Bergen, "
+                                "\"Proximity queries and penetration depth computation on 3D game "
+                                "objects\", GDC 2001"},
+           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .scalars = {Precision::float32, Precision::float64},
+           .make = [](const NarrowPhaseSettings& settings) {
+             return settings.scalar == Precision::float32 ? make<float>(settings)
+                                                          : make<double>(settings);
+           }}};
+}
