@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithms/kernels/common_point.h"
 #include "algorithms/kernels/support.h"
@@ -65,6 +66,9 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
   const double reach_b = static_cast<double>(b.reach) * b.scale * pose_b.rotation.norm();
   const Vec3d offset = centre_offset(a, pose_a, b, pose_b);
   const double distance = offset.stableNorm();
+  // What centre_offset loses where the bodies lie far from their own origins.
+  const double lost = 4 * static_cast<double>(std::numeric_limits<long double>::epsilon()) *
+                      (a.centre.stableNorm() + b.centre.stableNorm());
   far_apart_ = distance > 1.001 * (reach_a + reach_b) && distance > 0;
   unit_ = power_of_two_above(std::max(reach_a, reach_b));
   anchor_ = pose_a(a.centre);
@@ -75,7 +79,8 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
   // the gap by as much times the reach), and of the products. Each is a few roundings of at most
   // half an epsilon of what goes into it; measured errors stay under a third of this.
   error_ = 8 * std::numeric_limits<Scalar>::epsilon() *
-           static_cast<Scalar>(((reach_a + reach_b) / std::sqrt(3.0) + distance) / unit_);
+               static_cast<Scalar>(((reach_a + reach_b) / std::sqrt(3.0) + distance) / unit_) +
+           static_cast<Scalar>(lost / unit_);
   // What is bounded above holds for matrices that are about rotations or reflections.
   const auto usable = [](const PlacedPolytope<Scalar>& body) {
     return body.determinant > Scalar{0.5} && body.determinant < Scalar{2} &&

@@ -38,12 +38,11 @@ class PortalSearch {
     const Point start{inside, Vec3<Scalar>::Zero(), pair_.centre_b()};
     const Vec3<Scalar> ray =
         coincident ? Vec3<Scalar>::UnitX() : Vec3<Scalar>(-inside.normalized());
-    const Goal goal = task == Task::intersect ? Goal::verdict : Goal::surface;
-    const Exit exit = search(start, ray, goal);
+    const Exit exit = search(start, ray, Goal::verdict);
     if (separated_) {
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;
-    } else if (exit != Exit::stuck && (coincident || origin_is_inside()) && depth_ > rounding) {
+    } else if ((exit == Exit::straight || coincident || origin_is_inside()) && depth_ > rounding) {
       outcome.answer = Answer::overlapping;
       outcome.status = Status::ok;
       if (task == Task::penetration) find_depth(exit, outcome);
@@ -58,7 +57,7 @@ class PortalSearch {
  private:
   using Point = DifferencePoint<Scalar>;
   enum class Goal : std::uint8_t { verdict, surface };
-  enum class Exit : std::uint8_t { done, capped, stuck };
+  enum class Exit : std::uint8_t { done, straight, capped, stuck };
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
   // Of the bodies with their radii; the direction has unit length.
@@ -93,7 +92,13 @@ class PortalSearch {
     v1 = support(ray_);
     if (separated_) return Exit::done;
     Vec3<Scalar> normal = ray_.cross(from_start(v1));
-    if (!(normal.norm() > rounding * from_start(v1).norm())) normal = ray_.unitOrthogonal();
+    if (!(normal.norm() > rounding * from_start(v1).norm())) {
+      // The ray leaves C in the point that lies furthest along it.
+      v2 = v3 = v1;
+      normal_ = ray_;
+      depth_ = v1.difference.dot(ray_);
+      return Exit::straight;
+    }
     v2 = support(normal.normalized());
     if (separated_) return Exit::done;
     if (side(v1, v2) < 0) std::swap(v1, v2);
@@ -102,9 +107,10 @@ class PortalSearch {
       const Vec3<Scalar> w1 = from_start(v1), w2 = from_start(v2);
       normal = w1.cross(w2);
       // All in line with the start: what of the ray is across them.
-      if (!(normal.norm() > rounding * w1.norm() * w2.norm())) {
-        normal = ray_ - ray_.dot(w1) / w1.squaredNorm() * w1;
-      }
+      const bool in_line = !(normal.norm() > rounding * w1.norm() * w2.norm());
+      if (in_line) normal = ray_;
+      // Almost in line, the product is not across the first any more.
+      normal -= normal.dot(w1) / w1.squaredNorm() * w1;
       if (!(normal.squaredNorm() > 0)) return Exit::stuck;
       v3 = support(normal.normalized());
       if (separated_) return Exit::done;
@@ -139,14 +145,13 @@ class PortalSearch {
       // precision stops the search.
       const Scalar slack = nearest > rounding ? tolerance_ : rounding / 4;
       if (!(depth_ - nearest > slack)) return Exit::done;
-      const bool left_of_1 = side(v4, v1) >= 0;
-      if (left_of_1 && side(v4, v2) <= 0) {
-        v3 = v4;
-      } else if (!left_of_1 && side(v4, v3) >= 0) {
-        v2 = v4;
-      } else {
-        v1 = v4;
-      }
+      // Of the three portals that v4 makes with two of the old corners, the one that the ray passes
+      // most clearly: signs alone are noise where it passes a corner.
+      const Scalar of_1 = side(v4, v1), of_2 = side(v4, v2), of_3 = side(v4, v3);
+      const Scalar over_12 = std::min(of_1, -of_2), over_23 = std::min(of_2, -of_3),
+                   over_31 = std::min(of_3, -of_1);
+      Point& dropped = over_12 >= over_23 && over_12 >= over_31 ? v3 : over_23 >= over_31 ? v1 : v2;
+      dropped = v4;
     }
     return Exit::capped;
   }
@@ -183,14 +188,14 @@ class PortalSearch {
   // The origin is inside: casts rays from it along the normal of the last portal, each portal being
   // nearer than the one before, until the passage lies along the normal.
   void find_depth(Exit exit, Outcome& outcome) {
+    bool settled = exit == Exit::straight;
+    if (!settled) exit = refine(Goal::surface);
     const Point origin{Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero()};
     Vec3<Scalar> normal = normal_;
     Scalar depth = depth_;
-    bool settled = false;
     for (int loop = 0; loop < max_iterations_ && exit == Exit::done && !settled; ++loop) {
       exit = search(origin, normal, Goal::surface);
-      if (exit != Exit::done || separated_) break;
-      settled = !(depth_ < depth - tolerance_);
+      settled = exit == Exit::straight || !(depth_ < depth - tolerance_);
       if (depth_ < depth) {
         depth = depth_;
         normal = normal_;
@@ -227,8 +232,8 @@ class Mpr final : public NarrowPhase {
  public:
   explicit Mpr(const NarrowPhaseSettings& settings)
       : max_iterations_(settings.max_iterations.value_or(256)),
-        tolerance_(std::max(static_cast<Scalar>(settings.tolerance.value_or(0.0)),
-                            SupportPair<Scalar>::rounding)) {}
+        tolerance_(std::max(static_cast<Scalar>(settings.tolerance.value_or(default_tolerance)),
+                            4 * SupportPair<Scalar>::rounding)) {}
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
@@ -252,6 +257,9 @@ class Mpr final : public NarrowPhase {
   }
 
  private:
+  // On a curved surface a portal as narrow as the root of this still has a normal.
+  static constexpr double default_tolerance = 1e-10;
+
   int max_iterations_;
   Scalar tolerance_;  // in units of the pair
   std::vector<SupportShape<Scalar>> shapes_;

@@ -2,7 +2,7 @@
 // Paper:   Gottschalk, Lin, Manocha, "OBBTree: A Hierarchical Structure for Rapid Interference
 //          Detection", SIGGRAPH 1996; section 5.2 reports on leaving out the axes of edge pairs.
 // Departs: any two convex polytopes. Flat hulls, segments and points have the sides of a prism or
-//          box of no thickness. Stops at the first axis that separates, after that of the centres.
+//          box of no thickness. Stops at the first axis that separates.
 // Answers: "separated" is proven. "Overlapping" says that no face normal separates: bodies that
 // only
 //          an axis across an edge of each keeps apart are called overlapping as well. The depth is
@@ -51,11 +51,7 @@ class SatFaces final : public NarrowPhase {
   static void solve_pair(const PolytopePair<Scalar>& pair, Task task, Outcome& outcome) {
     int tested = 0;
     Axis<Scalar> best;
-    if (!pair.far_apart()) {
-      best = pair.centre_axis();
-      ++tested;
-      if (!pair.separates(best)) best = pair.face_axis(tested);
-    }
+    if (!pair.far_apart()) best = pair.face_axis(tested);
     pair.report(best, task, false, outcome);
     outcome.iterations = tested;
   }

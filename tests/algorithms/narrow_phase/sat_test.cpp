@@ -1,0 +1,357 @@
+// What is particular to the separating axis tests: axes across edges, flat and thin bodies,
+// extremes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "algorithms/registry.h"
+#include "tests/algorithms/narrow_phase/bodies.h"
+#include "tests/algorithms/narrow_phase/brute_force.h"
+
+namespace touchstone {
+namespace {
+
+using namespace test;
+
+Outcome ask_named(const char* name, Precision scalar, Task task, const Shape& a, const Pose& pose_a,
+                  const Shape& b, const Pose& pose_b) {
+  return ask(*find_narrow_phase(name), settings_of(scalar), task, a, pose_a, b, pose_b);
+}
+
+Mat3d turn(double degrees, const Vec3d& axis) {
+  return Eigen::AngleAxisd(degrees * M_PI / 180, axis).toRotationMatrix();
+}
+
+// The greatest distance of two vertices: the size of a body.
+double size_of(const Shape& shape) {
+  if (shape.kind == ShapeKind::box) return 2 * shape.half_extents.norm();
+  double size = 0;
+  for (const Vec3d& p : shape.hull->vertices) {
+    for (const Vec3d& q : shape.hull->vertices) size = std::max(size, (p - q).norm());
+  }
+  return size;
+}
+
+struct Tally {
+  int apart = 0, common = 0, gave_up = 0;
+};
+
+// Checks sat in both scalars and tasks against the brute force, and counts. Differences below
+// `margin` times the size of the pair are not asked of it. `doubt`: error of the brute force,
+// metres.
+void check(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
+           float float_margin, Tally& tally, double doubt = 0) {
+  const double truth = brute_force::signed_distance(a, pose_a, b, pose_b);
+  const double size = std::max(size_of(a), size_of(b));
+  (truth > 0 ? tally.apart : tally.common)++;
+  for (const Precision scalar : {Precision::float64, Precision::float32}) {
+    const bool exact = scalar == Precision::float64;
+    const double tolerance = (exact ? margin : static_cast<double>(float_margin)) * size;
+    for (const Task task : {Task::intersect, Task::penetration}) {
+      const Outcome outcome = ask_named("sat", scalar, task, a, pose_a, b, pose_b);
+      SCOPED_TRACE(std::string(to_string(scalar)) + " " + std::string(to_string(task)) +
+                   ", true distance " + std::to_string(truth / size) + " of the size");
+      if (outcome.status != Status::ok) {
+        EXPECT_EQ(outcome.status, Status::not_converged);
+        if (exact) tally.gave_up++;
+        EXPECT_LE(std::abs(truth), tolerance) << "gave up where it need not";
+        EXPECT_EQ(outcome.answer, Answer::unknown);
+      } else if (std::abs(truth) > tolerance) {
+        EXPECT_EQ(outcome.answer, truth > 0 ? Answer::separated : Answer::overlapping);
+      }
+      if (task == Task::penetration && outcome.answer == Answer::overlapping) {
+        EXPECT_NEAR(outcome.distance, truth, tolerance);
+        EXPECT_LE(outcome.lower, truth + (exact ? doubt : 1e-6 * size));
+        EXPECT_GE(outcome.upper, truth - (exact ? doubt : 1e-6 * size));
+        EXPECT_NEAR(outcome.normal.norm(), 1, 1e-15);
+      }
+      if (task == Task::intersect || outcome.answer == Answer::separated) {
+        EXPECT_TRUE(std::isnan(outcome.distance) && std::isnan(outcome.normal.x()) &&
+                    std::isnan(outcome.witness_a.x()));
+      }
+    }
+  }
+}
+
+using MakeShape = std::function<Shape(Random&)>;
+
+// Random pairs whose bodies are moved along the line of their centres to about where they touch.
+Tally sweep(const MakeShape& make_a, const MakeShape& make_b, int count, double margin,
+            float float_margin, double spread, std::uint64_t seed) {
+  Random random(seed);
+  Tally tally;
+  for (int k = 0; k < count; ++k) {
+    const Shape a = make_a(random), b = make_b(random);
+    Pose pose_a{random_rotation(random), Vec3d::Zero()}, pose_b{random_rotation(random), {}};
+    const Vec3d u = random_direction(random);
+    pose_b.translation.setZero();
+    const double reach = support(a, pose_a, u).dot(u) - support(b, pose_b, -u).dot(u);
+    pose_b.translation = reach * (1 - spread * uniform(random, -0.2, 1)) * u;
+    check(a, pose_a, b, pose_b, margin, float_margin, tally);
+    if (testing::Test::HasFailure()) {
+      ADD_FAILURE() << "pair " << k;
+      break;
+    }
+  }
+  return tally;
+}
+
+Shape unit_box(Random& random) {
+  return box(uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1));
+}
+Shape any_hull(Random& random) { return random_hull(random, 4 + static_cast<int>(random() % 9)); }
+Shape flat_hull(Random& random) {
+  // Small integers times a power of two: flat in exact arithmetic.
+  std::vector<Vec3d> points;
+  const Vec3d u(1, static_cast<double>(random() % 5) - 2, 2),
+      v(-2, 1, static_cast<double>(random() % 3));
+  const int count = 3 + static_cast<int>(random() % 5);
+  while (static_cast<int>(points.size()) < count) {
+    points.push_back((static_cast<double>(random() % 17) - 8) / 16 * u +
+                     (static_cast<double>(random() % 17) - 8) / 16 * v);
+    if (points.size() == 3 && (points[1] - points[0]).cross(points[2] - points[0]).norm() == 0) {
+      points.clear();
+    }
+  }
+  return bare_hull(points, 2);
+}
+Shape segment(Random& random) {
+  const Vec3d p = random_direction(random);
+  return bare_hull({p, -p * uniform(random, 0, 1)}, 1);
+}
+Shape point(Random& random) { return bare_hull({0.1 * random_direction(random)}, 0); }
+
+void expect_both(const Tally& tally) {
+  const int all = tally.apart + tally.common;
+  EXPECT_GT(tally.apart, all / 5);
+  EXPECT_GT(tally.common, all / 5);
+  EXPECT_LE(tally.gave_up, 4 * all / 50);
+}
+
+TEST(Sat, AgreesOnBoxes) { expect_both(sweep(unit_box, unit_box, 1500, 1e-13, 1e-5F, 1, 1)); }
+TEST(Sat, AgreesOnHulls) { expect_both(sweep(any_hull, any_hull, 600, 1e-13, 1e-5F, 1, 2)); }
+TEST(Sat, AgreesOnBoxAndHull) { expect_both(sweep(unit_box, any_hull, 800, 1e-13, 1e-5F, 1, 3)); }
+TEST(Sat, AgreesOnFlatHulls) {
+  expect_both(sweep(flat_hull, any_hull, 400, 1e-13, 1e-5F, 1, 4));
+  expect_both(sweep(flat_hull, flat_hull, 400, 1e-13, 1e-5F, 1, 5));
+  expect_both(sweep(unit_box, flat_hull, 400, 1e-13, 1e-5F, 1, 6));
+}
+TEST(Sat, AgreesOnSegmentsAndPoints) {
+  expect_both(sweep(unit_box, segment, 600, 1e-13, 1e-5F, 1, 7));
+  expect_both(sweep(any_hull, point, 600, 1e-13, 1e-5F, 1, 8));
+  // The difference of these two is flat or less: they touch or are apart.
+  const Tally tally = sweep(flat_hull, point, 300, 1e-12, 1e-5F, 1, 9);
+  EXPECT_GT(tally.apart, 250);
+}
+TEST(Sat, AgreesOnNeedlesAndPlates) {
+  const auto thin = [](Random& random) {
+    Vec3d half(1, 1, 1);
+    for (int k = 0; k < 3; ++k) half[k] = std::pow(10.0, uniform(random, -8, 0));
+    return box(half.x(), half.y(), half.z());
+  };
+  const auto needle = [](Random& random) {
+    return box_as_hull(1, 1e-8 * uniform(random, 1, 2), std::pow(10.0, uniform(random, -8, 0)));
+  };
+  Tally all;
+  for (const auto& tally : {sweep(thin, unit_box, 500, 1e-12, 1e-4F, 1, 10),
+                            sweep(thin, thin, 500, 1e-12, 1e-4F, 1, 11),
+                            sweep(needle, needle, 500, 1e-12, 1e-4F, 1, 12),
+                            sweep(needle, any_hull, 300, 1e-12, 1e-4F, 1, 13)}) {
+    all.apart += tally.apart;
+    all.common += tally.common;
+  }
+  EXPECT_GT(all.apart, 360);
+  EXPECT_GT(all.common, 360);
+}
+TEST(Sat, AgreesOnUnequalSizes) {
+  const auto scaled = [](const MakeShape& make, double scale) {
+    return [make, scale](Random& random) {
+      const Shape shape = make(random);
+      std::vector<Vec3d> points = shape.hull->vertices;
+      auto copy = std::make_shared<Hull>(*shape.hull);
+      for (Vec3d& v : copy->vertices) v *= scale;
+      return as_shape(copy);
+    };
+  };
+  for (const double scale : {1e-9, 1e9, 1e-150, 1e150}) {
+    expect_both(sweep(scaled(any_hull, scale), scaled(any_hull, scale), 100, 1e-13, 1e-5F, 1, 14));
+  }
+  for (const double scale : {1e-12, 1e-6, 1e6, 1e12}) {
+    expect_both(sweep(any_hull, scaled(any_hull, scale), 100, 1e-13, 1e-5F, 1, 15));
+    expect_both(sweep(unit_box, scaled(any_hull, scale), 100, 1e-13, 1e-5F, 1, 16));
+  }
+}
+
+TEST(Sat, AgreesFarFromTheOrigin) {
+  Random random(17);
+  Tally tally;
+  for (int k = 0; k < 300; ++k) {
+    // Far in the world, and far from the body's own origin.
+    const Vec3d far = 1e8 * random_direction(random), baked = 1e8 * random_direction(random);
+    Shape a = any_hull(random);
+    const Shape b = any_hull(random);
+    auto moved = std::make_shared<Hull>(*a.hull);
+    for (Vec3d& v : moved->vertices) v += baked;
+    a.hull = moved;
+    const Mat3d r = random_rotation(random);
+    const Pose pose_a{r, far},
+        pose_b{random_rotation(random),
+               far + r * baked + uniform(random, 0, 2) * random_direction(random)};
+    check(a, pose_a, b, pose_b, 1e-10, 1e-5F, tally, 2e-11);
+  }
+  expect_both(tally);
+}
+
+// Edges that are parallel up to an angle, whose ridges face each other.
+TEST(Sat, AgreesOnAlmostParallelEdges) {
+  Random random(18);
+  Tally tally;
+  for (int k = 0; k < 1500; ++k) {
+    const double angle = std::pow(10.0, uniform(random, -16, -1));
+    const Vec3d axis = random_direction(random);
+    const Mat3d common = random_rotation(random);
+    const Shape a = k % 3 == 0 ? box(1, 1, 1) : box_as_hull(1, 1, 1);
+    const Shape b = k % 2 == 0 ? box(0.5, 1, 0.7) : box_as_hull(0.5, 1, 0.7);
+    const Pose pose_a{common * turn(45, Vec3d::UnitX()), Vec3d::Zero()};
+    const Mat3d twist = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    const Mat3d rotation_b = common * twist * turn(45, Vec3d::UnitX());
+    const double gap = (k % 4 < 2 ? 1 : -1) * std::pow(10.0, uniform(random, -12, -1));
+    const Pose turned{rotation_b, Vec3d::Zero()};
+    const Vec3d up = common.col(2);
+    const Vec3d meet = support(a, pose_a, up) - support(b, turned, -up) + gap * up;
+    // Ridge over ridge, here and there along them.
+    const Vec3d along = common.col(0);
+    const Pose pose_b{rotation_b,
+                      meet - meet.dot(along) * along + uniform(random, -0.2, 0.2) * along};
+    check(a, pose_a, b, pose_b, 1e-12, 1e-5F, tally);
+    if (HasFailure()) FAIL() << "pair " << k << ", angle " << angle << ", gap " << gap;
+  }
+  expect_both(tally);
+}
+
+// Two knife edges face each other, almost parallel: hardly any face normal tells them apart.
+TEST(Sat, IsHonestOnKnives) {
+  Random random(19);
+  int answered = 0;
+  for (int k = 0; k < 400; ++k) {
+    const double width = std::pow(10.0, uniform(random, -8, -1));
+    const Shape knife = hull(
+        {{-1, 0, 0}, {1, 0, 0}, {-1, -width, -1}, {1, -width, -1}, {-1, width, -1}, {1, width, -1}},
+        {{0, 2, 3, 1}, {0, 1, 5, 4}, {2, 4, 5, 3}, {0, 4, 2}, {1, 3, 5}});
+    const Mat3d common = random_rotation(random);
+    const double angle = std::pow(10.0, uniform(random, -17, -2));
+    const double gap = (k % 2 == 0 ? 1 : -1) * std::pow(10.0, uniform(random, -9, -1));
+    const Pose pose_a{common, Vec3d::Zero()};
+    const Pose pose_b{common * turn(180, Vec3d::UnitX()) *
+                          Eigen::AngleAxisd(angle, Vec3d::UnitZ()).toRotationMatrix(),
+                      common.col(2) * gap};
+    const double truth = brute_force::signed_distance(knife, pose_a, knife, pose_b);
+    const Outcome outcome =
+        ask_named("sat", Precision::float64, Task::intersect, knife, pose_a, knife, pose_b);
+    if (outcome.status != Status::ok) continue;
+    ++answered;
+    if (std::abs(truth) > 1e-12) {
+      EXPECT_EQ(outcome.answer, truth > 0 ? Answer::separated : Answer::overlapping)
+          << width << " " << angle << " " << gap;
+    }
+  }
+  EXPECT_GT(answered, 200);
+}
+
+TEST(Sat, FaceNormalsAloneMissCrossedEdges) {
+  // Two ridges crossed at right angles, apart along z, which is no face normal of either.
+  int missed = 0;
+  for (const Shape& shape : {box(1, 1, 1), box_as_hull(1, 1, 1)}) {
+    for (const double gap : {1e-12, 1e-6, 1e-2, 0.3}) {
+      const Pose pose_a{turn(45, Vec3d::UnitX()), Vec3d::Zero()};
+      const Pose pose_b{turn(45, Vec3d::UnitY()), {0, 0, 2 * std::sqrt(2.0) + gap}};
+      const auto answer = [&](const char* name) {
+        return ask_named(name, Precision::float64, Task::intersect, shape, pose_a, shape, pose_b);
+      };
+      EXPECT_EQ(answer("sat").answer, Answer::separated);
+      EXPECT_EQ(answer("sat").status, Status::ok);
+      EXPECT_EQ(answer("sat-faces").answer, Answer::overlapping);
+      missed += answer("sat-faces").answer == Answer::overlapping ? 1 : 0;
+    }
+    // Overlapping: face normals alone give too great a depth.
+    const Pose pose_a{turn(45, Vec3d::UnitX()), Vec3d::Zero()};
+    const Pose pose_b{turn(45, Vec3d::UnitY()), {0, 0, 2 * std::sqrt(2.0) - 0.01}};
+    const Outcome full =
+        ask_named("sat", Precision::float64, Task::penetration, shape, pose_a, shape, pose_b);
+    const Outcome faces =
+        ask_named("sat-faces", Precision::float64, Task::penetration, shape, pose_a, shape, pose_b);
+    EXPECT_NEAR(full.distance, -0.01, 1e-14);
+    EXPECT_NEAR((full.normal - Vec3d::UnitZ()).norm(), 0, 1e-14);
+    EXPECT_LT(faces.distance, -0.1);
+    EXPECT_LE(faces.lower, -0.01);
+    EXPECT_TRUE(std::isnan(faces.upper));
+  }
+  EXPECT_EQ(missed, 8);
+}
+
+TEST(Sat, WitnessPointsLieOnBothBodies) {
+  Random random(20);
+  int overlapping = 0;
+  for (int k = 0; k < 1500; ++k) {
+    const Shape a = k % 2 == 0 ? unit_box(random) : any_hull(random);
+    const Shape b = k % 3 == 0 ? unit_box(random) : any_hull(random);
+    const Pose pose_a{k % 5 == 0 ? Mat3d::Identity() : random_rotation(random), Vec3d::Zero()};
+    const Pose pose_b{k % 5 == 0 ? Mat3d::Identity() : random_rotation(random),
+                      uniform(random, 0, 1.5) * random_direction(random)};
+    for (const char* name : {"sat", "closed-form"}) {
+      const NarrowPhaseEntry& entry = *find_narrow_phase(name);
+      if (!offers(entry, a.kind, b.kind, Task::penetration)) continue;
+      const Outcome outcome = ask(entry, {}, Task::penetration, a, pose_a, b, pose_b);
+      if (outcome.answer != Answer::overlapping) continue;
+      ++overlapping;
+      EXPECT_LE(brute_force::outside(a, pose_a, outcome.witness_a), 1e-13) << name << " " << k;
+      EXPECT_LE(brute_force::outside(b, pose_b, outcome.witness_b), 1e-13) << name << " " << k;
+      const Vec3d between = outcome.witness_a - outcome.witness_b;
+      EXPECT_LE((between + outcome.distance * outcome.normal).norm(), 1e-12) << name << " " << k;
+    }
+  }
+  EXPECT_GT(overlapping, 500);
+}
+
+TEST(Sat, SaysSoWhereAHullHasNoFaces) {
+  Random random(21);
+  const Shape whole = any_hull(random);
+  const Shape bare = bare_hull(whole.hull->vertices, 3);
+  const Pose here;
+  const Pose away{Mat3d::Identity(), {5, 0, 0}}, inside{Mat3d::Identity(), {0.1, 0, 0}};
+  for (const char* name : {"sat", "sat-faces"}) {
+    for (const Task task : {Task::intersect, Task::penetration}) {
+      const Outcome apart = ask_named(name, Precision::float64, task, bare, here, whole, away);
+      EXPECT_EQ(apart.answer, Answer::separated);
+      EXPECT_EQ(apart.status, Status::ok);
+      const Outcome common = ask_named(name, Precision::float64, task, bare, here, whole, inside);
+      EXPECT_EQ(common.answer, Answer::unknown);
+      EXPECT_EQ(common.status, Status::degenerate);
+    }
+  }
+}
+
+// A matrix is used as it stands: one that was rounded to float is not quite a rotation.
+TEST(Sat, TakesMatricesLiterally) {
+  Random random(22);
+  Tally tally;
+  for (int k = 0; k < 300; ++k) {
+    const Shape a = k % 2 == 0 ? unit_box(random) : any_hull(random);
+    const Shape b = k % 3 == 0 ? unit_box(random) : any_hull(random);
+    const auto coarse = [&] {
+      Mat3d m = random_rotation(random).cast<float>().cast<double>();
+      if (k % 4 == 0) m.col(0) *= -1;  // a reflection
+      if (k % 5 == 0) m.col(1) *= 1.01;
+      return m;
+    };
+    const Pose pose_a{coarse(), Vec3d::Zero()};
+    const Pose pose_b{coarse(), uniform(random, 0.5, 2) * random_direction(random)};
+    check(a, pose_a, b, pose_b, 1e-13, 1e-5F, tally);
+  }
+  expect_both(tally);
+}
+
+}  // namespace
+}  // namespace touchstone
