@@ -8,11 +8,14 @@
 
 #include "harness/error.h"
 #include "harness/scene/convex_hull.h"
+#include "harness/scene/portable_math.h"
 
 namespace touchstone {
 namespace {
 
 // All of this is +, *, / and square roots, which round the same everywhere: sines do not.
+
+Vec3d on_unit_sphere(const Vec3d& v) { return v / length(v); }
 
 // Vertices of the icosahedron whose triangles were split in four `level` times, on the unit sphere.
 std::vector<Vec3d> icosphere(int level) {
@@ -21,7 +24,7 @@ std::vector<Vec3d> icosphere(int level) {
   for (double a : {-1.0, 1.0}) {
     for (double b : {-golden, golden}) {
       for (const Vec3d& v : {Vec3d(0, a, b), Vec3d(a, b, 0), Vec3d(b, 0, a)}) {
-        vertices.push_back(v.normalized());
+        vertices.push_back(on_unit_sphere(v));
       }
     }
   }
@@ -42,7 +45,7 @@ std::vector<Vec3d> icosphere(int level) {
     const auto middle = [&](std::uint32_t i, std::uint32_t j) {
       const auto [at, is_new] =
           middles.insert({std::minmax(i, j), static_cast<std::uint32_t>(vertices.size())});
-      if (is_new) vertices.push_back((vertices[i] + vertices[j]).normalized());
+      if (is_new) vertices.push_back(on_unit_sphere(vertices[i] + vertices[j]));
       return at->second;
     };
     std::vector<Triangle> split;
@@ -62,7 +65,7 @@ std::vector<Vec3d> circle(int level) {
   for (int l = 0; l <= level; ++l) {
     std::vector<Vec3d> finer = {quarter.front()};
     for (std::size_t i = 1; i < quarter.size(); ++i) {
-      finer.push_back((quarter[i - 1] + quarter[i]).normalized());
+      finer.push_back(on_unit_sphere(quarter[i - 1] + quarter[i]));
       finer.push_back(quarter[i]);
     }
     quarter = std::move(finer);

@@ -1,0 +1,314 @@
+#include "harness/scene/rigid_ipc.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "harness/error.h"
+#include "harness/scene/convex_hull.h"
+#include "harness/scene/mesh.h"
+#include "harness/scene/mesh_mass.h"
+#include "harness/scene/portable_math.h"
+
+namespace touchstone {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int frame_cap = 100;
+
+Json parse(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw InputError(file.string(), 0, "cannot be read; expected a rigid-ipc scene");
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& e) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
+    throw InputError(file.string(), 1 + std::count(text.begin(), end, '\n'),
+                     std::string("malformed JSON (") + e.what() + ")");
+  } catch (const Json::exception& e) {  // such as a number that no double can hold
+    throw InputError(file.string(), 0, std::string("malformed JSON (") + e.what() + ")");
+  }
+}
+
+// One JSON object, with its name for messages.
+class Reader {
+ public:
+  Reader(const Json& object, std::string file, std::string where)
+      : object_(&object), file_(std::move(file)), where_(std::move(where)) {
+    if (!object.is_object()) fail("expected an object");
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(file_, 0, where_.empty() ? message : where_ + ": " + message);
+  }
+  const Json* find(const char* key) const {
+    const auto at = object_->find(key);
+    return at == object_->end() || at->is_null() ? nullptr : &*at;
+  }
+  double number(const char* key, double fallback) const {
+    const Json* value = find(key);
+    if (value == nullptr) return fallback;
+    if (!value->is_number()) fail(std::string("'") + key + "': expected a number");
+    return value->get<double>();
+  }
+  bool boolean(const char* key, bool fallback) const {
+    const Json* value = find(key);
+    if (value == nullptr) return fallback;
+    if (!value->is_boolean()) fail(std::string("'") + key + "': expected true or false");
+    return value->get<bool>();
+  }
+  std::string text(const char* key, const char* fallback) const {
+    const Json* value = find(key);
+    if (value == nullptr) return fallback;
+    if (!value->is_string()) fail(std::string("'") + key + "': expected a text");
+    return value->get<std::string>();
+  }
+  Vec3d vector(const char* key, const Vec3d& fallback) const {
+    const Json* value = find(key);
+    return value == nullptr ? fallback : to_vector(*value, key);
+  }
+  Vec3d to_vector(const Json& value, const char* key) const {
+    if (value.is_array() && value.size() == 2) {
+      fail(std::string("'") + key + "' has two coordinates; expected a three-dimensional scene");
+    }
+    if (!value.is_array() || value.size() != 3 ||
+        !std::all_of(value.begin(), value.end(), [](const Json& c) { return c.is_number(); })) {
+      fail(std::string("'") + key + "': expected three numbers");
+    }
+    return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+  }
+
+ private:
+  const Json* object_;
+  std::string file_, where_;
+};
+
+// Turns about x, then y, then z, by degrees.
+Mat3d rotation_of_degrees(const Vec3d& degrees) {
+  const SinCos x = sin_cos_turns(degrees.x() / 360);
+  const SinCos y = sin_cos_turns(degrees.y() / 360);
+  const SinCos z = sin_cos_turns(degrees.z() / 360);
+  Mat3d about_x, about_y, about_z;
+  about_x << 1, 0, 0, 0, x.cos, -x.sin, 0, x.sin, x.cos;
+  about_y << y.cos, 0, y.sin, 0, 1, 0, -y.sin, 0, y.cos;
+  about_z << z.cos, -z.sin, 0, z.sin, z.cos, 0, 0, 0, 1;
+  return product(about_z, product(about_y, about_x));
+}
+
+class Importer {
+ public:
+  explicit Importer(std::filesystem::path file) : file_(std::move(file)) {}
+
+  Scene import() {
+    const Json json = parse(file_);
+    const Reader top(json, file_.string(), "");
+    const Json* problem = top.find("rigid_body_problem");
+    if (problem == nullptr) top.fail("no 'rigid_body_problem'; expected a rigid-ipc scene");
+    const Json* bodies =
+        Reader(*problem, file_.string(), "rigid_body_problem").find("rigid_bodies");
+    if (bodies == nullptr || !bodies->is_array()) {
+      top.fail("no 'rigid_bodies' in 'rigid_body_problem'; expected a list of bodies");
+    }
+    scene_.name = file_.stem().string();
+    for (std::size_t i = 0; i < bodies->size(); ++i) {
+      add_body(Reader((*bodies)[i], file_.string(), "body " + std::to_string(i)));
+    }
+    if (scene_.bodies.empty()) top.fail("no enabled bodies; expected at least one");
+    set_frames(top);
+    return std::move(scene_);
+  }
+
+ private:
+  // A mesh at its scale: shapes whose vertices are relative to the centre of mass.
+  struct Part {
+    std::uint32_t shape;
+    Vec3d centre;
+  };
+
+  void add_body(const Reader& body) {
+    if (!body.boolean("enabled", true)) return;
+    if (body.find("kinematic_poses") != nullptr) {
+      body.fail("'kinematic_poses' are not supported; expected a body moved by its velocities");
+    }
+    const std::string type = body.text("type", "dynamic");
+    if (type != "static" && type != "kinematic" && type != "dynamic") {
+      body.fail("type '" + type + "'; expected static, kinematic or dynamic");
+    }
+    const Mat3d rotation = rotation_of_degrees(body.vector("rotation", Vec3d::Zero()));
+    const Vec3d position = body.vector("position", Vec3d::Zero());
+    Body placed;
+    placed.velocity = body.vector("linear_velocity", Vec3d::Zero());
+    placed.angular_velocity =
+        body.vector("angular_velocity", Vec3d::Zero()) * (std::numbers::pi / 180);
+    const std::array<bool, 6> fixed = fixed_freedoms(body);
+    for (int k = 0; k < 3; ++k) {
+      if (fixed[static_cast<std::size_t>(k)]) placed.velocity[k] = 0;
+      if (fixed[static_cast<std::size_t>(k + 3)]) placed.angular_velocity[k] = 0;
+    }
+    placed.moving =
+        type != "static" && !(placed.velocity.isZero(0) && placed.angular_velocity.isZero(0));
+    const double end = body.number("kinematic_max_time", -1);
+    if (type == "kinematic" && end >= 0) end_ = std::min(end_, end);
+
+    for (const Part& part : parts_of(body)) {
+      placed.shape = part.shape;
+      placed.pose.rotation = rotation;
+      placed.pose.translation = position;
+      for (int k = 0; k < 3; ++k) {
+        placed.pose.translation[k] += rotation(k, 0) * part.centre.x() +
+                                      rotation(k, 1) * part.centre.y() +
+                                      rotation(k, 2) * part.centre.z();
+      }
+      scene_.bodies.push_back(placed);
+    }
+  }
+
+  static std::array<bool, 6> fixed_freedoms(const Reader& body) {
+    std::array<bool, 6> fixed{};
+    const Json* value = body.find("is_dof_fixed");
+    if (value == nullptr) return fixed;
+    if (value->is_boolean()) {
+      fixed.fill(value->get<bool>());
+      return fixed;
+    }
+    if (!value->is_array() || value->size() != 6 ||
+        !std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_boolean(); })) {
+      body.fail("'is_dof_fixed': expected true, false or six of them");
+    }
+    for (std::size_t k = 0; k < 6; ++k) fixed[k] = (*value)[k].get<bool>();
+    return fixed;
+  }
+
+  const std::vector<Part>& parts_of(const Reader& body) {
+    const std::string name = body.text("mesh", "");
+    const bool split = body.boolean("split_components", false);
+    if (name.empty()) {
+      own_parts_ = make_parts(scaled(inline_mesh(body), body), split);
+      return own_parts_;
+    }
+    const auto [at, is_new] = meshes_.try_emplace(name);
+    if (is_new) at->second = read_mesh(find_mesh(body, name));
+    const Vec3d scale = scale_of(body, at->second);
+    const auto [parts, is_new_scale] =
+        parts_.try_emplace({name, scale.x(), scale.y(), scale.z(), split});
+    if (is_new_scale) parts->second = make_parts(scaled(at->second, body), split);
+    return parts->second;
+  }
+
+  std::filesystem::path find_mesh(const Reader& body, const std::string& name) const {
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::absolute(file_).parent_path();
+    const auto exists = [&](const std::filesystem::path& p) {
+      return std::filesystem::is_regular_file(p, error);
+    };
+    if (exists(folder / name)) return folder / name;
+    for (std::filesystem::path at = folder;; at = at.parent_path()) {
+      if (exists(at / "meshes" / name)) return at / "meshes" / name;
+      if (at == at.root_path() || at.empty()) break;
+    }
+    body.fail("mesh '" + name + "' not found; expected it relative to " + folder.string() +
+              " or to a folder 'meshes' there or above");
+  }
+
+  static Mesh inline_mesh(const Reader& body) {
+    Mesh mesh;
+    const Json* vertices = body.find("vertices");
+    if (vertices == nullptr || !vertices->is_array() || vertices->empty()) {
+      body.fail("expected 'mesh', or 'vertices' with at least one point");
+    }
+    for (const Json& v : *vertices) mesh.vertices.push_back(body.to_vector(v, "vertices"));
+    const Json* faces = body.find("faces");
+    if (faces == nullptr) return mesh;
+    if (!faces->is_array()) body.fail("'faces': expected a list of triangles");
+    for (const Json& face : *faces) {
+      std::array<std::uint32_t, 3> triangle{};
+      bool good = face.is_array() && face.size() == 3;
+      for (std::size_t k = 0; good && k < 3; ++k) {
+        good = face[k].is_number_unsigned() && face[k].get<std::uint64_t>() < mesh.vertices.size();
+        if (good) triangle[k] = face[k].get<std::uint32_t>();
+      }
+      if (!good) body.fail("'faces': expected triangles of three vertex indices in range");
+      mesh.triangles.push_back(triangle);
+    }
+    return mesh;
+  }
+
+  // Dimensions come before a scale.
+  static Vec3d scale_of(const Reader& body, const Mesh& mesh) {
+    if (body.find("dimensions") != nullptr) {
+      Vec3d low = mesh.vertices.front(), high = low;
+      for (const Vec3d& v : mesh.vertices) {
+        low = low.cwiseMin(v);
+        high = high.cwiseMax(v);
+      }
+      Vec3d scale = body.vector("dimensions", Vec3d::Ones());
+      for (int k = 0; k < 3; ++k) scale[k] /= high[k] > low[k] ? high[k] - low[k] : 1;
+      return scale;
+    }
+    const Json* scale = body.find("scale");
+    if (scale != nullptr && scale->is_number()) return Vec3d::Constant(scale->get<double>());
+    return body.vector("scale", Vec3d::Ones());
+  }
+
+  static Mesh scaled(Mesh mesh, const Reader& body) {
+    const Vec3d scale = scale_of(body, mesh);
+    for (Vec3d& v : mesh.vertices) {
+      v = v.cwiseProduct(scale).eval();
+      if (!v.allFinite()) body.fail("the scaled mesh is not finite; expected a smaller scale");
+    }
+    return mesh;
+  }
+
+  std::vector<Part> make_parts(const Mesh& mesh, bool split) {
+    std::vector<Part> parts;
+    for (Mesh& part : split ? connected_parts(mesh) : std::vector<Mesh>{mesh}) {
+      const Vec3d centre = centre_of_mass(part);
+      for (Vec3d& v : part.vertices) v -= centre;
+      Shape shape;
+      shape.kind = ShapeKind::hull;
+      shape.hull = make_reduced_hull(part.vertices);
+      parts.push_back({static_cast<std::uint32_t>(scene_.shapes.size()), centre});
+      scene_.shapes.push_back(std::move(shape));
+    }
+    return parts;
+  }
+
+  void set_frames(const Reader& top) {
+    const double step = top.number("timestep", 0.01);
+    if (!(step > 0)) top.fail("'timestep': expected a number above 0");
+    scene_.motion.kind = MotionKind::inertial;
+    scene_.motion.time_step = step;
+    const bool moves = std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                                   [](const Body& body) { return body.moving; });
+    if (!moves) return;
+    const double time = top.number("max_time", -1);
+    double steps = time >= 0 ? std::ceil(time / step) : top.number("max_iterations", 0);
+    steps = std::min(steps, std::floor(end_ / step));
+    scene_.frames = static_cast<int>(std::clamp(steps + 1, 1.0, double{frame_cap}));
+  }
+
+  std::filesystem::path file_;
+  Scene scene_;
+  double end_ = std::numeric_limits<double>::infinity();  // seconds
+  std::map<std::string, Mesh> meshes_;
+  std::map<std::tuple<std::string, double, double, double, bool>, std::vector<Part>> parts_;
+  std::vector<Part> own_parts_;
+};
+
+}  // namespace
+
+Scene import_rigid_ipc(const std::filesystem::path& file) { return Importer(file).import(); }
+
+}  // namespace touchstone
