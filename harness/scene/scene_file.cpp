@@ -26,8 +26,6 @@ constexpr double broadmark_period = 6.2;      // seconds
 constexpr std::string_view motion_names[] = {"inertial", "brownian", "free_fall",
                                              "rotating_gravity"};
 
-bool has_walls(const Motion& motion) { return motion.wall_min.x() <= motion.wall_max.x(); }
-
 void refuse_count(const std::string& file, const SceneOverrides& overrides) {
   if (overrides.count == -1) return;
   throw InputError(file, 0,
@@ -331,40 +329,43 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   return scene;
 }
 
-// Bodies must start between the walls, and no box may leave the range of float in any frame.
-void check_bodies(const std::string& file, std::span<const std::int64_t> lines,
-                  const Scene& scene) {
-  if (scene.recording.empty() && scene.bodies.empty()) {
-    throw InputError(file, 0, "no bodies; expected at least one");
-  }
+// No box may leave the range of float in any frame.
+void check_range(const std::string& file, std::span<const std::int64_t> lines, const Scene& scene) {
+  constexpr double most = 1e38;
   const Motion& motion = scene.motion;
   const double time = motion.time_step * scene.frames;
-  constexpr double most = 1e38;
-  std::vector<double> reach;
+  std::vector<double> reach;  // doubled, for rotations are right to a thousandth only
   for (const Shape& shape : scene.shapes) {
-    const double size = loose_reach(shape, Mat3d::Identity());
-    reach.push_back(shape.kind == ShapeKind::halfspace ? 0 : 2 * size);
+    const bool bounded = shape.kind != ShapeKind::halfspace;
+    reach.push_back(bounded ? 2 * loose_reach(shape, Mat3d::Identity()) : 0);
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const std::int64_t line = i < lines.size() ? lines[i] : 0;
     double farthest = body.pose.translation.cwiseAbs().maxCoeff() + reach[body.shape];
     if (body.moving) {
       const double speed = std::max(body.velocity.cwiseAbs().maxCoeff(), motion.speed);
       farthest += (speed + motion.acceleration * time) * time;
     }
-    if (!(farthest <= most) || !(body.angular_velocity.cwiseAbs().maxCoeff() * time <= most)) {
-      throw InputError(file, line,
-                       fmt::format("body {} reaches {:.3g} m or turns beyond measure; expected "
-                                   "less than {:g}, for boxes are in float",
-                                   i + 1, farthest, most));
-    }
-    if (!body.moving || !has_walls(motion)) continue;
+    const double turn = body.angular_velocity.cwiseAbs().maxCoeff() * time;
+    if (farthest <= most && turn <= most) continue;
+    throw InputError(file, i < lines.size() ? lines[i] : 0,
+                     fmt::format("body {} reaches {:.3g} m and turns by {:.3g}; expected less than "
+                                 "{:g}, for boxes are in float",
+                                 i + 1, farthest, turn, most));
+  }
+}
+
+// Bodies that move must start between the walls.
+void check_walls(const std::string& file, std::span<const std::int64_t> lines, const Scene& scene) {
+  const Motion& motion = scene.motion;
+  if (!(motion.wall_min.x() <= motion.wall_max.x())) return;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!scene.bodies[i].moving) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      const double x = body.pose.translation[axis];
+      const double x = scene.bodies[i].pose.translation[axis];
       if (x >= motion.wall_min[axis] && x <= motion.wall_max[axis]) continue;
       throw InputError(
-          file, 0,
+          file, i < lines.size() ? lines[i] : 0,
           fmt::format("body {} starts at {} = {}; expected a place between the walls "
                       "{} and {}",
                       i + 1, "xyz"[axis], x, motion.wall_min[axis], motion.wall_max[axis]));
@@ -391,7 +392,9 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     scene.name = path.stem().string();
     if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
   }
-  check_bodies(file, lines, scene);
+  if (scene.size() == 0) throw InputError(file, 0, "no bodies; expected at least one");
+  check_range(file, lines, scene);
+  check_walls(file, lines, scene);
   return scene;
 }
 
