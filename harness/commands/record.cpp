@@ -1,5 +1,103 @@
+// record: the boxes of a scene, frame by frame, as a file that other programs can read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+
 #include "harness/commands/commands.h"
+#include "harness/error.h"
+#include "harness/io/aabbs.h"
+#include "harness/io/csv.h"
+#include "harness/scene/player.h"
+#include "harness/scene/scene.h"
 
 namespace touchstone {
-void add_record(CLI::App&, int&) {}
+namespace {
+
+struct RecordOptions {
+  std::string scene, out;
+  std::string boxes = "tight";
+  SceneOverrides overrides;
+};
+
+void record_csv(ScenePlayer& player, const std::filesystem::path& file) {
+  CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
+  do {
+    const auto boxes = player.boxes();
+    for (std::size_t id = 0; id < boxes.size(); ++id) {
+      csv.field(player.frame()).field(id);
+      for (const float x : boxes[id].min) csv.field(static_cast<double>(x));
+      for (const float x : boxes[id].max) csv.field(static_cast<double>(x));
+      csv.end_row();
+    }
+  } while (player.next());
+  csv.close();
+}
+
+// Broadmark's file also has a box of the world: here the one around all boxes of all frames.
+void record_aabbs(ScenePlayer& player, const std::string& name, const std::filesystem::path& file) {
+  BoxRecording recording;
+  recording.scene = name;
+  recording.type = "touchstone";
+  recording.world = player.boxes().front();
+  do {
+    const auto boxes = player.boxes();
+    recording.frames.emplace_back(boxes.begin(), boxes.end());
+    for (const Aabb& box : boxes) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        recording.world.min[axis] = std::min(recording.world.min[axis], box.min[axis]);
+        recording.world.max[axis] = std::max(recording.world.max[axis], box.max[axis]);
+      }
+    }
+  } while (player.next());
+  write_aabbs(recording, file);
+}
+
+void record(const RecordOptions& options) {
+  const std::filesystem::path out = options.out;
+  const bool csv = out.extension() == ".csv";
+  if (!csv && out.extension() != ".aabbs") {
+    throw InputError("--out: found " + options.out + "; expected a name ending in .aabbs or .csv");
+  }
+  const Scene scene = load_scene(options.scene, options.overrides);
+  ScenePlayer player(scene, options.boxes == "tight" ? BoxKind::tight : BoxKind::loose);
+  const std::size_t count = player.boxes().size();
+  if (csv) {
+    record_csv(player, out);
+  } else {
+    record_aabbs(player, scene.name, out);
+  }
+  fmt::print("{}: scene {} ({}), {} boxes, {} frames\n", options.out, scene.name, scene_hash(scene),
+             count, player.frame() + 1);
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, int& status) {
+  const auto options = std::make_shared<RecordOptions>();
+  CLI::App& command = *app.add_subcommand("record", "Write a scene's boxes as a recording");
+  command.add_option("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc) or .aabbs")
+      ->required();
+  command
+      .add_option("--out", options->out,
+                  "The file to write: .aabbs (Broadmark's format) or .csv, as `pairs` reads them")
+      ->required();
+  command.add_option("--frames", options->overrides.frames, "Instead of the scene's own")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--count", options->overrides.count, "Bodies, of a generated scene")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--seed", options->overrides.seed, "Of a generated scene")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--boxes", options->boxes, "Tight boxes, or loose ones that hold any attitude")
+      ->check(CLI::IsMember({"tight", "loose"}))
+      ->capture_default_str();
+  command.callback([options, &status] {
+    record(*options);
+    status = exit_done;
+  });
+}
+
 }  // namespace touchstone

@@ -26,8 +26,6 @@ constexpr double broadmark_period = 6.2;      // seconds
 constexpr std::string_view motion_names[] = {"inertial", "brownian", "free_fall",
                                              "rotating_gravity"};
 
-bool has_walls(const Motion& motion) { return motion.wall_min.x() <= motion.wall_max.x(); }
-
 void refuse_count(const std::string& file, const SceneOverrides& overrides) {
   if (overrides.count == -1) return;
   throw InputError(file, 0,
@@ -137,15 +135,15 @@ class BodyReader {
     std::vector<std::int64_t> lines;
     for (TomlTable& body : table_.tables("body")) {
       read_body(body);
-      lines.push_back(body.line());
+      lines.resize(scene_.bodies.size(), body.line());
     }
     return lines;
   }
 
  private:
   struct Placed {
-    std::uint32_t shape;
-    Mat3d turn;
+    std::uint32_t shape = 0;
+    Mat3d turn = Mat3d::Identity();
   };
 
   Placed add(TomlTable& table) {
@@ -176,18 +174,22 @@ class BodyReader {
 
   // Bodies of one mesh and scale share their shape.
   Placed mesh_of(TomlTable& body) {
-    const Shape shape = shapes_.read(body).shape;
+    return {index_of(shapes_.read(body).shape), Mat3d::Identity()};
+  }
+
+  std::uint32_t index_of(const Shape& shape) {
     const auto same = std::find_if(
         scene_.shapes.begin(), scene_.shapes.end(),
         [&](const Shape& other) { return other.hull != nullptr && other.hull == shape.hull; });
     const auto index = static_cast<std::uint32_t>(same - scene_.shapes.begin());
     if (same == scene_.shapes.end()) scene_.shapes.push_back(shape);
-    return {index, Mat3d::Identity()};
+    return index;
   }
 
   void read_body(TomlTable& table) {
-    const Placed placed = shape_of(table);
-    const bool halfspace = scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
+    const bool parts = table.contains("mesh") && table.boolean("parts", false);
+    const Placed placed = parts ? Placed{} : shape_of(table);
+    const bool halfspace = !parts && scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
     Body body;
     body.shape = placed.shape;
     body.pose.rotation = product(read_rotation(table), placed.turn);
@@ -195,8 +197,31 @@ class BodyReader {
     body.velocity = table.vector("velocity", any_number, Vec3d::Zero());
     body.angular_velocity = table.vector("angular_velocity", any_number, Vec3d::Zero());
     body.moving = table.boolean("moving", !halfspace);
+    if (parts) {
+      add_parts(table, body);
+    } else {
+      scene_.bodies.push_back(body);
+    }
     table.finish();
-    scene_.bodies.push_back(body);
+  }
+
+  // A body for each part of the mesh, where it is in the whole.
+  void add_parts(TomlTable& table, const Body& whole) {
+    if (whole.angular_velocity != Vec3d::Zero()) {
+      table.fail("angular_velocity",
+                 "given with parts, which do not turn about a common origin; "
+                 "expected parts = false or no angular_velocity");
+    }
+    for (const MeshPart& part : shapes_.read_parts(table)) {
+      Body body = whole;
+      body.shape = index_of(part.shape);
+      for (int k = 0; k < 3; ++k) {
+        body.pose.translation[k] += whole.pose.rotation(k, 0) * part.centre.x() +
+                                    whole.pose.rotation(k, 1) * part.centre.y() +
+                                    whole.pose.rotation(k, 2) * part.centre.z();
+      }
+      scene_.bodies.push_back(body);
+    }
   }
 
   TomlTable& table_;
@@ -254,7 +279,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   const toml::table content = parse_toml(path);
   const std::string file = path.string();
   TomlTable table(content, file, "");
-  ShapeReader shapes(path.parent_path());
+  ShapeReader shapes(path.parent_path(), table.text("get", ""));
   constexpr std::string_view forms[] = {"generator", "body", "import"};
   const auto given = std::count_if(std::begin(forms), std::end(forms),
                                    [&](std::string_view key) { return table.contains(key); });
@@ -275,12 +300,8 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
     if (table.contains("body")) {
       lines = BodyReader(table, shapes, scene).read();
     } else {
-      const std::string name = table.text("import");
-      const std::filesystem::path imported = path.parent_path() / name;
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(imported, error)) {
-        table.fail("import", "no file " + imported.string() + "; expected a .json or .aabbs file");
-      }
+      const std::filesystem::path imported =
+          shapes.existing_file(table, "import", "a .json or .aabbs file");
       scene = import_scene(imported);
       frames = scene.frames;
     }
@@ -308,40 +329,43 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   return scene;
 }
 
-// Bodies must start between the walls, and no box may leave the range of float in any frame.
-void check_bodies(const std::string& file, std::span<const std::int64_t> lines,
-                  const Scene& scene) {
-  if (scene.recording.empty() && scene.bodies.empty()) {
-    throw InputError(file, 0, "no bodies; expected at least one");
-  }
+// No box may leave the range of float in any frame.
+void check_range(const std::string& file, std::span<const std::int64_t> lines, const Scene& scene) {
+  constexpr double most = 1e38;
   const Motion& motion = scene.motion;
   const double time = motion.time_step * scene.frames;
-  constexpr double most = 1e38;
-  std::vector<double> reach;
+  std::vector<double> reach;  // doubled, for rotations are right to a thousandth only
   for (const Shape& shape : scene.shapes) {
-    const double size = loose_reach(shape, Mat3d::Identity());
-    reach.push_back(shape.kind == ShapeKind::halfspace ? 0 : 2 * size);
+    const bool bounded = shape.kind != ShapeKind::halfspace;
+    reach.push_back(bounded ? 2 * loose_reach(shape, Mat3d::Identity()) : 0);
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const std::int64_t line = i < lines.size() ? lines[i] : 0;
     double farthest = body.pose.translation.cwiseAbs().maxCoeff() + reach[body.shape];
     if (body.moving) {
       const double speed = std::max(body.velocity.cwiseAbs().maxCoeff(), motion.speed);
       farthest += (speed + motion.acceleration * time) * time;
     }
-    if (!(farthest <= most) || !(body.angular_velocity.cwiseAbs().maxCoeff() * time <= most)) {
-      throw InputError(file, line,
-                       fmt::format("body {} reaches {:.3g} m or turns beyond measure; expected "
-                                   "less than {:g}, for boxes are in float",
-                                   i + 1, farthest, most));
-    }
-    if (!body.moving || !has_walls(motion)) continue;
+    const double turn = body.angular_velocity.cwiseAbs().maxCoeff() * time;
+    if (farthest <= most && turn <= most) continue;
+    throw InputError(file, i < lines.size() ? lines[i] : 0,
+                     fmt::format("body {} reaches {:.3g} m and turns by {:.3g}; expected less than "
+                                 "{:g}, for boxes are in float",
+                                 i + 1, farthest, turn, most));
+  }
+}
+
+// Bodies that move must start between the walls.
+void check_walls(const std::string& file, std::span<const std::int64_t> lines, const Scene& scene) {
+  const Motion& motion = scene.motion;
+  if (!(motion.wall_min.x() <= motion.wall_max.x())) return;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!scene.bodies[i].moving) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      const double x = body.pose.translation[axis];
+      const double x = scene.bodies[i].pose.translation[axis];
       if (x >= motion.wall_min[axis] && x <= motion.wall_max[axis]) continue;
       throw InputError(
-          file, 0,
+          file, i < lines.size() ? lines[i] : 0,
           fmt::format("body {} starts at {} = {}; expected a place between the walls "
                       "{} and {}",
                       i + 1, "xyz"[axis], x, motion.wall_min[axis], motion.wall_max[axis]));
@@ -368,7 +392,9 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     scene.name = path.stem().string();
     if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
   }
-  check_bodies(file, lines, scene);
+  if (scene.size() == 0) throw InputError(file, 0, "no bodies; expected at least one");
+  check_range(file, lines, scene);
+  check_walls(file, lines, scene);
   return scene;
 }
 

@@ -10,7 +10,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t sampled_pairs = 65'536;
+constexpr std::size_t sampled_pairs = 16'384;
 
 // P(X - Y <= x) for X and Y even on [0, 1].
 double triangle(double x) {
@@ -66,7 +66,7 @@ double side_for_overlaps(double overlaps, std::span<const Aabb> boxes, const Reg
     low /= 2;
   }
   while (expect(high) > overlaps) high *= 2;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 18; ++i) {
     const double middle = (low + high) / 2;
     (expect(middle) >= overlaps ? low : high) = middle;
   }
