@@ -135,15 +135,15 @@ class BodyReader {
     std::vector<std::int64_t> lines;
     for (TomlTable& body : table_.tables("body")) {
       read_body(body);
-      lines.push_back(body.line());
+      lines.resize(scene_.bodies.size(), body.line());
     }
     return lines;
   }
 
  private:
   struct Placed {
-    std::uint32_t shape;
-    Mat3d turn;
+    std::uint32_t shape = 0;
+    Mat3d turn = Mat3d::Identity();
   };
 
   Placed add(TomlTable& table) {
@@ -174,18 +174,22 @@ class BodyReader {
 
   // Bodies of one mesh and scale share their shape.
   Placed mesh_of(TomlTable& body) {
-    const Shape shape = shapes_.read(body).shape;
+    return {index_of(shapes_.read(body).shape), Mat3d::Identity()};
+  }
+
+  std::uint32_t index_of(const Shape& shape) {
     const auto same = std::find_if(
         scene_.shapes.begin(), scene_.shapes.end(),
         [&](const Shape& other) { return other.hull != nullptr && other.hull == shape.hull; });
     const auto index = static_cast<std::uint32_t>(same - scene_.shapes.begin());
     if (same == scene_.shapes.end()) scene_.shapes.push_back(shape);
-    return {index, Mat3d::Identity()};
+    return index;
   }
 
   void read_body(TomlTable& table) {
-    const Placed placed = shape_of(table);
-    const bool halfspace = scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
+    const bool parts = table.contains("mesh") && table.boolean("parts", false);
+    const Placed placed = parts ? Placed{} : shape_of(table);
+    const bool halfspace = !parts && scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
     Body body;
     body.shape = placed.shape;
     body.pose.rotation = product(read_rotation(table), placed.turn);
@@ -193,8 +197,31 @@ class BodyReader {
     body.velocity = table.vector("velocity", any_number, Vec3d::Zero());
     body.angular_velocity = table.vector("angular_velocity", any_number, Vec3d::Zero());
     body.moving = table.boolean("moving", !halfspace);
+    if (parts) {
+      add_parts(table, body);
+    } else {
+      scene_.bodies.push_back(body);
+    }
     table.finish();
-    scene_.bodies.push_back(body);
+  }
+
+  // A body for each part of the mesh, where it is in the whole.
+  void add_parts(TomlTable& table, const Body& whole) {
+    if (whole.angular_velocity != Vec3d::Zero()) {
+      table.fail("angular_velocity",
+                 "given with parts, which do not turn about a common origin; "
+                 "expected parts = false or no angular_velocity");
+    }
+    for (const MeshPart& part : shapes_.read_parts(table)) {
+      Body body = whole;
+      body.shape = index_of(part.shape);
+      for (int k = 0; k < 3; ++k) {
+        body.pose.translation[k] += whole.pose.rotation(k, 0) * part.centre.x() +
+                                    whole.pose.rotation(k, 1) * part.centre.y() +
+                                    whole.pose.rotation(k, 2) * part.centre.z();
+      }
+      scene_.bodies.push_back(body);
+    }
   }
 
   TomlTable& table_;
@@ -252,7 +279,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   const toml::table content = parse_toml(path);
   const std::string file = path.string();
   TomlTable table(content, file, "");
-  ShapeReader shapes(path.parent_path());
+  ShapeReader shapes(path.parent_path(), table.text("get", ""));
   constexpr std::string_view forms[] = {"generator", "body", "import"};
   const auto given = std::count_if(std::begin(forms), std::end(forms),
                                    [&](std::string_view key) { return table.contains(key); });
@@ -273,12 +300,8 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
     if (table.contains("body")) {
       lines = BodyReader(table, shapes, scene).read();
     } else {
-      const std::string name = table.text("import");
-      const std::filesystem::path imported = path.parent_path() / name;
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(imported, error)) {
-        table.fail("import", "no file " + imported.string() + "; expected a .json or .aabbs file");
-      }
+      const std::filesystem::path imported =
+          shapes.existing_file(table, "import", "a .json or .aabbs file");
       scene = import_scene(imported);
       frames = scene.frames;
     }

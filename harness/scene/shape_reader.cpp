@@ -2,6 +2,7 @@
 
 #include "harness/scene/convex_hull.h"
 #include "harness/scene/mesh.h"
+#include "harness/scene/mesh_mass.h"
 
 namespace touchstone {
 namespace {
@@ -15,6 +16,25 @@ Mat3d axis_turn(std::size_t axis) {
   return turn;
 }
 
+Mesh read_scaled(const std::tuple<std::string, double, double, double>& mesh_and_scale) {
+  const auto& [file, x, y, z] = mesh_and_scale;
+  Mesh mesh = read_mesh(file);
+  for (Vec3d& v : mesh.vertices) {
+    v = v.cwiseProduct(Vec3d(x, y, z)).eval();
+    if (!v.allFinite()) {
+      throw InputError(file, 0, "not finite at the scene's scale; expected a smaller one");
+    }
+  }
+  return mesh;
+}
+
+Shape hull_shape(std::shared_ptr<const Hull> hull) {
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = std::move(hull);
+  return shape;
+}
+
 }  // namespace
 
 std::span<const std::string_view> shape_names() {
@@ -26,28 +46,51 @@ std::span<const std::string_view> shape_names() {
   return names;
 }
 
-TurnedShape ShapeReader::read_mesh_hull(TomlTable& table) {
-  const std::string name = table.text("mesh");
+std::filesystem::path ShapeReader::existing_file(TomlTable& table, std::string_view key,
+                                                 std::string_view expected) const {
+  const std::filesystem::path file = folder_ / table.text(key);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    table.fail(key, "no file " + file.string() + "; expected " + std::string(expected) +
+                        (get_.empty() ? "" : ". To get it: " + get_));
+  }
+  return file;
+}
+
+ShapeReader::MeshAndScale ShapeReader::mesh_and_scale(TomlTable& table) const {
   const toml::node* scale_node = table.node("scale");
   const Vec3d scale = scale_node != nullptr && scale_node->is_array()
                           ? table.vector("scale", positive)
                           : Vec3d::Constant(table.number("scale", positive, 1.0));
-  const std::filesystem::path file = folder_ / name;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    table.fail("mesh", "no file " + file.string() + "; expected an OBJ, OFF, STL or PLY file");
+  const std::filesystem::path file = existing_file(table, "mesh", "an OBJ, OFF, STL or PLY file");
+  return {file.lexically_normal().string(), scale.x(), scale.y(), scale.z()};
+}
+
+TurnedShape ShapeReader::read_mesh_hull(TomlTable& table) {
+  const MeshAndScale key = mesh_and_scale(table);
+  std::shared_ptr<const Hull>& hull = hulls_[key];
+  if (hull == nullptr) hull = make_reduced_hull(read_scaled(key).vertices);
+  return {hull_shape(hull), Mat3d::Identity()};
+}
+
+const std::vector<MeshPart>& ShapeReader::read_parts(TomlTable& table) {
+  const MeshAndScale key = mesh_and_scale(table);
+  const auto [found, is_new] = parts_.try_emplace(key);
+  if (!is_new) return found->second;
+  for (Mesh& part : connected_parts(read_scaled(key))) {
+    Vec3d low = part.vertices.front(), high = low;
+    for (const Vec3d& v : part.vertices) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    const Vec3d centre = 0.5 * low + 0.5 * high;
+    for (Vec3d& v : part.vertices) v -= centre;
+    found->second.push_back({hull_shape(make_reduced_hull(part.vertices)), centre});
   }
-  std::shared_ptr<const Hull>& hull =
-      hulls_[{file.lexically_normal().string(), scale.x(), scale.y(), scale.z()}];
-  if (hull == nullptr) {
-    std::vector<Vec3d> points = read_mesh(file).vertices;
-    for (Vec3d& point : points) point = point.cwiseProduct(scale).eval();
-    hull = make_reduced_hull(points);
+  if (found->second.empty()) {
+    table.fail("parts", "the mesh has no triangles, so no parts; expected parts = false");
   }
-  TurnedShape turned;
-  turned.shape.kind = ShapeKind::hull;
-  turned.shape.hull = hull;
-  return turned;
+  return found->second;
 }
 
 TurnedShape ShapeReader::read(TomlTable& table) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "algorithms/core/shape.h"
 #include "harness/scene/toml_table.h"
@@ -21,22 +22,41 @@ struct TurnedShape {
 // The names of all shapes that a file can give: all_shape_kinds in order.
 std::span<const std::string_view> shape_names();
 
+// A part of a mesh as its convex hull about the centre of the part's box.
+struct MeshPart {
+  Shape shape;
+  Vec3d centre;  // in the mesh's frame, scaled
+};
+
 class ShapeReader {
  public:
-  // Mesh files are named relative to `folder`.
-  explicit ShapeReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  // Mesh files are named relative to `folder`. `get` says how to have them; it is told where one is
+  // missing.
+  explicit ShapeReader(std::filesystem::path folder, std::string get = "")
+      : folder_(std::move(folder)), get_(std::move(get)) {}
 
   // `type` with its sizes, in the words of the case format, or `mesh` with an optional `scale` (a
   // number, or one for each axis): the mesh's convex hull. Makes the keys known to the table;
   // the caller calls finish.
   TurnedShape read(TomlTable& table);
+  // `mesh` and `scale` again, but each connected part of the mesh as a hull of its own.
+  const std::vector<MeshPart>& read_parts(TomlTable& table);
+
+  // The file that the key names, which must be there.
+  std::filesystem::path existing_file(TomlTable& table, std::string_view key,
+                                      std::string_view expected) const;
 
  private:
+  using MeshAndScale = std::tuple<std::string, double, double, double>;
+
   TurnedShape read_mesh_hull(TomlTable& table);
+  MeshAndScale mesh_and_scale(TomlTable& table) const;
 
   std::filesystem::path folder_;
+  std::string get_;
   // Each mesh and scale is read once and shared.
-  std::map<std::tuple<std::string, double, double, double>, std::shared_ptr<const Hull>> hulls_;
+  std::map<MeshAndScale, std::shared_ptr<const Hull>> hulls_;
+  std::map<MeshAndScale, std::vector<MeshPart>> parts_;
 };
 
 }  // namespace touchstone
