@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -148,6 +148,7 @@ void query(const QueryOptions& options) {
   const std::vector<Case> cases = read_cases(options.cases);
   check_output(options.out);
   std::vector<Answers> all;
+  all.reserve(entries.size());
   for (const NarrowPhaseEntry* entry : entries) all.push_back(ask(*entry, cases, options));
   CsvWriter csv(options.out, {"id",       "algorithm", "scalar", "task",       "answer",
                               "status",   "distance",  "lower",  "upper",      "normal_x",

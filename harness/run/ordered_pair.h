@@ -1,4 +1,5 @@
-// Narrow phases are given pairs with kind_a <= kind_b; these turn a pair round, and its answer back.
+// Narrow phases are given pairs with kind_a <= kind_b; these turn a pair round, and its answer
+// back.
 #pragma once
 
 #include <utility>
