@@ -12,6 +12,7 @@
 #include "algorithms/registry.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/failures.h"
 #include "harness/commands/selection.h"
 #include "harness/io/cases.h"
 #include "harness/io/csv.h"
@@ -27,8 +28,6 @@ struct QueryOptions {
   NarrowPhaseSettings settings;
   double time_limit = 5;  // seconds a query
 };
-
-constexpr std::size_t shown_failures = 5;  // of one algorithm, on the terminal
 
 // One algorithm's outcomes for all cases.
 struct Answers {
@@ -93,14 +92,8 @@ Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
                                                                    : Status::crashed;
     }
   }
-  for (std::size_t i = 0; i < report.failures.size() && i < shown_failures; ++i) {
-    fmt::print(stderr, "{}, case '{}': {}\n", entry.info.name,
-               cases[taken[report.failures[i].item]].id, report.failures[i].reason());
-  }
-  if (report.failures.size() > shown_failures) {
-    fmt::print(stderr, "{}: {} more failures\n", entry.info.name,
-               report.failures.size() - shown_failures);
-  }
+  print_failures(entry.info.name, report.failures,
+                 [&](std::size_t item) { return fmt::format("case '{}'", cases[taken[item]].id); });
   return answers;
 }
 
