@@ -1,20 +1,28 @@
 // pairs: boxes through broad phases, one frame and algorithm a row.
 #include <fmt/format.h>
+#include <sys/types.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
-#include "harness/run/selection.h"
+#include "harness/commands/failures.h"
 #include "harness/io/box_frames.h"
 #include "harness/io/csv.h"
 #include "harness/run/clock.h"
+#include "harness/run/isolate.h"
 #include "harness/run/pair_hash.h"
+#include "harness/run/selection.h"
 
 namespace touchstone {
 namespace {
@@ -23,85 +31,187 @@ struct PairsOptions {
   std::string file, broad, out, pairs;
   int threads = 2;
   bool rebuild = false;
+  double time_limit = std::numeric_limits<double>::infinity();  // seconds a frame
 };
 
-// One algorithm on its way through the frames.
-struct Contender {
-  const BroadPhaseEntry* entry;
-  std::unique_ptr<BroadPhase> broad_phase;
-  PairSink sink;
+// What an algorithm did with a frame.
+struct Result {
+  Status status = Status::crashed;
+  bool known = false;  // what follows
   std::size_t pairs = 0;
-  std::size_t differing = 0;  // frames whose pairs are not the first algorithm's
+  std::uint64_t hash = 0;
   double seconds = 0;
+  off_t kept_at = 0;  // where its pairs are in the temporary file
+  int error = 0;      // errno, where the pairs could not be kept
 };
 
-std::uint64_t hash_of(const PairSink& sink) {
-  std::uint64_t sum = 0;
-  for (const PairBuffer& chunk : sink.chunks()) sum += pair_hash(chunk.pairs());
-  return sum;
-}
-
-void write_pairs(CsvWriter& csv, const BoxFrame& frame, const Contender& contender) {
-  std::vector<IndexPair> all = contender.sink.gather();
-  std::ranges::sort(all);
-  for (const IndexPair& pair : all) {
-    csv.field(frame.number).field(contender.entry->info.name);
-    csv.field(std::int64_t{pair.a}).field(std::int64_t{pair.b}).end_row();
+// One algorithm on its way through the frames, in a child process.
+class Contender {
+ public:
+  Contender(const BroadPhaseEntry& entry, const std::vector<BoxFrame>& frames,
+            const PairsOptions& options)
+      : entry_(entry), frames_(frames), options_(options), results_(frames.size()) {
+    if (options.pairs.empty()) return;
+    kept_.reset(std::tmpfile());
+    if (!kept_) keeping_failed(errno);
   }
+
+  const std::string& name() const { return entry_.info.name; }
+  const Result& result(std::size_t frame) const { return results_[frame]; }
+
+  // A frame that crashes the algorithm or takes too long is lost; the one behind it is built anew.
+  void run() {
+    const IsolationLimits limits = {.item_seconds = options_.time_limit,
+                                    .memory = IsolationLimits::no_limit};
+    const IsolationReport report = isolate(frames_.size(), limits, [this] {
+      const auto worker = std::make_shared<Worker>(entry_, options_.threads);
+      return [this, worker](std::size_t i) { find_pairs(*worker, frames_[i], results_[i]); };
+    });
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      Result& result = results_[i];
+      if (report.states[i] != ItemState::done) result = {};
+      if (report.states[i] == ItemState::timed_out) result.status = Status::timed_out;
+      if (result.error != 0) keeping_failed(result.error);
+    }
+    print_failures(name(), report.failures, [this](std::size_t item) {
+      return fmt::format("frame {}", frames_[item].number);
+    });
+  }
+
+  // The pairs of the frame, sorted.
+  std::vector<IndexPair> kept_pairs(std::size_t frame) {
+    const Result& result = results_[frame];
+    std::vector<IndexPair> all(result.pairs);
+    if (fseeko(kept_.get(), result.kept_at, SEEK_SET) != 0 ||
+        std::fread(all.data(), sizeof(IndexPair), all.size(), kept_.get()) != all.size()) {
+      keeping_failed(errno);
+    }
+    std::ranges::sort(all);
+    return all;
+  }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  // What there is in the child, which has threads of its own.
+  struct Worker {
+    Executor executor;
+    std::unique_ptr<BroadPhase> broad_phase;
+    PairSink sink;
+    bool built = false;
+
+    Worker(const BroadPhaseEntry& entry, int threads)
+        : executor(threads), broad_phase(entry.make(executor)) {}
+  };
+
+  void find_pairs(Worker& worker, const BoxFrame& frame, Result& result) {
+    const Stopwatch stopwatch;
+    if (worker.built && !options_.rebuild) {
+      worker.broad_phase->update(frame.change());
+    } else {
+      worker.broad_phase->build(frame.own_boxes());
+    }
+    result.status = worker.broad_phase->find_pairs(worker.sink);
+    result.seconds = stopwatch.seconds();
+    worker.built = true;
+    result.pairs = worker.sink.size();
+    for (const PairBuffer& chunk : worker.sink.chunks()) result.hash += pair_hash(chunk.pairs());
+    if (kept_) keep(worker.sink, result);
+    result.known = true;
+  }
+
+  void keep(const PairSink& sink, Result& result) {
+    // Behind what an earlier child wrote, all of it or part of it.
+    bool good = fseeko(kept_.get(), 0, SEEK_END) == 0;
+    result.kept_at = ftello(kept_.get());
+    for (const PairBuffer& chunk : sink.chunks()) {
+      const std::size_t count = chunk.size();
+      good =
+          good && std::fwrite(chunk.pairs().data(), sizeof(IndexPair), count, kept_.get()) == count;
+    }
+    if (!good || std::fflush(kept_.get()) != 0) result.error = errno;
+  }
+  [[noreturn]] static void keeping_failed(int error) {
+    throw InputError(
+        fmt::format("the pairs cannot be kept in a temporary file: {}", std::strerror(error)));
+  }
+
+  const BroadPhaseEntry& entry_;
+  const std::vector<BoxFrame>& frames_;
+  const PairsOptions& options_;
+  SharedArray<Result> results_;
+  std::unique_ptr<std::FILE, CloseFile> kept_;  // the pairs of all frames that are done
+};
+
+void write_row(CsvWriter& csv, const BoxFrame& frame, const Contender& contender,
+               const Result& result, int threads) {
+  csv.field(frame.number).field(contender.name()).field(threads).field(to_string(result.status));
+  if (result.known) {
+    csv.field(result.pairs).field(to_hex(result.hash)).field(result.seconds);
+  } else {
+    csv.field("").field("").field("");
+  }
+  csv.end_row();
 }
 
-void print_summary(const std::vector<Contender>& contenders, std::size_t frames) {
+void print_summary(std::span<const std::unique_ptr<Contender>> contenders, std::size_t frames) {
   fmt::print("{:<28} {:>7} {:>12} {:>12}  {}\n", "algorithm", "frames", "pairs", "seconds",
              "frames that differ from the first's");
-  for (const Contender& contender : contenders) {
-    fmt::print("{:<28} {:>7} {:>12} {:>12.6f}  {}\n", contender.entry->info.name, frames,
-               contender.pairs, contender.seconds, contender.differing);
+  for (const auto& contender : contenders) {
+    std::size_t done = 0, pairs = 0, differing = 0;
+    double seconds = 0;
+    for (std::size_t i = 0; i < frames; ++i) {
+      const Result& result = contender->result(i);
+      const Result& first = contenders.front()->result(i);
+      done += result.known ? 1 : 0;
+      pairs += result.pairs;
+      seconds += result.seconds;
+      differing += result.known && first.known && result.hash != first.hash ? 1 : 0;
+    }
+    fmt::print("{:<28} {:>7} {:>12} {:>12.6f}  {}\n", contender->name(), done, pairs, seconds,
+               differing);
   }
 }
 
 void pairs(const PairsOptions& options) {
   const auto entries = select(broad_phases(), split_names(options.broad), "broad phase");
   const std::vector<BoxFrame> frames = read_box_frames(options.file);
-  if (!options.pairs.empty() && std::filesystem::weakly_canonical(options.pairs) ==
-                                    std::filesystem::weakly_canonical(options.out)) {
-    throw InputError("--out and --pairs name the same file; expected two");
+  check_output(options.out);
+  if (!options.pairs.empty()) {
+    check_output(options.pairs);
+    if (std::filesystem::weakly_canonical(options.pairs) ==
+        std::filesystem::weakly_canonical(options.out)) {
+      throw InputError("--out and --pairs name the same file; expected two");
+    }
+  }
+  std::vector<std::unique_ptr<Contender>> contenders;
+  contenders.reserve(entries.size());
+  for (const BroadPhaseEntry* entry : entries) {
+    contenders.push_back(std::make_unique<Contender>(*entry, frames, options));
+    contenders.back()->run();
   }
   CsvWriter csv(options.out,
                 {"frame", "algorithm", "threads", "status", "pair_count", "pair_hash", "seconds"});
-  std::optional<CsvWriter> pairs_csv;
-  if (!options.pairs.empty()) {
-    pairs_csv.emplace(options.pairs, std::vector<std::string>{"frame", "algorithm", "a", "b"});
-  }
-  Executor executor(options.threads);
-  std::vector<Contender> contenders;
-  for (const BroadPhaseEntry* entry : entries) {
-    contenders.emplace_back().entry = entry;
-    contenders.back().broad_phase = entry->make(executor);
-  }
-  for (const BoxFrame& frame : frames) {
-    std::uint64_t first_hash = 0;
-    for (Contender& contender : contenders) {
-      const Stopwatch stopwatch;
-      if (options.rebuild || &frame == &frames.front()) {
-        contender.broad_phase->build(frame.own_boxes());
-      } else {
-        contender.broad_phase->update(frame.change());
-      }
-      const Status status = contender.broad_phase->find_pairs(contender.sink);
-      const double seconds = stopwatch.seconds();
-      const std::uint64_t hash = hash_of(contender.sink);
-      if (&contender == &contenders.front()) first_hash = hash;
-      contender.pairs += contender.sink.size();
-      contender.differing += hash != first_hash ? 1 : 0;
-      contender.seconds += seconds;
-      csv.field(frame.number).field(contender.entry->info.name).field(options.threads);
-      csv.field(to_string(status)).field(contender.sink.size()).field(to_hex(hash));
-      csv.field(seconds).end_row();
-      if (pairs_csv) write_pairs(*pairs_csv, frame, contender);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (const auto& contender : contenders) {
+      write_row(csv, frames[i], *contender, contender->result(i), options.threads);
     }
   }
   csv.flush();  // a full disk is to be found before either file is there
-  if (pairs_csv) pairs_csv->close();
+  if (!options.pairs.empty()) {
+    CsvWriter pairs_csv(options.pairs, {"frame", "algorithm", "a", "b"});
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      for (const auto& contender : contenders) {
+        for (const IndexPair& pair : contender->kept_pairs(i)) {
+          pairs_csv.field(frames[i].number).field(contender->name());
+          pairs_csv.field(std::int64_t{pair.a}).field(std::int64_t{pair.b}).end_row();
+        }
+      }
+    }
+    pairs_csv.close();
+  }
   csv.close();
   print_summary(contenders, frames.size());
 }
@@ -121,6 +231,9 @@ void add_pairs(CLI::App& app, int& status) {
   command.add_option("--threads", options->threads, "Width of the executor")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  command.add_option("--time-limit", options->time_limit, "Seconds that a frame may take")
+      ->check(positive_number)
+      ->default_str("none");
   command.add_flag("--rebuild", options->rebuild, "Build each frame anew; no updates");
   command.add_option("--out", options->out, "The CSV file to write")->required();
   command.add_option("--pairs", options->pairs, "Where to write the pairs themselves, as CSV");

@@ -2,21 +2,22 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "algorithms/registry.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
-#include "harness/run/selection.h"
+#include "harness/commands/failures.h"
 #include "harness/io/cases.h"
 #include "harness/io/csv.h"
 #include "harness/run/isolate.h"
 #include "harness/run/ordered_pair.h"
+#include "harness/run/selection.h"
 
 namespace touchstone {
 namespace {
@@ -27,8 +28,6 @@ struct QueryOptions {
   NarrowPhaseSettings settings;
   double time_limit = 5;  // seconds a query
 };
-
-constexpr std::size_t shown_failures = 5;  // of one algorithm, on the terminal
 
 // One algorithm's outcomes for all cases.
 struct Answers {
@@ -93,14 +92,8 @@ Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
                                                                    : Status::crashed;
     }
   }
-  for (std::size_t i = 0; i < report.failures.size() && i < shown_failures; ++i) {
-    fmt::print(stderr, "{}, case '{}': {}\n", entry.info.name,
-               cases[taken[report.failures[i].item]].id, report.failures[i].reason());
-  }
-  if (report.failures.size() > shown_failures) {
-    fmt::print(stderr, "{}: {} more failures\n", entry.info.name,
-               report.failures.size() - shown_failures);
-  }
+  print_failures(entry.info.name, report.failures,
+                 [&](std::size_t item) { return fmt::format("case '{}'", cases[taken[item]].id); });
   return answers;
 }
 
@@ -148,6 +141,7 @@ void query(const QueryOptions& options) {
   const std::vector<Case> cases = read_cases(options.cases);
   check_output(options.out);
   std::vector<Answers> all;
+  all.reserve(entries.size());
   for (const NarrowPhaseEntry* entry : entries) all.push_back(ask(*entry, cases, options));
   CsvWriter csv(options.out, {"id",       "algorithm", "scalar", "task",       "answer",
                               "status",   "distance",  "lower",  "upper",      "normal_x",

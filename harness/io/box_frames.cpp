@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -83,6 +85,12 @@ std::vector<BoxFrame> read_recording(const std::filesystem::path& file) {
   return frames;
 }
 
+// The contract of updates tells 0 from -0.
+bool same_bits(const Aabb& a, const Aabb& b) {
+  using Bits = std::array<std::uint32_t, 6>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
 // Pads the array of the frame and says what is new in it.
 void compare(const BoxFrame& before, BoxFrame& now) {
   now.boxes.resize(std::max(now.count, before.boxes.size()), Aabb::empty());
@@ -91,10 +99,7 @@ void compare(const BoxFrame& before, BoxFrame& now) {
     const bool is = id < now.count;
     if (was && !is) now.removed.push_back(id);
     if (!was && is) now.inserted.push_back(id);
-    // By their bits: the contract tells 0 from -0.
-    if (was && is && std::memcmp(&before.boxes[id], &now.boxes[id], sizeof(Aabb)) != 0) {
-      now.moved.push_back(id);
-    }
+    if (was && is && !same_bits(before.boxes[id], now.boxes[id])) now.moved.push_back(id);
   }
 }
 

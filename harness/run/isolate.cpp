@@ -1,7 +1,7 @@
 #include "harness/run/isolate.h"
 
 #include <fcntl.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -54,7 +55,7 @@ void allow_memory(std::size_t bytes) {
   if (pages == 0) return;
   const rlim_t used = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0) return;
+  if (bytes > RLIM_INFINITY - used || getrlimit(RLIMIT_AS, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, used + bytes);
   setrlimit(RLIMIT_AS, &limit);
 #endif

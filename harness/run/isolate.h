@@ -25,9 +25,10 @@ enum class ItemState : std::uint8_t {
 };
 
 struct IsolationLimits {
+  static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
   double item_seconds = 5;  // wall clock; an item is stopped at most a twentieth of a second later
-  double setup_seconds = 60;                            // the same for the setup of a child
-  std::size_t failures = static_cast<std::size_t>(-1);  // no further item is begun after these
+  double setup_seconds = 60;        // the same for the setup of a child
+  std::size_t failures = no_limit;  // no further item is begun after these
   std::size_t memory = std::size_t{4}
                        << 30;  // bytes that a child may add to what is there; beyond,
                                // its allocations fail. Not kept under a sanitizer.

@@ -149,6 +149,23 @@ TEST_F(PairsCommand, ReadsRecordings) {
   EXPECT_THAT(rows, ElementsAre(ElementsAre("0", "0"), ElementsAre("1", "1")));
 }
 
+TEST_F(PairsCommand, WhatTakesTooLongIsARowOfItsOwn) {
+  std::string text = header;
+  for (int id = 0; id < 100000; ++id) text += fmt::format("0,{0},{0},0,0,{0}.5,1,1\n", id);
+  text += "1,0,0,0,0,1,1,1\n1,1,1,1,1,1,1,1\n";
+  const auto file = folder.write("in.csv", text);
+  const Ran ran = run_program("pairs " + file.string() + " --broad naive --time-limit 0.05 --out " +
+                              path("out.csv") + " --pairs " + path("pairs.csv"));
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("naive, frame 0: no answer in time"));
+  const auto rows = read_rows(folder.path() / "out.csv",
+                              {"frame", "status", "pair_count", "pair_hash", "seconds"});
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_THAT(rows[0], ElementsAre("0", "timed_out", "", "", ""));
+  EXPECT_THAT(read_rows(folder.path() / "pairs.csv", {"frame", "a", "b"}),
+              ElementsAre(ElementsAre("1", "0", "1")));
+}
+
 TEST_F(PairsCommand, BadInput) {
   const auto refuse = [&](const std::string& content, const std::string& text) {
     folder.write("in.csv", content);
@@ -179,6 +196,7 @@ TEST_F(PairsCommand, BadRequests) {
   expect_refusal(in + " --broad quick" + out, "no broad phase is called 'quick'; expected some of");
   expect_refusal(in + " --broad naive,,naive" + out, "no broad phase is called ''");
   expect_refusal(in + " --broad naive --threads 0" + out, "--threads");
+  expect_refusal(in + " --broad naive --time-limit 0" + out, "--time-limit");
   expect_refusal(in + " --broad naive --threads two" + out, "--threads");
   expect_refusal(path("none.csv") + " --broad naive" + out, "none.csv: No such file or directory");
   expect_refusal(folder.path().string() + " --broad naive" + out, "Is a directory");
