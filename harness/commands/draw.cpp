@@ -25,7 +25,7 @@ Vec3d direction(const std::string& view) {
   if (view == "front") return {0, 1, 0};
   if (view == "side") return {-1, 0, 0};
   if (view == "top") return {0, 0, -1};
-  return {-1, 1.6, -1.1};
+  return {-1, 1.6, -1.7};
 }
 
 std::vector<BodyState> states_of(const Scene& scene, const ScenePlayer& player) {

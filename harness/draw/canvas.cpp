@@ -16,6 +16,7 @@ namespace {
 
 constexpr int samples = 2;  // a pixel, each way
 constexpr double margin = 0.04;
+constexpr double outline_light = 0.45;
 constexpr Colour background{250, 250, 248};
 
 Colour lit(Colour colour, double light) {
@@ -39,7 +40,8 @@ Canvas::Canvas(int width, int height, const View& view)
       view_(view),
       depth_(static_cast<std::size_t>(width) * height * samples * samples,
              -std::numeric_limits<float>::infinity()),
-      colour_(depth_.size(), background) {}
+      colour_(depth_.size(), background),
+      owner_(depth_.size(), 0) {}
 
 void Canvas::fit(std::span<const Vec3d> points) {
   Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
@@ -70,9 +72,9 @@ void Canvas::polygon(std::span<const Vec3d> corners, Colour colour) {
   }
   const double length = normal.stableNorm();
   if (!(length > 0)) return;
-  const Vec3d sun = (0.45 * view_.right + 0.75 * view_.up + 0.6 * view_.towards).normalized();
-  const double light = 0.42 + 0.58 * std::max(0.0, std::abs(normal.dot(view_.towards)) / length) *
-                                  (0.6 + 0.4 * std::max(0.0, normal.dot(sun) / length));
+  // The sun stands above the eye and to its left; what it does not reach still has the sky's light.
+  const Vec3d sun = (-0.5 * view_.right + 0.9 * Vec3d::UnitZ() + 0.7 * view_.towards).normalized();
+  const double light = 0.55 + 0.55 * std::max(0.0, normal.dot(sun) / length);
   const Vec3d first = project(corners[0]);
   for (std::size_t i = 2; i < corners.size(); ++i) {
     triangle(first, project(corners[i - 1]), project(corners[i]), lit(colour, light));
@@ -122,6 +124,15 @@ void Canvas::sample(int x, int y, float depth, Colour colour) {
   if (depth <= depth_[at]) return;
   depth_[at] = depth;
   colour_[at] = colour;
+  owner_[at] = body_;
+}
+
+bool Canvas::is_outline(int x, int y) const {
+  const std::size_t row = static_cast<std::size_t>(samples) * width_;
+  const std::size_t at = static_cast<std::size_t>(y) * row + x;
+  const bool right = x + 1 < samples * width_ && owner_[at] != owner_[at + 1];
+  const bool below = y + 1 < samples * height_ && owner_[at] != owner_[at + row];
+  return right || below;
 }
 
 void Canvas::write_png(const std::filesystem::path& file) const {
@@ -131,9 +142,10 @@ void Canvas::write_png(const std::filesystem::path& file) const {
     for (int x = 0; x < width_; ++x) {
       std::array<int, 3> sum{};
       for (int s = 0; s < samples * samples; ++s) {
-        const Colour& c =
-            colour_[(static_cast<std::size_t>(y) * samples + s / samples) * samples * width_ +
-                    static_cast<std::size_t>(x) * samples + s % samples];
+        const int at_x = x * samples + s % samples;
+        const int at_y = y * samples + s / samples;
+        const Colour& own = colour_[static_cast<std::size_t>(at_y) * samples * width_ + at_x];
+        const Colour c = is_outline(at_x, at_y) ? lit(own, outline_light) : own;
         sum[0] += c.red;
         sum[1] += c.green;
         sum[2] += c.blue;

@@ -30,7 +30,10 @@ class Canvas {
 
   // Scales and shifts so that all these points are inside, with a margin.
   void fit(std::span<const Vec3d> points);
-  // A flat convex polygon in world coordinates. Without a normal it is lit from both sides.
+  // What is drawn from here on belongs to another body: an outline is drawn where bodies meet in
+  // the picture.
+  void next_body() { ++body_; }
+  // A flat convex polygon in world coordinates, its corners anticlockwise seen from outside.
   void polygon(std::span<const Vec3d> corners, Colour colour);
   // A ball of a few pixels, for what has no face that could be seen.
   void dot(const Vec3d& point, Colour colour);
@@ -42,6 +45,7 @@ class Canvas {
   Vec3d project(const Vec3d& point) const;  // x, y in samples; z greater is nearer
   void triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, Colour colour);
   void sample(int x, int y, float depth, Colour colour);
+  bool is_outline(int x, int y) const;
 
   int width_, height_;  // in pixels
   View view_;
@@ -49,6 +53,8 @@ class Canvas {
   Vec3d centre_ = Vec3d::Zero();
   std::vector<float> depth_;
   std::vector<Colour> colour_;
+  std::vector<std::uint32_t> owner_;  // the body that each sample shows; 0: none
+  std::uint32_t body_ = 0;
 };
 
 }  // namespace touchstone

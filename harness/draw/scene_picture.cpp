@@ -32,8 +32,8 @@ std::array<Vec3d, 8> corners(const Aabb& box) {
 
 void draw_box(Canvas& canvas, const Aabb& box, Colour colour) {
   const std::array<Vec3d, 8> p = corners(box);
-  constexpr int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                               {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  constexpr std::size_t faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& face : faces) {
     canvas.polygon(std::array{p[face[0]], p[face[1]], p[face[2]], p[face[3]]}, colour);
   }
@@ -98,6 +98,7 @@ void draw_scene(Canvas& canvas, const Scene& scene, std::span<const Pose> poses,
   }
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Colour colour = colour_of(states[i]);
+    canvas.next_body();
     if (poses.empty()) {
       if (!boxes[i].is_empty()) draw_box(canvas, boxes[i], colour);
       continue;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -115,6 +116,9 @@ struct Varying {
   }
 };
 
+// Kinds of pairs that a table shows, the most frequent ones.
+constexpr std::size_t most_kinds = 9;
+
 bool failed(const RawRow& row) {
   return row.status == to_string(Status::crashed) || row.status == to_string(Status::timed_out);
 }
@@ -222,8 +226,14 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
   }
   std::string text;
   for (const auto& [task, sums] : tasks) {
-    std::set<std::string> kinds;
-    for (const auto& [key, sum] : sums) kinds.insert(key.second);
+    std::map<std::string, std::int64_t> queries;
+    for (const auto& [key, sum] : sums) queries[key.second] += sum.queries;
+    std::vector<std::string> kinds;
+    for (const auto& [kind, count] : queries) kinds.push_back(kind);
+    std::ranges::stable_sort(kinds, std::greater(),
+                             [&](const auto& kind) { return queries[kind]; });
+    const std::size_t left_out = kinds.size() - std::min(kinds.size(), most_kinds);
+    kinds.resize(kinds.size() - left_out);
     Grid grid;
     for (const std::string& label : order[task]) {
       for (const std::string& kind : kinds) {
@@ -240,7 +250,9 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
         const auto& [its_task, narrow, kind] = key;
         if (its_task != task || !label.starts_with(narrow)) continue;
         all.add(faults);
-        if (faults.disagree > 0 && sums.contains({label, kind})) grid.at(label, kind).note += "~";
+        if (faults.disagree > 0 && std::ranges::find(kinds, kind) != kinds.end()) {
+          grid.at(label, kind).note += "~";
+        }
       }
       std::string remark = all.disagree == 0 ? fmt::format("all {}", all.compared)
                                              : fmt::format("{} of {} differ, by {:.2g} m",
