@@ -198,7 +198,7 @@ class LooseOctree final : public BroadPhase {
       const auto l = static_cast<std::size_t>(level);
       // The centre of a partner is at most half a cell away. The 64th part is for rounding; a box
       // for which that is not enough has no length on the axis, and its centre is its end.
-      const double reach = std::ldexp(0.5 + 1.0 / 64, level);
+      const double reach = (0.5 + 1.0 / 64) * (1u << level);
       Window window;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         window.low[axis] = space_.cell(low[axis] - reach * side_[axis], axis) >> level;

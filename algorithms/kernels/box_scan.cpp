@@ -7,9 +7,11 @@
 #include "algorithms/core/isa.h"
 
 #if defined(__x86_64__)
-// GCC 12 takes the header's own undefined vectors for mistakes of ours.
 #pragma GCC diagnostic push
+#if !defined(__clang__)
+// GCC 12 takes the header's own undefined vectors for mistakes of ours.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <immintrin.h>
 #pragma GCC diagnostic pop
 #endif
