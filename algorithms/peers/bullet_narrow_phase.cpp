@@ -36,6 +36,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btMprPenetration.h>
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -246,12 +247,17 @@ struct PolyhedralSat {
     if (!body.shape || !body.shape->isPolyhedral()) return;
     auto& shape = static_cast<btPolyhedralConvexShape&>(*body.shape);
     constexpr int most_vertices = 32767;  // Bullet numbers them with short integers
-    if (shape.getNumVertices() > most_vertices || !shape.initializePolyhedralFeatures()) return;
-    // Less than a tetrahedron has no inside, and its centre is 0 / 0.
+    const int count = shape.getNumVertices();
+    if (count > most_vertices) return;
+    // Bullet reads what it has not set where its hull has less than a tetrahedron's faces: so its
+    // hull is looked at first.
+    std::vector<btVector3> vertices(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) shape.getVertex(i, vertices[static_cast<std::size_t>(i)]);
+    btConvexHullComputer hull;
+    hull.compute(&vertices[0].getX(), sizeof(btVector3), count, 0, 0);
+    if (hull.faces.size() < 4 || !shape.initializePolyhedralFeatures()) return;
     const btConvexPolyhedron* features = shape.getConvexPolyhedron();
-    if (features->m_faces.size() >= 4 && std::isfinite(features->m_localCenter.length2())) {
-      body.polyhedron = features;
-    }
+    if (std::isfinite(features->m_localCenter.length2())) body.polyhedron = features;
   }
 
   void answer(Query& query, Outcome& outcome) {
@@ -358,7 +364,8 @@ class Mpr {
 template <class Algorithm>
 class BulletNarrowPhase final : public NarrowPhase {
  public:
-  explicit BulletNarrowPhase(Algorithm algorithm = {}) : algorithm_(std::move(algorithm)) {}
+  template <class... Settings>
+  explicit BulletNarrowPhase(const Settings&... settings) : algorithm_(settings...) {}
 
   void bind(std::span<const Shape> shapes) override {
     bodies_.clear();
@@ -451,7 +458,7 @@ TOUCHSTONE_NARROW_PHASE {
        .scalars = floats,
        .supports = all_bounded,
        .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
-         return std::make_unique<BulletNarrowPhase<Mpr>>(Mpr(settings));
+         return std::make_unique<BulletNarrowPhase<Mpr>>(settings);
        })},
   };
 }

@@ -197,8 +197,7 @@ class FclBroadPhase final : public BroadPhase {
     if constexpr (Rules::repeats) {
       std::vector<IndexPair> pairs(found_.pairs().begin(), found_.pairs().end());
       std::ranges::sort(pairs);
-      const auto repeated = std::ranges::unique(pairs);
-      pairs.erase(repeated.begin(), repeated.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
       for (const IndexPair& pair : pairs) out.push(pair.a, pair.b);
     }
     return status_;
