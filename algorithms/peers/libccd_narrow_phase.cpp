@@ -1,16 +1,15 @@
 // libccd: GJK, GJK with EPA, and MPR (XenoCollide), over support functions of our own.
 // Paper:   D. Fiser, libccd 2.1; GJK of Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation
 //          1988; EPA of van den Bergen, GDC 2001; MPR of Snethen, Game Programming Gems 7, 2008.
-// Departs: libccd brings no shapes, so the support functions are here: exact for the affine image
-// of
-//          the body, balls not deformed; hulls are scanned from end to end. It works in world
-//          coordinates. It has no distance query, and a half-space has no support point.
-//          max_iterations (1000 without) reaches GJK's loop as libccd's own setting. The loops of
-//          EPA and MPR have no cap, so their support points are counted: past the cap, that of all
-//          loops of the query together, the support functions answer with points far behind, which
-//          each of these loops takes for its end, and the status is not_converged.
+// Departs: libccd brings no shapes, so the support functions are here: of the affine image of the
+//          body as the pose states it, balls not deformed; hulls are scanned from end to end. It
+//          works in world coordinates, has no distance query, and no use for a half-space.
+//          max_iterations (1000 without): GJK does not tell when its cap has ended a query, and the
+//          loops of EPA and MPR have none. So support points are counted; past the cap, for EPA and
+//          MPR that of all loops of the query together, the support functions answer with points
+//          far behind, which each loop takes for its end, and the status is not_converged.
 //          tolerance reaches MPR as a length, and EPA as its square, which is what EPA compares;
-//          without one they have libccd's 1e-4. GJK here has none: it goes by 2^-52, absolute.
+//          without one they have libccd's 1e-4. GJK has none to set: it goes by 2^-52, absolute.
 //          Witness points are not reported: libccd gives one point, an average.
 // Fails:   GJK: overlap for gaps below about 1e-8 m; wrong at millimetre scale and far below.
 //          EPA: too shallow, at worst 1e-8 for deep hulls, as it replaces one face at a time where
