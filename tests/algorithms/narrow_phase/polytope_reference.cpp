@@ -180,31 +180,57 @@ double extent(const Body& body) {
   return result + ball(body);
 }
 
+Shape make_round(ShapeKind kind, double radius, double half_length) {
+  Shape shape;
+  shape.kind = kind;
+  shape.radius = radius;
+  shape.half_length = half_length;
+  return shape;
+}
+
 }  // namespace
 
-Shape make_sphere(double radius) { return {.kind = ShapeKind::sphere, .radius = radius}; }
-Shape make_capsule(double radius, double half_length) {
-  return {.kind = ShapeKind::capsule, .radius = radius, .half_length = half_length};
+Shape make_sphere(double radius) {
+  Shape shape;
+  shape.kind = ShapeKind::sphere;
+  shape.radius = radius;
+  return shape;
 }
-Shape make_box(double x, double y, double z) {
-  return {.kind = ShapeKind::box, .half_extents = {x, y, z}};
+Shape make_capsule(double radius, double half_length) {
+  return make_round(ShapeKind::capsule, radius, half_length);
 }
 Shape make_cylinder(double radius, double half_length) {
-  return {.kind = ShapeKind::cylinder, .radius = radius, .half_length = half_length};
+  return make_round(ShapeKind::cylinder, radius, half_length);
 }
 Shape make_cone(double radius, double half_length) {
-  return {.kind = ShapeKind::cone, .radius = radius, .half_length = half_length};
+  return make_round(ShapeKind::cone, radius, half_length);
+}
+Shape make_box(double x, double y, double z) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.half_extents = {x, y, z};
+  return shape;
 }
 Shape make_ellipsoid(double x, double y, double z) {
-  return {.kind = ShapeKind::ellipsoid, .radii = {x, y, z}};
+  Shape shape;
+  shape.kind = ShapeKind::ellipsoid;
+  shape.radii = {x, y, z};
+  return shape;
 }
 Shape make_hull(std::vector<Vec3d> vertices) {
   auto hull = std::make_shared<Hull>();
   hull->vertices = std::move(vertices);
-  return {.kind = ShapeKind::hull, .hull = std::move(hull)};
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = std::move(hull);
+  return shape;
 }
 Shape make_halfspace(const Vec3d& normal, double offset) {
-  return {.kind = ShapeKind::halfspace, .normal = normal, .offset = offset};
+  Shape shape;
+  shape.kind = ShapeKind::halfspace;
+  shape.normal = normal;
+  shape.offset = offset;
+  return shape;
 }
 
 Real signed_distance(const Body& a, const Body& b, Vec3d& normal) {
