@@ -2,38 +2,23 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <bit>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 
 #include "harness/error.h"
 #include "harness/scene/mesh_format.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
 namespace {
 
-namespace fs = std::filesystem;
-
 class MeshTest : public testing::Test {
  protected:
-  MeshTest()
-      : folder_(fs::temp_directory_path() / ("touchstone_mesh_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~MeshTest() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& content) {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return folder_ / name;
-  }
   Mesh read(const std::string& name, const std::string& content) {
-    return read_mesh(write(name, content));
+    return read_mesh(folder_.write(name, content));
   }
   std::string error(const std::string& name, const std::string& content) {
     try {
@@ -44,7 +29,7 @@ class MeshTest : public testing::Test {
     return "no error";
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -275,8 +260,8 @@ TEST_F(MeshTest, ErrorsNameFileAndLine) {
   expect("a.ply", binary.substr(0, binary.size() - 1), "",
          "byte " + std::to_string(binary.size() - 2));
   expect("a.xyz", "0 0 0\n", "", "unknown mesh format");
-  EXPECT_THROW(read_mesh(folder_ / "absent.obj"), InputError);
-  EXPECT_THROW(read_mesh(folder_), InputError);
+  EXPECT_THROW(read_mesh(folder_.path() / "absent.obj"), InputError);
+  EXPECT_THROW(read_mesh(folder_.path()), InputError);
 }
 
 // Whatever is done to a file, it is read, with finite vertices and indices in range, or refused.

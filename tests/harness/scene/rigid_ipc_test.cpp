@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 
 #include "harness/error.h"
 #include "harness/scene/mesh_mass.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
 namespace {
@@ -38,11 +38,11 @@ f 2 4 8 6
 
 class RigidIpc : public testing::Test {
  protected:
-  RigidIpc() : folder_(fs::temp_directory_path() / ("touchstone_ipc_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_ / "fixtures" / "deep");
-    fs::create_directories(folder_ / "meshes");
-    std::ofstream(folder_ / "meshes" / "block.obj") << block_obj;
-    std::ofstream pair(folder_ / "meshes" / "pair.obj");
+  RigidIpc() {
+    fs::create_directories(folder_.path() / "fixtures" / "deep");
+    fs::create_directories(folder_.path() / "meshes");
+    std::ofstream(folder_.path() / "meshes" / "block.obj") << block_obj;
+    std::ofstream pair(folder_.path() / "meshes" / "pair.obj");
     for (int x : {0, 10}) {
       for (int i = 0; i < 4; ++i)
         pair << "v " << x + (i == 1) << ' ' << (i == 2) << ' ' << (i == 3) << '\n';
@@ -53,10 +53,9 @@ class RigidIpc : public testing::Test {
       }
     }
   }
-  ~RigidIpc() override { fs::remove_all(folder_); }
 
   Scene import(const std::string& json) {
-    const fs::path file = folder_ / "fixtures" / "deep" / "made up.json";
+    const fs::path file = folder_.path() / "fixtures" / "deep" / "made up.json";
     std::ofstream(file) << json;
     return import_rigid_ipc(file);
   }
@@ -77,7 +76,7 @@ class RigidIpc : public testing::Test {
     return error("{\"rigid_body_problem\": {\"rigid_bodies\": [" + body + "]}}");
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 // The world's box of a body.
@@ -195,8 +194,8 @@ TEST_F(RigidIpc, ErrorsSayWhere) {
   EXPECT_THAT(body_error(R"({"mesh": "block.obj", "kinematic_poses": []})"),
               HasSubstr("kinematic_poses"));
   EXPECT_THAT(body_error(R"({"vertices": [[0,0,0]], "faces": [[0,0,1]]})"), HasSubstr("in range"));
-  EXPECT_THROW(import_rigid_ipc(folder_), InputError);
-  EXPECT_THROW(import_rigid_ipc(folder_ / "none.json"), InputError);
+  EXPECT_THROW(import_rigid_ipc(folder_.path()), InputError);
+  EXPECT_THROW(import_rigid_ipc(folder_.path() / "none.json"), InputError);
 }
 
 TEST(MeshMass, CentreOfSolidSurfaceAndPoints) {

@@ -1,0 +1,133 @@
+// The data sets that need more than a generator: the home and CGAL's meshes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "algorithms/core/bounds.h"
+#include "harness/error.h"
+#include "harness/scene/player.h"
+#include "harness/scene/scene.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+const std::filesystem::path datasets = std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "datasets";
+
+TEST(Home, IsAFurnishedFlat) {
+  const Scene scene = load_scene(datasets / "home.toml");
+  EXPECT_EQ(scene.name, "home");
+  EXPECT_GT(scene.bodies.size(), 1000u);
+  std::size_t moving = 0;
+  for (const Body& body : scene.bodies) moving += body.moving;
+  EXPECT_GT(moving, 10u);
+  EXPECT_LT(moving, 50u);
+  for (const Shape& shape : scene.shapes) {
+    EXPECT_TRUE(shape.kind == ShapeKind::box || shape.hull->dimension < 3 ||
+                !shape.hull->faces.empty());
+  }
+  const ScenePlayer player(scene, BoxKind::tight);
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const Aabb& box = player.boxes()[i];
+    for (std::size_t k = 0; k < 3; ++k) {  // all of it is within the walls, up to a millimetre
+      EXPECT_GE(box.min[k], k == 2 ? -0.2002f : -0.001f);
+      EXPECT_LE(box.max[k], (k == 0 ? 10.001f : k == 1 ? 9.001f : 2.501f));
+    }
+    for (std::size_t j = i + 1; j < scene.size(); ++j) pairs += overlap(box, player.boxes()[j]);
+  }
+  EXPECT_GT(pairs, 1000u);
+  EXPECT_LT(pairs, 10000u);
+}
+
+TEST(Home, EachPieceIsOneFileUnderAMegabyteInAll) {
+  std::uintmax_t bytes = 0;
+  int pieces = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(datasets / "home")) {
+    if (entry.path().extension() != ".obj") continue;
+    bytes += entry.file_size();
+    ++pieces;
+  }
+  EXPECT_EQ(pieces, 42);
+  EXPECT_LT(bytes, 1'000'000u);
+}
+
+class Parts : public testing::Test {
+ protected:
+  Scene load(const std::string& body) {
+    folder_.write("two.obj",
+                  "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+                  "v 10 0 0\nv 14 0 0\nv 10 4 0\nv 10 0 4\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n");
+    folder_.write("points.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n");
+    return load_scene(folder_.write("scene.toml", body));
+  }
+  std::string fault(const std::string& body) {
+    try {
+      load(body);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Parts, AreBodiesWhereTheyAreInTheWhole) {
+  const Scene scene = load(
+      "body = [{mesh = \"two.obj\", parts = true, scale = 0.5, translation = [0, 0, 1],"
+      "         quaternion_wxyz = [1, 0, 0, 1], velocity = [1, 0, 0]},\n"
+      "        {mesh = \"two.obj\", parts = true, scale = 0.5, moving = false},\n"
+      "        {mesh = \"two.obj\"}]\n");
+  ASSERT_EQ(scene.bodies.size(), 5u);
+  EXPECT_EQ(scene.shapes.size(), 3u) << "bodies of the same part share it";
+  EXPECT_EQ(scene.bodies[0].shape, scene.bodies[2].shape);
+  // About the centre of each part's box: (0.5, 0.5, 0.5) and (6, 1, 1); turned, (-y, x, z).
+  EXPECT_LT((scene.bodies[0].pose.translation - Vec3d(-0.5, 0.5, 1.5)).norm(), 1e-15);
+  EXPECT_LT((scene.bodies[1].pose.translation - Vec3d(-1, 6, 2)).norm(), 1e-15);
+  EXPECT_EQ(scene.bodies[3].pose.translation, Vec3d(6, 1, 1));
+  EXPECT_EQ(scene.bodies[1].velocity, Vec3d(1, 0, 0));
+  EXPECT_FALSE(scene.bodies[3].moving);
+  EXPECT_EQ(scene.shapes[1].hull->vertices.front(), Vec3d(-1, -1, -1));
+}
+
+TEST_F(Parts, FaultsSayWhere) {
+  using testing::HasSubstr;
+  EXPECT_THAT(fault("body = [{mesh = \"two.obj\", parts = true, angular_velocity = [1, 0, 0]}]\n"),
+              HasSubstr("scene.toml:1: "));
+  EXPECT_THAT(fault("body = [\n{mesh = \"points.obj\", parts = true}]\n"),
+              testing::AllOf(HasSubstr("scene.toml:2: "), HasSubstr("no triangles")));
+  EXPECT_THAT(fault("body = [{shape = {type = \"sphere\", radius = 1}, parts = true}]\n"),
+              HasSubstr("parts"));
+  EXPECT_THAT(fault("body = [{mesh = \"two.obj\", scale = 1e308}]\n"), HasSubstr("two.obj: "));
+}
+
+TEST_F(Parts, MissingFilesSayHowToGetThem) {
+  const std::string message = fault("get = \"sh get_them.sh\"\nbody = [\n{mesh = \"none.obj\"}]\n");
+  EXPECT_THAT(message,
+              testing::AllOf(testing::HasSubstr("scene.toml:3: "), testing::HasSubstr("none.obj"),
+                             testing::HasSubstr("To get it: sh get_them.sh")));
+  EXPECT_THAT(fault("get = \"elsewhere\"\nimport = \"none.json\"\n"),
+              testing::HasSubstr("To get it: elsewhere"));
+}
+
+TEST(CgalMeshes, LoadOrSayHowToGetThem) {
+  const bool present = std::filesystem::exists(datasets / "local" / "cgal" / "elephant.off");
+  try {
+    const Scene scene = load_scene(datasets / "cgal_meshes.toml", {.count = 100});
+    EXPECT_TRUE(present);
+    EXPECT_EQ(scene.bodies.size(), 100u);
+    for (const Shape& shape : scene.shapes) {
+      EXPECT_FALSE(shape.hull->faces.empty());
+      EXPECT_GT(loose_reach(shape, Mat3d::Identity()), 0);
+    }
+  } catch (const InputError& error) {
+    EXPECT_FALSE(present) << error.what();
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("libcgal-demo"),
+                                             testing::HasSubstr("get_cgal_meshes.sh")));
+  }
+}
+
+}  // namespace
+}  // namespace touchstone
