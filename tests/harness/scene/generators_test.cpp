@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "harness/error.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/temporary_folder.h"
@@ -50,12 +52,16 @@ TEST(Generators, DatasetsAreWhatTheyWere) {
   }
 }
 
+// But for those whose data have to be got first, and say how.
 TEST(Generators, EveryDatasetLoadsAsItStands) {
   for (const auto& entry : std::filesystem::directory_iterator(dataset("x").parent_path())) {
     if (entry.path().extension() != ".toml") continue;
-    const Scene scene = load_scene(entry.path());
-    EXPECT_GT(scene.size(), 0u) << entry.path();
-    EXPECT_EQ(scene_hash(scene), scene_hash(load_scene(entry.path()))) << entry.path();
+    try {
+      const Scene scene = load_scene(entry.path());
+      EXPECT_GT(scene.size(), 0u) << entry.path();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("To get it: "));
+    }
   }
 }
 
@@ -92,10 +98,10 @@ class Overlaps : public testing::TestWithParam<Asked> {};
 TEST_P(Overlaps, AreAboutWhatWasAsked) {
   const Asked& asked = GetParam();
   double sum = 0;
-  constexpr int seeds = 4;
+  constexpr int seeds = 3;
   for (int seed = 1; seed <= seeds; ++seed) {
     const Scene scene =
-        load("count = 1500\nframes = 1\nseed = " + std::to_string(seed) +
+        load("count = 1000\nframes = 1\nseed = " + std::to_string(seed) +
              "\noverlaps = " + std::to_string(asked.overlaps) + "\n" + asked.options);
     const ScenePlayer player(scene, BoxKind::tight);
     sum += mean_overlaps(player.boxes().subspan(asked.first)) / seeds;
