@@ -31,7 +31,7 @@ const std::vector<SourceFile>& files() {
     for (const char* folder : {"algorithms", "harness", "tests"}) {
       for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
         const std::string ending = entry.path().extension().string();
-        if (ending != ".h" && ending != ".cpp") continue;
+        if (ending != ".h" && ending != ".cpp" && ending != ".inl") continue;
         SourceFile file{fs::relative(entry.path(), root).string(), "", {}, {}};
         std::ifstream stream(entry.path());
         for (std::string line; std::getline(stream, line);) {
