@@ -18,25 +18,26 @@ void BoxArrays::resize(std::size_t count) {
 
 void list_bodies(Executor& executor, std::span<const Aabb> boxes, std::vector<std::uint32_t>& ids) {
   constexpr std::size_t block_size = 8192;
-  // Each block lists its own at its own place; the gaps are closed afterwards, and mostly there are
-  // none.
-  ids.resize(boxes.size());
-  std::vector<std::size_t> counts(block_count(boxes.size(), block_size));
-  for_each_block(executor, boxes.size(), block_size,
+  const std::size_t count = boxes.size();
+  const std::size_t blocks = block_count(count, block_size);
+  // Each block lists its own at its own place, and how many behind them all; the gaps are closed
+  // afterwards, and mostly there are none.
+  ids.resize(count + blocks);
+  for_each_block(executor, count, block_size,
                  [&](std::size_t block, std::size_t first, std::size_t last) {
                    std::size_t end = first;
                    for (std::size_t i = first; i < last; ++i) {
                      ids[end] = static_cast<std::uint32_t>(i);
                      end += boxes[i].is_empty() ? 0 : 1;
                    }
-                   counts[block] = end - first;
+                   ids[count + block] = static_cast<std::uint32_t>(end - first);
                  });
   std::size_t end = 0;
-  for (std::size_t block = 0; block < counts.size(); ++block) {
-    const auto from = ids.begin() + static_cast<std::ptrdiff_t>(block * block_size);
-    const auto to = ids.begin() + static_cast<std::ptrdiff_t>(end);
-    if (from != to) std::copy_n(from, counts[block], to);
-    end += counts[block];
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::size_t first = block * block_size;
+    const std::size_t listed = ids[count + block];
+    if (first != end) std::copy_n(ids.begin() + first, listed, ids.begin() + end);
+    end += listed;
   }
   ids.resize(end);
 }
