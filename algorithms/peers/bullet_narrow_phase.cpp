@@ -15,7 +15,8 @@
 //          Half-spaces are not offered: Bullet's plane has no support function, and its own
 //          algorithm for it is one support call of the other body, none of these four. Tolerances,
 //          and iteration caps but MPR's, are compiled into Bullet and stay its own.
-// Fails:   all thresholds are absolute lengths of 1e-3 to 1e-6, so small bodies overlap too early.
+// Fails:   all thresholds are absolute lengths, 1e-2 to 1e-6: GJK tells bodies of millimetres that
+//          overlap apart, and takes gaps of 1e-5 between larger ones for overlaps.
 //          EPA takes its first tetrahedron for the answer where the horizon degenerates. Box-box
 //          takes the depth at its deepest contact. SAT works on vertices that its hull computer
 //          has put on a grid. MPR's depth is along the portal, an upper bound, and its points are

@@ -22,9 +22,8 @@
 // Fails:   SaP and the interval tree order equal end points at random, so they miss pairs that
 //          merely touch, and pairs of flat boxes. SaP and the hash are quadratic in dense scenes.
 //          The tree in an array leaks its leaves (about 80 bytes a body) each time that it is made.
-// Cost:    naive O(n^2); SSaP and interval tree O(n log n + pairs on the axis); SaP as the number
-// of
-//          end points passed, times the number of pairs; trees O(n log n) to build.
+// Cost:    naive O(n^2); SSaP and interval tree O(n log n + pairs on the axis); SaP O(end points
+//          passed times pairs); trees O(n log n) to build.
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
 #if TOUCHSTONE_BUILT
