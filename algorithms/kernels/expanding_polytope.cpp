@@ -50,9 +50,9 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
     Scalar distance = result.upper;
     const int nearest = pop_nearest(distance);
     result.lower = std::max(result.lower, std::min({distance, held, result.upper}));
-    if (nearest < 0) {
-      const bool met = result.upper - result.lower <= goal.tolerance;
-      result.end = met ? ExpansionEnd::converged : ExpansionEnd::stuck;
+    if (nearest < 0 || distance > result.upper + goal.tolerance) {
+      const bool bounded = result.upper - result.lower <= goal.tolerance;
+      result.end = bounded ? ExpansionEnd::converged : ExpansionEnd::stuck;
       break;
     }
     if (goal.enough >= 0 && result.lower > goal.enough) {
@@ -172,9 +172,10 @@ bool ExpandingPolytope<Scalar>::start(Simplex<Scalar> tetrahedron) {
   best_face_ = -1;
 
   auto& p = tetrahedron.points;
-  const Vec3<Scalar> normal =
-      (p[1].difference - p[0].difference).cross(Vec3<Scalar>(p[2].difference - p[0].difference));
-  if (normal.dot(p[3].difference - p[0].difference) > 0) std::swap(p[1], p[2]);
+  const TrianglePlane<Scalar> base =
+      triangle_plane<Scalar>({p[0].difference, p[1].difference, p[2].difference});
+  const Vec3<Scalar> side = p[3].difference - p[base.base].difference;
+  if (base.normal.dot(side) > 0) std::swap(p[1], p[2]);
   vertices_.assign(p.begin(), p.end());
   static constexpr std::array<std::array<int, 3>, 4> corners = {
       {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
@@ -307,7 +308,7 @@ bool ExpandingPolytope<Scalar>::expand_face(int face, const DifferencePoint<Scal
     faces_[made_[i]].neighbours[1] = made_[(i + 1) % count];
     faces_[made_[i]].neighbours[2] = made_[(i + count - 1) % count];
     const Scalar distance = faces_[made_[i]].distance;
-    if (!(distance > upper)) push(made_[i], distance);
+    if (!(distance > upper + SupportPair<Scalar>::rounding)) push(made_[i], distance);
   }
   for (const int gone : visible_) {
     faces_[gone].born = 0;

@@ -55,7 +55,9 @@ class Search {
       // Without this a direction from nearly coincident points would not be normal to the edge.
       direction = nearest / length;
       direction -= direction.dot(edge) / whole * edge;
-      direction.normalize();
+      // Mostly along the edge: then what was nearest is nothing but rounding.
+      const Scalar across = direction.norm();
+      direction = across > Scalar{0.5} ? Vec3<Scalar>(direction / across) : Vec3<Scalar>::Zero();
     }
     const Scalar distance = std::abs(direction.dot(point(i)));
     if (!(distance < best_.distance)) return;

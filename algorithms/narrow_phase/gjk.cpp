@@ -85,7 +85,8 @@ class Gjk final : public NarrowPhase {
   Scalar tolerance_for(const SupportPair<Scalar>& pair) const {
     const double smooth = sizeof(Scalar) == 8 ? 1e-10 : 1e-5;
     const double own = pair.is_polytope() ? 0 : smooth;
-    return std::max(static_cast<Scalar>(tolerance_.value_or(own)), rounding);
+    // The pair's unit is up to twice its size.
+    return std::max(static_cast<Scalar>(tolerance_.value_or(own) / 2), rounding);
   }
 
   std::optional<double> tolerance_;
