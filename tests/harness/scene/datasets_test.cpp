@@ -84,8 +84,8 @@ TEST_F(Parts, AreBodiesWhereTheyAreInTheWhole) {
   EXPECT_EQ(scene.shapes.size(), 3u) << "bodies of the same part share it";
   EXPECT_EQ(scene.bodies[0].shape, scene.bodies[2].shape);
   // About the centre of each part's box: (0.5, 0.5, 0.5) and (6, 1, 1); turned, (-y, x, z).
-  EXPECT_LT((scene.bodies[0].pose.translation - Vec3d(-0.5, 0.5, 1.5)).norm(), 1e-15);
-  EXPECT_LT((scene.bodies[1].pose.translation - Vec3d(-1, 6, 2)).norm(), 1e-15);
+  EXPECT_LT((scene.bodies[0].pose.translation - Vec3d(-0.5, 0.5, 1.5)).norm(), 1e-14);
+  EXPECT_LT((scene.bodies[1].pose.translation - Vec3d(-1, 6, 2)).norm(), 1e-14);
   EXPECT_EQ(scene.bodies[3].pose.translation, Vec3d(6, 1, 1));
   EXPECT_EQ(scene.bodies[1].velocity, Vec3d(1, 0, 0));
   EXPECT_FALSE(scene.bodies[3].moving);
