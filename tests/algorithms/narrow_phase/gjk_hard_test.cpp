@@ -1,0 +1,467 @@
+// GJK and EPA where such algorithms break: round shapes against closed forms, degenerate bodies,
+// coincident centres, containment, half-spaces, large hulls, iteration caps, collected cases.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "algorithms/registry.h"
+#include "tests/algorithms/narrow_phase/polytope_reference.h"
+
+namespace touchstone {
+namespace {
+
+using namespace reference;
+using testing::AnyOf;
+
+std::unique_ptr<NarrowPhase> make_gjk(const NarrowPhaseSettings& settings = {}) {
+  return find_narrow_phase("gjk")->make(settings);
+}
+
+Body at(Shape shape, const Vec3d& place, const Mat3d& rotation = Mat3d::Identity()) {
+  return {std::move(shape), {.rotation = rotation, .translation = place}};
+}
+
+Shape segment(double reach) { return make_hull({{0, 0, -reach}, {0, 0, reach}}); }
+Shape point() { return make_hull({{0, 0, 0}}); }
+Shape square(double reach) {
+  return make_hull(
+      {{reach, reach, 0}, {-reach, reach, 0}, {-reach, -reach, 0}, {reach, -reach, 0}});
+}
+
+TEST(GjkRound, SpheresAndCapsulesHaveTheirClosedForms) {
+  const auto gjk = make_gjk();
+  Random random(5);
+  int apart = 0;
+  int common = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto make = [&]() {
+      const double radius = random.uniform(0, 1);
+      return random.below(2) ? make_sphere(radius) : make_capsule(radius, random.uniform(0, 1));
+    };
+    const Body a = at(make(), random.vector(1), random.rotation());
+    Body b = at(make(), random.vector(1), random.rotation());
+    Vec3d normal;
+    if (i % 2) {
+      const auto thrown = static_cast<double>(signed_distance(a, b, normal));
+      const double target = (i % 4 == 1 ? 1 : -1) * std::pow(10, random.uniform(-12, -1));
+      b.pose.translation += (target - thrown) * normal;
+    }
+    const auto truth = static_cast<double>(signed_distance(a, b, normal));
+    const double size = pair_size(a, b);
+    if (std::abs(truth) < 1e-12 * size) continue;
+    ++(truth > 0 ? apart : common);
+    const Task task = truth > 0 ? Task::distance : Task::penetration;
+    const Outcome outcome = query(*gjk, task, a, b);
+    ASSERT_EQ(outcome.status, Status::ok) << i;
+    ASSERT_EQ(outcome.answer, truth > 0 ? Answer::separated : Answer::overlapping) << i;
+    EXPECT_NEAR(outcome.distance, truth, 1e-14 * size);
+    EXPECT_LE(outside_by(a, outcome.witness_a), 1e-14 * size);
+    EXPECT_LE(outside_by(b, outcome.witness_b), 1e-14 * size);
+    EXPECT_EQ(query(*gjk, Task::intersect, a, b).answer, outcome.answer);
+    EXPECT_LT(outcome.iterations, 10);
+  }
+  EXPECT_GT(apart, 400);
+  EXPECT_GT(common, 400);
+}
+
+TEST(GjkRound, SphereAgainstBoxAndCylinder) {
+  const auto gjk = make_gjk();
+  Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    const Shape shape = random.below(2) ? make_box(1, random.uniform(0, 1), 0.5)
+                                        : make_cylinder(random.uniform(0.1, 1), 0.7);
+    const Body other = at(shape, random.vector(1), random.rotation());
+    Body sphere = at(make_sphere(random.uniform(0, 1)), random.vector(3));
+    const double off = outside_by(other, sphere.pose.translation);
+    if (off == 0) continue;  // the centre is inside: no closed form here
+    const double truth = off - sphere.shape.radius;
+    const Task task = truth > 0 ? Task::distance : Task::penetration;
+    const Outcome outcome = query(*gjk, task, other, sphere);
+    ASSERT_EQ(outcome.status, Status::ok);
+    ASSERT_EQ(outcome.answer, truth > 0 ? Answer::separated : Answer::overlapping);
+    EXPECT_NEAR(outcome.distance, truth, 1e-9);
+  }
+}
+
+// Bodies without a volume: what they answer must be right or be no claim.
+TEST(GjkDegenerate, PointsSegmentsAndPolygons) {
+  const auto gjk = make_gjk();
+  const Mat3d across = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3d::UnitX()).toRotationMatrix();
+  const std::vector<Shape> flat = {point(),
+                                   segment(1),
+                                   square(1),
+                                   make_sphere(0),
+                                   make_capsule(0, 1),
+                                   make_box(0, 0, 0),
+                                   make_box(0, 0, 1),
+                                   make_box(1, 1, 0),
+                                   make_cylinder(0, 1),
+                                   make_cylinder(1, 0),
+                                   make_cone(0, 1),
+                                   make_ellipsoid(0, 0, 0),
+                                   make_ellipsoid(1, 1, 0)};
+  for (const Shape& a : flat) {
+    for (const Shape& b : flat) {
+      for (const Mat3d& rotation : {Mat3d(Mat3d::Identity()), across}) {
+        const Outcome apart =
+            query(*gjk, Task::distance, at(a, {0, 0, 0}), at(b, {0, 5, 0}, rotation));
+        EXPECT_EQ(apart.status, Status::ok);
+        EXPECT_EQ(apart.answer, Answer::separated);
+        EXPECT_GE(apart.distance, 3 - 1e-9);
+        EXPECT_LE(apart.distance, 5 + 1e-9);
+        // The same place: at most touching, or crossing without a common volume.
+        for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+          const Outcome same = query(*gjk, task, at(a, {1, 2, 3}), at(b, {1, 2, 3}, rotation));
+          EXPECT_NE(same.answer, Answer::separated);
+          if (task == Task::penetration && !std::isnan(same.distance)) {
+            EXPECT_GE(same.distance, -1 - 1e-9);  // a square pierced by a segment is one deep
+            EXPECT_LE(same.distance, 1e-12);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(GjkDegenerate, CoplanarPolygonsAreNoDepthDeep) {
+  const auto gjk = make_gjk();
+  const Mat3d rotation = Random(7).rotation();
+  const Body a = at(square(1), {0, 0, 0}, rotation);
+  const Body b = at(square(1), rotation * Vec3d{0.5, 0.25, 0}, rotation);
+  const Outcome outcome = query(*gjk, Task::penetration, a, b);
+  EXPECT_NE(outcome.answer, Answer::separated);
+  EXPECT_NE(outcome.status, Status::ok);
+  EXPECT_NEAR(outcome.distance, 0, 1e-14);
+  EXPECT_NEAR(std::abs(outcome.normal.dot(rotation.col(2))), 1, 1e-12);
+}
+
+TEST(GjkDegenerate, CoincidentCentresAndIdenticalBodies) {
+  const auto gjk = make_gjk();
+  for (const Mat3d& rotation : {Mat3d(Mat3d::Identity()), Random(8).rotation()}) {
+    const Vec3d place{3, -2, 1};
+    for (const auto& [shape, depth] : std::vector<std::pair<Shape, double>>{
+             {make_sphere(0.5), 1},
+             {make_capsule(0.5, 2), 1},
+             {make_box(0.5, 0.5, 0.5), 1},
+             {make_box(0.5, 3, 2), 1},
+             {make_hull({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}),
+              2 / std::sqrt(3.)}}) {
+      const Body body = at(shape, place, rotation);
+      EXPECT_EQ(query(*gjk, Task::intersect, body, body).answer, Answer::overlapping);
+      EXPECT_EQ(query(*gjk, Task::intersect, body, body).status, Status::ok);
+      const Outcome outcome = query(*gjk, Task::penetration, body, body);
+      EXPECT_EQ(outcome.status, Status::ok);
+      EXPECT_NEAR(outcome.distance, -depth, 1e-14);
+      EXPECT_NEAR((outcome.witness_a - outcome.witness_b - depth * outcome.normal).norm(), 0,
+                  1e-13);
+    }
+    // Smooth ones may end at the cap, but not with another answer.
+    for (const Shape& shape :
+         {make_cylinder(1, 1), make_cone(1, 1), make_ellipsoid(1, 2, 3), make_ellipsoid(1, 1, 1)}) {
+      const Body body = at(shape, place, rotation);
+      const Outcome outcome = query(*gjk, Task::penetration, body, body);
+      EXPECT_EQ(outcome.answer, Answer::overlapping);
+      EXPECT_THAT(outcome.status, AnyOf(Status::ok, Status::not_converged));
+      EXPECT_LE(outcome.lower, outcome.distance);
+      EXPECT_GE(outcome.upper, outcome.distance);
+    }
+  }
+}
+
+TEST(GjkDegenerate, ContainedBodies) {
+  const auto gjk = make_gjk();
+  Random random(9);
+  for (int i = 0; i < 100; ++i) {
+    const Body box = at(make_box(3, 4, 5), random.vector(1), random.rotation());
+    const Vec3d local{0, random.uniform(-1, 1), random.uniform(0, 2)};
+    const Body ball = at(make_sphere(0.25), box.pose(local));
+    const Outcome outcome = query(*gjk, Task::penetration, box, ball);
+    EXPECT_EQ(outcome.status, Status::ok);
+    const double least = std::min({3., 4 - std::abs(local.y()), 5 - std::abs(local.z())});
+    EXPECT_NEAR(outcome.distance, -(least + 0.25), 1e-13);
+  }
+}
+
+// Resting exactly on each other cannot be told from nearly so: no claim, but the number is right.
+TEST(GjkDegenerate, TouchingIsNoClaim) {
+  const auto gjk = make_gjk();
+  const Body a = at(make_box(1, 1, 1), {0, 0, 0});
+  const Body b = at(make_box(1, 1, 1), {0.5, 0.25, 2});
+  for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+    const Outcome outcome = query(*gjk, task, a, b);
+    EXPECT_EQ(outcome.answer, Answer::unknown);
+    EXPECT_EQ(outcome.status, Status::not_converged);
+    if (task == Task::intersect) continue;
+    EXPECT_NEAR(outcome.distance, 0, 1e-14);
+    EXPECT_NEAR(outcome.normal.z(), 1, 1e-12);
+  }
+}
+
+TEST(GjkHalfspace, AgainstEveryKind) {
+  const auto gjk = make_gjk();
+  Random random(10);
+  const std::vector<std::pair<Shape, double>> shapes = {
+      {make_sphere(0.5), 0.5},
+      {make_capsule(0.5, 1), 1.5},
+      {make_box(1, 2, 3), 3},
+      {make_cylinder(1, 2), 2},
+      {make_cone(1, 2), 2},
+      {make_ellipsoid(1, 2, 3), 3},
+      {make_hull({{0, 0, 1}, {0, 0, -1}, {1, 0, 0}}), 1}};
+  for (const double far : {0., 1e8}) {
+    for (const auto& [shape, down] : shapes) {
+      const Mat3d rotation = random.rotation();
+      const Vec3d n = 3 * random.direction();
+      const Vec3d up = (rotation * n).normalized();
+      const Body ground = {make_halfspace(n, 6), {rotation, far * random.direction()}};
+      // The body stands upright on the plane; its centre this high above.
+      const Mat3d upright =
+          Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), up).toRotationMatrix();
+      for (const double gap : {0.5, 1e-3, -1e-3, -10.}) {
+        const Vec3d place = ground.pose.translation + (6 / n.norm() + gap + down) * up;
+        const Body body = at(shape, place, upright);
+        const Task task = gap > 0 ? Task::distance : Task::penetration;
+        const double slack = far > 0 ? 1e-7 : 1e-13;
+        for (const bool swapped : {false, true}) {
+          const Outcome outcome =
+              swapped ? query(*gjk, task, ground, body) : query(*gjk, task, body, ground);
+          ASSERT_EQ(outcome.status, Status::ok);
+          ASSERT_EQ(outcome.answer, gap > 0 ? Answer::separated : Answer::overlapping);
+          EXPECT_NEAR(outcome.distance, gap, slack);
+          EXPECT_NEAR(outcome.normal.dot(up), swapped ? 1 : -1, 1e-12);
+          const Vec3d between = outcome.witness_b - outcome.witness_a;
+          EXPECT_NEAR((between - outcome.distance * outcome.normal).norm(), 0, slack);
+        }
+      }
+    }
+  }
+}
+
+TEST(GjkHalfspace, AgainstEachOther) {
+  const auto gjk = make_gjk();
+  const Body ground = at(make_halfspace({0, 0, 2}, 2), {0, 0, 0});  // z <= 1
+  const Outcome apart =
+      query(*gjk, Task::distance, ground, at(make_halfspace({0, 0, -1}, 0), {0, 0, 3}));
+  EXPECT_EQ(apart.answer, Answer::separated);
+  EXPECT_EQ(apart.distance, 2);
+  EXPECT_EQ(apart.witness_a.z(), 1);
+  EXPECT_EQ(apart.witness_b.z(), 3);
+  const Outcome slab =
+      query(*gjk, Task::penetration, ground, at(make_halfspace({0, 0, -1}, 0), {0, 0, 0.5}));
+  EXPECT_EQ(slab.answer, Answer::overlapping);
+  EXPECT_EQ(slab.distance, -0.5);
+  const Body wall = at(make_halfspace({1, 0, 0}, 0), {-100, 0, 0});
+  EXPECT_EQ(query(*gjk, Task::intersect, ground, wall).answer, Answer::overlapping);
+  EXPECT_EQ(query(*gjk, Task::intersect, ground, wall).status, Status::ok);
+  EXPECT_EQ(query(*gjk, Task::penetration, ground, wall).status, Status::degenerate);
+}
+
+// A sphere of triangles, with the neighbours that climbing needs, or without.
+Shape icosphere(int level, bool with_neighbours) {
+  const double g = (1 + std::sqrt(5.)) / 2;
+  auto hull = std::make_shared<Hull>();
+  for (const double s : {1., -1.}) {
+    for (const double t : {1., -1.}) {
+      hull->vertices.insert(hull->vertices.end(), {{0, s, t * g}, {s, t * g, 0}, {t * g, 0, s}});
+    }
+  }
+  for (Vec3d& v : hull->vertices) v.normalize();
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  const double edge = 2 / std::sqrt(1 + g * g) + 1e-6;
+  const auto close = [&](std::uint32_t i, std::uint32_t j) {
+    return (hull->vertices[i] - hull->vertices[j]).norm() < edge;
+  };
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    for (std::uint32_t j = i + 1; j < 12; ++j) {
+      for (std::uint32_t k = j + 1; k < 12; ++k) {
+        if (close(i, j) && close(j, k) && close(i, k)) faces.push_back({i, j, k});
+      }
+    }
+  }
+  for (; level > 0; --level) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
+    const auto between = [&](std::uint32_t i, std::uint32_t j) {
+      const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(i, j);
+      const auto next = static_cast<std::uint32_t>(hull->vertices.size());
+      const auto [place, added] = middle.try_emplace(key, next);
+      if (added) {
+        hull->vertices.push_back((hull->vertices[i] + hull->vertices[j]).normalized());
+      }
+      return place->second;
+    };
+    std::vector<std::array<std::uint32_t, 3>> finer;
+    for (const auto& [i, j, k] : faces) {
+      const std::uint32_t a = between(i, j);
+      const std::uint32_t b = between(j, k);
+      const std::uint32_t c = between(k, i);
+      finer.insert(finer.end(), {{i, a, c}, {j, b, a}, {k, c, b}, {a, b, c}});
+    }
+    faces = std::move(finer);
+  }
+  if (with_neighbours) {
+    hull->neighbours.resize(hull->vertices.size());
+    for (const auto& face : faces) {
+      for (int i = 0; i < 3; ++i) {
+        hull->neighbours[face[i]].push_back(face[(i + 1) % 3]);
+        hull->neighbours[face[(i + 1) % 3]].push_back(face[i]);
+      }
+    }
+  }
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = std::move(hull);
+  return shape;
+}
+
+TEST(GjkLargeHulls, ClimbingFindsWhatScanningFinds) {
+  const auto gjk = make_gjk();
+  Random random(11);
+  const Shape climbed = icosphere(3, true);
+  const Shape scanned = icosphere(3, false);
+  ASSERT_EQ(climbed.hull->vertices.size(), 642);
+  int apart = 0;
+  int common = 0;
+  int capped = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Mat3d turn_a = random.rotation();
+    const Mat3d turn_b = random.rotation();
+    const Vec3d place = random.uniform(1.7, 2.3) * random.direction();
+    for (const Task task : {Task::distance, Task::penetration}) {
+      const Outcome x =
+          query(*gjk, task, at(climbed, {0, 0, 0}, turn_a), at(climbed, place, turn_b));
+      const Outcome y =
+          query(*gjk, task, at(scanned, {0, 0, 0}, turn_a), at(scanned, place, turn_b));
+      ASSERT_NE(x.answer, Answer::unknown);
+      ASSERT_EQ(x.answer, y.answer);
+      if (std::isnan(x.distance)) continue;
+      ++(x.answer == Answer::separated ? apart : common);
+      capped += x.status != Status::ok;
+      if (x.status != Status::ok || y.status != Status::ok) continue;
+      EXPECT_NEAR(x.distance, y.distance, 1e-13);
+      EXPECT_NEAR(x.distance, place.norm() - 2, 0.03);
+    }
+  }
+  EXPECT_GT(apart, 50);
+  EXPECT_GT(common, 50);
+  EXPECT_EQ(capped, 0);
+}
+
+TEST(GjkSettings, CapAndToleranceAreKept) {
+  NarrowPhaseSettings settings;
+  settings.max_iterations = 3;
+  const Body a = at(make_ellipsoid(1, 2, 3), {0, 0, 0});
+  const Body b = at(make_ellipsoid(3, 1, 2), {4.5, 1, 0.5}, Random(12).rotation());
+  const Outcome capped = query(*make_gjk(settings), Task::distance, a, b);
+  EXPECT_EQ(capped.status, Status::not_converged);
+  EXPECT_EQ(capped.iterations, 3);
+  const Outcome fine = query(*make_gjk(), Task::distance, a, b);
+  ASSERT_EQ(fine.status, Status::ok);
+  EXPECT_LE(capped.lower, fine.distance);
+  EXPECT_GE(capped.upper, fine.distance);
+
+  NarrowPhaseSettings coarse_settings;
+  coarse_settings.tolerance = 1e-2;
+  const Outcome coarse = query(*make_gjk(coarse_settings), Task::distance, a, b);
+  EXPECT_EQ(coarse.status, Status::ok);
+  EXPECT_LT(coarse.iterations, fine.iterations);
+  EXPECT_NEAR(coarse.distance, fine.distance, 0.05);
+
+  const Body inside = at(make_ellipsoid(1, 1, 1), {0.1, 0, 0});
+  settings.max_iterations = 10;
+  const Outcome deep = query(*make_gjk(settings), Task::penetration, a, inside);
+  EXPECT_EQ(deep.answer, Answer::overlapping);
+  EXPECT_EQ(deep.status, Status::not_converged);
+  EXPECT_LT(deep.lower, deep.upper);
+}
+
+Vec3d vector_of(const nlohmann::json& json) {
+  return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
+Body body_of(const nlohmann::json& json) {
+  const nlohmann::json& s = json["shape"];
+  const std::string type = s["type"];
+  const double radius = s.value("radius", 0.);
+  const double half_length = s.value("half_length", 0.);
+  Body body;
+  body.pose.translation = vector_of(json["translation"]);
+  if (json.contains("rotation")) {
+    for (int i = 0; i < 9; ++i) body.pose.rotation(i / 3, i % 3) = json["rotation"][i];
+  } else {
+    const nlohmann::json& q = json["quaternion_wxyz"];
+    body.pose.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  }
+  if (type == "sphere") body.shape = make_sphere(radius);
+  if (type == "capsule") body.shape = make_capsule(radius, half_length);
+  if (type == "cylinder") body.shape = make_cylinder(radius, half_length);
+  if (type == "cone") body.shape = make_cone(radius, half_length);
+  if (type == "ellipsoid") {
+    const Vec3d radii = vector_of(s["radii"]);
+    body.shape = make_ellipsoid(radii.x(), radii.y(), radii.z());
+  }
+  if (type == "box") {
+    const Vec3d half = vector_of(s["half_extents"]);
+    body.shape = make_box(half.x(), half.y(), half.z());
+  }
+  if (type == "hull") {
+    std::vector<Vec3d> vertices;
+    for (const auto& v : s["vertices"]) vertices.push_back(vector_of(v));
+    body.shape = make_hull(std::move(vertices));
+  }
+  const std::string axis = s.value("axis", "z");
+  Mat3d to_axis = Mat3d::Identity();
+  if (axis == "x") to_axis << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  if (axis == "y") to_axis << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  body.pose.rotation = body.pose.rotation * to_axis;
+  return body;
+}
+
+TEST(GjkCollected, EveryCaseIsRight) {
+  const char* const folder = std::getenv("TOUCHSTONE_SHARED");
+  if (folder == nullptr) GTEST_SKIP() << "TOUCHSTONE_SHARED is not set";
+  std::ifstream file(std::filesystem::path(folder) / "cases" / "pairs.jsonl");
+  ASSERT_TRUE(file);
+  const auto gjk = make_gjk();
+  int count = 0;
+  int undecided = 0;
+  for (std::string line; std::getline(file, line);) {
+    const auto json = nlohmann::json::parse(line);
+    SCOPED_TRACE(json["id"].get<std::string>());
+    const Body a = body_of(json["a"]);
+    const Body b = body_of(json["b"]);
+    const nlohmann::json& expected = json["expect"];
+    const double truth = expected["signed_distance"];
+    const Task task = truth > 0 ? Task::distance : Task::penetration;
+    const Outcome outcome = query(*gjk, task, a, b);
+    const Outcome verdict = query(*gjk, Task::intersect, a, b);
+    ++count;
+    if (!expected["answer"].is_null()) {
+      EXPECT_EQ(to_string(outcome.answer), expected["answer"].get<std::string>());
+      EXPECT_EQ(to_string(verdict.answer), expected["answer"].get<std::string>());
+      EXPECT_EQ(verdict.status, Status::ok);
+    } else {
+      undecided += outcome.answer == Answer::unknown;
+    }
+    const double extent = (b.pose.translation - a.pose.translation).norm();
+    const double tolerance = std::max(expected["tolerance"].get<double>(), 1e-9 * extent);
+    // Where the answer went the other way within the tolerance, the number was not asked for.
+    const bool other_way = std::isnan(outcome.distance) && expected["answer"].is_null() &&
+                           std::abs(truth) <= tolerance;
+    if (!other_way) {
+      EXPECT_NEAR(outcome.distance, truth, tolerance) << to_string(outcome.status);
+    }
+  }
+  RecordProperty("undecided", undecided);
+  EXPECT_GT(count, 100);
+}
+
+}  // namespace
+}  // namespace touchstone
