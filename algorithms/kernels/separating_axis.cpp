@@ -65,11 +65,7 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
   const double reach_a = static_cast<double>(a.reach) * a.scale * pose_a.rotation.norm();
   const double reach_b = static_cast<double>(b.reach) * b.scale * pose_b.rotation.norm();
   const Vec3d offset = centre_offset(a, pose_a, b, pose_b);
-  const double distance = offset.stableNorm();
-  // What centre_offset loses where the bodies lie far from their own origins.
-  const double lost = 4 * static_cast<double>(std::numeric_limits<long double>::epsilon()) *
-                      (a.centre.stableNorm() + b.centre.stableNorm());
-  far_apart_ = distance > 1.001 * (reach_a + reach_b) && distance > 0;
+  far_apart_ = offset.cwiseAbs().maxCoeff() > 1.001 * (reach_a + reach_b);
   unit_ = power_of_two_above(std::max(reach_a, reach_b));
   anchor_ = pose_a(a.centre);
   a_ = place(a, pose_a.rotation, unit_);
@@ -77,9 +73,12 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
   b_.origin = (offset / unit_).template cast<Scalar>();
   // Rounding: of the stored numbers, of the matrices, of normals and axes (a turn of the axis moves
   // the gap by as much times the reach), and of the products. Each is a few roundings of at most
-  // half an epsilon of what goes into it; measured errors stay under a third of this.
-  error_ = 8 * std::numeric_limits<Scalar>::epsilon() *
-               static_cast<Scalar>(((reach_a + reach_b) / std::sqrt(3.0) + distance) / unit_) +
+  // half an epsilon of what goes into it.
+  const auto size = static_cast<Scalar>((reach_a + reach_b) / (unit_ * std::sqrt(3.0)));
+  // What centre_offset loses where the bodies lie far from their own origins.
+  const double lost = 4 * static_cast<double>(std::numeric_limits<long double>::epsilon()) *
+                      (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
+  error_ = 8 * std::numeric_limits<Scalar>::epsilon() * (size + b_.origin.norm()) +
            static_cast<Scalar>(lost / unit_);
   // What is bounded above holds for matrices that are about rotations or reflections.
   const auto usable = [](const PlacedPolytope<Scalar>& body) {

@@ -7,7 +7,8 @@
 //          almost parallel edges are made orthogonal to one edge again; what is then left of the
 //          error moves the gap by no more than rounding, as the facet of the Minkowski difference
 //          that belongs to them is as narrow as the axis is uncertain. Flat hulls, segments and
-//          points have the normals and edges of a prism or box of no thickness.
+//          points have the normals and edges of a prism or box of no thickness. Two boxes take the
+//          closed form of their 15 axes.
 // Answers: the depth is exact up to rounding, and so are both bounds.
 // Fails:   says not_converged where the greatest gap is below its rounding error (1e-14 of the size
 //          in double, 1e-5 in float), and degenerate for a solid hull that came without faces and
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/kernels/box_box.h"
 #include "algorithms/kernels/halfspace.h"
 #include "algorithms/kernels/separating_axis.h"
 #include "algorithms/kernels/support.h"
@@ -64,7 +66,7 @@ class Sat final : public NarrowPhase {
                         outcomes[i]);
       } else {
         const PolytopePair<Scalar> pair(polytopes_[a], pose_a, polytopes_[b], pose_b);
-        solve_pair(pair, batch.task, outcomes[i]);
+        solve_pair(pair, batch.kind_b == ShapeKind::box, batch.task, outcomes[i]);
       }
     }
   }
@@ -78,10 +80,12 @@ class Sat final : public NarrowPhase {
   // Under which the axis is noise.
   static constexpr Scalar parallel = 1024 * epsilon;
 
-  void solve_pair(const PolytopePair<Scalar>& pair, Task task, Outcome& outcome) {
+  void solve_pair(const PolytopePair<Scalar>& pair, bool boxes, Task task, Outcome& outcome) {
     tested_ = 0;
     Axis<Scalar> best;
-    if (!pair.far_apart()) {
+    if (boxes && !pair.far_apart()) {
+      best = box_axis(pair, tested_);
+    } else if (!pair.far_apart()) {
       best = pair.centre_axis();
       ++tested_;
       if (!pair.separates(best)) {

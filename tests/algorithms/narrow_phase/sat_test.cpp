@@ -138,6 +138,14 @@ TEST(Sat, AgreesOnFlatHulls) {
   expect_both(sweep(flat_hull, flat_hull, 400, 1e-13, 1e-5F, 1, 5));
   expect_both(sweep(unit_box, flat_hull, 400, 1e-13, 1e-5F, 1, 6));
 }
+TEST(Sat, AgreesOnBoxesWithoutThickness) {
+  const auto plate = [](Random& random) { return box(uniform(random, 0.2, 1), 1, 0); };
+  const auto needle = [](Random&) { return box(0, 1, 0); };
+  expect_both(sweep(plate, unit_box, 400, 1e-13, 1e-5F, 1, 23));
+  expect_both(sweep(plate, plate, 400, 1e-13, 1e-5F, 1, 24));
+  expect_both(sweep(needle, unit_box, 400, 1e-13, 1e-5F, 1, 25));
+  expect_both(sweep(any_hull, plate, 400, 1e-13, 1e-5F, 1, 26));
+}
 TEST(Sat, AgreesOnSegmentsAndPoints) {
   expect_both(sweep(unit_box, segment, 600, 1e-13, 1e-5F, 1, 7));
   expect_both(sweep(any_hull, point, 600, 1e-13, 1e-5F, 1, 8));
