@@ -1,11 +1,10 @@
 // Loose octree: each box lies in one cell, at the level of its size; its partners lie nearby.
 // Paper:   Ulrich, "Loose Octrees", Game Programming Gems, 2000; Gargantini, "An Effective Way to
 //          Represent Quadtrees", CACM 1982 (linear: sorted codes instead of nodes).
-// Departs: the cells have the proportions of the usual box. No nodes: the cells are runs of boxes
-// sorted by level and Morton code, found through a
-//          hash table. A level's cells are as wide as its largest boxes, the looseness is 2, so a
-//          box reaches half a cell beyond its own. Pairs are sought at the own level and at coarser
-//          ones only.
+// Departs: no nodes: the cells are runs of boxes sorted by level and Morton code, found through a
+//          hash table. Cells have the proportions of the usual box, and a level's are as wide as
+//          its largest boxes; the looseness is 2, so a box reaches at most half a cell beyond its
+//          own. Pairs are sought at the own level and at coarser ones only.
 // Fails:   crowds of boxes of a size within one cell (stacks), where it is quadratic; a few dozen
 //          look-ups for each box and level make it slow where sizes are of many orders.
 // Cost:    O(n log n + n l + k) time, O(n) memory beside the output; l = levels in use, at most 20,

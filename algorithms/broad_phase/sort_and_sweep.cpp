@@ -1,8 +1,7 @@
 // Sort and sweep: sort the ends of the boxes on each of the three axes, list the pairs that overlap
 // on each axis, and intersect the three lists.
-// Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992;
-// Cohen,
-//          Lin, Manocha, Ponamgi, "I-COLLIDE", I3D 1995.
+// Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992, and
+//          Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE", I3D 1995.
 // Departs: a list on one axis can hold O(n^2) pairs, so it is kept in runs: in the order of the
 //          minima, the boxes that overlap box i and start behind it are those at the places
 //          rank(i)+1 .. end(i). So three lists take O(n) memory and lose nothing. To intersect

@@ -2,11 +2,11 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 7.1; the home-cell rule is the
 //          reference-point method of Dittrich, Seeger, "Data Redundancy and Duplicate Detection in
 //          Spatial Join Processing", ICDE 2000.
-// Departs: the cells have the proportions of the usual box, twice its size. They are runs of sorted
-//          entries, so empty cells cost nothing. A pair is reported
-//          only in its home cell, which holds the component-wise greater of the two minimum
-//          corners, so there is nothing to sort out afterwards. Boxes that touch more than 64 cells
-//          are kept apart and tested against all.
+// Departs: the cells have the proportions of the usual box and twice its size. They are runs of
+//          sorted entries, so empty cells cost nothing. A pair is reported only in its home cell,
+//          which holds the component-wise greater of the two minimum corners, so there is nothing
+//          to sort out afterwards. Boxes that touch more than 64 cells are kept apart and tested
+//          against all.
 // Fails:   sizes of many orders: the cells suit nine boxes in ten, small boxes crowd in them, and
 //          many large ones each meet every box. A world more than 2^20 cells wide.
 // Cost:    O(n) for boxes of about one size, spread out; O(m^2) in a cell of m boxes, O(n) for each
