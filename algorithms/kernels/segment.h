@@ -57,7 +57,10 @@ SegmentPoints<Scalar> closest_points(const Segment<Scalar>& p, const Segment<Sca
     s = std::clamp(s + ds, Scalar{0}, Scalar{1});
     t = std::clamp(t + dt, Scalar{0}, Scalar{1});
   }
-  offer(points(s, t));
+  // Of almost parallel lines s and t are uncertain, but a point of one has its nearest on the
+  // other.
+  offer(points(s, q.nearest(p.at(s))));
+  offer(points(p.nearest(q.at(t)), t));
   return best;
 }
 

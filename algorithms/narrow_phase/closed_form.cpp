@@ -37,14 +37,24 @@ struct CoreGap {
 template <class Scalar>
 constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
 
+template <class Scalar>
+Vec3<Scalar> part_across(const Vec3<Scalar>& v, const Vec3<Scalar>& along) {
+  return v - v.dot(along) / along.squaredNorm() * along;
+}
+
+// Whether rounding leaves the directions of two segments apart.
+template <class Scalar>
+bool are_crossed(const Vec3<Scalar>& p, const Vec3<Scalar>& q) {
+  return p.cross(q).norm() > rounding<Scalar> * p.norm() * q.norm();
+}
+
 // A unit vector across both segments, or as many of them as have a direction.
 template <class Scalar>
 Vec3<Scalar> across(const Vec3<Scalar>& p, const Vec3<Scalar>& q) {
-  const Vec3<Scalar> cross = p.cross(q);
-  const Scalar longest = std::max(p.norm(), q.norm());
-  if (cross.norm() > rounding<Scalar> * p.norm() * q.norm()) return cross.normalized();
-  if (!(longest > 0)) return Vec3<Scalar>::UnitX();
-  return (p.norm() < longest ? q : p).unitOrthogonal();
+  // Almost parallel ones leave an error along them.
+  if (are_crossed(p, q)) return part_across<Scalar>(p.cross(q), p).normalized();
+  const Vec3<Scalar>& longer = p.squaredNorm() < q.squaredNorm() ? q : p;
+  return longer.squaredNorm() > 0 ? longer.unitOrthogonal() : Vec3<Scalar>::UnitX();
 }
 
 template <class Scalar>
@@ -56,15 +66,10 @@ CoreGap<Scalar> segment_gap(const Segment<Scalar>& a, const Segment<Scalar>& b) 
     return s > 0 && s < 1 && segment.along.squaredNorm() > 0;
   };
   const bool inside_a = inside(closest.s, a), inside_b = inside(closest.t, b);
-  const auto part_across = [](const Vec3<Scalar>& v, const Vec3<Scalar>& along) {
-    return Vec3<Scalar>(v - v.dot(along) / along.squaredNorm() * along);
-  };
   Vec3<Scalar> normal = between;
-  if (inside_a && inside_b) {
-    const Vec3<Scalar> cross = across(a.along, b.along);
-    normal = a.along.cross(b.along).norm() > rounding<Scalar> * a.along.norm() * b.along.norm()
-                 ? Vec3<Scalar>(between.dot(cross) * cross)
-                 : part_across(between, a.along);
+  if (inside_a && inside_b && are_crossed(a.along, b.along)) {
+    const Vec3<Scalar> direction = across(a.along, b.along);
+    normal = between.dot(direction) * direction;
   } else if (inside_a) {
     normal = part_across(between, a.along);
   } else if (inside_b) {
@@ -80,8 +85,9 @@ template <class Scalar>
 CoreGap<Scalar> point_box_gap(const Vec3<Scalar>& centre, const Mat3<Scalar>& matrix,
                               const Vec3<Scalar>& half) {
   Mat3<Scalar> normals;  // cofactors: outward normals of the faces, up to their length
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
     normals.col(k) = matrix.col((k + 1) % 3).cross(matrix.col((k + 2) % 3));
+  }
   const Scalar determinant = matrix.col(0).dot(normals.col(0));
   const Vec3<Scalar> point = -(normals.transpose() * centre) / determinant;
   const Vec3<Scalar> closest = point.cwiseMax(-half).cwiseMin(half);
