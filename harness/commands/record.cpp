@@ -85,11 +85,11 @@ void add_record(CLI::App& app, int& status) {
                   "The file to write: .aabbs (Broadmark's format) or .csv, as `pairs` reads them")
       ->required();
   command.add_option("--frames", options->overrides.frames, "Instead of the scene's own")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1'000'000));
   command.add_option("--count", options->overrides.count, "Bodies, of a generated scene")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 100'000'000));
   command.add_option("--seed", options->overrides.seed, "Of a generated scene")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(std::int64_t{0}, INT64_MAX));
   command
       .add_option("--boxes", options->boxes, "Tight boxes, or loose ones that hold any attitude")
       ->check(CLI::IsMember({"tight", "loose"}))

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "harness/error.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/temporary_folder.h"
@@ -32,15 +34,15 @@ double mean_overlaps(std::span<const Aabb> boxes) {
 // What these scenes are, to the bit, on every platform.
 TEST(Generators, DatasetsAreWhatTheyWere) {
   const std::map<std::string, std::string> golden = {
-      {"uniform", "039a5a2fe0506937"},
-      {"clustered", "ff98ad8d453dc50d"},
-      {"mixed", "79302916dc5473a4"},
+      {"uniform", "62069946ce163b47"},
+      {"clustered", "12ede422aac410a1"},
+      {"mixed", "15d631b7e6dd62ae"},
       {"city", "0070e1cedec151e8"},
       {"stack", "9b8d653c4a32b2ae"},
-      {"ground", "2a508bf004bbd25c"},
-      {"brownian", "fc7911a11a6778f8"},
-      {"free_fall", "07a60299cf99c514"},
-      {"rotating_gravity", "2fa70cc4381698d3"},
+      {"ground", "cd43a137bfc3aef8"},
+      {"brownian", "5df53fc484098e3b"},
+      {"free_fall", "f31a3e80f5455641"},
+      {"rotating_gravity", "a02e74b6eb64068f"},
   };
   for (const auto& [name, hash] : golden) {
     const Scene scene = load_scene(dataset(name), {.count = 200, .frames = 5});
@@ -50,12 +52,16 @@ TEST(Generators, DatasetsAreWhatTheyWere) {
   }
 }
 
+// But for those whose data have to be got first, and say how.
 TEST(Generators, EveryDatasetLoadsAsItStands) {
   for (const auto& entry : std::filesystem::directory_iterator(dataset("x").parent_path())) {
     if (entry.path().extension() != ".toml") continue;
-    const Scene scene = load_scene(entry.path());
-    EXPECT_GT(scene.size(), 0u) << entry.path();
-    EXPECT_EQ(scene_hash(scene), scene_hash(load_scene(entry.path()))) << entry.path();
+    try {
+      const Scene scene = load_scene(entry.path());
+      EXPECT_GT(scene.size(), 0u) << entry.path();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("To get it: "));
+    }
   }
 }
 
@@ -92,10 +98,10 @@ class Overlaps : public testing::TestWithParam<Asked> {};
 TEST_P(Overlaps, AreAboutWhatWasAsked) {
   const Asked& asked = GetParam();
   double sum = 0;
-  constexpr int seeds = 4;
+  constexpr int seeds = 3;
   for (int seed = 1; seed <= seeds; ++seed) {
     const Scene scene =
-        load("count = 1500\nframes = 1\nseed = " + std::to_string(seed) +
+        load("count = 1000\nframes = 1\nseed = " + std::to_string(seed) +
              "\noverlaps = " + std::to_string(asked.overlaps) + "\n" + asked.options);
     const ScenePlayer player(scene, BoxKind::tight);
     sum += mean_overlaps(player.boxes().subspan(asked.first)) / seeds;

@@ -1,0 +1,81 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+
+#include "harness/commands/commands.h"
+#include "harness/error.h"
+#include "harness/io/aabbs.h"
+#include "harness/io/box_frames.h"
+#include "harness/scene/player.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+class Record : public testing::Test {
+ protected:
+  Record() : scene_(folder_.write("s.toml", "generator = \"uniform\"\ncount = 30\nframes = 4\n")) {}
+
+  void run(std::vector<std::string> arguments) {
+    CLI::App app;
+    int status = -1;
+    add_record(app, status);
+    arguments.insert(arguments.begin(), "record");
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    app.parse(arguments);
+    EXPECT_EQ(status, exit_done);
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  TemporaryFolder folder_;
+  std::filesystem::path scene_;
+};
+
+TEST_F(Record, RecordingsAreTheSceneBoxes) {
+  run({scene_.string(), "--out", path("r.aabbs")});
+  run({scene_.string(), "--out", path("r.csv")});
+  const Scene scene = load_scene(scene_), recorded = load_scene(path("r.aabbs"));
+  const std::vector<BoxFrame> frames = read_box_frames(path("r.csv"));
+  ASSERT_EQ(recorded.recording.size(), 4u);
+  ASSERT_EQ(frames.size(), 4u);
+  ScenePlayer player(scene, BoxKind::tight), replayed(recorded, BoxKind::tight);
+  do {
+    const std::vector<Aabb> boxes(player.boxes().begin(), player.boxes().end());
+    EXPECT_EQ(recorded.recording[static_cast<std::size_t>(player.frame())], boxes);
+    EXPECT_EQ(frames[static_cast<std::size_t>(player.frame())].boxes, boxes);
+    EXPECT_EQ(player.change().moved.size(), replayed.change().moved.size());
+  } while (player.next() && replayed.next());
+  EXPECT_EQ(read_aabbs(path("r.aabbs")).scene, "s");
+}
+
+TEST_F(Record, TakesOverrides) {
+  run({scene_.string(), "--out", path("r.aabbs"), "--count", "12", "--frames", "2", "--seed", "9",
+       "--boxes", "loose"});
+  const Scene scene = load_scene(scene_, {.count = 12, .seed = 9, .frames = 2});
+  const ScenePlayer player(scene, BoxKind::loose);
+  const BoxRecording recording = read_aabbs(path("r.aabbs"));
+  ASSERT_EQ(recording.frames.size(), 2u);
+  EXPECT_EQ(recording.frames[0], std::vector<Aabb>(player.boxes().begin(), player.boxes().end()));
+  for (const auto& frame : recording.frames) {
+    for (const Aabb& box : frame) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(recording.world.min[axis], box.min[axis]);
+        EXPECT_GE(recording.world.max[axis], box.max[axis]);
+      }
+    }
+  }
+}
+
+TEST_F(Record, LeavesNothingBehindWhereItFails) {
+  EXPECT_THROW(run({path("none.toml"), "--out", path("r.aabbs")}), InputError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("r.txt")}), InputError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("none/r.aabbs")}), InputError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("none/r.csv")}), InputError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("r.csv"), "--count", "0"}), CLI::ParseError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("r.csv"), "--boxes", "round"}), CLI::ParseError);
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"s.toml"});
+}
+
+}  // namespace
+}  // namespace touchstone
