@@ -62,14 +62,14 @@ inline Mat3d product(const Mat3d& a, const Mat3d& b) {
   return c;
 }
 
-// The rotation of a quaternion (w, x, y, z) of any length but zero.
+// The rotation of a quaternion (w, x, y, z) of any length but zero. Exact for quarter turns.
 inline Mat3d rotation_of(const std::array<double, 4>& q) {
-  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  const double w = q[0] / norm, x = q[1] / norm, y = q[2] / norm, z = q[3] / norm;
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  const double s = 2 / (w * w + x * x + y * y + z * z);
   Mat3d r;
-  r << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),  //
-      2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),   //
-      2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
+  r << 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),  //
+      s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),   //
+      s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y);
   return r;
 }
 
