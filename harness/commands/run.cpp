@@ -112,17 +112,17 @@ void add_run(CLI::App& app, int& status) {
                                              {"penetration", Task::penetration}};
   add(command->add_option("--task", options->tasks, "intersect, distance, penetration")
           ->delimiter(',')
-          ->transform(CLI::CheckedTransformer(tasks)));
+          ->transform(CLI::CheckedTransformer(tasks).description("")));
   const std::map<std::string, Precision> scalars = {{"float", Precision::float32},
                                                     {"double", Precision::float64}};
   add(command->add_option("--scalar", options->scalars, "float, double (default: both)")
           ->delimiter(',')
-          ->transform(CLI::CheckedTransformer(scalars)));
+          ->transform(CLI::CheckedTransformer(scalars).description("")));
   const std::map<std::string, BoxKind> boxes = {{"tight", BoxKind::tight},
                                                 {"loose", BoxKind::loose}};
   add(command->add_option("--boxes", options->boxes, "tight, loose")
           ->delimiter(',')
-          ->transform(CLI::CheckedTransformer(boxes)));
+          ->transform(CLI::CheckedTransformer(boxes).description("")));
   add(command->add_option("--threads", options->threads, "Numbers of threads")
           ->delimiter(',')
           ->check(CLI::Range(1, 1024))
