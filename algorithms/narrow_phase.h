@@ -19,10 +19,10 @@ struct NarrowPhaseSettings {
   Precision scalar = Precision::float64;
   // The error in a distance or depth at which the algorithm may stop, as a part of the size of the
   // pair. Without it: the algorithm's own default for the scalar.
-  std::optional<double> tolerance;
+  std::optional<double> tolerance = {};
   // Greatest number of iterations of each loop of a query (GJK's, EPA's, the portal's); without it
   // the algorithm's own. A query that needs more says not_converged.
-  std::optional<int> max_iterations;
+  std::optional<int> max_iterations = {};
 };
 
 // Pairs of one kind of shapes, kind_a <= kind_b. Pair i is of bodies first[i] and second[i]; body k

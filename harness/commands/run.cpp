@@ -51,7 +51,7 @@ Campaign campaign_of(const Options& options) {
        select(narrow_phases(), split_names(options.narrow), "narrow phase")) {
     for (const Precision scalar : options.scalars) {
       if (!offers(*entry, scalar)) continue;
-      NarrowPhaseSettings settings{.scalar = scalar, .tolerance = {}, .max_iterations = {}};
+      NarrowPhaseSettings settings{.scalar = scalar};
       if (options.tolerance > 0) settings.tolerance = options.tolerance;
       group.narrow.push_back({entry, settings});
     }
