@@ -12,6 +12,16 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 // at most half an ulp of a partial sum, and each partial sum is at most the sum of magnitudes.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 
+// The length of a vector without overflow. Not std::hypot, whose last bit differs between
+// platforms.
+double length(const Vec3d& v) {
+  const double greatest = v.cwiseAbs().maxCoeff();
+  if (!(greatest > 0)) return 0;
+  const Vec3d scaled = v / greatest;
+  return greatest *
+         std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
+}
+
 struct Interval {
   double low, high;
 };
@@ -23,14 +33,14 @@ Interval extent(const Shape& shape, const Vec3d& row, double& magnitude) {
     magnitude = half;
     return Interval{-half, half};
   };
-  const double disc = shape.radius * std::hypot(row.x(), row.y());
+  const double disc = shape.radius * length({row.x(), row.y(), 0});
   const double along = shape.half_length * row.z();
   switch (shape.kind) {
     case ShapeKind::sphere: return symmetric(shape.radius);
     case ShapeKind::capsule: return symmetric(std::abs(along) + shape.radius);
     case ShapeKind::box: return symmetric(row.cwiseAbs().dot(shape.half_extents));
     case ShapeKind::cylinder: return symmetric(std::abs(along) + disc);
-    case ShapeKind::ellipsoid: return symmetric(row.cwiseProduct(shape.radii).stableNorm());
+    case ShapeKind::ellipsoid: return symmetric(length(row.cwiseProduct(shape.radii)));
     case ShapeKind::cone:
       magnitude = std::abs(along) + disc;
       return {std::min(along, -along - disc), std::max(along, -along + disc)};
@@ -99,13 +109,13 @@ double loose_reach(const Shape& shape, const Mat3d& rotation) {
   switch (shape.kind) {
     case ShapeKind::sphere: reach = shape.radius; break;
     case ShapeKind::capsule: reach = shape.half_length + shape.radius; break;
-    case ShapeKind::box: reach = shape.half_extents.stableNorm(); break;
-    case ShapeKind::cylinder: reach = std::hypot(shape.half_length, shape.radius); break;
-    case ShapeKind::cone: reach = std::hypot(shape.half_length, shape.radius); break;
+    case ShapeKind::box: reach = length(shape.half_extents); break;
+    case ShapeKind::cylinder: reach = length({shape.half_length, shape.radius, 0}); break;
+    case ShapeKind::cone: reach = length({shape.half_length, shape.radius, 0}); break;
     case ShapeKind::ellipsoid: reach = shape.radii.maxCoeff(); break;
     case ShapeKind::hull:
       for (const Vec3d& vertex : shape.hull->vertices) {
-        reach = std::max(reach, vertex.stableNorm());
+        reach = std::max(reach, length(vertex));
       }
       break;
     case ShapeKind::halfspace: return inf;
