@@ -1,15 +1,13 @@
 // GJK: walk on the difference A - B towards the origin, one support point at a time; EPA for depth.
-// Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; the sub-distance
-// of
-//          Montanari, Petrinic, Barbieri, ACM TOG 36(3), 2017; for depth van den Bergen, GDC 2001.
+// Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; sub-distance of
+//          Montanari, Petrinic, Barbieri, ACM TOG 36(3), 2017; depth: van den Bergen, GDC 2001.
 // Departs: stops by the duality gap: the simplex bounds the distance from above, each support plane
 //          from below. Round shapes are cores with a radius, so that shallow overlaps of theirs
 //          need no EPA. Where the origin is on the simplex, EPA decides: a verdict is `ok` only
 //          where a bound proves it beyond rounding. Never answers `touching`.
-// Fails:   says unknown / not_converged within 2e-15 (double) or 1e-6 (float) of touching, as a
-// part
-//          of the pair's size. Depth of smooth, nearly round bodies far inside each other:
-//          EPA's cap comes first, not_converged with bounds.
+// Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a part of
+//          the pair's size. Depth of smooth, nearly round bodies far inside each other: EPA's cap
+//          comes first, not_converged with bounds.
 // Cost:    O(1) space; a few support calls for each digit on smooth shapes, finite on polytopes.
 //          Caps: 128 iterations of GJK, 256 of EPA. Tolerance, as a part of the size: 1e-10
 //          (double) or 1e-5 (float); polytopes go on until nothing is left but rounding.
