@@ -52,7 +52,8 @@ TEST(Polytope, CountsOfEachKindAndLevel) {
   };
   for (const auto& [kind, counts] : expected) {
     for (int level = 0; level < 3; ++level) {
-      const Hull& hull = *as_polytope(make(kind), level).hull;
+      const auto polytope = as_polytope(make(kind), level).hull;
+      const Hull& hull = *polytope;
       SCOPED_TRACE(testing::Message() << to_string(kind) << " level " << level);
       const auto at = static_cast<std::size_t>(level);
       EXPECT_EQ(hull.vertices.size(), counts[at].vertices);
@@ -61,9 +62,9 @@ TEST(Polytope, CountsOfEachKindAndLevel) {
     }
   }
   EXPECT_EQ(as_polytope(make(ShapeKind::sphere), 3).hull->faces.size(), 1280u);
-  const Hull& finest = *as_polytope(make(ShapeKind::sphere), 5).hull;
-  EXPECT_EQ(finest.vertices.size(), 10242u);
-  EXPECT_EQ(finest.faces.size(), 20480u);
+  const auto finest = as_polytope(make(ShapeKind::sphere), 5).hull;
+  EXPECT_EQ(finest->vertices.size(), 10242u);
+  EXPECT_EQ(finest->faces.size(), 20480u);
 }
 
 TEST(Polytope, EveryVertexIsACornerOnTheSurface) {
@@ -134,9 +135,9 @@ TEST(Polytope, FlatAndEmptySizes) {
   shape.radii.z() = 0;
   EXPECT_EQ(as_polytope(shape, 1).hull->dimension, 2);
   shape.radii.z() = 1e-8;
-  const Hull& lens = *as_polytope(shape, 2).hull;
-  EXPECT_EQ(lens.dimension, 3);
-  EXPECT_EQ(lens.faces.size(), 320u);
+  const auto lens = as_polytope(shape, 2).hull;
+  EXPECT_EQ(lens->dimension, 3);
+  EXPECT_EQ(lens->faces.size(), 320u);
 }
 
 TEST(Polytope, RefusesHalfSpacesAndLevels) {
