@@ -18,9 +18,8 @@
 #include <limits>
 
 #include "algorithms/kernels/box_box.h"
-#include "algorithms/kernels/halfspace.h"
+#include "algorithms/kernels/flat_sided.h"
 #include "algorithms/kernels/separating_axis.h"
-#include "algorithms/kernels/support.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -51,24 +50,12 @@ struct TurnedFeatures {
 template <class Scalar>
 class Sat final : public NarrowPhase {
  public:
-  void bind(std::span<const Shape> shapes) override {
-    polytopes_ = make_polytopes<Scalar>(shapes);
-    support_shapes_ = make_support_shapes<Scalar>(shapes);
-  }
+  void bind(std::span<const Shape> shapes) override { shapes_.bind(shapes); }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
-      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
-      if (batch.kind_b == ShapeKind::halfspace) {
-        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task,
-                        outcomes[i]);
-      } else {
-        const PolytopePair<Scalar> pair(polytopes_[a], pose_a, polytopes_[b], pose_b);
-        solve_pair(pair, batch.kind_b == ShapeKind::box, batch.task, outcomes[i]);
-      }
-    }
+    shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, Outcome& outcome) {
+      solve_pair(pair, batch.kind_b == ShapeKind::box, batch.task, outcome);
+    });
   }
 
  private:
@@ -164,19 +151,11 @@ class Sat final : public NarrowPhase {
     if (axis.gap > best.gap) best = axis;
   }
 
-  std::vector<Polytope<Scalar>> polytopes_;
-  std::vector<SupportShape<Scalar>> support_shapes_;
+  FlatSidedShapes<Scalar> shapes_;
   TurnedFeatures<Scalar> turned_a_, turned_b_;
   std::vector<int> against_;  // sign of b's normals along an edge of a
   int tested_ = 0;
 };
-
-bool takes(ShapeKind a, ShapeKind b, Task) {
-  const auto flat_sided = [](ShapeKind kind) {
-    return kind == ShapeKind::box || kind == ShapeKind::hull;
-  };
-  return flat_sided(a) && (flat_sided(b) || b == ShapeKind::halfspace);
-}
 
 }  // namespace
 }  // namespace touchstone
@@ -188,7 +167,7 @@ TOUCHSTONE_NARROW_PHASE {
                                 "Separating Axis Test between Convex Polyhedra, GDC 2013"},
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
-           .supports = takes,
+           .supports = are_flat_sided,
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32) return std::make_unique<Sat<float>>();
              return std::make_unique<Sat<double>>();

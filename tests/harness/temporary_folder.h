@@ -39,6 +39,14 @@ class TemporaryFolder {
     std::ifstream file(path_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
+  // A message with the files' names in it alone.
+  std::string without_path(std::string text) const {
+    const std::string prefix = path_.string() + "/";
+    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
+      text.erase(at, prefix.size());
+    }
+    return text;
+  }
   // Of all that is in it, sorted.
   std::vector<std::string> names() const {
     std::vector<std::string> all;

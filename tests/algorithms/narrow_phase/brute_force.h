@@ -1,5 +1,8 @@
-// An independent answer for pairs of boxes and hulls: every axis and every pair of features, in
-// long double.
+// What an algorithm that goes by faces and edges is compared with: signed distances of boxes and
+// hulls over the features that the shapes come with, every axis and every pair, in long double.
+// Fast enough for thousands of pairs in each of many algorithms; the verdict needs bodies whose
+// difference is solid.
+// polytope_reference.h goes by vertices alone, and also knows spheres, capsules and normals.
 #pragma once
 
 #include <algorithm>

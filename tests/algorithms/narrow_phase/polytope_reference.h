@@ -1,5 +1,8 @@
-// What narrow-phase tests compare with: signed distances of small polytopes by looking at
-// everything, in long double; and the bodies to try.
+// What an algorithm that goes by support functions is compared with: signed distances and normals
+// of bodies whose cores are polytopes, from their vertices alone, in long double; and the bodies to
+// try. Takes points, segments and flat bodies as well, and hulls that came without faces; the time
+// grows with the fifth power of the vertices, so these are few.
+// brute_force.h is for boxes and hulls with their faces and edges, and much faster.
 #pragma once
 
 #include <array>

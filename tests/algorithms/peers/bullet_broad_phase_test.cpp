@@ -1,16 +1,22 @@
 #include "tests/algorithms/peers/broad_phase_frames.h"
+#include "tests/algorithms/peers/peer_test.h"
 
 namespace touchstone {
 namespace {
 
-class BulletBroadPhaseTest : public testing::TestWithParam<const char*> {
+class BulletBroadPhaseTest : public PeerTest<find_broad_phase> {
  protected:
-  void SetUp() override {
-    entry_ = find_broad_phase(GetParam());
-    ASSERT_NE(entry_, nullptr);
-    if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;
+  // Sorted.
+  std::vector<IndexPair> pairs_of(std::span<const Aabb> boxes) const {
+    Executor executor(1);
+    const auto algorithm = entry_->make(executor);
+    algorithm->build(boxes);
+    PairSink sink;
+    EXPECT_EQ(algorithm->find_pairs(sink), Status::ok);
+    std::vector<IndexPair> found = sink.gather();
+    std::ranges::sort(found);
+    return found;
   }
-  const BroadPhaseEntry* entry_ = nullptr;
 };
 
 TEST_P(BulletBroadPhaseTest, FindsTheClosedPairsOfEveryFrame) {
@@ -32,13 +38,7 @@ TEST_P(BulletBroadPhaseTest, KeepsPairsThatTouch) {
       {{1, 1, 1}, {2, 2, 2}},      {{0, 0, 0}, {1, 1, 1}},      {{1, 1, 1}, {1, 1, 1}},
       {{beyond, 0, 0}, {3, 1, 1}}, {{0, beyond, 0}, {1, 2, 1}},
   };
-  Executor executor(1);
-  const auto algorithm = entry_->make(executor);
-  algorithm->build(boxes);
-  PairSink sink;
-  ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
-  std::vector<IndexPair> found = sink.gather();
-  std::ranges::sort(found);
+  const std::vector<IndexPair> found = pairs_of(boxes);
   EXPECT_EQ(found, closed_pairs(boxes));
   for (const std::uint32_t id : {1U, 2U, 3U, 4U, 5U}) {
     EXPECT_TRUE(std::ranges::count(found, IndexPair{0, id})) << id;
@@ -74,23 +74,11 @@ TEST_P(BulletBroadPhaseTest, TakesBoxesAtTheEndsOfTheFloats) {
                                    {{-1, -1, -1}, {1e-40F, 1e-40F, 1e-40F}},
                                    {{1e-40F, 1e-40F, 1e-40F}, {1, 1, 1}},
                                    {{2e38F, 0, 0}, {3e38F, 1, 1}}};
-  Executor executor(1);
-  const auto algorithm = entry_->make(executor);
-  algorithm->build(boxes);
-  PairSink sink;
-  ASSERT_EQ(algorithm->find_pairs(sink), Status::ok);
-  std::vector<IndexPair> found = sink.gather();
-  std::ranges::sort(found);
-  EXPECT_EQ(found, closed_pairs(boxes));
+  EXPECT_EQ(pairs_of(boxes), closed_pairs(boxes));
 }
 
 INSTANTIATE_TEST_SUITE_P(Peers, BulletBroadPhaseTest,
-                         testing::Values("bullet-tree", "bullet-axis-sweep"),
-                         [](const auto& param) {
-                           std::string name = param.param;
-                           std::ranges::replace(name, '-', '_');
-                           return name;
-                         });
+                         testing::Values("bullet-tree", "bullet-axis-sweep"), peer_test_name);
 
 }  // namespace
 }  // namespace touchstone

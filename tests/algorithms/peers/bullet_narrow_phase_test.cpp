@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "tests/algorithms/peers/peer_test.h"
 
 namespace touchstone {
 namespace {
@@ -148,15 +149,7 @@ std::vector<Pose> motions() {
   return {Pose{}, {turn, Vec3d(10, -20, 5)}, {turn.transpose(), Vec3d(3e6, 1e6, -2e6)}};
 }
 
-class BulletNarrowPhaseTest : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    entry_ = find_narrow_phase(GetParam());
-    ASSERT_NE(entry_, nullptr);
-    if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;
-  }
-  const NarrowPhaseEntry* entry_ = nullptr;
-};
+class BulletNarrowPhaseTest : public PeerTest<find_narrow_phase> {};
 
 TEST_P(BulletNarrowPhaseTest, AnswersEasyPairsOfEveryKind) {
   const bool surface_points = std::string(GetParam()) != "bullet-mpr";
@@ -426,12 +419,7 @@ TEST(BulletNarrowPhase, MprStopsAtTheCapItIsGiven) {
   EXPECT_EQ(free.support_calls, 2 * free.iterations);
 }
 
-INSTANTIATE_TEST_SUITE_P(Peers, BulletNarrowPhaseTest, testing::ValuesIn(names),
-                         [](const auto& param) {
-                           std::string name = param.param;
-                           std::ranges::replace(name, '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Peers, BulletNarrowPhaseTest, testing::ValuesIn(names), peer_test_name);
 
 }  // namespace
 }  // namespace touchstone

@@ -1,17 +1,10 @@
 #include "tests/algorithms/peers/broad_phase_frames.h"
+#include "tests/algorithms/peers/peer_test.h"
 
 namespace touchstone {
 namespace {
 
-class FclBroadPhaseTest : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    entry_ = find_broad_phase(GetParam());
-    ASSERT_NE(entry_, nullptr);
-    if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;
-  }
-  const BroadPhaseEntry* entry_ = nullptr;
-};
+class FclBroadPhaseTest : public PeerTest<find_broad_phase> {};
 
 TEST_P(FclBroadPhaseTest, FindsTheClosedPairsOfEveryFrame) {
   const bool misses_touching = !entry_->info.known_defect.empty();
@@ -66,11 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Peers, FclBroadPhaseTest,
                          testing::Values("fcl-naive", "fcl-ssap", "fcl-sap", "fcl-dynamic-tree",
                                          "fcl-dynamic-tree-array", "fcl-interval-tree",
                                          "fcl-spatial-hash"),
-                         [](const auto& param) {
-                           std::string name = param.param;
-                           std::ranges::replace(name, '-', '_');
-                           return name;
-                         });
+                         peer_test_name);
 
 }  // namespace
 }  // namespace touchstone

@@ -66,13 +66,8 @@ std::vector<std::vector<IndexPair>> all_pairs(const std::filesystem::path& file)
 
 class PairsCommand : public ::testing::Test {
  protected:
-  // Runs it on a file of the folder, and expects status 2, this text and nothing left behind.
   void expect_refusal(const std::string& arguments, const std::string& text) {
-    const auto before = folder.names();
-    const Ran ran = run_program("pairs " + arguments);
-    EXPECT_EQ(ran.status, 2) << arguments << "\n" << ran.text;
-    EXPECT_THAT(ran.text, HasSubstr(text)) << arguments;
-    EXPECT_EQ(folder.names(), before) << arguments;
+    touchstone::expect_refusal("pairs " + arguments, text, folder);
   }
   std::string path(const std::string& name) const { return (folder.path() / name).string(); }
   TemporaryFolder folder;

@@ -1,6 +1,8 @@
 // The program, run as a user runs it.
 #pragma once
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -8,8 +10,10 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "harness/io/csv.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
 
@@ -30,6 +34,16 @@ inline Ran run_program(const std::string& arguments) {
   const int status = pclose(pipe);
   if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
   return ran;
+}
+
+// Runs it, and expects status 2, this text and nothing left behind in the folder.
+inline void expect_refusal(const std::string& arguments, const std::string& text,
+                           const TemporaryFolder& folder) {
+  const auto before = folder.names();
+  const Ran ran = run_program(arguments);
+  EXPECT_EQ(ran.status, 2) << arguments << "\n" << ran.text;
+  EXPECT_THAT(ran.text, testing::HasSubstr(text)) << arguments;
+  EXPECT_EQ(folder.names(), before) << arguments;
 }
 
 // The rows of a CSV file with these columns.

@@ -17,7 +17,6 @@ namespace touchstone {
 namespace {
 
 using ::testing::AnyOf;
-using ::testing::HasSubstr;
 
 const std::vector<std::string> columns = {
     "id",    "algorithm", "scalar",   "task",     "answer",     "status",       "distance",
@@ -94,11 +93,7 @@ class QueryCommand : public ::testing::Test {
   }
 
   void expect_refusal(const std::string& arguments, const std::string& text) {
-    const auto before = folder.names();
-    const Ran ran = run_program("query " + arguments);
-    EXPECT_EQ(ran.status, 2) << arguments << "\n" << ran.text;
-    EXPECT_THAT(ran.text, HasSubstr(text)) << arguments;
-    EXPECT_EQ(folder.names(), before) << arguments;
+    touchstone::expect_refusal("query " + arguments, text, folder);
   }
 
   TemporaryFolder folder;

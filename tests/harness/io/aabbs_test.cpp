@@ -9,11 +9,13 @@
 #include <limits>
 
 #include "harness/error.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -64,13 +66,9 @@ class Aabbs : public testing::Test {
  protected:
   std::string fault(const std::string& content) {
     const auto file = folder_.write("x.aabbs", content);
-    try {
-      read_aabbs(file);
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), StartsWith(file.string() + ": "));
-      return error.what();
-    }
-    return "";
+    const std::string text = input_fault([&] { read_aabbs(file); });
+    EXPECT_THAT(text, AnyOf("", StartsWith(file.string() + ": ")));
+    return text;
   }
   TemporaryFolder folder_;
 };

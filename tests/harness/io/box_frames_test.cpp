@@ -5,6 +5,7 @@
 
 #include "harness/error.h"
 #include "harness/io/aabbs.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -22,12 +23,7 @@ class BoxFrames : public ::testing::Test {
     return read_box_frames(folder.write("in.csv", header + rows));
   }
   std::string error(const std::string& rows) {
-    try {
-      read(rows);
-    } catch (const InputError& e) {
-      return std::string(e.what()).substr(folder.path().string().size() + 1);
-    }
-    return "no error";
+    return folder.without_path(input_fault([&] { read(rows); }));
   }
   TemporaryFolder folder;
 };

@@ -10,6 +10,7 @@
 
 #include "harness/error.h"
 #include "harness/scene/convex_hull.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -37,14 +38,7 @@ class Cases : public ::testing::Test {
     return {cases.at(0).shape_a, cases.at(0).pose_a};
   }
   std::string error(const std::string& content) {
-    try {
-      read(content);
-    } catch (const InputError& e) {
-      const std::string text = e.what();
-      const std::string prefix = folder.path().string() + "/";
-      return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
-    }
-    return "no error";
+    return folder.without_path(input_fault([&] { read(content); }));
   }
   std::string shape_error(const std::string& shape, const std::string& pose = "") {
     return error("\n" + with_shape(shape, pose));

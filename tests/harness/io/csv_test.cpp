@@ -34,7 +34,7 @@ class Csv : public ::testing::Test {
                 std::string(row.text(1)) + "]";
       });
     } catch (const InputError& error) {
-      return without_folder(error.what());
+      return folder.without_path(error.what());
     }
     return seen;
   }
@@ -52,16 +52,9 @@ class Csv : public ::testing::Test {
         seen += out.str();
       });
     } catch (const InputError& error) {
-      return without_folder(error.what());
+      return folder.without_path(error.what());
     }
     return seen;
-  }
-  std::string without_folder(std::string text) const {
-    const std::string prefix = folder.path().string() + "/";
-    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
-      text.erase(at, prefix.size());
-    }
-    return text;
   }
   std::string error_of_writing(const std::filesystem::path& file, int rows = 1) {
     try {
@@ -69,7 +62,7 @@ class Csv : public ::testing::Test {
       for (int i = 0; i < rows; ++i) writer.field(i).field("text").end_row();
       writer.close();
     } catch (const InputError& error) {
-      return without_folder(error.what());
+      return folder.without_path(error.what());
     }
     return "written";
   }
@@ -115,7 +108,7 @@ TEST_F(Csv, FilesThatCannotBeRead) {
     try {
       CsvReader(file, {"a"}).read([](const CsvReader::Row&) {});
     } catch (const InputError& e) {
-      return without_folder(e.what());
+      return folder.without_path(e.what());
     }
     return "read";
   };

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "harness/error.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace {
@@ -20,12 +20,7 @@ class CampaignFile : public testing::Test {
     return read_campaign(folder_.path() / "c.toml");
   }
   std::string fault(const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return input_fault([&] { read(text); });
   }
   TemporaryFolder folder_;
 };

@@ -9,6 +9,7 @@
 #include "harness/error.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -64,12 +65,7 @@ class Parts : public testing::Test {
     return load_scene(folder_.write("scene.toml", body));
   }
   std::string fault(const std::string& body) {
-    try {
-      load(body);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return input_fault([&] { load(body); });
   }
   TemporaryFolder folder_;
 };

@@ -10,6 +10,7 @@
 
 #include "harness/error.h"
 #include "harness/scene/mesh_format.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -21,12 +22,7 @@ class MeshTest : public testing::Test {
     return read_mesh(folder_.write(name, content));
   }
   std::string error(const std::string& name, const std::string& content) {
-    try {
-      read(name, content);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+    return input_fault([&] { read(name, content); });
   }
 
   TemporaryFolder folder_;

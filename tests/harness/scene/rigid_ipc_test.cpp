@@ -12,6 +12,7 @@
 
 #include "harness/error.h"
 #include "harness/scene/mesh_mass.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -65,12 +66,7 @@ class RigidIpc : public testing::Test {
                   bodies + "]}}");
   }
   std::string error(const std::string& json) {
-    try {
-      import(json);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+    return input_fault([&] { import(json); });
   }
   std::string body_error(const std::string& body) {
     return error("{\"rigid_body_problem\": {\"rigid_bodies\": [" + body + "]}}");

@@ -7,6 +7,7 @@
 #include "harness/io/aabbs.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -23,12 +24,7 @@ class SceneFile : public testing::Test {
   }
   // The message, or nothing where there is no fault.
   std::string fault(const std::string& content, const SceneOverrides& overrides = {}) {
-    try {
-      load(content, overrides);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return input_fault([&] { load(content, overrides); });
   }
   std::string at(int line) const {
     return (folder_.path() / "scene.toml").string() + ":" + std::to_string(line) + ": ";

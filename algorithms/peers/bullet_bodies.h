@@ -1,0 +1,213 @@
+// What Bullet's narrow phases share: its shapes for ours, the transforms of a query, and what is
+// made of a contact.
+//
+// No margins beyond the shape: 0 for hull, box, cylinder, cone and ellipsoid (Bullet's default of
+// 0.04 rounds them); a sphere's and a capsule's margin is their radius, by Bullet's design.
+// Ellipsoids, which Bullet does not have, are a btConvexInternalShape with a support function of
+// its own. The two poses are given relative to the first body's centre, subtracted in double before
+// they become floats, and hulls are centred on the mean of their vertices, as MPR needs an interior
+// point at the origin.
+// Half-spaces are not offered: Bullet's plane has no support function, and its own algorithm for it
+// is one support call of the other body, none of GJK, SAT and MPR. Tolerances, and iteration caps
+// but MPR's, are compiled into Bullet and stay its own.
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btDiscreteCollisionDetectorInterface.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "algorithms/narrow_phase.h"
+
+namespace touchstone::bullet {
+
+static_assert(sizeof(btScalar) == sizeof(float), "the scalars offered are Bullet's");
+
+inline btVector3 to_bullet(const Vec3d& v) {
+  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+}
+inline btMatrix3x3 to_matrix(const Mat3d& m) {
+  const auto entry = [&](int i, int j) { return static_cast<btScalar>(m(i, j)); };
+  return {entry(0, 0), entry(0, 1), entry(0, 2),  //
+          entry(1, 0), entry(1, 1), entry(1, 2),  //
+          entry(2, 0), entry(2, 1), entry(2, 2)};
+}
+inline Vec3d from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+class Ellipsoid final : public btConvexInternalShape {
+ public:
+  explicit Ellipsoid(const btVector3& radii) {
+    m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+    m_implicitShapeDimensions = radii;
+  }
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
+    const btVector3 scaled = m_implicitShapeDimensions * direction;
+    const btScalar length = scaled.length();
+    if (!(length > 0)) return {0, 0, 0};
+    return m_implicitShapeDimensions * scaled / length;
+  }
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions,
+                                                         btVector3* vertices,
+                                                         int count) const override {
+    std::transform(directions, directions + count, vertices,
+                   [&](const btVector3& d) { return localGetSupportingVertexWithoutMargin(d); });
+  }
+  void calculateLocalInertia(btScalar, btVector3& inertia) const override { inertia.setZero(); }
+  const char* getName() const override { return "Ellipsoid"; }
+};
+
+// What is bound for a shape.
+struct Body {
+  std::unique_ptr<btConvexShape> shape;            // null where the algorithm has no such shape
+  Vec3d centre = Vec3d::Zero();                    // of the Bullet shape, in body coordinates
+  const btConvexPolyhedron* polyhedron = nullptr;  // SAT's; null where there is none
+};
+
+// setMargin recomputes the dimensions from sums, which rounds; so they are set again.
+template <class BulletShape>
+std::unique_ptr<btConvexShape> without_margin(std::unique_ptr<BulletShape> shape,
+                                              const btVector3& dimensions) {
+  shape->setMargin(0);
+  shape->setImplicitShapeDimensions(dimensions);
+  return shape;
+}
+
+inline Body make_body(const Shape& shape) {
+  const auto radius = static_cast<btScalar>(shape.radius);
+  const auto height = static_cast<btScalar>(2 * shape.half_length);
+  Body body;
+  switch (shape.kind) {
+    case ShapeKind::sphere: body.shape = std::make_unique<btSphereShape>(radius); break;
+    case ShapeKind::capsule: body.shape = std::make_unique<btCapsuleShapeZ>(radius, height); break;
+    case ShapeKind::box: {
+      const btVector3 half = to_bullet(shape.half_extents);
+      body.shape = without_margin(std::make_unique<btBoxShape>(half), half);
+      break;
+    }
+    case ShapeKind::cylinder: {
+      const btVector3 half(radius, radius, static_cast<btScalar>(shape.half_length));
+      body.shape = without_margin(std::make_unique<btCylinderShapeZ>(half), half);
+      break;
+    }
+    case ShapeKind::cone:  // Bullet's origin is at half of the height too, the tip at +z
+      body.shape = std::make_unique<btConeShapeZ>(radius, height);
+      body.shape->setMargin(0);
+      break;
+    case ShapeKind::ellipsoid:
+      body.shape = std::make_unique<Ellipsoid>(to_bullet(shape.radii));
+      body.shape->setMargin(0);
+      break;
+    case ShapeKind::hull: {
+      const std::vector<Vec3d>& vertices = shape.hull->vertices;
+      for (const Vec3d& v : vertices) body.centre += v / static_cast<double>(vertices.size());
+      auto hull = std::make_unique<btConvexHullShape>();
+      for (const Vec3d& v : vertices) hull->addPoint(to_bullet(v - body.centre), false);
+      hull->setMargin(0);
+      hull->recalcLocalAabb();
+      body.shape = std::move(hull);
+      break;
+    }
+    case ShapeKind::halfspace: break;
+  }
+  return body;
+}
+
+// One query. The transforms are relative to `origin`, the world position of a's centre.
+struct Query {
+  Task task;
+  const Body& a;
+  const Body& b;
+  btDiscreteCollisionDetectorInterface::ClosestPointInput input;  // transforms, and a cut-off
+  Vec3d origin;
+};
+
+// What Bullet says of a pair: the normal points from b to a, and distance < 0 is the depth.
+struct Contact {
+  btVector3 normal_on_b, point_on_b;
+  btScalar distance;
+};
+
+// The deepest, or else nearest, contact that is reported.
+struct Deepest final : btDiscreteCollisionDetectorInterface::Result {
+  std::optional<Contact> contact;
+
+  void setShapeIdentifiersA(int, int) override {}
+  void setShapeIdentifiersB(int, int) override {}
+  void addContactPoint(const btVector3& normal_on_b, const btVector3& point_on_b,
+                       btScalar distance) override {
+    if (!contact || distance < contact->distance) contact = {normal_on_b, point_on_b, distance};
+  }
+};
+
+inline Answer sign_of(btScalar distance) {
+  if (distance > 0) return Answer::separated;
+  if (distance < 0) return Answer::overlapping;
+  return distance == 0 ? Answer::touching : Answer::unknown;
+}
+
+inline void report(const Contact& contact, const Query& query, Outcome& outcome) {
+  outcome.answer = sign_of(contact.distance);
+  if (outcome.answer == Answer::unknown) outcome.status = Status::degenerate;
+  const bool asked = (query.task == Task::distance && contact.distance >= 0) ||
+                     (query.task == Task::penetration && contact.distance <= 0);
+  if (!asked) return;
+  const Vec3d normal = -from_bullet(contact.normal_on_b);
+  outcome.distance = contact.distance;
+  outcome.normal = normal;
+  outcome.witness_b = query.origin + from_bullet(contact.point_on_b);
+  outcome.witness_a = outcome.witness_b - outcome.distance * normal;
+  // MPR has no direction where the surfaces touch.
+  if (normal.isZero()) outcome.normal.setConstant(Outcome::none);
+}
+
+// The contract around one of Bullet's algorithms, which has prepare(Body&), called once a shape,
+// and answer(Query&, Outcome&).
+template <class Algorithm>
+class BulletNarrowPhase final : public NarrowPhase {
+ public:
+  template <class... Settings>
+  explicit BulletNarrowPhase(const Settings&... settings) : algorithm_(settings...) {}
+
+  void bind(std::span<const Shape> shapes) override {
+    bodies_.clear();
+    bodies_.reserve(shapes.size());
+    for (const Shape& shape : shapes) {
+      bodies_.push_back(make_body(shape));
+      Algorithm::prepare(bodies_.back());
+    }
+  }
+
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::uint32_t first = batch.first[i], second = batch.second[i];
+      const Pose& at_a = batch.poses[first];
+      const Pose& at_b = batch.poses[second];
+      Query query{batch.task,
+                  bodies_[batch.shape_of[first]],
+                  bodies_[batch.shape_of[second]],
+                  {},
+                  Vec3d::Zero()};
+      query.origin = at_a(query.a.centre);
+      query.input.m_transformA = btTransform(to_matrix(at_a.rotation), btVector3(0, 0, 0));
+      query.input.m_transformB =
+          btTransform(to_matrix(at_b.rotation), to_bullet(at_b(query.b.centre) - query.origin));
+      algorithm_.answer(query, outcomes[i]);
+    }
+  }
+
+ private:
+  Algorithm algorithm_;
+  std::vector<Body> bodies_;
+};
+
+}  // namespace touchstone::bullet

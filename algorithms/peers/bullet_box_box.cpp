@@ -1,0 +1,52 @@
+// Bullet's box-box test: separating axes, then the faces clipped against each other.
+// Paper:   none; Bullet 3.24, btBoxBoxDetector: dBoxBox of R. Smith's ODE.
+// Departs: bodies and poses as bullet_bodies.h says.
+// Fails:   takes the depth at its deepest contact. All thresholds are absolute lengths.
+// Cost:    O(1).
+#include "algorithms/narrow_phase.h"
+#if TOUCHSTONE_BUILT
+#include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
+
+#include "algorithms/peers/bullet_bodies.h"
+
+namespace touchstone::bullet {
+namespace {
+
+struct BoxBox {
+  static void prepare(Body&) {}
+
+  static void answer(Query& query, Outcome& outcome) {
+    btBoxBoxDetector detector(static_cast<const btBoxShape*>(query.a.shape.get()),
+                              static_cast<const btBoxShape*>(query.b.shape.get()));
+    Deepest deepest;
+    detector.getClosestPoints(query.input, deepest, nullptr);
+    if (deepest.contact) {
+      outcome.status = Status::ok;
+      report(*deepest.contact, query, outcome);
+    } else {
+      // No contact may also mean that clipping the faces left nothing of an overlap.
+      outcome.status = Status::not_reported;
+      outcome.answer = Answer::separated;
+    }
+  }
+};
+
+}  // namespace
+}  // namespace touchstone::bullet
+#endif
+
+TOUCHSTONE_NARROW_PHASE {
+  using namespace touchstone;
+  return {{.info = {.name = "bullet-box-box",
+                    .citation = "Bullet 3.24, btBoxBoxDetector",
+                    .origin = Origin::peer,
+                    .known_defect =
+                        "depth of the deepest contact point, which may be less than the boxes'"},
+           .tasks = {Task::intersect, Task::penetration},
+           .scalars = {Precision::float32},
+           .supports = [](ShapeKind a, ShapeKind b,
+                          Task) { return a == ShapeKind::box && b == ShapeKind::box; },
+           .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
+             return std::make_unique<bullet::BulletNarrowPhase<bullet::BoxBox>>();
+           })}};
+}

@@ -1,0 +1,80 @@
+// Bullet's GJK with EPA.
+// Paper:   none; Bullet 3.24, btGjkPairDetector: GJK by G. van den Bergen, JGT 1999, and EPA by
+//          N. Presson, btGjkEpa2.
+// Departs: bodies and poses as bullet_bodies.h says. Bullet has no boolean GJK: intersect asks for
+//          the distance with a cut-off at touch.
+// Fails:   all thresholds are absolute lengths, 1e-2 to 1e-6: bodies of millimetres that overlap
+//          are told apart, and gaps of 1e-5 between larger ones are taken for overlaps. EPA takes
+//          its first tetrahedron for the answer where the horizon degenerates.
+// Cost:    support calls linear in the vertices.
+#include "algorithms/narrow_phase.h"
+#if TOUCHSTONE_BUILT
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <limits>
+
+#include "algorithms/peers/bullet_bodies.h"
+
+namespace touchstone::bullet {
+namespace {
+
+struct GjkEpa {
+  static void prepare(Body&) {}
+
+  void answer(Query& query, Outcome& outcome) {
+    const btConvexShape* a = query.a.shape.get();
+    const btConvexShape* b = query.b.shape.get();
+    btGjkPairDetector detector(a, b, &simplex_, &epa_);
+    if (query.task != Task::distance) {
+      // Bullet compares the cores, without margins, with this. Touching bodies are kept.
+      const btScalar margins = a->getMargin() + b->getMargin();
+      query.input.m_maximumDistanceSquared =
+          margins * margins + std::numeric_limits<btScalar>::min();
+    }
+    Deepest deepest;
+    detector.getClosestPoints(query.input, deepest, nullptr);
+    outcome.iterations = detector.m_curIter;
+    outcome.status = Status::not_reported;
+    if (deepest.contact) {
+      report(*deepest.contact, query, outcome);
+    } else if (query.task != Task::distance && found_distance(detector.m_lastUsedMethod)) {
+      outcome.answer = Answer::separated;  // beyond the cut-off
+    } else {
+      // GJK came to its cap of 1000, or EPA found nothing where GJK says that they overlap.
+      constexpr int cap = 1000;
+      outcome.answer = Answer::unknown;
+      outcome.status = detector.m_curIter > cap ? Status::not_converged : Status::degenerate;
+    }
+  }
+
+ private:
+  // btGjkPairDetector's numbers: GJK's distance stands (1, 5, 8), or that of EPA's own GJK (6).
+  static bool found_distance(int method) {
+    return method == 1 || method == 5 || method == 6 || method == 8;
+  }
+
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver epa_;
+};
+
+}  // namespace
+}  // namespace touchstone::bullet
+#endif
+
+TOUCHSTONE_NARROW_PHASE {
+  using namespace touchstone;
+  return {
+      {.info = {.name = "bullet-gjk-epa",
+                .citation = "Bullet 3.24, btGjkPairDetector with btGjkEpaPenetrationDepthSolver",
+                .origin = Origin::peer,
+                .known_defect = "EPA stops at its first tetrahedron where flat faces meet "
+                                "squarely: depth down to 58 %"},
+       .tasks = {Task::intersect, Task::distance, Task::penetration},
+       .scalars = {Precision::float32},
+       .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
+       .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
+         return std::make_unique<bullet::BulletNarrowPhase<bullet::GjkEpa>>();
+       })}};
+}

@@ -1,0 +1,97 @@
+// Bullet's Minkowski portal refinement.
+// Paper:   none; Bullet 3.24, btMprPenetration.h: G. Snethen, Game Programming Gems 7, by way of
+//          libccd.
+// Departs: bodies and poses as bullet_bodies.h says. The boolean stops after the refined portal.
+//          The cap on iterations is ours, as the search for a portal has none.
+// Fails:   all thresholds are absolute. The depth is along the portal, an upper bound, and the
+//          witness points are one in the overlap and that point moved, so they are not on the
+//          surfaces.
+// Cost:    support calls linear in the vertices.
+#include "algorithms/narrow_phase.h"
+#if TOUCHSTONE_BUILT
+#include <BulletCollision/NarrowPhaseCollision/btMprPenetration.h>
+
+#include "algorithms/peers/bullet_bodies.h"
+
+namespace touchstone::bullet {
+namespace {
+
+class Mpr {
+ public:
+  explicit Mpr(const NarrowPhaseSettings& settings)
+      : cap_(settings.max_iterations.value_or(default_cap)) {}
+  static void prepare(Body&) {}
+
+  void answer(Query& query, Outcome& outcome) {
+    int calls = 0;
+    const View view_a{*query.a.shape, query.input.m_transformA, calls, cap_};
+    const View view_b{*query.b.shape, query.input.m_transformB, calls, cap_};
+    const btMprCollisionDescription description;
+    btMprDistanceInfo found{};
+    bool hit = false;
+    outcome.status = Status::not_reported;
+    try {
+      if (query.task == Task::intersect) {
+        btMprSimplex_t portal;
+        const int portal_found = btDiscoverPortal(view_a, view_b, description, &portal);
+        hit = portal_found > 0 ||
+              (portal_found == 0 && btRefinePortal(view_a, view_b, description, &portal) == 0);
+      } else {
+        hit = btComputeMprPenetration(view_a, view_b, description, &found) == 0;
+      }
+      outcome.answer = hit ? Answer::overlapping : Answer::separated;
+    } catch (const TooMany&) {
+      outcome.answer = Answer::unknown;
+      outcome.status = Status::not_converged;
+    }
+    outcome.support_calls = calls;
+    outcome.iterations = calls / 2;
+    if (hit && query.task == Task::penetration) {
+      report({found.m_normalBtoA, found.m_pointOnB, found.m_distance}, query, outcome);
+    }
+  }
+
+ private:
+  // The loop that looks for a portal has no cap in Bullet, so the support function has one: it is
+  // called for both bodies in each step of every loop. Refining has 1000 steps in Bullet, and so
+  // has finding the depth.
+  struct TooMany {};
+  static constexpr int default_cap = 3000;
+
+  struct View {
+    const btConvexShape& shape;
+    const btTransform& transform;
+    int& calls;
+    int cap;
+
+    const btTransform& getWorldTransform() const { return transform; }
+    const btVector3& getObjectCenterInWorld() const { return transform.getOrigin(); }
+    btVector3 getLocalSupportWithMargin(const btVector3& direction) const {
+      if (++calls > 2 * cap) throw TooMany{};
+      return shape.localGetSupportVertexNonVirtual(direction);
+    }
+  };
+
+  int cap_;
+};
+
+}  // namespace
+}  // namespace touchstone::bullet
+#endif
+
+TOUCHSTONE_NARROW_PHASE {
+  using namespace touchstone;
+  return {
+      {.info =
+           {.name = "bullet-mpr",
+            .citation = "Bullet 3.24, btComputeMprPenetration",
+            .origin = Origin::peer,
+            .known_defect =
+                "depth along the portal, an upper bound; witness points are not on the surfaces"},
+       .tasks = {Task::intersect, Task::penetration},
+       .scalars = {Precision::float32},
+       .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
+       .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
+         return std::make_unique<bullet::BulletNarrowPhase<bullet::Mpr>>(settings);
+       })}};
+}

@@ -1,0 +1,102 @@
+// Bullet's separating axis test of two polyhedra.
+// Paper:   none; Bullet 3.24, btPolyhedralContactClipping: P. Terdiman's.
+// Departs: bodies and poses as bullet_bodies.h says. The depth is measured with
+//          btConvexPolyhedron::project along the axis found, since findSeparatingAxis keeps it to
+//          itself.
+// Fails:   works on vertices that Bullet's hull computer has put on a grid. All thresholds are
+//          absolute lengths.
+// Cost:    O(E^2 V).
+#include "algorithms/narrow_phase.h"
+#if TOUCHSTONE_BUILT
+#include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
+#include <LinearMath/btConvexHullComputer.h>
+
+#include <cmath>
+
+#include "algorithms/peers/bullet_bodies.h"
+
+namespace touchstone::bullet {
+namespace {
+
+struct PolyhedralSat {
+  static void prepare(Body& body) {
+    if (!body.shape || !body.shape->isPolyhedral()) return;
+    auto& shape = static_cast<btPolyhedralConvexShape&>(*body.shape);
+    constexpr int most_vertices = 32767;  // Bullet numbers them with short integers
+    const int count = shape.getNumVertices();
+    if (count > most_vertices) return;
+    // Bullet reads what it has not set where its hull has less than a tetrahedron's faces: so its
+    // hull is looked at first.
+    std::vector<btVector3> vertices(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) shape.getVertex(i, vertices[static_cast<std::size_t>(i)]);
+    btConvexHullComputer hull;
+    hull.compute(&vertices[0].getX(), sizeof(btVector3), count, 0, 0);
+    if (hull.faces.size() < 4 || !shape.initializePolyhedralFeatures()) return;
+    const btConvexPolyhedron* features = shape.getConvexPolyhedron();
+    if (std::isfinite(features->m_localCenter.length2())) body.polyhedron = features;
+  }
+
+  void answer(Query& query, Outcome& outcome) {
+    if (query.a.polyhedron == nullptr || query.b.polyhedron == nullptr) {
+      outcome.answer = Answer::unknown;
+      outcome.status = Status::degenerate;
+      return;
+    }
+    const btConvexPolyhedron& hull_a = *query.a.polyhedron;
+    const btConvexPolyhedron& hull_b = *query.b.polyhedron;
+    const btTransform& at_a = query.input.m_transformA;
+    const btTransform& at_b = query.input.m_transformB;
+    outcome.status = Status::ok;
+    Deepest deepest;  // given the point of two edges here, those of faces by the clipping
+    btVector3 axis;   // from b to a
+    if (!btPolyhedralContactClipping::findSeparatingAxis(hull_a, hull_b, at_a, at_b, axis,
+                                                         deepest)) {
+      outcome.answer = Answer::separated;
+      return;
+    }
+    if (query.task == Task::intersect) {
+      outcome.answer = Answer::overlapping;
+      return;
+    }
+    axis.normalize();
+    btScalar low_a, high_a, low_b, high_b;
+    btVector3 lowest, highest, unused;
+    hull_a.project(at_a, axis, low_a, high_a, lowest, unused);
+    hull_b.project(at_b, axis, low_b, high_b, unused, highest);
+    const btScalar depth = high_b - low_a;
+    if (!deepest.contact) {
+      const btScalar all = BT_LARGE_FLOAT;
+      btPolyhedralContactClipping::clipHullAgainstHull(axis, hull_a, hull_b, at_a, at_b, -all, 0,
+                                                       polygon_, clipped_, deepest);
+    }
+    const btVector3 point = deepest.contact ? deepest.contact->point_on_b : highest;
+    report({axis, point, -depth}, query, outcome);
+    if (outcome.answer == Answer::separated) outcome.answer = Answer::touching;  // rounding
+  }
+
+ private:
+  btVertexArray polygon_, clipped_;
+};
+
+}  // namespace
+}  // namespace touchstone::bullet
+#endif
+
+TOUCHSTONE_NARROW_PHASE {
+  using namespace touchstone;
+  return {{.info = {.name = "bullet-sat",
+                    .citation = "Bullet 3.24, btPolyhedralContactClipping::findSeparatingAxis",
+                    .origin = Origin::peer},
+           .tasks = {Task::intersect, Task::penetration},
+           .scalars = {Precision::float32},
+           .supports =
+               [](ShapeKind a, ShapeKind b, Task) {
+                 const auto flat_sided = [](ShapeKind k) {
+                   return k == ShapeKind::box || k == ShapeKind::hull;
+                 };
+                 return flat_sided(a) && flat_sided(b);
+               },
+           .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
+             return std::make_unique<bullet::BulletNarrowPhase<bullet::PolyhedralSat>>();
+           })}};
+}
