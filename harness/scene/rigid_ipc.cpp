@@ -43,6 +43,10 @@ Json parse(const std::filesystem::path& file) {
 }
 
 // One JSON object, with its name for messages.
+bool has_velocity(const Body& body) {
+  return !(body.velocity.isZero(0) && body.angular_velocity.isZero(0));
+}
+
 class Reader {
  public:
   Reader(const Json& object, std::string file, std::string where)
@@ -157,8 +161,8 @@ class Importer {
       if (fixed[static_cast<std::size_t>(k)]) placed.velocity[k] = 0;
       if (fixed[static_cast<std::size_t>(k + 3)]) placed.angular_velocity[k] = 0;
     }
-    placed.moving =
-        type != "static" && !(placed.velocity.isZero(0) && placed.angular_velocity.isZero(0));
+    // A dynamic body at rest may still be given a motion by the scene that imports it.
+    placed.moving = type == "dynamic" || (type == "kinematic" && has_velocity(placed));
     const double end = body.number("kinematic_max_time", -1);
     if (type == "kinematic" && end >= 0) end_ = std::min(end_, end);
 
@@ -290,8 +294,8 @@ class Importer {
     if (!(step > 0)) top.fail("'timestep': expected a number above 0");
     scene_.motion.kind = MotionKind::inertial;
     scene_.motion.time_step = step;
-    const bool moves = std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                                   [](const Body& body) { return body.moving; });
+    const bool moves = std::ranges::any_of(
+        scene_.bodies, [](const Body& body) { return body.moving && has_velocity(body); });
     if (!moves) return;
     const double time = top.number("max_time", -1);
     double steps = time >= 0 ? std::ceil(time / step) : top.number("max_iterations", 0);
