@@ -42,11 +42,11 @@ Json parse(const std::filesystem::path& file) {
   }
 }
 
-// One JSON object, with its name for messages.
 bool has_velocity(const Body& body) {
   return !(body.velocity.isZero(0) && body.angular_velocity.isZero(0));
 }
 
+// One JSON object, with its name for messages.
 class Reader {
  public:
   Reader(const Json& object, std::string file, std::string where)

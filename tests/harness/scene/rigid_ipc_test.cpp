@@ -133,7 +133,7 @@ TEST_F(RigidIpc, VelocitiesAndFrames) {
   EXPECT_EQ(scene.bodies[1].angular_velocity.y(), 0);
   std::vector<bool> moving;
   for (const Body& b : scene.bodies) moving.push_back(b.moving);
-  EXPECT_EQ(moving, (std::vector<bool>{true, true, false, false, false}));
+  EXPECT_EQ(moving, (std::vector<bool>{true, true, false, false, true}));
   EXPECT_EQ(scene.motion.time_step, 0.25);
   EXPECT_EQ(scene.frames, 10);  // nine steps
 
