@@ -6,10 +6,14 @@
 
 #include <stdexcept>
 
-#if defined(__SANITIZE_THREAD__)
-#include <sanitizer/tsan_interface.h>
-// Debian's libtbb is not instrumented, so ThreadSanitizer cannot see that a fork happens before its
-// tasks and the tasks before the join. These two say so, once, for every algorithm.
+#if defined(TOUCHSTONE_THREAD_SANITIZER)
+// Debian's libtbb is not instrumented, and half of oneTBB is in headers: so this file is not instrumented
+// either (the build sees to it), and ThreadSanitizer knows nothing of the fork and the join. These two tell
+// it, once, for every algorithm.
+extern "C" {
+void __tsan_acquire(void* address);
+void __tsan_release(void* address);
+}
 #define TOUCHSTONE_HAPPENS_BEFORE(address) __tsan_release(address)
 #define TOUCHSTONE_HAPPENS_AFTER(address) __tsan_acquire(address)
 #else
