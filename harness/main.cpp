@@ -34,7 +34,15 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     return status;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_done : exit_bad_request;
+    const bool help = error.get_exit_code() == 0;
+    if (help || !app.get_subcommands().empty()) {
+      return app.exit(error) == 0 ? exit_done : exit_bad_request;
+    }
+    std::fprintf(stderr, "touchstone: %s\nExpected a command, one of:", error.what());
+    for (const CLI::App* command : app.get_subcommands({})) {
+      std::fprintf(stderr, " %s", command->get_name().c_str());
+    }
+    std::fputs(". Run with --help for more information.\n", stderr);
   } catch (const InputError& error) {
     std::fprintf(stderr, "touchstone: %s\n", error.what());  // fmt would throw where it fails
   } catch (const std::bad_alloc&) {

@@ -74,7 +74,7 @@ void NarrowRunner::compare(int frame, std::span<const Pose> poses,
         const OutcomeFaults faults = compare(contestant, task, group, reference, frame, poses);
         faults_[key] = faults;
         context_.findings->add(contestant.label, task, group.name(), faults);
-        if ((faults.disagree > 0 || faults.crashed > 0) && reported_.insert(key).second) {
+        if ((faults.disagree > 0 || faults.lost()) && reported_.insert(key).second) {
           report(contestant, task, group, faults, frame, poses);
         }
       }
@@ -97,7 +97,7 @@ OutcomeFaults NarrowRunner::compare(Contestant& contestant, Task task, const Pai
   }
   OutcomeFaults faults =
       check_outcomes(outcomes, reference, task, contestant.choice.settings.scalar);
-  if (faults.crashed > 0 || watch.seconds() > limit) {
+  if (faults.lost() || watch.seconds() > limit) {
     out_.insert({contestant.label, task, group.name()});
     RawRow row = context_.row(frame);
     row.narrow = contestant.info().name;
@@ -105,11 +105,9 @@ OutcomeFaults NarrowRunner::compare(Contestant& contestant, Task task, const Pai
     row.task = to_string(task);
     row.pair_kind = group.name();
     row.phase = Phase::narrow;
-    const auto crashed = [](const Outcome& outcome) { return outcome.status == Status::crashed; };
-    row.status =
-        to_string(std::ranges::any_of(outcomes, crashed) ? Status::crashed : Status::timed_out);
+    row.status = to_string(faults.crashed > 0 ? Status::crashed : Status::timed_out);
     context_.findings->add(std::move(row));
-    if (faults.crashed > 0 && !faults.worst_pair) {
+    if (faults.lost() && !faults.worst_pair) {
       const auto lost = std::ranges::find_if(outcomes, [](const Outcome& outcome) {
         return outcome.status == Status::crashed || outcome.status == Status::timed_out;
       });
@@ -129,7 +127,10 @@ void NarrowRunner::report(const Contestant& contestant, Task task, const PairGro
       .what = "",
       .reproduction = ""};
   if (faults.crashed > 0) {
-    departure.what = fmt::format("{} of {} queries crashed or hung", faults.crashed, group.size());
+    departure.what = fmt::format("{} of {} queries crashed", faults.crashed, group.size());
+  } else if (faults.timed_out > 0) {
+    departure.what = fmt::format("{} of {} queries were not answered within {:g} s",
+                                 faults.timed_out, group.size(), context_.block->group->time_limit);
   } else {
     const std::size_t i = *faults.worst_pair;
     departure.what =

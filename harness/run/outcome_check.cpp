@@ -38,6 +38,7 @@ void OutcomeFaults::add(const OutcomeFaults& other) {
   grazing += other.grazing;
   failed += other.failed;
   crashed += other.crashed;
+  timed_out += other.timed_out;
   unanswered += other.unanswered;
   contacts += other.contacts;
   values += other.values;
@@ -64,8 +65,8 @@ OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
     const ReferenceOutcome& expected = reference[i];
     if (in_contact(outcome.answer)) ++faults.contacts;
     switch (outcome.status) {
-      case Status::crashed:
-      case Status::timed_out: ++faults.crashed; continue;
+      case Status::crashed: ++faults.crashed; continue;
+      case Status::timed_out: ++faults.timed_out; continue;
       case Status::not_converged:
       case Status::degenerate:
       case Status::capacity: ++faults.failed; continue;

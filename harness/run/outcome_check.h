@@ -28,7 +28,8 @@ struct OutcomeFaults {
   std::int64_t disagree = 0;              // the other side of contact, beyond the grazing band
   std::int64_t grazing = 0;               // the other side of contact, within it
   std::int64_t failed = 0;                // not_converged, degenerate, capacity: an honest failure
-  std::int64_t crashed = 0;               // crashed or timed out
+  std::int64_t crashed = 0;               // killed its process
+  std::int64_t timed_out = 0;             // stopped, or not begun before the time was over
   std::int64_t unanswered = 0;            // unsupported or unknown without a failure
   std::int64_t contacts = 0;              // answered touching or overlapping
   double worst = 0;                       // metres: greatest |reference distance| among `disagree`
@@ -36,6 +37,7 @@ struct OutcomeFaults {
   std::int64_t values = 0;                // distances or depths that both gave
   double worst_value_error = 0;           // greatest difference, as a part of the size of the pair
 
+  bool lost() const { return crashed + timed_out > 0; }
   void add(const OutcomeFaults& other);  // sums and maxima; the pair is the worse one's
 };
 

@@ -81,6 +81,23 @@ class Grid {
   std::map<std::string, std::string> remarks_;
 };
 
+struct Weighted {
+  double value, weight;
+};
+
+// Half of the weight is at or below it: rows of many queries count for more than rows of few, and a
+// row that was interrupted counts for no more than its queries.
+double median(std::vector<Weighted> values) {
+  std::ranges::sort(values, {}, &Weighted::value);
+  double rest = 0;
+  for (const Weighted& v : values) rest += v.weight / 2;
+  for (const Weighted& v : values) {
+    rest -= v.weight;
+    if (rest <= 0) return v.value;
+  }
+  return values.back().value;
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -192,7 +209,7 @@ std::string broad_table(const Findings& findings, std::size_t page_width) {
 std::string narrow_tables(const Findings& findings, std::size_t page_width) {
   const Varying varying(findings.rows(), true);
   struct Sum {
-    double seconds = 0;
+    std::vector<Weighted> times;  // nanoseconds a query, of each row
     std::int64_t queries = 0;
     bool lost = false;
   };
@@ -218,7 +235,8 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
         if (failed(row)) {
           sum.lost = true;
         } else {
-          sum.seconds += row.seconds;
+          const auto count = static_cast<double>(row.pair_count);
+          sum.times.push_back({1e9 * row.seconds / count, count});
           sum.queries += row.pair_count;
         }
       }
@@ -240,9 +258,7 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
         const auto sum = sums.find({label, kind});
         if (sum == sums.end()) continue;
         Grid::Cell& cell = grid.at(label, kind);
-        if (sum->second.queries > 0) {
-          cell.time = 1e9 * sum->second.seconds / static_cast<double>(sum->second.queries);
-        }
+        if (sum->second.queries > 0) cell.time = median(sum->second.times);
         if (sum->second.lost) cell.note = "!";
       }
       OutcomeFaults all;
@@ -258,14 +274,15 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
                                              : fmt::format("{} of {} differ, by {:.2g} m",
                                                            all.disagree, all.compared, all.worst);
       if (all.failed > 0) remark += fmt::format(", {} gave up", all.failed);
-      if (all.crashed > 0) remark += fmt::format(", {} lost", all.crashed);
+      if (all.lost()) remark += fmt::format(", {} lost", all.crashed + all.timed_out);
       if (task != Task::intersect && all.values > 0) {
         remark += fmt::format(", error {:.0e}", all.worst_value_error);
       }
       grid.add_remark(label, remark);
     }
     text += fmt::format(
-        "Narrow phases, task {}: nanoseconds a query; * is the fastest of those that agree, ~ "
+        "Narrow phases, task {}: nanoseconds a query, median; * is the fastest of those that "
+        "agree, ~ "
         "disagrees "
         "on some pair, ! crashed, hung or was too slow\n\n",
         to_string(task));

@@ -11,8 +11,8 @@ namespace touchstone {
 // update (or build, where every frame is built anew) and find_pairs.
 std::string broad_table(const Findings& findings, std::size_t page_width);
 
-// Narrow phases by kind of pairs, one table a task: nanoseconds a query, all queries' time over
-// their number.
+// Narrow phases by kind of pairs, one table a task: nanoseconds a query, the median
+// over the frames, weighted by their queries.
 std::string narrow_tables(const Findings& findings, std::size_t page_width);
 
 // Who departed from whom, on what, by how much, and the file that shows it.

@@ -39,7 +39,7 @@ toml::table parse_toml(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream content;
   if (!std::filesystem::is_regular_file(path) || !(content << stream.rdbuf())) {
-    throw InputError(file, 0, "cannot be read; expected a scene file");
+    throw InputError(file, 0, "cannot be read; expected a TOML file");
   }
   try {
     return toml::parse(content.str(), file);
