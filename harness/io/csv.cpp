@@ -3,6 +3,7 @@
 #include <csv.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <stdio_ext.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -215,7 +216,7 @@ void check_output(const std::filesystem::path& file) {
   if (!is_device(file)) CsvWriter(file, {});
 }
 
-CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>& header)
+CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>& header, Keep keep)
     : file_(std::move(file)), columns_(header.size()) {
   if (file_.empty()) throw InputError("the output's name is empty; expected a file");
   std::error_code ignored;
@@ -224,6 +225,9 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
   if (is_device(file_)) {
     // A device or a pipe is written as it is: renaming a file over it would replace it.
     descriptor = open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+  } else if (keep == Keep::flushed_rows) {
+    descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    flushed_ = 0;
   } else {
     // Through a symbolic link, the file that it names is replaced, and not the link.
     if (std::filesystem::is_symlink(file_, ignored)) {
@@ -249,6 +253,8 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
     discard();
     write_failed(file_, reason);
   }
+  // So that rows leave the process when they are flushed, and not in the middle of one before.
+  if (flushed_ >= 0) std::setvbuf(stream_, nullptr, _IOFBF, std::size_t{1} << 20);
   for (const std::string& name : header) field(name);
   if (!header.empty()) end_row();
 }
@@ -256,6 +262,10 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
 CsvWriter::~CsvWriter() { discard(); }
 
 void CsvWriter::discard() {
+  if (stream_ != nullptr && flushed_ >= 0) {
+    __fpurge(stream_);  // what is in the buffer is not to follow
+    if (ftruncate(fileno(stream_), flushed_) != 0) std::perror(file_.c_str());
+  }
   if (stream_ != nullptr) std::fclose(stream_);
   stream_ = nullptr;
   if (!temporary_.empty()) std::remove(temporary_.c_str());
@@ -300,6 +310,7 @@ void CsvWriter::end_row() {
 
 void CsvWriter::flush() {
   if (std::fflush(stream_) != 0) fail();
+  if (flushed_ >= 0) flushed_ = ftello(stream_);
 }
 
 void CsvWriter::close() {

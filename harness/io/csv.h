@@ -1,6 +1,8 @@
 // CSV: rows read by column name with exact numbers, and files that are whole or not there.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -57,7 +59,13 @@ void check_output(const std::filesystem::path& file);
 // is written as it is.
 class CsvWriter {
  public:
-  CsvWriter(std::filesystem::path file, const std::vector<std::string>& header);
+  // What is there when the work does not come to its end: nothing, or every row that was flushed.
+  enum class Keep : std::uint8_t { whole_file, flushed_rows };
+
+  // With Keep::flushed_rows the file itself is written, whatever it held before; after a failure it
+  // is cut back to the last flush.
+  CsvWriter(std::filesystem::path file, const std::vector<std::string>& header,
+            Keep keep = Keep::whole_file);
   ~CsvWriter();
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
@@ -81,6 +89,7 @@ class CsvWriter {
   std::FILE* stream_ = nullptr;
   std::string line_;
   std::size_t columns_ = 0, fields_ = 0;
+  off_t flushed_ = -1;  // bytes that a failure leaves; -1: it leaves no file
 };
 
 }  // namespace touchstone

@@ -67,7 +67,7 @@ std::string label(const Block& block, const Scene& scene) {
 class RowWriter {
  public:
   RowWriter(const Campaign& campaign, const std::filesystem::path& file)
-      : campaign_(campaign.name), file_(file, raw_header()) {}
+      : campaign_(campaign.name), file_(file, raw_header(), CsvWriter::Keep::flushed_rows) {}
   void write_new(const Findings& findings) {
     for (; written_ < findings.rows().size(); ++written_) {
       write(file_, findings.rows()[written_], campaign_);

@@ -233,5 +233,21 @@ TEST_F(Csv, CheckOutputLeavesNothing) {
   EXPECT_THROW(check_output(folder.path()), InputError);
 }
 
+TEST_F(Csv, AWriterThatKeepsRowsLeavesThoseThatWereFlushed) {
+  const auto file = folder.path() / "raw.csv";
+  {
+    CsvWriter writer(file, {"a"}, CsvWriter::Keep::flushed_rows);
+    writer.field(1).end_row();
+    writer.flush();
+    EXPECT_EQ(folder.read("raw.csv"), "a\n1\n");
+    for (int i = 0; i < 1'000'000; ++i) writer.field(2).end_row();
+    writer.field("half a row");
+  }
+  EXPECT_EQ(folder.read("raw.csv"), "a\n1\n");
+  CsvWriter again(file, {"b"}, CsvWriter::Keep::flushed_rows);
+  again.close();
+  EXPECT_EQ(folder.read("raw.csv"), "b\n");
+}
+
 }  // namespace
 }  // namespace touchstone
