@@ -247,6 +247,7 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
     std::map<std::string, std::int64_t> queries;
     for (const auto& [key, sum] : sums) queries[key.second] += sum.queries;
     std::vector<std::string> kinds;
+    kinds.reserve(queries.size());
     for (const auto& [kind, count] : queries) kinds.push_back(kind);
     std::ranges::stable_sort(kinds, std::greater(),
                              [&](const auto& kind) { return queries[kind]; });
