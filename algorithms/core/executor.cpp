@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #if defined(TOUCHSTONE_THREAD_SANITIZER)
-// Debian's libtbb is not instrumented, and half of oneTBB is in headers: so this file is not instrumented
-// either (the build sees to it), and ThreadSanitizer knows nothing of the fork and the join. These two tell
-// it, once, for every algorithm.
+// Debian's libtbb is not instrumented, and half of oneTBB is in headers: so this file is not
+// instrumented either (the build sees to it), and ThreadSanitizer knows nothing of the fork and the
+// join. These two tell it, once, for every algorithm.
 extern "C" {
 void __tsan_acquire(void* address);
 void __tsan_release(void* address);

@@ -13,7 +13,8 @@ namespace touchstone {
 // Two boxes by their index, a < b.
 struct IndexPair {
   std::uint32_t a, b;
-  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a pointer's
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
+  // pointer's
   friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 

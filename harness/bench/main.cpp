@@ -62,8 +62,7 @@ void broad(benchmark::State& state, const BroadPhaseEntry& entry, const Stage& s
 
 void narrow(benchmark::State& state, const NarrowPhaseEntry& entry, Precision scalar, Task task,
             const PairGroup& group, const Stage& stage) {
-  const std::unique_ptr<NarrowPhase> algorithm =
-      entry.make({.scalar = scalar});
+  const std::unique_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
   algorithm->bind(stage.scene.shapes);
   std::vector<Outcome> outcomes(group.size());
   const PairBatch batch = group.batch(task, stage.shape_of, stage.poses, 0, group.size());

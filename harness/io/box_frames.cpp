@@ -113,7 +113,8 @@ std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file) {
   return frames;
 }
 
-void write_box_frames(std::span<const std::vector<Aabb>> frames, const std::filesystem::path& file) {
+void write_box_frames(std::span<const std::vector<Aabb>> frames,
+                      const std::filesystem::path& file) {
   CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     for (std::size_t id = 0; id < frames[frame].size(); ++id) {

@@ -30,8 +30,8 @@ struct BoxFrame {
 // range of float, min > max, an id or a frame out of order.
 std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file);
 
-// Writes such a CSV file, whole or not at all; frames are numbered from 0. Empty boxes are left out, so
-// only those behind the last body of a frame may be empty.
+// Writes such a CSV file, whole or not at all; frames are numbered from 0. Empty boxes are left
+// out, so only those behind the last body of a frame may be empty.
 void write_box_frames(std::span<const std::vector<Aabb>> frames, const std::filesystem::path& file);
 
 }  // namespace touchstone
