@@ -47,10 +47,10 @@ NarrowRunner::NarrowRunner(const RunContext& context, Executor& executor)
     : context_(context), executor_(&executor), reference_(context.scene->shapes) {
   for (const Body& body : context.scene->bodies) shape_of_.push_back(body.shape);
   for (const NarrowChoice& choice : context.block->group->narrow) {
-    Contestant contestant{
-        choice,
-        fmt::format("{} {}", choice.entry->info.name, to_string(choice.settings.scalar)),
-        {}};
+    Contestant contestant{choice,
+                          narrow_label(choice.entry->info.name, to_string(choice.settings.scalar),
+                                       choice.settings.tolerance.value_or(Outcome::none)),
+                          {}};
     for (int worker = 0; worker < executor.width(); ++worker) {
       contestant.instances.push_back(choice.entry->make(choice.settings));
       contestant.instances.back()->bind(context.scene->shapes);

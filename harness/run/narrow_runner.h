@@ -35,7 +35,7 @@ class NarrowRunner {
  private:
   struct Contestant {
     NarrowChoice choice;
-    std::string label;                                    // name and scalar
+    std::string label;                                    // narrow_label
     std::vector<std::unique_ptr<NarrowPhase>> instances;  // one a worker
 
     const AlgorithmInfo& info() const { return choice.entry->info; }

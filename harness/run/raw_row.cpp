@@ -1,5 +1,9 @@
 #include "harness/run/raw_row.h"
 
+#include <fmt/core.h>
+
+#include <cmath>
+
 #include "algorithms/core/isa.h"
 
 namespace touchstone {
@@ -65,6 +69,12 @@ std::string_view to_string(Phase phase) {
     case Phase::narrow: return "narrow";
   }
   return "?";
+}
+
+std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance) {
+  std::string label = fmt::format("{} {}", name, scalar);
+  if (!std::isnan(tolerance)) label += fmt::format(" {:g}", tolerance);
+  return label;
 }
 
 std::vector<std::string> raw_header() {

@@ -36,6 +36,10 @@ struct RawRow {
   std::string status;
 };
 
+// A narrow phase with its settings, as the tables name it: "gjk double", "gjk double 1e-06". A NaN
+// is the algorithm's own tolerance.
+std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance);
+
 std::vector<std::string> raw_header();
 void write(CsvWriter& file, const RawRow& row, const std::string& campaign);
 

@@ -215,6 +215,7 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
   };
   std::map<Task, std::map<std::pair<std::string, std::string>, Sum>> tasks;
   std::map<Task, std::vector<std::string>> order;
+  std::map<std::string, std::string> base_of;  // a label without what varies
   const auto task_of = [](const std::string& name) {
     return name == to_string(Task::intersect)  ? Task::intersect
            : name == to_string(Task::distance) ? Task::distance
@@ -228,7 +229,9 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
           continue;
         }
         const Task task = task_of(row.task);
-        const std::string label = row.narrow + " " + row.scalar + varying.label(row);
+        const std::string base = narrow_label(row.narrow, row.scalar, row.tolerance);
+        const std::string label = base + varying.label(row);
+        base_of[label] = base;
         std::vector<std::string>& labels = order[task];
         if (std::ranges::find(labels, label) == labels.end()) labels.push_back(label);
         Sum& sum = tasks[task][{label, row.pair_kind}];
@@ -265,7 +268,7 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
       OutcomeFaults all;
       for (const auto& [key, faults] : findings.outcomes()) {
         const auto& [its_task, narrow, kind] = key;
-        if (its_task != task || !label.starts_with(narrow)) continue;
+        if (its_task != task || base_of[label] != narrow) continue;
         all.add(faults);
         if (faults.disagree > 0 && std::ranges::find(kinds, kind) != kinds.end()) {
           grid.at(label, kind).note += "~";
