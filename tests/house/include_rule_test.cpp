@@ -61,8 +61,10 @@ bool is_contract(const std::string& path) {
 // Whether a file may include one of the project's own.
 bool may_include(const std::string& from, const std::string& to) {
   if (in(to, "algorithms/core")) return true;
-  if (in(from, "algorithms/core") || in(from, "algorithms/oracle"))
-    return in(to, "algorithms/oracle");
+  if (in(from, "algorithms/oracle")) {
+    return in(to, "algorithms/oracle") || (is_contract(to) && from.ends_with("/exact.cpp"));
+  }
+  if (in(from, "algorithms/core")) return false;
   if (is_contract(to)) return !in(from, "algorithms/kernels");
   if (is_contract(from)) return false;
   if (in(from, "algorithms/kernels") || in(from, "algorithms/broad_phase") ||
@@ -71,7 +73,9 @@ bool may_include(const std::string& from, const std::string& to) {
   }
   if (in(from, "algorithms/peers")) return in(to, "algorithms/peers") && to.ends_with(".h");
   if (from == "algorithms/registry.h") return false;
-  if (in(from, "harness")) return to == "algorithms/registry.h" || in(to, "harness");
+  if (in(from, "harness")) {
+    return to == "algorithms/registry.h" || in(to, "algorithms/oracle") || in(to, "harness");
+  }
   return in(from, "tests");
 }
 

@@ -1,0 +1,46 @@
+// Floating-point numbers as what they are: integers times powers of two.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "algorithms/oracle/integer.h"
+
+namespace touchstone::oracle {
+
+// mantissa * 2^exponent; the mantissa is odd, or zero with the greatest exponent there is.
+struct Dyadic {
+  static constexpr int of_zero = std::numeric_limits<int>::max() / 4;
+
+  Integer mantissa = 0;
+  int exponent = of_zero;
+
+  // The number over 2^e, for e <= exponent.
+  Integer over_power(int e) const {
+    return mantissa.is_zero() ? Integer(0) : mantissa << (exponent - e);
+  }
+};
+
+// Exact, for finite numbers of up to 64 bits.
+template <class Scalar>
+Dyadic dyadic(Scalar x) {
+  static_assert(std::numeric_limits<Scalar>::radix == 2 &&
+                std::numeric_limits<Scalar>::digits <= 64);
+  if (x == 0) return {};
+  int exponent = 0;
+  const Scalar fraction = std::frexp(x < 0 ? -x : x, &exponent);
+  auto bits = static_cast<std::uint64_t>(std::ldexp(fraction, 64));
+  exponent -= 64;
+  const int zeros = __builtin_ctzll(bits);
+  bits >>= zeros;
+  Integer mantissa = bits;
+  if (x < 0) mantissa = -mantissa;
+  return {mantissa, exponent + zeros};
+}
+
+// mantissa * 2^exponent rounded to a double towards minus infinity, towards plus infinity.
+double round_down(const Integer& mantissa, long exponent);
+double round_up(const Integer& mantissa, long exponent);
+
+}  // namespace touchstone::oracle

@@ -1,0 +1,39 @@
+// The integers of the exact problem.
+#pragma once
+
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdint>
+
+namespace touchstone::oracle {
+
+// Unbounded; 1,024 bits are held without touching the heap, which covers bodies of about one size.
+using Integer = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<1024, 0, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked,
+                                           std::allocator<boost::multiprecision::limb_type>>,
+    boost::multiprecision::et_off>;
+
+using IntegerVector = std::array<Integer, 3>;
+
+inline Integer dot(const IntegerVector& u, const IntegerVector& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+inline IntegerVector cross(const IntegerVector& u, const IntegerVector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+inline IntegerVector operator+(const IntegerVector& u, const IntegerVector& v) {
+  return {u[0] + v[0], u[1] + v[1], u[2] + v[2]};
+}
+inline IntegerVector operator-(const IntegerVector& u, const IntegerVector& v) {
+  return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
+}
+inline IntegerVector operator-(const IntegerVector& u) { return {-u[0], -u[1], -u[2]}; }
+inline IntegerVector operator*(const Integer& s, const IntegerVector& v) {
+  return {s * v[0], s * v[1], s * v[2]};
+}
+inline bool is_zero(const IntegerVector& v) {
+  return v[0].is_zero() && v[1].is_zero() && v[2].is_zero();
+}
+
+}  // namespace touchstone::oracle
