@@ -10,18 +10,18 @@ namespace {
 // Collects what is beyond a limit. NaN is no number to be held to one.
 class Remarks {
  public:
-  explicit Remarks(double size) : size_(size) {}
+  explicit Remarks(double scale) : scale_(scale) {}
 
   void test(const char* what, double error, double limit) {
-    if (!(error > limit * size_)) return;
+    if (!(error > limit * scale_)) return;
     add(fmt::format("{} by {:.3g} m, {:.1e} of the size; at most {:.0e} is documented", what, error,
-                    error / size_, limit));
+                    error / scale_, limit));
   }
   void add(const std::string& text) { text_ += (text_.empty() ? "" : "; ") + text; }
   const std::string& text() const { return text_; }
 
  private:
-  double size_;
+  double scale_;
   std::string text_;
 };
 
@@ -32,17 +32,17 @@ Margins documented_margins(Precision scalar, bool extreme) {
   return {.verdict = extreme ? 1e-9 : 1e-12, .length = 1e-9};
 }
 
-std::string beyond_margins(const NarrowPhaseEntry& entry, Precision scalar, Task task,
-                           Answer answer, const Grade& grade, const WitnessGrade& witnesses,
-                           double size, bool extreme) {
-  const Margins margins = documented_margins(scalar, extreme);
-  Remarks remarks(size);
+std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& answer,
+                           bool extreme) {
+  const Grade& grade = answer.end_to_end;
+  const Margins margins = documented_margins(answer.scalar, extreme);
+  Remarks remarks(scale_of(answer));
   if (grade.verdict == Verdict::crashed) remarks.add("crashed");
   if (grade.verdict == Verdict::timed_out) remarks.add("no answer in time");
-  if (grade.verdict == Verdict::silent_error && !(entry.approximate && is_contact(answer))) {
-    remarks.test(
-        is_contact(answer) ? "called overlapping, and apart" : "called separated, and overlapping",
-        grade.margin, margins.verdict);
+  if (grade.verdict == Verdict::silent_error && !(entry.approximate && is_contact(answer.answer))) {
+    remarks.test(is_contact(answer.answer) ? "called overlapping, and apart"
+                                           : "called separated, and overlapping",
+                 grade.margin, margins.verdict);
   }
   remarks.test("the certified bounds miss the exact value", grade.bounds_error, margins.verdict);
   remarks.test("the distance is wrong", std::abs(grade.distance_error), margins.length);
@@ -50,10 +50,10 @@ std::string beyond_margins(const NarrowPhaseEntry& entry, Precision scalar, Task
   if (!entry.depth_is_bound) {
     remarks.test("the depth is too great", grade.depth_error, margins.length);
   }
-  if (task == Task::penetration) {
+  if (answer.task == Task::penetration) {
     remarks.test("the translation does not separate", grade.separation_error, margins.length);
   }
-  if (witnesses.not_a_number) remarks.add("a reported number is NaN or infinite");
+  if (answer.witnesses.not_a_number) remarks.add("a reported number is NaN or infinite");
   return remarks.text();
 }
 

@@ -5,7 +5,8 @@
 //   side of contact, bounds       1e-12     1e-9        1e-5       1e-4
 //   distance, depth               1e-9      1e-9        1e-4       1e-4
 //
-// Each is a part of the pair's size, and holds end to end: against the pair as the case has it. A
+// Each is a part of the pair's scale (scale_of), and holds end to end: against the pair as the case
+// has it. A
 // depth that is labelled as a bound may be too great, and never too small; the translation that it
 // states separates the bodies. An approximate algorithm may call bodies overlapping that are apart,
 // and never the reverse.
@@ -13,8 +14,7 @@
 
 #include <string>
 
-#include "algorithms/narrow_phase.h"
-#include "harness/check/grade.h"
+#include "harness/check/graded_answer.h"
 
 namespace touchstone {
 
@@ -26,9 +26,6 @@ struct Margins {
 Margins documented_margins(Precision scalar, bool extreme);
 
 // What of an answer is beyond the margins of its algorithm, in words; empty where nothing is.
-// `grade` is end to end; `size` is the pair's in metres.
-std::string beyond_margins(const NarrowPhaseEntry& entry, Precision scalar, Task task,
-                           Answer answer, const Grade& grade, const WitnessGrade& witnesses,
-                           double size, bool extreme);
+std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& answer, bool extreme);
 
 }  // namespace touchstone
