@@ -27,6 +27,11 @@ struct Item {
   Task task;
 };
 
+// "rotation" of "rotation+y+z+x".
+std::string kind_of(const Variant& variant) {
+  return variant.name.substr(0, variant.name.find_first_of("+-"));
+}
+
 void note_worst(JobSummary& summary, bool is_first, std::uint64_t index) {
   if (is_first) summary.worst_index = index;
 }
@@ -108,7 +113,8 @@ class Job {
     const IsolationReport report = isolate(items.size(), limits, [&]() -> ItemWork {
       return [&](std::size_t i) {
         const Item& item = items[i];
-        const Case& c = item.variant != nullptr ? item.variant->c : cases_[item.place].pair();
+        const Case& c =
+            item.variant != nullptr ? item.variant->transformed : cases_[item.place].pair();
         outcomes[i] = solve_case(algorithm, settings, c, item.task);
       };
     });
@@ -138,12 +144,13 @@ class Job {
   void compare(const GradedAnswer& original, const Outcome& outcome, const Variant& variant,
                const Outcome& of_variant) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[original.entry];
-    VariantCount& count = counts_[{original.entry, original.scalar, original.task, variant.name}];
+    const std::string kind = kind_of(variant);
+    VariantCount& count = counts_[{original.entry, original.scalar, original.task, kind}];
     if (count.variant[0] == '\0') {
       count.entry = original.entry;
       count.scalar = original.scalar;
       count.task = original.task;
-      variant.name.copy(count.variant.data(), count.variant.size() - 1);
+      kind.copy(count.variant.data(), count.variant.size() - 1);
     }
     const auto is_lost = [](const Outcome& o) {
       return o.status == Status::crashed || o.status == Status::timed_out;
@@ -157,7 +164,7 @@ class Job {
     }
     if (stands_by(outcome) && stands_by(of_variant)) {
       ++count.compared;
-      const Outcome turned_back = variant.back(of_variant);
+      const Outcome turned_back = to_original(variant, of_variant);
       const double scale = scale_of(original);
       if (is_contact(outcome.answer) != is_contact(of_variant.answer)) {
         if (original.exact == Answer::separated || original.exact == Answer::overlapping) {

@@ -83,7 +83,7 @@ class Grouped {
 };
 
 Rows summary_rows(const Grouped& grouped) {
-  Rows rows = {{"", "answers", "silent", "margin", "honest", "unsaid", "lost", "gap", "too deep",
+  Rows rows = {{"", "answers", "silent", "margin", "honest", "unsaid", "lost", "gap", "deep",
                 "shallow", "stuck", "bounds", "flips", "beyond"}};
   for (const auto& [label, totals] : grouped.totals()) {
     const AnswerCount& a = totals.answers;
@@ -95,6 +95,8 @@ Rows summary_rows(const Grouped& grouped) {
   }
   return rows;
 }
+
+constexpr std::size_t shown_lines = 30;  // of what is wrong of ours
 
 constexpr std::string_view summary_key =
     "silent: on the wrong side of contact, with a status that does not tell; margin: the greatest\n"
@@ -169,10 +171,10 @@ std::vector<std::string> CheckReport::ours_wrong() const {
   std::vector<std::string> lines;
   for (const FailureCase& failure : failures) {
     if (!failure.answer.beyond) continue;
-    lines.push_back(fmt::format("{} {} {} on {}: {}\n    {}",
+    lines.push_back(fmt::format("{} {} {} on {}: {}",
                                 request->narrow[failure.answer.entry]->info.name,
                                 to_string(failure.answer.scalar), to_string(failure.answer.task),
-                                failure.id, failure.what, failure.command(*request)));
+                                failure.id, failure.what));
   }
   for (const auto& [key, flips] : tally->flips()) {
     if (flips.beyond == 0) continue;
@@ -205,28 +207,42 @@ std::string summary_text(const CheckReport& report, std::size_t page_width) {
   for (std::size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
   std::string text = table.text(page_width) + '\n' + std::string(summary_key) + '\n';
   text += checked_text(report);
-  for (const BroadCheck& check : report.broad) {
-    if (check.good() || check.entry->info.origin == Origin::ours) continue;
-    text += fmt::format("    {} on boxes '{}': {}\n", check.entry->info.name, check.scene->name,
-                        check.faults());
+  for (const BroadPhaseEntry* entry : report.request->broad) {
+    std::string scenes;
+    for (const BroadCheck& check : report.broad) {
+      if (check.entry != entry || check.good() || entry->info.origin == Origin::ours) continue;
+      scenes += (scenes.empty() ? "" : ", ") + check.scene->name;
+    }
+    if (!scenes.empty()) text += fmt::format("  {} is wrong on: {}\n", entry->info.name, scenes);
   }
   const std::vector<std::string> wrong = report.ours_wrong();
   if (wrong.empty()) return text + "None of our own algorithms is wrong beyond its margin.\n";
   text += fmt::format("\nOurs, wrong beyond the documented margin: {}\n", wrong.size());
-  for (const std::string& line : wrong) text += "  " + line + '\n';
+  for (std::size_t i = 0; i < std::min(wrong.size(), shown_lines); ++i) {
+    text += "  " + wrong[i] + '\n';
+  }
+  if (wrong.size() > shown_lines) {
+    text += fmt::format("  and {} more like them\n", wrong.size() - shown_lines);
+  }
+  std::set<std::string> commands;
+  for (const FailureCase& failure : report.failures) {
+    if (failure.answer.beyond) commands.insert(failure.command(*report.request));
+  }
+  if (!commands.empty()) text += "Shown by\n";
+  for (const std::string& command : commands) text += "  " + command + '\n';
   return text;
 }
 
 void write_summary(const CheckReport& report, const std::filesystem::path& file) {
-  CsvWriter csv(file, {"algorithm",        "scalar",        "regime",       "group",
-                       "answers",          "silent",        "silent_end",   "honest",
-                       "not_reported",     "crashed",       "timed_out",    "touching",
-                       "touching_contact", "bounds",        "not_a_number", "beyond_margin",
-                       "margin",           "margin_end",    "distance",     "distance_end",
-                       "too_deep",         "too_shallow",   "depth_end",    "does_not_separate",
-                       "excess",           "bounds_missed", "witness",      "witness_length",
-                       "normal",           "variants",      "flips",        "worst_flip",
-                       "worst_difference"});
+  CsvWriter csv(
+      file,
+      {"algorithm",     "scalar",        "regime",           "group",           "answers",
+       "silent",        "silent_end",    "honest",           "not_reported",    "crashed",
+       "timed_out",     "touching",      "touching_contact", "bounds",          "not_a_number",
+       "beyond_margin", "honest_margin", "margin",           "margin_end",      "distance",
+       "distance_end",  "too_deep",      "too_shallow",      "depth_end",       "does_not_separate",
+       "excess",        "bounds_missed", "witness",          "witness_length",  "normal",
+       "variants",      "flips",         "worst_flip",       "worst_difference"});
   const CheckRequest& request = *report.request;
   for (const auto& [key, a] : report.tally->answers()) {
     const Regime& regime = *request.regimes[key.regime];
@@ -237,8 +253,8 @@ void write_summary(const CheckReport& report, const std::filesystem::path& file)
           a.touching, a.touching_contact, a.bounds, a.not_a_number, a.beyond}) {
       csv.field(n);
     }
-    for (const double x : {a.margin, a.margin_end, a.distance, a.distance_end, a.too_deep,
-                           a.too_shallow, a.depth_end, a.does_not_separate, a.excess,
+    for (const double x : {a.honest_margin, a.margin, a.margin_end, a.distance, a.distance_end,
+                           a.too_deep, a.too_shallow, a.depth_end, a.does_not_separate, a.excess,
                            a.bounds_missed, a.witness, a.witness_length, a.normal}) {
       csv.field(x);
     }
@@ -270,16 +286,19 @@ std::string page_text(const CheckReport& report, const std::string& command) {
       "status does not tell. *Given* is against the exact answer for the bits that the "
       "algorithm was given, after conversion to float or to a quaternion; *end to end* is "
       "against the pair as the case has it. *Margin* is the greatest exact distance or depth "
-      "of a pair that was called wrongly. Pairs that touch exactly are not scored: the column "
+      "of a pair that was called wrongly; an honest "
+      "failure is one that the algorithm told of, up to that distance or depth. Pairs that touch "
+      "exactly are not scored: the column "
       "says how many of them were called contact.\n\n";
   Rows rows = {{"algorithm", "answers", "silent, given", "margin", "silent, end to end", "margin",
-                "honest failures", "status says nothing", "crashed", "hung", "touching: contact"}};
+                "honest failures", "up to", "status says nothing", "crashed", "hung",
+                "touching: contact"}};
   for (const auto& [label, totals] : grouped.totals()) {
     const AnswerCount& a = totals.answers;
     rows.push_back({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
                     count(a.silent_end), digits(a.margin_end), count(a.honest),
-                    count(a.not_reported), count(a.crashed), count(a.timed_out),
-                    fmt::format("{} of {}", a.touching_contact, a.touching)});
+                    digits(a.honest_margin), count(a.not_reported), count(a.crashed),
+                    count(a.timed_out), fmt::format("{} of {}", a.touching_contact, a.touching)});
   }
   text += markdown(rows);
 

@@ -14,14 +14,15 @@
 #include "harness/check/true_case.h"
 #include "harness/check/worker_pool.h"
 #include "harness/error.h"
+#include "harness/run/clock.h"
 #include "harness/run/isolate.h"
 #include "harness/run/solve_case.h"
 
 namespace touchstone {
 namespace {
 
-constexpr int shrink_budget = 60;            // queries
-constexpr double shrink_seconds = 5;         // wall clock, of a case
+constexpr int shrink_budget = 400;           // queries
+constexpr double shrink_seconds = 1;         // wall clock, of a case
 constexpr std::size_t most_bytes = 1 << 20;  // of a shrunk case
 
 Query query_of(const GradedAnswer& answer) {
@@ -39,6 +40,11 @@ GradedAnswer ask(const CheckRequest& request, const GradedAnswer& failure, const
   TrueCase true_case(c, failure.index, oracle);
   return grade_answer(request, query_of(failure), true_case,
                       solve_case(*request.narrow[failure.entry], settings, c, failure.task));
+}
+
+// Shrinking may turn a body into one of another kind.
+bool offers_kinds(const CheckRequest& request, const GradedAnswer& failure, const Case& c) {
+  return offers(*request.narrow[failure.entry], c.shape_a.kind, c.shape_b.kind, failure.task);
 }
 
 // Whether the query kills its process.
@@ -65,18 +71,15 @@ bool is_alike(const GradedAnswer& small, const GradedAnswer& failure) {
 
 Case shrunk(const CheckRequest& request, const GradedAnswer& failure, const Case& original) {
   if (failure.given.verdict == Verdict::timed_out) return original;
-  if (failure.given.verdict == Verdict::crashed) {
-    return shrink(
-        original, [&](const Case& c) { return crashes(request, failure, c); }, shrink_budget);
-  }
   oracle::Oracle oracle;
-  return shrink(
-      original,
-      [&](const Case& c) {
-        // What the oracle cannot take, such as a number that overflowed, is no case.
-        return is_alike(ask(request, failure, c, oracle), failure);
-      },
-      shrink_budget);
+  const Stopwatch watch;
+  const auto still_fails = [&](const Case& c) {
+    if (watch.seconds() > shrink_seconds) return false;
+    if (!offers_kinds(request, failure, c)) return false;
+    if (failure.given.verdict == Verdict::crashed) return crashes(request, failure, c);
+    return is_alike(ask(request, failure, c, oracle), failure);
+  };
+  return shrink(original, still_fails, shrink_budget);
 }
 
 // A line of a case file, and the answer that it shows.
@@ -108,7 +111,7 @@ Shown show(const CheckRequest& request, const GradedAnswer& failure) {
   const Case original = make(regime, request.seed, failure.index);
   SharedArray<GradedAnswer> answer(1);
   SharedArray<char> text(most_bytes);
-  const IsolationLimits limits = {.item_seconds = shrink_seconds};
+  const IsolationLimits limits = {.item_seconds = 3 * shrink_seconds + request.time_limit};
   const IsolationReport report = isolate(1, limits, [&]() -> ItemWork {
     return [&](std::size_t) {
       Case small = shrunk(request, failure, original);
@@ -126,12 +129,12 @@ Shown show(const CheckRequest& request, const GradedAnswer& failure) {
   return {failure, to_line(original, failure, request, original.id)};
 }
 
-std::string pack(const Shown& shown) {
+std::string to_bytes(const Shown& shown) {
   std::string bytes(reinterpret_cast<const char*>(&shown.answer), sizeof shown.answer);
   return bytes + shown.line;
 }
 
-Shown unpack(const std::string& bytes) {
+Shown shown_from(const std::string& bytes) {
   Shown shown;
   std::memcpy(static_cast<void*>(&shown.answer), bytes.data(), sizeof shown.answer);
   shown.line = bytes.substr(sizeof shown.answer);
@@ -193,10 +196,10 @@ std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally
   run_jobs(
       0, failures.size(), request.workers,
       [&]() -> JobWork {
-        return [&](std::size_t job) { return pack(show(request, failures[job])); };
+        return [&](std::size_t job) { return to_bytes(show(request, failures[job])); };
       },
       [&](std::size_t job, const std::string& bytes) {
-        const Shown shown = unpack(bytes);
+        const Shown shown = shown_from(bytes);
         const GradedAnswer& failure = failures[job];
         const std::filesystem::path file =
             folder / fmt::format("{}-{}-{}.jsonl", request.narrow[failure.entry]->info.name,

@@ -36,18 +36,26 @@ Verdict verdict_of(const Outcome& outcome, Answer exact) {
   return is_contact(outcome.answer) == is_contact(exact) ? Verdict::right : Verdict::silent_error;
 }
 
-// Of the end of the enclosure that is nearer to zero.
-double least_magnitude(const oracle::Measure& exact) {
-  if (exact.lower > 0) return exact.lower;
-  return exact.upper < 0 ? -exact.upper : 0;
-}
-
 double bounds_error(const Outcome& outcome, const oracle::Measure& exact) {
   if (std::isnan(outcome.lower) && std::isnan(outcome.upper)) return Grade::none;
   double error = 0;
   if (outcome.lower > exact.upper) error = outcome.lower - exact.upper;
   if (outcome.upper < exact.lower) error = std::max(error, exact.lower - outcome.upper);
   return error;
+}
+
+// How far b is to be moved along n until the bodies are separated (less than 0: how far they are
+// apart along n). The difference of a body and a half-space is a half-space, of which only one
+// direction has a support, and that is seldom the reported one to the last bit; so there the exact
+// depth is divided by the cosine between the two.
+oracle::Enclosure needed_along(const oracle::Measure& exact, const oracle::Body& a,
+                               const oracle::Body& b, const Vec3d& n) {
+  const oracle::Enclosure along = oracle::separation_along(a, b, n);
+  const bool is_finite = std::isfinite(exact.lower) && std::isfinite(exact.upper);
+  if (!std::isinf(along.lower) || !is_finite || exact.upper > 0) return along;
+  const double cosine = exact.normal.stableNormalized().dot(n.stableNormalized());
+  if (!(cosine > 0)) return along;
+  return {-exact.upper / cosine, -exact.lower / cosine};
 }
 
 bool is_partly_nan(const Vec3d& v) {
@@ -82,6 +90,11 @@ bool asks_for_distance(Task task, Answer answer) {
          (task == Task::penetration && answer == Answer::overlapping);
 }
 
+double least_magnitude(double lower, double upper) {
+  if (lower > 0) return lower;
+  return upper < 0 ? -upper : 0;
+}
+
 bool stands_by(const Outcome& outcome) {
   return outcome.answer != Answer::unknown &&
          (outcome.status == Status::ok || outcome.status == Status::not_reported);
@@ -95,7 +108,7 @@ Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, con
     case Verdict::crashed:
     case Verdict::timed_out:
     case Verdict::unsupported: return grade;
-    case Verdict::silent_error: grade.margin = least_magnitude(exact); break;
+    case Verdict::silent_error: grade.margin = least_magnitude(exact.lower, exact.upper); break;
     default: break;
   }
   grade.bounds_error = bounds_error(outcome, exact);
@@ -108,7 +121,7 @@ Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, con
   (both_apart ? grade.distance_error : grade.depth_error) = both_apart ? error : 0 - error;
   const Vec3d& n = outcome.normal;
   if (n.allFinite() && !n.isZero(0)) {
-    const oracle::Enclosure along = oracle::separation_along(a, b, n);
+    const oracle::Enclosure along = needed_along(exact, a, b, n);
     grade.separation_error = outside(-outcome.distance, along.lower, along.upper);
     grade.separation_error = 0 - grade.separation_error;
     grade.excess = apart(along.lower, along.upper, -exact.upper, -exact.lower);

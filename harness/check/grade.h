@@ -33,7 +33,8 @@ struct Grade {
   double margin = none;          // of a silent error: the exact |signed distance|, at least
   double distance_error = none;  // of a gap: reported less exact
   double depth_error = none;     // reported less exact: > 0 too deep
-  // Along the reported normal n, of the support function h of the difference:
+  // Along the reported normal n, of the support function h of the difference (for a half-space, of
+  // the way along n until the bodies are separated):
   double separation_error = none;  // h(n)/|n| less the reported depth (or plus the gap): > 0 means
                                    // that this translation does not separate the bodies
   double excess = none;  // h(n)/|n| less the exact depth (or plus the gap): > 0 means that the
@@ -64,6 +65,9 @@ WitnessGrade grade_witnesses(const Outcome& outcome, Task task, const oracle::Bo
 bool asks_for_distance(Task task, Answer answer);
 // Whether the algorithm gave an answer, and either stands by it or cannot say.
 bool stands_by(const Outcome& outcome);
+
+// Of the end of an enclosure that is nearer to zero; 0 where it holds zero.
+double least_magnitude(double lower, double upper);
 
 inline bool is_contact(Answer answer) {
   return answer == Answer::touching || answer == Answer::overlapping;

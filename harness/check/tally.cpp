@@ -17,7 +17,8 @@ void keep_greater(double& worst, double value) {
 }  // namespace
 
 AnswerCount::AnswerCount()
-    : margin(Grade::none),
+    : honest_margin(Grade::none),
+      margin(Grade::none),
       margin_end(Grade::none),
       distance(Grade::none),
       distance_end(Grade::none),
@@ -52,6 +53,9 @@ void AnswerCount::add(const GradedAnswer& answer) {
   if (given.bounds_error > 0) ++bounds;
   if (answer.witnesses.not_a_number) ++not_a_number;
   if (answer.beyond) ++beyond;
+  if (given.verdict == Verdict::honest_failure) {
+    keep_greater(honest_margin, least_magnitude(answer.lower, answer.upper) / scale);
+  }
   keep_greater(margin, given.margin / scale);
   keep_greater(margin_end, end.margin / scale);
   keep_greater(distance, std::abs(given.distance_error) / scale);
@@ -80,11 +84,11 @@ void AnswerCount::add(const AnswerCount& other) {
     this->*count += other.*count;
   }
   for (const auto worst :
-       {&AnswerCount::margin, &AnswerCount::margin_end, &AnswerCount::distance,
-        &AnswerCount::distance_end, &AnswerCount::too_deep, &AnswerCount::too_shallow,
-        &AnswerCount::depth_end, &AnswerCount::does_not_separate, &AnswerCount::excess,
-        &AnswerCount::bounds_missed, &AnswerCount::witness, &AnswerCount::witness_length,
-        &AnswerCount::normal}) {
+       {&AnswerCount::honest_margin, &AnswerCount::margin, &AnswerCount::margin_end,
+        &AnswerCount::distance, &AnswerCount::distance_end, &AnswerCount::too_deep,
+        &AnswerCount::too_shallow, &AnswerCount::depth_end, &AnswerCount::does_not_separate,
+        &AnswerCount::excess, &AnswerCount::bounds_missed, &AnswerCount::witness,
+        &AnswerCount::witness_length, &AnswerCount::normal}) {
     keep_greater(this->*worst, other.*worst);
   }
 }

@@ -25,6 +25,7 @@ struct AnswerCount {
   std::int64_t bounds = 0;            // certified bounds that miss the exact value
   std::int64_t not_a_number = 0;
   std::int64_t beyond = 0;         // ours: beyond the documented margins
+  double honest_margin;            // greatest exact |signed distance| of an honest failure
   double margin, margin_end;       // greatest exact |signed distance| called wrongly
   double distance, distance_end;   // |error| of a gap
   double too_deep, too_shallow;    // errors of a depth, both >= 0, against what was given
