@@ -23,6 +23,11 @@ SignedRoot scaled(SignedRoot root, int exponent) {
   return root;
 }
 
+bool is_curved(const Shape& shape) {
+  return shape.kind == ShapeKind::cylinder || shape.kind == ShapeKind::cone ||
+         shape.kind == ShapeKind::ellipsoid;
+}
+
 TEST(SignedPermutation, IsEachRotationOfTheCubeOnce) {
   std::set<std::string> names;
   for (const SignedPermutation& turn : signed_permutations()) {
@@ -53,14 +58,14 @@ TEST(Metamorphic, VariantsHaveTheSameExactAnswer) {
         const oracle::Measure measure = exact_measure(oracle, variant.transformed);
         const std::string& id = variant.transformed.id;
         EXPECT_EQ(id, c.id + "/" + variant.name);
-        if (!exact.exact) {
-          // Enclosures of one number, which may differ.
+        if (!exact.exact || !measure.exact) {
+          // Of curved cores: enclosures of one number, which may differ.
+          EXPECT_TRUE(is_curved(c.shape_a) || is_curved(c.shape_b)) << id;
           EXPECT_LE(std::ldexp(measure.lower, -variant.exponent), exact.upper) << id;
           EXPECT_GE(std::ldexp(measure.upper, -variant.exponent), exact.lower) << id;
           continue;
         }
         EXPECT_EQ(measure.answer, exact.answer) << id;
-        ASSERT_TRUE(measure.exact) << id;
         EXPECT_TRUE(measure.core_lower == scaled(exact.core_lower, variant.exponent)) << id;
       }
     }
