@@ -17,6 +17,8 @@ struct ShapeStyle {
   double size = 1;  // metres: the longest side is between this and twice it (hulls: or less)
   Form form = Form::compact;
   double aspect = 1;
+
+  friend bool operator==(const ShapeStyle&, const ShapeStyle&) = default;
 };
 
 // Boxes and hulls most, then spheres and capsules, then the other bounded kinds.

@@ -20,7 +20,7 @@ enum class Alignment : std::uint8_t { free, parallel, exact };
 struct ContactPlan {
   FeatureKind a, b;
   Alignment alignment;
-  int weight;
+  std::uint64_t weight;
 };
 
 using enum FeatureKind;
@@ -47,16 +47,17 @@ constexpr ContactPlan plans[] = {
 
 // Each plan as often as its weight says within a round of indices, and no two alike in a row.
 const ContactPlan& plan_of(std::uint64_t index) {
-  static const std::vector<const ContactPlan*> order = [] {
-    std::vector<const ContactPlan*> list;
-    for (const ContactPlan& plan : plans) {
-      list.insert(list.end(), static_cast<std::size_t>(plan.weight), &plan);
-    }
-    return list;
+  constexpr std::uint64_t stride = 31;  // a prime that does not divide the number of places
+  constexpr std::uint64_t places = [] {
+    std::uint64_t sum = 0;
+    for (const ContactPlan& plan : plans) sum += plan.weight;
+    return sum;
   }();
-  constexpr std::uint64_t stride = 31;  // has no factor in common with the number of places
-  static const bool coprime = order.size() % stride != 0;
-  return *order[coprime ? index * stride % order.size() : index % order.size()];
+  static_assert(places % stride != 0);
+  std::uint64_t place = index % places * stride % places;
+  const ContactPlan* plan = plans;
+  for (; place >= plan->weight; ++plan) place -= plan->weight;
+  return *plan;
 }
 
 std::string name_of(const ContactPlan& plan) {
@@ -163,7 +164,8 @@ void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, Ca
 void place_exactly_parallel(const ContactPlan& plan, const ContactSetting& setting,
                             std::uint64_t seed, Case& c, Random& random) {
   if (plan.a != plan.b) return place_edge_on_diamond(setting, seed, c, random);
-  const bool boxes = random.below(2) == 0;
+  // A reflection has the size of what is reflected.
+  const bool boxes = random.below(2) == 0 || !(setting.style_a == setting.style_b);
   const ShapeKind kind = boxes ? ShapeKind::box : ShapeKind::hull;
   c.shape_a = random_shape(kind, setting.style_a, seed, random);
   c.shape_b = random_shape(kind, setting.style_b, seed, random);

@@ -94,7 +94,7 @@ inline long double box_distance(const Case& c) {
   return least;
 }
 
-// The least overlap of the shadows on the normals of faces and of pairs of edges, times -1.
+// The least overlap of the shadows on the normals of faces and of pairs of edges.
 inline long double box_depth(const Case& c) {
   const WideBox a(c.shape_a, c.pose_a), b(c.shape_b, c.pose_b);
   std::vector<WideVector> axes;
@@ -116,7 +116,7 @@ inline long double box_depth(const Case& c) {
       least = std::min(least, high - low);
     }
   }
-  return -least;
+  return least;
 }
 
 }  // namespace touchstone

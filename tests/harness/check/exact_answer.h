@@ -1,0 +1,19 @@
+// The oracle's answer for a case.
+#pragma once
+
+#include "algorithms/oracle/oracle.h"
+#include "harness/io/cases.h"
+
+namespace touchstone {
+
+inline oracle::Measure exact_measure(oracle::Oracle& oracle, const Case& c) {
+  const oracle::Solid a(c.shape_a), b(c.shape_b);
+  return oracle.measure(oracle::Body(a, c.pose_a), oracle::Body(b, c.pose_b));
+}
+
+inline Answer exact_verdict(oracle::Oracle& oracle, const Case& c) {
+  const oracle::Solid a(c.shape_a), b(c.shape_b);
+  return oracle.verdict(oracle::Body(a, c.pose_a), oracle::Body(b, c.pose_b));
+}
+
+}  // namespace touchstone
