@@ -24,6 +24,16 @@ double round(const Integer& mantissa, long exponent, bool up) {
 
 }  // namespace
 
+Scaled scaled(const Integer& x) {
+  if (x.is_zero()) return {0, 0};
+  const Integer magnitude = abs(x);
+  const long bits = static_cast<long>(msb(magnitude)) + 1;
+  const long drop = std::max(bits - 60, 0L);
+  const auto top = Integer(magnitude >> drop).convert_to<std::uint64_t>();
+  const double mantissa = std::ldexp(static_cast<double>(top), static_cast<int>(drop - bits));
+  return {x < 0 ? -mantissa : mantissa, bits};
+}
+
 double round_down(const Integer& mantissa, long exponent) {
   return mantissa < 0 ? -round(-mantissa, exponent, true) : round(mantissa, exponent, false);
 }

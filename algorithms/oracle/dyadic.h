@@ -39,6 +39,13 @@ Dyadic dyadic(Scalar x) {
   return {mantissa, exponent + zeros};
 }
 
+// mantissa * 2^exponent, the mantissa's magnitude in [1/2, 1) and off by its last digits; 0 for 0.
+struct Scaled {
+  double mantissa;
+  long exponent;
+};
+Scaled scaled(const Integer& x);
+
 // mantissa * 2^exponent rounded to a double towards minus infinity, towards plus infinity.
 double round_down(const Integer& mantissa, long exponent);
 double round_up(const Integer& mantissa, long exponent);

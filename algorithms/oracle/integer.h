@@ -1,9 +1,18 @@
 // The integers of the exact problem.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <concepts>
 #include <cstdint>
+
+// Boost 1.74 asks every type that meets a number whether it is a container of bytes, and Eigen's
+// answer to that does not compile.
+template <class Type>
+requires std::derived_from<Type, Eigen::EigenBase<Type>>
+struct boost::multiprecision::detail::is_byte_container<Type> : boost::false_type {
+};
 
 namespace touchstone::oracle {
 

@@ -6,6 +6,7 @@
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/oracle/certificate.h"
+#include "algorithms/oracle/filters.h"
 #include "algorithms/oracle/solid.h"
 
 namespace touchstone::oracle {
@@ -32,7 +33,7 @@ struct Enclosure {
 // Keeps memory from query to query; one for each thread. Numbers of the bodies are finite.
 class Oracle {
  public:
-  Oracle();
+  explicit Oracle(const Filters& filters = {});
   ~Oracle();
   Oracle(Oracle&&) noexcept;
 

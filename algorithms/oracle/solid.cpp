@@ -1,5 +1,10 @@
 #include "algorithms/oracle/solid.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "algorithms/oracle/dyadic.h"
+
 namespace touchstone::oracle {
 Solid::Solid(const Shape& shape) {
   const Vec3d axis(0, 0, shape.half_length);
@@ -13,6 +18,7 @@ Solid::Solid(const Shape& shape) {
       radius = shape.radius;
       break;
     case ShapeKind::box:
+      is_box = true;
       for (int i = 0; i < 8; ++i) {
         const Vec3d& h = shape.half_extents;
         vertices.emplace_back(i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(),
@@ -42,6 +48,24 @@ Solid::Solid(const Shape& shape) {
       normal = shape.normal;
       offset = shape.offset;
       break;
+  }
+  Vec3d greatest = extents;
+  for (const Vec3d& v : vertices) greatest = greatest.cwiseMax(v.cwiseAbs());
+  std::frexp(greatest.maxCoeff(), &exponent);
+  for (int k = 0; k < 3; ++k) {
+    if (is_curved()) {
+      // 63 bits for a coordinate, and at least those of the extent itself.
+      if (extents[k] > 0) grid[k] = std::ilogb(extents[k]) - 62;
+      continue;
+    }
+    grid[k] = Dyadic::of_zero;
+    for (const Vec3d& v : vertices) grid[k] = std::min(grid[k], dyadic(v[k]).exponent);
+    if (grid[k] == Dyadic::of_zero) grid[k] = 0;
+  }
+  for (const Vec3d& v : vertices) {
+    x.push_back(std::ldexp(v.x(), -exponent));
+    y.push_back(std::ldexp(v.y(), -exponent));
+    z.push_back(std::ldexp(v.z(), -exponent));
   }
 }
 

@@ -34,6 +34,17 @@ struct Solid {
 
   Vec3d normal = Vec3d::UnitZ();  // half-space: normal . x <= offset, in body coordinates
   double offset = 0;
+
+  bool is_curved() const { return core > Core::polytope && core < Core::halfspace; }
+
+  // Made from the above.
+  bool is_box = false;  // the vertices are those of a box, numbered as above
+  // Coordinate k of every vertex, and of every point of a curved core that is used, is an integer
+  // times 2^grid[k].
+  std::array<int, 3> grid{};
+  // No coordinate is greater than 2^exponent in magnitude; the vertices over that, for filters.
+  int exponent = 0;
+  std::vector<double> x, y, z;
 };
 
 // {M v + t : v in the core} + Ball(radius). M is `matrix` as it stands, every stored number

@@ -1,0 +1,52 @@
+// A pair of bounded cores on one grid of integers, and in doubles.
+#pragma once
+
+#include "algorithms/oracle/filters.h"
+#include "algorithms/oracle/grid_core.h"
+#include "algorithms/oracle/signed_root.h"
+
+namespace touchstone::oracle {
+
+class GridPair {
+ public:
+  // Neither is a half-space. The bodies stay alive. Doubles only; integers follow where they are
+  // asked for.
+  void place(const Body& a, const Body& b);
+  void place_exactly();  // does nothing the second time
+
+  GridCore a, b;
+  double radius = 0;  // sum of the radii in the pair's unit, off by two roundings at most
+
+  bool is_curved() const { return a.solid().is_curved() || b.solid().is_curved(); }
+
+  Vec3d rounded(const DifferencePoint& p) const { return a.rounded(p.a) - b.rounded(p.b); }
+  IntegerVector exact(const DifferencePoint& p) { return a.exact(p.a) - b.exact(p.b); }
+  // A point of the difference a - b that is furthest along the direction; a curved core's is only
+  // about that.
+  DifferencePoint exact_support(const Direction& direction, double filter_scale);
+  // Not less, and not more, than the support of the whole difference, times 2^shift; both equal it
+  // for polytopes.
+  Integer support_above(const Direction& direction, int shift, double filter_scale);
+  Integer support_below(const Direction& direction, int shift, double filter_scale);
+
+  // length / |normal|, of grid steps, in the pair's unit.
+  double rounded_length(const Integer& length, const IntegerVector& normal) const;
+  // In the pair's unit: how far rounding leaves a curved core's point from the furthest.
+  static constexpr double curved_rounding = 0x1p-60;
+
+  // sign * sqrt(numerator / denominator) grid steps, in metres.
+  SignedRoot in_metres(int sign, const Integer& numerator, const Integer& denominator) const;
+  long exponent() const { return exponent_; }  // a grid step is 2^exponent / denominator metres
+  const Integer& denominator() const { return denominator_; }
+
+ private:
+  SupportBounds support_bounds(const Direction& direction, int shift, double filter_scale);
+
+  const Body *body_a_ = nullptr, *body_b_ = nullptr;
+  bool exactly_ = false;
+  int unit_ = 0;  // the pair's unit is 2^unit_ metres
+  long exponent_ = 0;
+  Integer denominator_ = 1;
+};
+
+}  // namespace touchstone::oracle

@@ -1,0 +1,170 @@
+#include "algorithms/oracle/half_space.h"
+
+#include <algorithm>
+
+#include "algorithms/oracle/dyadic.h"
+
+namespace touchstone::oracle {
+namespace {
+
+constexpr int root_shift = 160;  // bits of a curved core's support behind the grid's point
+
+bool is_half_space(const Body& body) { return body.solid->core == Solid::Core::halfspace; }
+
+Vec3d unit(const IntegerVector& direction) {
+  return make_direction(direction).rounded.normalized();
+}
+
+// value * 2^exponent / (denominator * |normal|) as a signed root of metres.
+SignedRoot over_length(const Integer& value, long exponent, const Integer& denominator,
+                       const IntegerVector& normal) {
+  SignedRoot root;
+  root.sign = value.sign();
+  if (root.sign == 0) return root;
+  root.numerator = value * value;
+  root.denominator = denominator * denominator * dot(normal, normal);
+  if (exponent >= 0) {
+    root.numerator <<= 2 * exponent;
+  } else {
+    root.denominator <<= -2 * exponent;
+  }
+  return root;
+}
+
+// Brings x * 2^e and y * 2^f to one exponent, which is returned.
+long align(Integer& x, long e, Integer& y, long f) {
+  const long least = std::min(e, f);
+  x <<= e - least;
+  y <<= f - least;
+  return least;
+}
+
+// From the half-space's plane to the nearest point of the body.
+Measure above_plane(const Body& body, const Body& half_space, GridPair& pair,
+                    const Filters& filters, Certificate* certificate) {
+  const ExactHalfSpace plane = exact_half_space(half_space);
+  Measure measure;
+  if (is_zero(plane.normal)) {
+    measure.core_lower = SignedRoot::infinity(-1);
+    measure.core_upper = SignedRoot::infinity(1);
+    return measure;
+  }
+  Shape shape;
+  const Solid point(shape);  // stands for the half-space's origin
+  Pose pose;
+  pose.translation = half_space.translation;
+  const Body origin(point, pose);
+  pair.place(body, origin);
+  pair.place_exactly();
+  const Direction down = make_direction(-plane.normal);
+  // height(x) * 2^exponent / (pair's denominator * plane's * |normal|) is that of x over the plane.
+  const auto height = [&](const Integer& along, int shift) {
+    Integer value = along * plane.denominator;
+    Integer offset = plane.offset * pair.denominator();
+    const long exponent = align(value, pair.exponent() - shift, offset, plane.exponent);
+    return over_length(value - offset, exponent, pair.denominator() * plane.denominator,
+                       plane.normal);
+  };
+  const DifferencePoint nearest = pair.exact_support(down, filters.support);
+  measure.core_upper = height(dot(plane.normal, pair.exact(nearest)), 0);
+  measure.core_lower = measure.core_upper;
+  if (pair.is_curved()) {
+    const int shift = root_shift;
+    measure.core_lower = height(-pair.support_above(down, shift, filters.support), shift);
+  }
+  measure.normal = unit(down.exact);
+  if (certificate != nullptr) {
+    certificate->a = {pair.a.generator(nearest.a)};
+    certificate->direction = down.exact;
+    certificate->closest = {{{0, 0}, 1}};
+  }
+  return measure;
+}
+
+// Of two half-spaces only those whose normals are opposite can be apart, or be moved apart.
+Measure between_planes(const Body& a, const Body& b, Certificate* certificate) {
+  const ExactHalfSpace plane_a = exact_half_space(a), plane_b = exact_half_space(b);
+  Measure measure;
+  const Integer against = -dot(plane_a.normal, plane_b.normal);
+  if (is_zero(plane_a.normal) || is_zero(plane_b.normal)) {
+    measure.core_lower = SignedRoot::infinity(-1);
+    measure.core_upper = SignedRoot::infinity(1);
+    return measure;
+  }
+  if (certificate != nullptr) certificate->direction = plane_a.normal;
+  if (against <= 0 || !is_zero(cross(plane_a.normal, plane_b.normal))) {
+    measure.core_lower = measure.core_upper = SignedRoot::infinity(-1);
+    return measure;
+  }
+  // normal_b = -against / square * normal_a. The gap times |normal_a|, with x relative to a:
+  // normal_a . (t_b - t_a) - offset_b * square / against - offset_a.
+  const Integer square = dot(plane_a.normal, plane_a.normal);
+  Integer along = 0;
+  long exponent = Dyadic::of_zero;
+  std::array<Dyadic, 3> from, to;
+  for (int k = 0; k < 3; ++k) {
+    from[k] = dyadic(a.translation[k]);
+    to[k] = dyadic(b.translation[k]);
+    exponent = std::min(
+        {exponent, static_cast<long>(from[k].exponent), static_cast<long>(to[k].exponent)});
+  }
+  if (exponent == Dyadic::of_zero) exponent = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int e = static_cast<int>(exponent);
+    along += plane_a.normal[k] * (to[k].over_power(e) - from[k].over_power(e));
+  }
+  along *= plane_a.denominator * plane_b.denominator * against;
+  Integer offset_a = plane_a.offset * plane_b.denominator * against;
+  Integer offset_b = plane_b.offset * plane_a.denominator * square;
+  const long offsets = align(offset_a, plane_a.exponent, offset_b, plane_b.exponent);
+  Integer offset = offset_a + offset_b;
+  exponent = align(along, exponent, offset, offsets);
+  measure.core_lower = measure.core_upper =
+      over_length(along - offset, exponent, plane_a.denominator * plane_b.denominator * against,
+                  plane_a.normal);
+  measure.normal = unit(plane_a.normal);
+  return measure;
+}
+
+}  // namespace
+
+ExactHalfSpace exact_half_space(const Body& body) {
+  const ExactMatrix matrix = exact_matrix(body);
+  std::array<Dyadic, 3> parts;
+  int least = Dyadic::of_zero;
+  for (int k = 0; k < 3; ++k) {
+    parts[k] = dyadic(body.solid->normal[k]);
+    least = std::min(least, parts[k].exponent);
+  }
+  const auto& c = matrix.columns;
+  const Integer determinant = dot(c[0], cross(c[1], c[2]));
+  const Dyadic offset = dyadic(body.solid->offset);
+  ExactHalfSpace plane;
+  plane.normal = {0, 0, 0};
+  if (determinant.is_zero()) return plane;
+  // n . M^-1 y <= offset, times the determinant of M without its power of two.
+  for (int k = 0; k < 3; ++k) {
+    plane.normal =
+        plane.normal + parts[k].over_power(least) * cross(c[(k + 1) % 3], c[(k + 2) % 3]);
+  }
+  if (determinant < 0) plane.normal = -plane.normal;
+  plane.offset = offset.mantissa * abs(determinant);
+  plane.exponent = offset.mantissa.is_zero() ? 0L : matrix.exponent + offset.exponent - least;
+  plane.denominator = matrix.denominator;
+  return plane;
+}
+
+Measure measure_half_space(const Body& a, const Body& b, GridPair& pair, const Filters& filters,
+                           Certificate* certificate) {
+  if (is_half_space(a) && is_half_space(b)) return between_planes(a, b, certificate);
+  if (is_half_space(b)) return above_plane(a, b, pair, filters, certificate);
+  Measure measure = above_plane(b, a, pair, filters, certificate);
+  measure.normal = -measure.normal;
+  if (certificate != nullptr) {
+    certificate->b.swap(certificate->a);
+    certificate->direction = -certificate->direction;
+  }
+  return measure;
+}
+
+}  // namespace touchstone::oracle
