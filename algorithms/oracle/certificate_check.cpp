@@ -62,12 +62,13 @@ Vector operator-(const Vector& u, const Vector& v) {
 Vector operator*(const mpq_class& s, const Vector& v) { return {s * v[0], s * v[1], s * v[2]}; }
 bool is_zero(const Vector& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
-// At least the root of x >= 0, and at most 1 + 2^-255 of it; the root itself where it is rational.
-mpq_class root_above(const mpq_class& x) {
-  const mpz_class square = (x.get_num() * x.get_den()) << 512;
+// At least the root of x >= 0, too great by less than 2^-bits over the denominator of x; the root
+// itself where it is rational.
+mpq_class root_above(const mpq_class& x, mp_bitcnt_t bits) {
+  const mpz_class square = (x.get_num() * x.get_den()) << 2 * bits;
   mpz_class root = sqrt(square);
   if (root * root != square) ++root;
-  mpq_class above(root, x.get_den() << 256);
+  mpq_class above(root, x.get_den() << bits);
   above.canonicalize();
   return above;
 }
@@ -99,10 +100,11 @@ SignedSquare signed_square(const SignedRoot& x) {
 
 // --- bodies ---
 
-// A body's core in the world.
+// A body's core in the world. Roots are taken to so many bits.
 class Core {
  public:
-  explicit Core(const Body& body) : solid_(*body.solid), translation_(vector(body.translation)) {
+  Core(const Body& body, mp_bitcnt_t root_bits)
+      : solid_(*body.solid), root_bits_(root_bits), translation_(vector(body.translation)) {
     if (body.quaternion) {
       const auto& q = *body.quaternion;
       const mpq_class w = rational(q[0]);
@@ -126,7 +128,8 @@ class Core {
   }
 
   bool is_halfspace() const { return solid_.core == Solid::Core::halfspace; }
-  // A half-space is normal . x <= height; the normal is outward and not zero.
+  // A half-space is normal . x <= height; the normal is outward, and zero where the matrix is
+  // singular, so that there is no half-space.
   const Vector& normal() const { return normal_; }
 
   // At least the greatest n . x of the core's points x; none where they have no greatest.
@@ -145,6 +148,7 @@ class Core {
   std::vector<Vector> points(const std::vector<Generator>& generators) const {
     if (is_halfspace()) {
       require(generators.empty(), "a half-space has no generators");
+      require(!is_zero(normal_), "the matrix of a half-space is singular");
       return {height_ / dot(normal_, normal_) * normal_};
     }
     std::vector<Vector> all;
@@ -162,7 +166,6 @@ class Core {
     const std::array<Vector, 3> cofactors = {cross(rows_[1], rows_[2]), cross(rows_[2], rows_[0]),
                                              cross(rows_[0], rows_[1])};
     const mpq_class determinant = dot(rows_[0], cofactors[0]);
-    require(determinant != 0, "the matrix of a half-space is singular");
     for (int i = 0; i < 3; ++i) normal_[i] = sgn(determinant) * dot(cofactors[i], n);
     height_ = abs(determinant) * rational(solid_.offset) + dot(normal_, translation_);
   }
@@ -170,14 +173,14 @@ class Core {
   mpq_class support_in_body(const Vector& u) const {
     const mpq_class end = extents_[2] * u[2];
     const auto rim = [&]() -> mpq_class {
-      return extents_[0] * root_above(u[0] * u[0] + u[1] * u[1]);
+      return extents_[0] * root_above(u[0] * u[0] + u[1] * u[1], root_bits_);
     };
     switch (solid_.core) {
       case Solid::Core::cylinder: return abs(end) + rim();
       case Solid::Core::cone: return std::max<mpq_class>(end, rim() - end);
       case Solid::Core::ellipsoid: {
         const Vector scaled = {extents_[0] * u[0], extents_[1] * u[1], end};
-        return root_above(dot(scaled, scaled));
+        return root_above(dot(scaled, scaled), root_bits_);
       }
       default: break;
     }
@@ -219,6 +222,7 @@ class Core {
   }
 
   const Solid& solid_;
+  mp_bitcnt_t root_bits_;
   std::array<Vector, 3> rows_;
   Vector translation_, extents_, normal_;
   mpq_class height_;
@@ -291,11 +295,12 @@ SignedSquare surface_depth(const Certificate::Surface& surface, const Difference
 }
 
 SignedSquare proven_upper(const Certificate& certificate, const Core& a, const Core& b) {
+  if (certificate.upper.sign > 0 && certificate.upper.is_infinite()) return {1};
   const Difference difference(a.points(certificate.a), b.points(certificate.b));
-  const bool empty = certificate.closest.empty() && certificate.surface.triangles.empty();
   // Two half-spaces are their own proof: along any other direction they have no gap.
   if (a.is_halfspace() && b.is_halfspace()) return gap_along(a.normal(), a, b);
-  require(!empty || certificate.upper.is_infinite(), "nothing is there to prove the upper bound");
+  require(!certificate.closest.empty() || !certificate.surface.triangles.empty(),
+          "nothing is there to prove the upper bound");
   SignedSquare best{1};
   if (!certificate.closest.empty()) {
     const Vector z = difference(certificate.closest);
@@ -314,6 +319,8 @@ SignedSquare proven_upper(const Certificate& certificate, const Core& a, const C
   return best;
 }
 
+mp_bitcnt_t size_of(const Integer& x) { return x > 0 ? msb(x) : 0; }
+
 Answer answer_of(const SignedSquare& lower, const SignedSquare& upper, const mpq_class& radius) {
   const SignedSquare radii{0, radius * radius};
   if (lower > radii) return Answer::separated;
@@ -327,7 +334,10 @@ std::string fault(const Certificate& certificate, const Body& a, const Body& b) 
   try {
     const SignedSquare lower = signed_square(certificate.lower);
     const SignedSquare upper = signed_square(certificate.upper);
-    const Core core_a(a), core_b(b);
+    // Far finer than what is claimed, whose rounding is of about the claim's own size.
+    const mp_bitcnt_t root_bits =
+        256 + size_of(certificate.lower.numerator) + size_of(certificate.lower.denominator);
+    const Core core_a(a, root_bits), core_b(b, root_bits);
     const mpq_class radius_a = rational(a.solid->radius), radius_b = rational(b.solid->radius);
     require(radius_a >= 0 && radius_b >= 0, "a radius is negative");
     require(lower <= proven_lower(certificate, core_a, core_b),

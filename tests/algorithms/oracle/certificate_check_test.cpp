@@ -624,8 +624,18 @@ TEST(CertificateCheck, Halfspace) {
             "a half-space has no generators");
   EXPECT_EQ(inside.with([](Claim& c) { c.solid_b->normal = Vec3d::Zero(); }),
             "the normal of a half-space is zero");
-  EXPECT_EQ(inside.with([](Claim& c) { c.b.matrix.row(1) = 2 * c.b.matrix.row(0); }),
+  EXPECT_EQ(inside.with([](Claim& c) { c.b.matrix.row(1) = 2 * c.b.matrix.row(0); }), bad_lower);
+  EXPECT_EQ(inside.with([](Claim& c) {
+    c.b.matrix.row(1) = 2 * c.b.matrix.row(0);
+    c.certificate.lower = SignedRoot::infinity(-1);
+  }),
             "the matrix of a half-space is singular");
+  // Of what is no half-space nothing is known, and nothing need be proven.
+  EXPECT_EQ(inside.with([](Claim& c) {
+    c.b.matrix.row(1) = 2 * c.b.matrix.row(0);
+    c.bounds(SignedRoot::infinity(-1), SignedRoot::infinity(1), Answer::unknown);
+  }),
+            "");
   EXPECT_EQ(inside.with([](Claim& c) {
     c.certificate.surface = {{{0, 0}}, {{0, 0, 0}}};
   }),
