@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 
+#include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
@@ -17,7 +18,7 @@ namespace touchstone {
 namespace {
 
 struct Options {
-  std::string narrow = "all", broad = "all", regimes, groups, out, page;
+  std::string narrow = "all", broad = "all", regimes, groups, out, page, certificates, saved;
   CheckRequest request;
 };
 
@@ -72,7 +73,15 @@ void write_page(const CheckReport& report, const std::string& command, const std
   if (!stream) throw InputError(file, 0, "cannot be written");
 }
 
+int verify(const std::string& file) {
+  const CertificateVerdicts verdicts = verify_certificates(file);
+  for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
+  fmt::print("{} certificates verified, {} refused\n", verdicts.verified, verdicts.refused_count);
+  return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
+}
+
 int check(Options& options, const std::string& command) {
+  if (!options.certificates.empty()) return verify(options.certificates);
   CheckRequest& request = options.request;
   request.narrow = chosen_narrow(options.narrow);
   request.broad = select(broad_phases(), split_names(options.broad), "broad phase");
@@ -80,6 +89,11 @@ int check(Options& options, const std::string& command) {
   request.out = options.out.empty() ? std::filesystem::path(source_folder) / "results/local/check"
                                     : std::filesystem::path(options.out);
   if (!options.page.empty()) check_output(options.page);
+  if (!options.saved.empty()) {
+    check_output(options.saved);
+    fmt::print("{} certificates in {}\n", save_certificates(request, options.saved), options.saved);
+    return exit_done;
+  }
   const std::unique_ptr<CheckResult> result = run_check(request);
   fmt::print("{}", summary_text(result->report, page_width()));
   fmt::print("\nRows in {}; case files of what is wrong in {}\n",
@@ -124,6 +138,17 @@ void add_check(CLI::App& app, int& status) {
                      "Folder for what is found (default: results/local/check in the project)");
   command.add_flag("--resume", request.resume, "Go on with the check that this folder is of");
   command.add_option("--page", options->page, "Also write the table as a Markdown page");
+  command
+      .add_option("--save-certificates", options->saved,
+                  "Only prove the exact answers of the cases, and write the proofs to this file")
+      ->excludes("--page")
+      ->excludes("--resume");
+  // It is about what a file says, and nothing else.
+  CLI::Option* const certificates = command.add_option("--certificates", options->certificates,
+                                                       "Only verify the proofs in this file");
+  for (CLI::Option* option : command.get_options()) {
+    if (option != certificates && option->get_name() != "--help") certificates->excludes(option);
+  }
   command.callback([options, &app, &status] {
     std::string line = "touchstone check";
     for (const CLI::Option* option : app.get_subcommand("check")->get_options()) {
