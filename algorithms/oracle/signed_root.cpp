@@ -28,10 +28,11 @@ Sum sum(double radius_a, double radius_b) {
   return {a.over_power(exponent) + b.over_power(exponent), exponent};
 }
 
-// Of value - sum; rounded to the double below or above.
-double round_less(const SignedRoot& value, double radius_a, double radius_b, bool up) {
+}  // namespace
+
+DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_b) {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  if (value.is_infinite()) return value.sign * inf;
+  if (value.is_infinite()) return {value.sign * inf, value.sign * inf};
   const Sum radius = sum(radius_a, radius_b);
   // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first.
   long shift = 0;
@@ -60,10 +61,8 @@ double round_less(const SignedRoot& value, double radius_a, double radius_b, boo
     low -= r;
     high -= r;
   }
-  return up ? round_up(high, -shift) : round_down(low, -shift);
+  return {round_down(low, -shift), round_up(high, -shift)};
 }
-
-}  // namespace
 
 std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y) {
   if (x.sign != y.sign) return x.sign <=> y.sign;
@@ -75,15 +74,6 @@ std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y) {
 }
 
 bool operator==(const SignedRoot& x, const SignedRoot& y) { return (x <=> y) == 0; }
-
-double round_down(const SignedRoot& value) { return round_less(value, 0, 0, false); }
-double round_up(const SignedRoot& value) { return round_less(value, 0, 0, true); }
-double round_down_less(const SignedRoot& value, double radius_a, double radius_b) {
-  return round_less(value, radius_a, radius_b, false);
-}
-double round_up_less(const SignedRoot& value, double radius_a, double radius_b) {
-  return round_less(value, radius_a, radius_b, true);
-}
 
 std::strong_ordering compare(const SignedRoot& value, double radius_a, double radius_b) {
   const Sum radius = sum(radius_a, radius_b);
