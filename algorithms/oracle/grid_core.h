@@ -39,6 +39,7 @@ class GridCore {
   // Generators: the vertices of a polytope; the points of a curved core that were made so far.
   std::size_t size() const { return x_.size(); }
   const Solid& solid() const { return *solid_; }
+  const Vec3d& origin() const { return origin_; }  // of the body
   Vec3d rounded(std::uint32_t i) const { return {x_[i], y_[i], z_[i]}; }
   Generator generator(std::uint32_t i) const;
   // A vertex that is about the furthest. For a curved core a new point is made, in the core for

@@ -24,6 +24,7 @@ struct Nearest {
       Vec3d::Zero();  // from the origin to the nearest point, or normal to its feature
   int size = 0;
   std::array<int, 3> vertices{};
+  std::array<double, 3> weights{};  // of the nearest point; not negative, of any sum
 };
 
 class Search {
@@ -33,7 +34,7 @@ class Search {
 
   void vertex(int i) {
     const double distance = at_[i].norm();
-    if (distance < best.distance) best = {false, distance, at_[i], 1, {i, 0, 0}};
+    if (distance < best.distance) best = {false, distance, at_[i], 1, {i, 0, 0}, {1, 0, 0}};
   }
 
   void segment(int i, int j) {
@@ -46,27 +47,28 @@ class Search {
     // Again: what rounding left along the edge would tilt a short direction.
     direction -= direction.dot(edge) / whole * edge;
     const double distance = direction.norm();
-    if (distance < best.distance) best = {false, distance, direction, 2, {i, j, 0}};
+    if (distance < best.distance)
+      best = {false, distance, direction, 2, {i, j, 0}, {whole - part, part, 0}};
   }
 
   void triangle(int i, int j, int k) {
     const Vec3d &a = at_[i], &b = at_[j], &c = at_[k];
     const Vec3d normal = (b - a).cross(c - a);
     const double square = normal.squaredNorm();
-    const bool in_i = normal.dot((c - b).cross(-b)) > 0;
-    const bool in_j = normal.dot((a - c).cross(-c)) > 0;
-    const bool in_k = normal.dot((b - a).cross(-a)) > 0;
-    if (square > 0 && in_i && in_j && in_k) {
+    const double of_i = normal.dot((c - b).cross(-b)), of_j = normal.dot((a - c).cross(-c)),
+                 of_k = normal.dot((b - a).cross(-a));
+    if (square > 0 && of_i > 0 && of_j > 0 && of_k > 0) {
       const double height = normal.dot(a);
       const double distance = std::abs(height) / std::sqrt(square);
       if (distance < best.distance) {
-        best = {false, distance, height < 0 ? Vec3d(-normal) : normal, 3, {i, j, k}};
+        best = {false, distance,  height < 0 ? Vec3d(-normal) : normal,
+                3,     {i, j, k}, {of_i, of_j, of_k}};
       }
       return;
     }
-    if (!in_i) segment(j, k);
-    if (!in_j) segment(k, i);
-    if (!in_k) segment(i, j);
+    if (!(of_i > 0)) segment(j, k);
+    if (!(of_j > 0)) segment(k, i);
+    if (!(of_k > 0)) segment(i, j);
   }
 
   void tetrahedron() {
@@ -108,6 +110,17 @@ Nearest reduce(Simplex& simplex) {
   return best;
 }
 
+// A point of the simplex for sure, whatever rounding did to the search: how far it is.
+double distance_of_point(const Simplex& simplex, const Nearest& nearest) {
+  Vec3d point = Vec3d::Zero();
+  double sum = 0;
+  for (int i = 0; i < simplex.size; ++i) {
+    point += nearest.weights[i] * simplex.at[i];
+    sum += nearest.weights[i];
+  }
+  return point.norm() / sum;
+}
+
 // The origin is inside whatever rounding did to the points.
 bool surely_inside(const Simplex& simplex, double filter_scale) {
   // A face's normal is of differences of coordinates up to 10: its components are off by less than
@@ -132,7 +145,7 @@ Hint find_hint(GridPair& pair, const Filters& filters, bool decide) {
   Hint hint;
   Simplex simplex;
   Nearest nearest;
-  nearest.direction = pair.a.rounded(0) - pair.b.rounded(0);
+  nearest.direction = pair.a.origin() - pair.b.origin();
   if (nearest.direction.isZero(0)) nearest.direction = Vec3d::UnitX();
   const auto finish = [&](Answer answer) {
     hint.answer = answer;
@@ -172,7 +185,8 @@ Hint find_hint(GridPair& pair, const Filters& filters, bool decide) {
       return finish(surely_inside(simplex, filters.tetrahedron) ? Answer::overlapping
                                                                 : Answer::unknown);
     }
-    if (decide && nearest.distance + radius_bound < pair.radius * (1 - 0x1p-40)) {
+    if (decide && pair.radius > 0 &&
+        distance_of_point(simplex, nearest) + radius_bound < pair.radius * (1 - 0x1p-40)) {
       return finish(Answer::overlapping);
     }
   }
