@@ -33,7 +33,8 @@ double round_less(const SignedRoot& value, double radius_a, double radius_b, boo
   constexpr double inf = std::numeric_limits<double>::infinity();
   if (value.is_infinite()) return value.sign * inf;
   const Sum radius = sum(radius_a, radius_b);
-  // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first.
+  // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first. More
+  // where the radius leaves so little of the root that these do not tell the double.
   long shift = 0;
   if (value.sign != 0) {
     const long bits =
@@ -44,23 +45,28 @@ double round_less(const SignedRoot& value, double radius_a, double radius_b, boo
     const long first = static_cast<long>(msb(radius.mantissa)) + radius.exponent;
     shift = std::max({shift, 200 - first, -static_cast<long>(radius.exponent)});
   }
-  Integer whole = 0;
-  bool exact = true;
-  if (value.sign != 0) {
-    Integer square, rest;
-    divide_qr(Integer(value.numerator << (2 * shift)), value.denominator, square, rest);
-    whole = sqrt(square);
-    exact = rest.is_zero() && whole * whole == square;
+  for (;; shift = 2 * shift + 64) {
+    Integer whole = 0;
+    bool exact = true;
+    if (value.sign != 0) {
+      Integer square, rest;
+      divide_qr(Integer(value.numerator << (2 * shift)), value.denominator, square, rest);
+      whole = sqrt(square);
+      exact = rest.is_zero() && whole * whole == square;
+    }
+    // sign * root is between whole and the next integer away from zero.
+    Integer low = value.sign < 0 ? -whole : whole, high = low;
+    if (!exact) (value.sign < 0 ? low -= 1 : high += 1);
+    if (!radius.mantissa.is_zero()) {
+      const Integer r = radius.mantissa << (radius.exponent + shift);
+      low -= r;
+      high -= r;
+    }
+    const double of_low = up ? round_up(low, -shift) : round_down(low, -shift);
+    if (exact) return of_low;
+    const double of_high = up ? round_up(high, -shift) : round_down(high, -shift);
+    if (of_low == of_high) return of_low;
   }
-  // sign * root is between whole and the next integer away from zero.
-  Integer low = value.sign < 0 ? -whole : whole, high = low;
-  if (!exact) (value.sign < 0 ? low -= 1 : high += 1);
-  if (!radius.mantissa.is_zero()) {
-    const Integer r = radius.mantissa << (radius.exponent + shift);
-    low -= r;
-    high -= r;
-  }
-  return up ? round_up(high, -shift) : round_down(low, -shift);
 }
 
 }  // namespace
