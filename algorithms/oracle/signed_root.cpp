@@ -34,7 +34,8 @@ DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_
   constexpr double inf = std::numeric_limits<double>::infinity();
   if (value.is_infinite()) return {value.sign * inf, value.sign * inf};
   const Sum radius = sum(radius_a, radius_b);
-  // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first.
+  // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first. More
+  // where the radius leaves so little of the root that these do not tell the double.
   long shift = 0;
   if (value.sign != 0) {
     const long bits =
@@ -45,23 +46,29 @@ DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_
     const long first = static_cast<long>(msb(radius.mantissa)) + radius.exponent;
     shift = std::max({shift, 200 - first, -static_cast<long>(radius.exponent)});
   }
-  Integer whole = 0;
-  bool exact = true;
-  if (value.sign != 0) {
-    Integer square, rest;
-    divide_qr(Integer(value.numerator << (2 * shift)), value.denominator, square, rest);
-    whole = sqrt(square);
-    exact = rest.is_zero() && whole * whole == square;
+  for (;; shift = 2 * shift + 64) {
+    Integer whole = 0;
+    bool exact = true;
+    if (value.sign != 0) {
+      Integer square, rest;
+      divide_qr(Integer(value.numerator << (2 * shift)), value.denominator, square, rest);
+      whole = sqrt(square);
+      exact = rest.is_zero() && whole * whole == square;
+    }
+    // sign * root is between whole and the next integer away from zero.
+    Integer low = value.sign < 0 ? -whole : whole, high = low;
+    if (!exact) (value.sign < 0 ? low -= 1 : high += 1);
+    if (!radius.mantissa.is_zero()) {
+      const Integer r = radius.mantissa << (radius.exponent + shift);
+      low -= r;
+      high -= r;
+    }
+    const DoubleBounds bounds = {round_down(low, -shift), round_up(high, -shift)};
+    // Both integers have the same doubles beside them: then so has the number between.
+    if (exact || (round_down(high, -shift) == bounds.low && round_up(low, -shift) == bounds.high)) {
+      return bounds;
+    }
   }
-  // sign * root is between whole and the next integer away from zero.
-  Integer low = value.sign < 0 ? -whole : whole, high = low;
-  if (!exact) (value.sign < 0 ? low -= 1 : high += 1);
-  if (!radius.mantissa.is_zero()) {
-    const Integer r = radius.mantissa << (radius.exponent + shift);
-    low -= r;
-    high -= r;
-  }
-  return {round_down(low, -shift), round_up(high, -shift)};
 }
 
 std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y) {
