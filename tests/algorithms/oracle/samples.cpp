@@ -168,7 +168,7 @@ Shape integer_hull(Random& random, int most) {
 
 Sample integers(Random& random, int number) {
   const auto body = [&] {
-    Shape shape = integer_hull(random, 6);
+    Shape shape = integer_hull(random, 7);
     if (number % 3 == 1) shape = make_box(random.below(3), random.below(3), random.below(3));
     if (number % 3 == 2) {
       shape = random.below(2) == 0 ? make_sphere(random.below(4))
@@ -178,11 +178,11 @@ Sample integers(Random& random, int number) {
     if (random.below(2) == 0) {
       for (int k = 0; k < 9; ++k) pose.rotation(k) = random.below(3) - 1;
     }
-    for (int k = 0; k < 3; ++k) pose.translation[k] = random.below(7) - 3;
+    for (int k = 0; k < 3; ++k) pose.translation[k] = random.below(5) - 2;
     return placed(shape, pose);
   };
   Placed a = body();
-  if (number % 3 == 2 && random.below(2) == 0) a = placed(integer_hull(random, 6), a.pose);
+  if (number % 3 == 2 && random.below(2) == 0) a = placed(integer_hull(random, 7), a.pose);
   return {a, body()};
 }
 
@@ -190,10 +190,10 @@ Sample integers(Random& random, int number) {
 Sample one_pose(Random& random, int number) {
   Sample sample;
   const Pose pose = random_pose(random, 10);
-  std::vector<Vec3d> points = integer_hull(random, 7).hull->vertices;
+  std::vector<Vec3d> points = integer_hull(random, 8).hull->vertices;
   sample.a = placed(make_hull(points), pose);
-  points = integer_hull(random, 7).hull->vertices;
-  const double x = random.below(7) - 3, y = random.below(5) - 2;
+  points = integer_hull(random, 8).hull->vertices;
+  const double x = random.below(5) - 2, y = random.below(5) - 2;
   const Vec3d offset(x, y, random.below(3) - 1);
   for (Vec3d& point : points) point += offset;
   sample.b = placed(make_hull(points), pose);
