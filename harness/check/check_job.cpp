@@ -36,6 +36,9 @@ void note_worst(JobSummary& summary, bool is_first, std::uint64_t index) {
   if (is_first) summary.worst_index = index;
 }
 
+// Of a job's queries; a hang costs a time limit each.
+constexpr std::size_t most_failures = 100;
+
 class Job {
  public:
   Job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle)
@@ -109,7 +112,7 @@ class Job {
     }
     SharedArray<Outcome> outcomes(items.size());
     const NarrowPhaseSettings settings = {.scalar = scalar};
-    const IsolationLimits limits = {.item_seconds = request_.time_limit, .failures = 30};
+    const IsolationLimits limits = {.item_seconds = request_.time_limit, .failures = most_failures};
     const IsolationReport report = isolate(items.size(), limits, [&]() -> ItemWork {
       return [&](std::size_t i) {
         const Item& item = items[i];

@@ -52,7 +52,7 @@ void grade_all(const CheckRequest& request, CheckFiles& files, Tally& tally) {
 
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   std::error_code error;
-  std::filesystem::create_directories(request.out, error);
+  if (!request.resume) std::filesystem::create_directories(request.out, error);
   if (error) throw InputError(request.out.string(), 0, "cannot be made: " + error.message());
   auto result = std::make_unique<CheckResult>();
   result->report.request = &request;
