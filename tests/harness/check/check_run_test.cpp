@@ -155,6 +155,8 @@ TEST_F(CheckRun, AnotherFormOfAPairHasTheSameAnswer) {
   EXPECT_GT(flips.beyond, 0);
   EXPECT_NEAR(flips.worst_flip, 0.25, 0.02);
   EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("in another form differ")));
+  ASSERT_THAT(result->report.variant_failures, Not(IsEmpty()));
+  EXPECT_GE(read_cases(result->report.variant_failures[0].file).size(), 2u);
   EXPECT_THAT(read("variants.csv"), HasSubstr(",swap,"));
 }
 
