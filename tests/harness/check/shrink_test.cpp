@@ -20,7 +20,7 @@ Case made(const char* regime, std::uint64_t index) { return make(*find_regime(re
 // The first case of the regime that fails.
 Case first_failing(const char* regime, const FailurePredicate& fails) {
   for (std::uint64_t i = 0; i < 1000; ++i) {
-    const Case c = made(regime, i);
+    Case c = made(regime, i);
     if (fails(c)) return c;
   }
   ADD_FAILURE() << "no case fails in " << regime;
