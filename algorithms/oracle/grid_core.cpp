@@ -48,8 +48,10 @@ Direction make_direction(IntegerVector exact) {
   const long drop = std::max(bits - 60, 0L);
   const double unit = std::ldexp(1.0, static_cast<int>(drop - bits));
   for (int k = 0; k < 3; ++k) {
-    direction.rounded[k] =
-        unit * static_cast<double>(Integer(direction.exact[k] >> drop).convert_to<std::int64_t>());
+    // Of the magnitude: Boost 1.74 loses the sign of some negative numbers that are shifted right.
+    const Integer top = abs(direction.exact[k]) >> drop;
+    const double magnitude = unit * static_cast<double>(top.convert_to<std::int64_t>());
+    direction.rounded[k] = direction.exact[k] < 0 ? -magnitude : magnitude;
   }
   return direction;
 }

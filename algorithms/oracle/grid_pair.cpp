@@ -20,6 +20,13 @@ int exponent_of(double magnitude) {
 // 2^exponent, held to the range of double: what is cut off is far below the filters' bounds.
 double power(int exponent) { return std::ldexp(1.0, std::clamp(exponent, -1022, 1000)); }
 
+// x * 2^exponent, in two steps: one power of two may be out of range.
+template <class Value>
+Value scaled_by(const Value& x, int exponent) {
+  const int half = exponent / 2;
+  return x * power(half) * power(exponent - half);
+}
+
 // Entries divided by a power of two, so that none is beyond 1.
 struct ScaledMatrix {
   Mat3d matrix;
@@ -41,9 +48,7 @@ ScaledMatrix scaled_matrix(const Body& body) {
   }
   const int exponent = exponent_of(body.matrix.cwiseAbs().maxCoeff());
   if (exponent == none) return {body.matrix, 0};
-  // In two steps: one power of two may be out of range.
-  const int half = exponent / 2;
-  return {body.matrix * power(-half) * power(half - exponent), exponent};
+  return {scaled_by(body.matrix, -exponent), exponent};
 }
 
 }  // namespace
@@ -59,17 +64,16 @@ void GridPair::place(const Body& body_a, const Body& body_b) {
   const double furthest =
       std::max(body_a.translation.cwiseAbs().maxCoeff(), body_b.translation.cwiseAbs().maxCoeff());
   const int far = furthest == 0 ? 0 : exponent_of(furthest);
-  const double near = power(-far);
-  const Vec3d offset = body_b.translation * near - body_a.translation * near;
+  const Vec3d offset = scaled_by(body_b.translation, -far) - scaled_by(body_a.translation, -far);
   const int apart = exponent_of(offset.cwiseAbs().maxCoeff());
   const double radii = body_a.solid->radius / 2 + body_b.solid->radius / 2;
   int unit = std::max({reach_a, reach_b, apart == none ? none : apart + far,
                        radii > 0 ? exponent_of(radii) + 1 : none});
   if (unit == none) unit = 0;
   unit_ = unit;
-  radius = 2 * (radii * power(-unit / 2) * power(unit / 2 - unit));
+  radius = 2 * scaled_by(radii, -unit);
   a.place(body_a, matrix_a.matrix, power(reach_a - unit), Vec3d::Zero());
-  b.place(body_b, matrix_b.matrix, power(reach_b - unit), offset * power(far - unit));
+  b.place(body_b, matrix_b.matrix, power(reach_b - unit), scaled_by(offset, far - unit));
 }
 
 void GridPair::place_exactly() {

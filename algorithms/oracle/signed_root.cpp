@@ -28,12 +28,14 @@ Sum sum(double radius_a, double radius_b) {
   return {a.over_power(exponent) + b.over_power(exponent), exponent};
 }
 
-// Of value - sum; rounded to the double below or above.
-double round_less(const SignedRoot& value, double radius_a, double radius_b, bool up) {
+}  // namespace
+
+DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_b) {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  if (value.is_infinite()) return value.sign * inf;
+  if (value.is_infinite()) return {value.sign * inf, value.sign * inf};
   const Sum radius = sum(radius_a, radius_b);
-  // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first.
+  // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first. More
+  // where the radius leaves so little of the root that these do not tell the double.
   long shift = 0;
   if (value.sign != 0) {
     const long bits =
@@ -44,26 +46,30 @@ double round_less(const SignedRoot& value, double radius_a, double radius_b, boo
     const long first = static_cast<long>(msb(radius.mantissa)) + radius.exponent;
     shift = std::max({shift, 200 - first, -static_cast<long>(radius.exponent)});
   }
-  Integer whole = 0;
-  bool exact = true;
-  if (value.sign != 0) {
-    Integer square, rest;
-    divide_qr(Integer(value.numerator << (2 * shift)), value.denominator, square, rest);
-    whole = sqrt(square);
-    exact = rest.is_zero() && whole * whole == square;
+  for (;; shift = 2 * shift + 64) {
+    Integer whole = 0;
+    bool exact = true;
+    if (value.sign != 0) {
+      Integer square, rest;
+      divide_qr(Integer(value.numerator << (2 * shift)), value.denominator, square, rest);
+      whole = sqrt(square);
+      exact = rest.is_zero() && whole * whole == square;
+    }
+    // sign * root is between whole and the next integer away from zero.
+    Integer low = value.sign < 0 ? -whole : whole, high = low;
+    if (!exact) (value.sign < 0 ? low -= 1 : high += 1);
+    if (!radius.mantissa.is_zero()) {
+      const Integer r = radius.mantissa << (radius.exponent + shift);
+      low -= r;
+      high -= r;
+    }
+    const DoubleBounds bounds = {round_down(low, -shift), round_up(high, -shift)};
+    // Both integers have the same doubles beside them: then so has the number between.
+    if (exact || (round_down(high, -shift) == bounds.low && round_up(low, -shift) == bounds.high)) {
+      return bounds;
+    }
   }
-  // sign * root is between whole and the next integer away from zero.
-  Integer low = value.sign < 0 ? -whole : whole, high = low;
-  if (!exact) (value.sign < 0 ? low -= 1 : high += 1);
-  if (!radius.mantissa.is_zero()) {
-    const Integer r = radius.mantissa << (radius.exponent + shift);
-    low -= r;
-    high -= r;
-  }
-  return up ? round_up(high, -shift) : round_down(low, -shift);
 }
-
-}  // namespace
 
 std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y) {
   if (x.sign != y.sign) return x.sign <=> y.sign;
@@ -75,15 +81,6 @@ std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y) {
 }
 
 bool operator==(const SignedRoot& x, const SignedRoot& y) { return (x <=> y) == 0; }
-
-double round_down(const SignedRoot& value) { return round_less(value, 0, 0, false); }
-double round_up(const SignedRoot& value) { return round_less(value, 0, 0, true); }
-double round_down_less(const SignedRoot& value, double radius_a, double radius_b) {
-  return round_less(value, radius_a, radius_b, false);
-}
-double round_up_less(const SignedRoot& value, double radius_a, double radius_b) {
-  return round_less(value, radius_a, radius_b, true);
-}
 
 std::strong_ordering compare(const SignedRoot& value, double radius_a, double radius_b) {
   const Sum radius = sum(radius_a, radius_b);

@@ -1,10 +1,12 @@
 #include "tests/algorithms/narrow_phase/polytope_reference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace touchstone::reference {
 namespace {
@@ -180,58 +182,7 @@ double extent(const Body& body) {
   return result + ball(body);
 }
 
-Shape make_round(ShapeKind kind, double radius, double half_length) {
-  Shape shape;
-  shape.kind = kind;
-  shape.radius = radius;
-  shape.half_length = half_length;
-  return shape;
-}
-
 }  // namespace
-
-Shape make_sphere(double radius) {
-  Shape shape;
-  shape.kind = ShapeKind::sphere;
-  shape.radius = radius;
-  return shape;
-}
-Shape make_capsule(double radius, double half_length) {
-  return make_round(ShapeKind::capsule, radius, half_length);
-}
-Shape make_cylinder(double radius, double half_length) {
-  return make_round(ShapeKind::cylinder, radius, half_length);
-}
-Shape make_cone(double radius, double half_length) {
-  return make_round(ShapeKind::cone, radius, half_length);
-}
-Shape make_box(double x, double y, double z) {
-  Shape shape;
-  shape.kind = ShapeKind::box;
-  shape.half_extents = {x, y, z};
-  return shape;
-}
-Shape make_ellipsoid(double x, double y, double z) {
-  Shape shape;
-  shape.kind = ShapeKind::ellipsoid;
-  shape.radii = {x, y, z};
-  return shape;
-}
-Shape make_hull(std::vector<Vec3d> vertices) {
-  auto hull = std::make_shared<Hull>();
-  hull->vertices = std::move(vertices);
-  Shape shape;
-  shape.kind = ShapeKind::hull;
-  shape.hull = std::move(hull);
-  return shape;
-}
-Shape make_halfspace(const Vec3d& normal, double offset) {
-  Shape shape;
-  shape.kind = ShapeKind::halfspace;
-  shape.normal = normal;
-  shape.offset = offset;
-  return shape;
-}
 
 Real signed_distance(const Body& a, const Body& b, Vec3d& normal) {
   const Vec3d origin = a.pose.translation;
@@ -316,19 +267,6 @@ Outcome query(NarrowPhase& algorithm, Task task, const Body& a, const Body& b) {
     std::swap(outcome.witness_a, outcome.witness_b);
   }
   return outcome;
-}
-
-Vec3d Random::direction() {
-  std::normal_distribution<double> normal;
-  Vec3d v;
-  do {
-    v = {normal(engine_), normal(engine_), normal(engine_)};
-  } while (v.norm() < 1e-3);
-  return v.normalized();
-}
-
-Mat3d Random::rotation() {
-  return Eigen::AngleAxisd(uniform(0, std::numbers::pi), direction()).toRotationMatrix();
 }
 
 }  // namespace touchstone::reference

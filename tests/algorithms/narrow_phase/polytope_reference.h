@@ -1,16 +1,12 @@
 // What an algorithm that goes by support functions is compared with: signed distances and normals
-// of bodies whose cores are polytopes, from their vertices alone, in long double; and the bodies to
-// try. Takes points, segments and flat bodies as well, and hulls that came without faces; the time
+// of bodies whose cores are polytopes, from their vertices alone, in long double. Takes points, segments and flat bodies as well, and hulls that came without faces; the time
 // grows with the fifth power of the vertices, so these are few.
 // brute_force.h is for boxes and hulls with their faces and edges, and much faster.
 #pragma once
 
-#include <array>
-#include <memory>
-#include <random>
-#include <vector>
-
 #include "algorithms/narrow_phase.h"
+#include "tests/algorithms/random.h"
+#include "tests/algorithms/shapes.h"
 
 namespace touchstone::reference {
 
@@ -21,15 +17,6 @@ struct Body {
   Shape shape;
   Pose pose;
 };
-
-Shape make_sphere(double radius);
-Shape make_capsule(double radius, double half_length);
-Shape make_box(double x, double y, double z);
-Shape make_cylinder(double radius, double half_length);
-Shape make_cone(double radius, double half_length);
-Shape make_ellipsoid(double x, double y, double z);
-Shape make_hull(std::vector<Vec3d> vertices);  // vertices only: no faces, edges or neighbours
-Shape make_halfspace(const Vec3d& normal, double offset);
 
 // The gap between two bodies whose cores are polytopes with a few vertices, or minus their depth:
 // boxes, hulls, spheres and capsules, at the poses as they stand. By definition: apart, the least
@@ -45,22 +32,5 @@ double outside_by(const Body& body, const Vec3d& point);
 // One query. Swaps the bodies for the call where their kinds are in the wrong order, and turns the
 // outcome around again.
 Outcome query(NarrowPhase& algorithm, Task task, const Body& a, const Body& b);
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(engine_); }
-  Vec3d direction();
-  Mat3d rotation();
-  Vec3d vector(double reach) {
-    return {uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 }  // namespace touchstone::reference
