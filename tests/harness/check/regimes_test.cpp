@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -106,8 +105,8 @@ TEST(Regimes, MakeTheSameCaseAgainInAnyOrderAndFromAnyThread) {
     for (std::uint64_t i = 0; i < 12; ++i) forward.push_back(to_json(make(regime, 3, i)));
   }
   std::thread([&] {
-    for (auto regime = regimes().rbegin(); regime != regimes().rend(); ++regime) {
-      for (std::uint64_t i = 12; i-- > 0;) backward.push_back(to_json(make(*regime, 3, i)));
+    for (std::size_t r = regimes().size(); r-- > 0;) {
+      for (std::uint64_t i = 12; i-- > 0;) backward.push_back(to_json(make(regimes()[r], 3, i)));
     }
   }).join();
   std::ranges::reverse(backward);
