@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
+#include "algorithms/core/encoding.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
@@ -63,6 +64,11 @@ struct NarrowPhaseEntry {
   // "overlapping" is no promise. Its disagreements are counted as the price of its speed, not as
   // faults.
   bool approximate = false;
+  // The depth is that of one separating translation, an upper bound, and not in general the least.
+  bool depth_is_bound = false;
+  // What it is given of a pair of these kinds, kind_a <= kind_b; null: the pair as it stands, in
+  // both scalars. Its errors are stated against the exact answer for that, and for the pair.
+  Encoding (*encoding)(ShapeKind kind_a, ShapeKind kind_b, Task task, Precision scalar) = nullptr;
   // Null where it is not built.
   std::function<std::unique_ptr<NarrowPhase>(const NarrowPhaseSettings&)> make;
 };

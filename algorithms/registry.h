@@ -23,5 +23,8 @@ bool offers(const NarrowPhaseEntry& entry, Task task);
 bool offers(const NarrowPhaseEntry& entry, Precision scalar);
 // Also asks for the kinds, in either order.
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
+// Of a pair of these kinds, in either order.
+Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,
+                     Precision scalar);
 
 }  // namespace touchstone

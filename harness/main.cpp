@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   });
   int status = exit_done;
   add_run(app, status);
+  add_check(app, status);
   add_list(app, status);
   add_query(app, status);
   add_pairs(app, status);

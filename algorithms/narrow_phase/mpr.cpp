@@ -275,6 +275,7 @@ TOUCHSTONE_NARROW_PHASE {
                                 "Programming Gems 7, 2008"},
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
+           .depth_is_bound = true,
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32)
                return std::make_unique<Mpr<float>>(settings);

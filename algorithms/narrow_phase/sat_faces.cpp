@@ -57,6 +57,7 @@ TOUCHSTONE_NARROW_PHASE {
        .scalars = {Precision::float32, Precision::float64},
        .supports = are_flat_sided,
        .approximate = true,
+       .depth_is_bound = true,
        .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
          if (settings.scalar == Precision::float32) return std::make_unique<SatFaces<float>>();
          return std::make_unique<SatFaces<double>>();

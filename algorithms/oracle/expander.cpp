@@ -219,12 +219,10 @@ void Expander::expand(GridPair& pair, const ExactSimplex& simplex, ExpansionGoal
     const std::uint32_t f = next_face(goal);
     if (f == no_face) break;
     const double bound = filters_.nearest * distance_error;
+    if (curved && expansions == curved_expansions) break;
     if (goal == ExpansionGoal::depth) {
       if (faces_[f].distance > best_final + 2 * bound) break;
-      if (curved &&
-          (least_reach_ - faces_[f].distance < curved_width || expansions == curved_expansions)) {
-        break;
-      }
+      if (curved && least_reach_ - faces_[f].distance < curved_width) break;
     }
     const DifferencePoint point = pair.exact_support(faces_[f].plane, filters_.support);
     const Integer along = dot(faces_[f].plane.exact, pair.exact(point));

@@ -33,6 +33,11 @@ namespace touchstone::bullet {
 
 static_assert(sizeof(btScalar) == sizeof(float), "the scalars offered are Bullet's");
 
+// What Bullet is given, for NarrowPhaseEntry::encoding.
+inline Encoding encoding(ShapeKind, ShapeKind, Task, Precision) {
+  return Encoding::float32_relative;
+}
+
 inline btVector3 to_bullet(const Vec3d& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
@@ -108,10 +113,9 @@ inline Body make_body(const Shape& shape) {
       body.shape->setMargin(0);
       break;
     case ShapeKind::hull: {
-      const std::vector<Vec3d>& vertices = shape.hull->vertices;
-      for (const Vec3d& v : vertices) body.centre += v / static_cast<double>(vertices.size());
+      body.centre = encoding_centre(shape);
       auto hull = std::make_unique<btConvexHullShape>();
-      for (const Vec3d& v : vertices) hull->addPoint(to_bullet(v - body.centre), false);
+      for (const Vec3d& v : shape.hull->vertices) hull->addPoint(to_bullet(v - body.centre), false);
       hull->setMargin(0);
       hull->recalcLocalAabb();
       body.shape = std::move(hull);
@@ -197,10 +201,9 @@ class BulletNarrowPhase final : public NarrowPhase {
                   bodies_[batch.shape_of[second]],
                   {},
                   Vec3d::Zero()};
-      query.origin = at_a(query.a.centre);
+      const Vec3d offset = offset_between(at_a, query.a.centre, at_b, query.b.centre, query.origin);
       query.input.m_transformA = btTransform(to_matrix(at_a.rotation), btVector3(0, 0, 0));
-      query.input.m_transformB =
-          btTransform(to_matrix(at_b.rotation), to_bullet(at_b(query.b.centre) - query.origin));
+      query.input.m_transformB = btTransform(to_matrix(at_b.rotation), to_bullet(offset));
       algorithm_.answer(query, outcomes[i]);
     }
   }

@@ -46,6 +46,7 @@ TOUCHSTONE_NARROW_PHASE {
            .scalars = {Precision::float32},
            .supports = [](ShapeKind a, ShapeKind b,
                           Task) { return a == ShapeKind::box && b == ShapeKind::box; },
+           .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
            .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
              return std::make_unique<bullet::BulletNarrowPhase<bullet::BoxBox>>();
            })}};

@@ -74,6 +74,7 @@ TOUCHSTONE_NARROW_PHASE {
        .tasks = {Task::intersect, Task::distance, Task::penetration},
        .scalars = {Precision::float32},
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
+       .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
        .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
          return std::make_unique<bullet::BulletNarrowPhase<bullet::GjkEpa>>();
        })}};

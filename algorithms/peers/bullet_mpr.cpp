@@ -91,6 +91,8 @@ TOUCHSTONE_NARROW_PHASE {
        .tasks = {Task::intersect, Task::penetration},
        .scalars = {Precision::float32},
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
+       .depth_is_bound = true,
+       .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
        .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
          return std::make_unique<bullet::BulletNarrowPhase<bullet::Mpr>>(settings);
        })}};

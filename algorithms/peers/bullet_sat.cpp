@@ -96,6 +96,7 @@ TOUCHSTONE_NARROW_PHASE {
                  };
                  return flat_sided(a) && flat_sided(b);
                },
+           .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
            .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
              return std::make_unique<bullet::BulletNarrowPhase<bullet::PolyhedralSat>>();
            })}};

@@ -100,10 +100,9 @@ std::unique_ptr<fcl::ShapeBase<S>> make_fcl_shape(const Shape& shape) {
       return std::make_unique<fcl::Ellipsoid<S>>(Vec3<S>(shape.radii.cast<S>()));
     case ShapeKind::hull: return make_convex<S>(*shape.hull);
     case ShapeKind::halfspace: {
-      const double length_of_normal = shape.normal.stableNorm();
-      return std::make_unique<fcl::Halfspace<S>>(
-          Vec3<S>((shape.normal / length_of_normal).cast<S>()),
-          static_cast<S>(shape.offset / length_of_normal));
+      const UnitHalfspace unit(shape);
+      return std::make_unique<fcl::Halfspace<S>>(Vec3<S>(unit.normal.cast<S>()),
+                                                 static_cast<S>(unit.offset));
     }
   }
   return nullptr;
@@ -153,6 +152,25 @@ constexpr bool has_closed_form(ShapeKind a, ShapeKind b) {
 bool supports(ShapeKind kind_a, ShapeKind kind_b, Task task) {
   if (task == Task::distance) return kind_b != ShapeKind::halfspace;
   return task == Task::intersect || kind_a != ShapeKind::halfspace;
+}
+
+// The same of a distance, of fcl-libccd.
+constexpr bool has_closed_distance(ShapeKind a, ShapeKind b) {
+  using enum ShapeKind;
+  if (a == sphere) return b == sphere || b == capsule || b == box || b == cylinder;
+  return a == capsule && b == capsule;
+}
+
+Encoding matrix_encoding(ShapeKind, ShapeKind, Task, Precision scalar) {
+  return scalar == Precision::float32 ? Encoding::float32 : Encoding::as_given;
+}
+
+// Only libccd's own loops are given quaternions.
+Encoding quaternion_encoding(ShapeKind a, ShapeKind b, Task task, Precision scalar) {
+  if (task == Task::distance ? has_closed_distance(a, b) : has_closed_form(a, b)) {
+    return matrix_encoding(a, b, task, scalar);
+  }
+  return scalar == Precision::float32 ? Encoding::quaternion_float32 : Encoding::quaternion;
 }
 
 template <class S, template <class> class Solver>
@@ -300,6 +318,8 @@ TOUCHSTONE_NARROW_PHASE {
        .tasks = tasks,
        .scalars = scalars,
        .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .depth_is_bound = true,
+       .encoding = TOUCHSTONE_IF_BUILT(touchstone::quaternion_encoding),
        .make = TOUCHSTONE_IF_BUILT(touchstone::make<fcl::detail::GJKSolver_libccd>)},
       {.info = {.name = "fcl-indep",
                 .citation = "FCL 0.7, GJKSolver_indep: shapeIntersect, shapeDistance",
@@ -310,6 +330,7 @@ TOUCHSTONE_NARROW_PHASE {
        .tasks = tasks,
        .scalars = scalars,
        .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .encoding = TOUCHSTONE_IF_BUILT(touchstone::matrix_encoding),
        .make = TOUCHSTONE_IF_BUILT(touchstone::make<fcl::detail::GJKSolver_indep>)},
   };
 }

@@ -293,6 +293,7 @@ TOUCHSTONE_NARROW_PHASE {
        .tasks = {intersect, penetration},
        .scalars = scalars,
        .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .depth_is_bound = true,
        .make = TOUCHSTONE_IF_BUILT(touchstone::make<touchstone::Method::mpr>)},
   };
 }

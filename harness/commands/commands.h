@@ -16,6 +16,7 @@ enum ExitStatus : int {
 void add_list(CLI::App& app, int& status);
 void add_query(CLI::App& app, int& status);
 void add_pairs(CLI::App& app, int& status);
+void add_check(CLI::App& app, int& status);
 void add_run(CLI::App& app, int& status);
 void add_draw(CLI::App& app, int& status);
 void add_record(CLI::App& app, int& status);

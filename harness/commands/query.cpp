@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -16,8 +15,8 @@
 #include "harness/io/cases.h"
 #include "harness/io/csv.h"
 #include "harness/run/isolate.h"
-#include "harness/run/ordered_pair.h"
 #include "harness/run/selection.h"
+#include "harness/run/solve_case.h"
 
 namespace touchstone {
 namespace {
@@ -35,39 +34,6 @@ struct Answers {
   std::vector<Outcome> outcomes;
 };
 
-// Leaves what the task asks for. An algorithm may know more, but then knows it by chance.
-Outcome asked_for(Outcome outcome, Task task) {
-  const bool apart = outcome.answer == Answer::separated || outcome.answer == Answer::touching;
-  const bool met = outcome.answer == Answer::overlapping || outcome.answer == Answer::touching;
-  if ((task == Task::distance && apart) || (task == Task::penetration && met)) return outcome;
-  outcome.distance = Outcome::none;
-  outcome.normal = outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
-  return outcome;
-}
-
-// The algorithm is made for the query and given its two shapes alone, so that no case can spoil
-// another's answer.
-Outcome answer(const NarrowPhaseEntry& entry, const Case& c, const QueryOptions& options) {
-  const std::array<Shape, 2> shapes = {c.shape_a, c.shape_b};
-  const std::array<Pose, 2> poses = {c.pose_a, c.pose_b};
-  constexpr std::array<std::uint32_t, 2> bodies = {0, 1};
-  const bool swap = needs_swap(c.shape_a.kind, c.shape_b.kind);
-  const std::span<const std::uint32_t> a(&bodies[swap ? 1 : 0], 1);
-  const std::span<const std::uint32_t> b(&bodies[swap ? 0 : 1], 1);
-  const PairBatch batch = {.task = options.task,
-                           .kind_a = shapes[a[0]].kind,
-                           .kind_b = shapes[b[0]].kind,
-                           .first = a,
-                           .second = b,
-                           .shape_of = bodies,
-                           .poses = poses};
-  Outcome outcome;
-  const std::unique_ptr<NarrowPhase> narrow_phase = entry.make(options.settings);
-  narrow_phase->bind(shapes);
-  narrow_phase->solve(batch, {&outcome, 1});
-  return swap ? swapped(outcome) : outcome;
-}
-
 // All cases that the algorithm takes, in a child process; the failures go to the terminal.
 Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
             const QueryOptions& options) {
@@ -81,12 +47,14 @@ Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
   SharedArray<Outcome> shared(taken.size());
   const IsolationLimits limits = {.item_seconds = options.time_limit};
   const IsolationReport report = isolate(taken.size(), limits, [&]() -> ItemWork {
-    return [&](std::size_t item) { shared[item] = answer(entry, cases[taken[item]], options); };
+    return [&](std::size_t item) {
+      shared[item] = solve_case(entry, options.settings, cases[taken[item]], options.task);
+    };
   });
   for (std::size_t item = 0; item < taken.size(); ++item) {
     Outcome& outcome = answers.outcomes[taken[item]];
     if (report.states[item] == ItemState::done) {
-      outcome = asked_for(shared[item], options.task);
+      outcome = shared[item];
     } else {
       outcome.status = report.states[item] == ItemState::timed_out ? Status::timed_out  //
                                                                    : Status::crashed;

@@ -225,9 +225,10 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
   if (is_device(file_)) {
     // A device or a pipe is written as it is: renaming a file over it would replace it.
     descriptor = open(file_.c_str(), O_WRONLY | O_CLOEXEC);
-  } else if (keep == Keep::flushed_rows) {
-    descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    flushed_ = 0;
+  } else if (keep != Keep::whole_file) {
+    const int before = keep == Keep::flushed_rows ? O_TRUNC : 0;
+    descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | before, 0666);
+    flushed_ = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
   } else {
     // Through a symbolic link, the file that it names is replaced, and not the link.
     if (std::filesystem::is_symlink(file_, ignored)) {
@@ -255,6 +256,7 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
   }
   // So that rows leave the process when they are flushed, and not in the middle of one before.
   if (flushed_ >= 0) std::setvbuf(stream_, nullptr, _IOFBF, std::size_t{1} << 20);
+  if (flushed_ > 0) return;
   for (const std::string& name : header) field(name);
   if (!header.empty()) end_row();
 }

@@ -60,10 +60,11 @@ void check_output(const std::filesystem::path& file);
 class CsvWriter {
  public:
   // What is there when the work does not come to its end: nothing, or every row that was flushed.
-  enum class Keep : std::uint8_t { whole_file, flushed_rows };
+  enum class Keep : std::uint8_t { whole_file, flushed_rows, appended_rows };
 
   // With Keep::flushed_rows the file itself is written, whatever it held before; after a failure it
-  // is cut back to the last flush.
+  // is cut back to the last flush. Keep::appended_rows is the same behind what the file holds,
+  // which is trusted to begin with this header; the header is written where it holds nothing.
   CsvWriter(std::filesystem::path file, const std::vector<std::string>& header,
             Keep keep = Keep::whole_file);
   ~CsvWriter();

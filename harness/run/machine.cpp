@@ -82,17 +82,20 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
   return facts;
 }
 
+void write_facts(std::vector<std::pair<std::string, std::string>> first,
+                 const std::filesystem::path& file) {
+  CsvWriter csv(file, {"name", "value"});
+  for (auto& fact : machine_facts()) first.push_back(std::move(fact));
+  for (const auto& [name, value] : first) csv.field(name).field(value).end_row();
+  csv.close();
+}
+
 void write_machine(const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes,
                    const std::filesystem::path& file) {
-  CsvWriter csv(file, {"name", "value"});
-  const auto add = [&](std::string_view name, std::string_view value) {
-    csv.field(name).field(value).end_row();
-  };
-  add("campaign", campaign.name);
-  add("seed", std::to_string(campaign.seed));
-  for (const auto& [name, value] : machine_facts()) add(name, value);
-  for (const auto& [name, hash] : scene_hashes) add("scene " + name, hash);
-  csv.close();
+  std::vector<std::pair<std::string, std::string>> first = {
+      {"campaign", campaign.name}, {"seed", std::to_string(campaign.seed)}};
+  for (const auto& [name, hash] : scene_hashes) first.emplace_back("scene " + name, hash);
+  write_facts(std::move(first), file);
 }
 
 }  // namespace touchstone

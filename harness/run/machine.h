@@ -16,7 +16,11 @@ namespace touchstone {
 // libraries, commit and whether the tree was changed since.
 std::vector<std::pair<std::string, std::string>> machine_facts();
 
-// machine.csv (name,value): the facts, the campaign's name and seed, and each scene's hash.
+// machine.csv (name,value): what comes first, then the facts.
+void write_facts(std::vector<std::pair<std::string, std::string>> first,
+                 const std::filesystem::path& file);
+
+// The same for a campaign: the facts, the campaign's name and seed, and each scene's hash.
 void write_machine(const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes,
                    const std::filesystem::path& file);
 

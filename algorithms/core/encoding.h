@@ -1,0 +1,66 @@
+// What an algorithm is given of a pair of bodies, and so the exact problem that its own arithmetic
+// is held to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "algorithms/core/pose.h"
+#include "algorithms/core/shape.h"
+
+namespace touchstone {
+
+enum class Encoding : std::uint8_t {
+  as_given,  // doubles as they stand; whatever is rounded after that is the algorithm's own error
+  float32,   // each number of the shapes and of the poses rounded to float; the normal of a
+             // half-space has been made unit in double
+  float32_relative,    // float32 after a subtraction in double: hulls are about the mean of their
+                       // vertices, and the pair is about the first body's centre (offset_between)
+  quaternion,          // the rotation turned into a quaternion in double (to_quaternion)
+  quaternion_float32,  // float32, and then the rotation turned into a quaternion in float
+};
+inline constexpr std::array<Encoding, 5> all_encodings = {
+    Encoding::as_given, Encoding::float32, Encoding::float32_relative, Encoding::quaternion,
+    Encoding::quaternion_float32};
+
+std::string_view to_string(Encoding encoding);
+
+// The conversions in doubles. Adapters and the checker both go through these, so that the exact
+// problem has the very bits that the library was given.
+
+// Of a hull the mean of its vertices, of every other shape its origin; body coordinates.
+inline Vec3d encoding_centre(const Shape& shape) {
+  Vec3d centre = Vec3d::Zero();
+  if (shape.kind != ShapeKind::hull) return centre;
+  const std::vector<Vec3d>& vertices = shape.hull->vertices;
+  for (const Vec3d& v : vertices) centre += v / static_cast<double>(vertices.size());
+  return centre;
+}
+
+// From the centre of a to that of b, world axes. `origin` is set to the centre of a in the world.
+inline Vec3d offset_between(const Pose& pose_a, const Vec3d& centre_a, const Pose& pose_b,
+                            const Vec3d& centre_b, Vec3d& origin) {
+  origin = pose_a(centre_a);
+  return pose_b(centre_b) - origin;
+}
+
+// n.x <= offset with n of about unit length, in the same order.
+struct UnitHalfspace {
+  Vec3d normal;
+  double offset;
+
+  explicit UnitHalfspace(const Shape& shape) {
+    const double length = shape.normal.stableNorm();
+    normal = shape.normal / length;
+    offset = shape.offset / length;
+  }
+};
+
+// Not normalised.
+template <class Scalar>
+Eigen::Quaternion<Scalar> to_quaternion(const Mat3<Scalar>& rotation) {
+  return Eigen::Quaternion<Scalar>(rotation);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,26 @@
+// Files of the oracle's proofs: made for the cases of a check, and verified.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/check/check_request.h"
+
+namespace touchstone {
+
+// Proves the exact answers of the first round's cases, as they are given, and writes a certificate
+// a line. How many.
+std::int64_t save_certificates(const CheckRequest& request, const std::filesystem::path& file);
+
+struct CertificateVerdicts {
+  std::int64_t verified = 0;
+  std::vector<std::string> refused;  // "FILE:LINE: id: why", the first thousand
+  std::int64_t refused_count = 0;
+};
+
+// Verifies every certificate of a file. InputError where the file cannot be read.
+CertificateVerdicts verify_certificates(const std::filesystem::path& file);
+
+}  // namespace touchstone

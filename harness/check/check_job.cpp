@@ -1,0 +1,248 @@
+#include "harness/check/check_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "algorithms/core/bounds.h"
+#include "algorithms/oracle/certificate_check.h"
+#include "harness/check/margins.h"
+#include "harness/check/metamorphic.h"
+#include "harness/check/true_case.h"
+#include "harness/run/isolate.h"
+#include "harness/run/solve_case.h"
+
+namespace touchstone {
+namespace {
+
+// One query: a case, or one of its other forms.
+struct Item {
+  std::size_t place;  // of the case
+  const Variant* variant;
+  Task task;
+};
+
+// "rotation" of "rotation+y+z+x".
+std::string kind_of(const Variant& variant) {
+  return variant.name.substr(0, variant.name.find_first_of("+-"));
+}
+
+void note_worst(JobSummary& summary, bool is_first, std::uint64_t index) {
+  if (is_first) summary.worst_index = index;
+}
+
+class Job {
+ public:
+  Job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle)
+      : request_(request), oracle_(oracle) {
+    const std::size_t regimes = request.regimes.size();
+    JobSummary& summary = result_.summary;
+    summary.regime = static_cast<std::uint32_t>(job % regimes);
+    summary.round = job / regimes;
+    summary.cases = request.cases;
+    const auto count = static_cast<std::uint64_t>(request.cases);
+    for (std::uint64_t index = summary.round * count; index < (summary.round + 1) * count;
+         ++index) {
+      cases_.emplace_back(make(regime(), request.seed, index), index, oracle);
+      Random random(request.seed, index);
+      variants_.push_back(is_sampled(index) ? variants(cases_.back().pair(), random)
+                                            : std::vector<Variant>());
+    }
+  }
+
+  JobResult run() {
+    for (TrueCase& c : cases_) check_case(c);
+    for (std::uint32_t entry = 0; entry < request_.narrow.size(); ++entry) {
+      for (const Precision scalar : request_.scalars) {
+        if (offers(*request_.narrow[entry], scalar)) ask(entry, scalar);
+      }
+    }
+    for (auto& [key, count] : counts_) result_.variants.push_back(count);
+    return std::move(result_);
+  }
+
+ private:
+  const Regime& regime() const { return *request_.regimes[result_.summary.regime]; }
+
+  // What has to be true whatever the algorithms say.
+  void check_case(TrueCase& c) {
+    JobSummary& summary = result_.summary;
+    const TrueCase::Truth& truth = c.truth(Encoding::as_given);
+    if (truth.measure.answer == Answer::unknown) ++summary.unresolved;
+    const auto is_first = [&] { return summary.refused + summary.boxes_broken == 1; };
+    if (is_sampled(c.index())) {
+      oracle::Certificate certificate;
+      oracle_.prove(truth.pair.a(), truth.pair.b(), certificate);
+      const bool good = oracle::fault(certificate, truth.pair.a(), truth.pair.b()).empty();
+      ++(good ? summary.proven : summary.refused);
+      note_worst(summary, !good && is_first(), c.index());
+    }
+    const auto check_boxes = [&](const Shape& shape, const Pose& pose, const oracle::Body& body) {
+      const double reach = loose_reach(shape, pose.rotation);
+      for (const Aabb& box : {tight_box(shape, pose), loose_box(reach, pose.translation)}) {
+        ++summary.boxes;
+        if (oracle::holds(box, body)) continue;
+        ++summary.boxes_broken;
+        note_worst(summary, is_first(), c.index());
+      }
+    };
+    check_boxes(c.pair().shape_a, c.pair().pose_a, truth.pair.a());
+    check_boxes(c.pair().shape_b, c.pair().pose_b, truth.pair.b());
+  }
+
+  // All that is asked of one algorithm, in a child process.
+  void ask(std::uint32_t entry, Precision scalar) {
+    const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
+    std::vector<Item> items;
+    for (std::size_t place = 0; place < cases_.size(); ++place) {
+      const Case& c = cases_[place].pair();
+      for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+        if (!offers(algorithm, c.shape_a.kind, c.shape_b.kind, task)) continue;
+        items.push_back({place, nullptr, task});
+        for (const Variant& variant : variants_[place]) items.push_back({place, &variant, task});
+      }
+    }
+    SharedArray<Outcome> outcomes(items.size());
+    const NarrowPhaseSettings settings = {.scalar = scalar};
+    const IsolationLimits limits = {.item_seconds = request_.time_limit, .failures = 30};
+    const IsolationReport report = isolate(items.size(), limits, [&]() -> ItemWork {
+      return [&](std::size_t i) {
+        const Item& item = items[i];
+        const Case& c =
+            item.variant != nullptr ? item.variant->transformed : cases_[item.place].pair();
+        outcomes[i] = solve_case(algorithm, settings, c, item.task);
+      };
+    });
+    GradedAnswer* original = nullptr;
+    const Outcome* original_outcome = nullptr;
+    Status lost = Status::crashed;  // what is not begun after too many failures has the last's
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      Outcome& outcome = outcomes[i];
+      if (report.states[i] != ItemState::done) {
+        if (report.states[i] != ItemState::not_run) {
+          lost = report.states[i] == ItemState::timed_out ? Status::timed_out : Status::crashed;
+        }
+        outcome = Outcome{};
+        outcome.status = lost;
+      }
+      if (items[i].variant == nullptr) {
+        const Query query = {result_.summary.regime, entry, scalar, items[i].task};
+        result_.answers.push_back(grade_answer(request_, query, cases_[items[i].place], outcome));
+        original = &result_.answers.back();
+        original_outcome = &outcome;
+      } else {
+        compare(*original, *original_outcome, *items[i].variant, outcome);
+      }
+    }
+  }
+
+  void compare(const GradedAnswer& original, const Outcome& outcome, const Variant& variant,
+               const Outcome& of_variant) {
+    const NarrowPhaseEntry& algorithm = *request_.narrow[original.entry];
+    const std::string kind = kind_of(variant);
+    VariantCount& count = counts_[{original.entry, original.scalar, original.task, kind}];
+    if (count.variant[0] == '\0') {
+      count.entry = original.entry;
+      count.scalar = original.scalar;
+      count.task = original.task;
+      kind.copy(count.variant.data(), count.variant.size() - 1);
+    }
+    const auto is_lost = [](const Outcome& o) {
+      return o.status == Status::crashed || o.status == Status::timed_out;
+    };
+    const Margins margins = documented_margins(original.scalar, regime().extreme);
+    bool beyond = false;
+    bool worse = false;
+    if (is_lost(of_variant) && !is_lost(outcome)) {
+      ++count.lost;
+      beyond = true;
+    }
+    if (stands_by(outcome) && stands_by(of_variant)) {
+      ++count.compared;
+      const Outcome turned_back = to_original(variant, of_variant);
+      const double scale = scale_of(original);
+      if (is_contact(outcome.answer) != is_contact(of_variant.answer)) {
+        if (original.exact == Answer::separated || original.exact == Answer::overlapping) {
+          const double gap = original.exact == Answer::separated ? original.lower : -original.upper;
+          ++count.flips;
+          worse = gap / scale > count.worst_flip;
+          count.worst_flip = std::max(count.worst_flip, gap / scale);
+          beyond = beyond || (gap / scale >= margins.verdict && !algorithm.approximate);
+        }
+      } else if (asks_for_distance(original.task, outcome.answer) &&
+                 std::isfinite(outcome.distance) && std::isfinite(turned_back.distance)) {
+        const double difference = std::abs(outcome.distance - turned_back.distance) / scale;
+        count.worst_difference = std::max(count.worst_difference, difference);
+        const bool any_depth = original.task == Task::penetration && algorithm.depth_is_bound;
+        beyond = beyond || (difference > 2 * margins.length && !any_depth);
+      }
+    }
+    beyond = beyond && algorithm.info.origin == Origin::ours;
+    if (beyond ? count.beyond == 0 : worse && count.beyond == 0) count.worst_index = original.index;
+    if (beyond) ++count.beyond;
+  }
+
+  const CheckRequest& request_;
+  oracle::Oracle& oracle_;
+  std::vector<TrueCase> cases_;
+  std::vector<std::vector<Variant>> variants_;  // of each case
+  std::map<std::tuple<std::uint32_t, Precision, Task, std::string>, VariantCount> counts_;
+  JobResult result_;
+};
+
+template <class T>
+void append(std::string& bytes, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& values) {
+  append(bytes, values.size());
+  for (const T& value : values) append(bytes, value);
+}
+
+template <class T>
+void take(std::string_view& bytes, T& value) {
+  if (bytes.size() < sizeof value) throw std::logic_error("a result is cut short");
+  std::memcpy(static_cast<void*>(&value), bytes.data(), sizeof value);
+  bytes.remove_prefix(sizeof value);
+}
+
+template <class T>
+void take(std::string_view& bytes, std::vector<T>& values) {
+  std::size_t size = 0;
+  take(bytes, size);
+  values.resize(size);
+  for (T& value : values) take(bytes, value);
+}
+
+}  // namespace
+
+JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle) {
+  return Job(request, job, oracle).run();
+}
+
+std::string pack(const JobResult& result) {
+  std::string bytes;
+  append(bytes, result.summary);
+  append(bytes, result.answers);
+  append(bytes, result.variants);
+  return bytes;
+}
+
+JobResult unpack(const std::string& bytes) {
+  JobResult result;
+  std::string_view rest = bytes;
+  take(rest, result.summary);
+  take(rest, result.answers);
+  take(rest, result.variants);
+  return result;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,32 @@
+// What a check is asked to do.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/check/graded_answer.h"
+
+namespace touchstone {
+
+struct CheckRequest {
+  std::vector<const NarrowPhaseEntry*> narrow;
+  std::vector<const BroadPhaseEntry*> broad;
+  std::vector<Precision> scalars = {Precision::float64, Precision::float32};
+  std::vector<const Regime*> regimes;
+  std::uint64_t seed = 1;
+  int cases = 40;         // of each regime in a round
+  double seconds = 0;     // rounds are done until these are over; 0: one round
+  int workers = 2;        // processes
+  double time_limit = 2;  // seconds a query
+  std::filesystem::path out;
+  bool resume = false;  // go on where the folder's last run ended
+
+  CheckSubjects subjects() const { return {narrow, regimes}; }
+};
+
+// Every fifth case is also asked about in other forms, and its exact answer is proven.
+inline bool is_sampled(std::uint64_t index) { return index % 5 == 0; }
+
+}  // namespace touchstone

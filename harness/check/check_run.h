@@ -1,0 +1,24 @@
+// A whole check, from the request to its files.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "harness/check/check_report.h"
+#include "harness/check/tally.h"
+
+namespace touchstone {
+
+// Owns what the report refers to but for the request.
+struct CheckResult {
+  Tally tally;
+  std::vector<BoxScene> scenes;
+  CheckReport report;
+};
+
+// Grades everything and writes grades.csv, variants.csv, jobs.csv, progress.csv, summary.csv,
+// machine.csv and failures/ into the request's folder, which is made. Progress goes to standard
+// error. InputError where the folder cannot be written, or cannot be gone on with.
+std::unique_ptr<CheckResult> run_check(const CheckRequest& request);
+
+}  // namespace touchstone
