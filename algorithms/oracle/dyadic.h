@@ -1,9 +1,11 @@
 // Floating-point numbers as what they are: integers times powers of two.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "algorithms/oracle/integer.h"
 
@@ -29,10 +31,17 @@ Dyadic dyadic(Scalar x) {
                 std::numeric_limits<Scalar>::digits <= 64);
   if (x == 0) return {};
   int exponent = 0;
-  const Scalar fraction = std::frexp(x < 0 ? -x : x, &exponent);
-  auto bits = static_cast<std::uint64_t>(std::ldexp(fraction, 64));
-  exponent -= 64;
-  const int zeros = __builtin_ctzll(bits);
+  std::uint64_t bits = 0;
+  if (std::is_same_v<Scalar, double> && std::abs(x) >= std::numeric_limits<Scalar>::min()) {
+    const auto stored = std::bit_cast<std::uint64_t>(static_cast<double>(x));
+    bits = (stored & 0xfffffffffffffu) | 0x10000000000000u;
+    exponent = static_cast<int>(stored >> 52 & 0x7ffu) - 1075;
+  } else {
+    const Scalar fraction = std::frexp(x < 0 ? -x : x, &exponent);
+    bits = static_cast<std::uint64_t>(std::ldexp(fraction, 64));
+    exponent -= 64;
+  }
+  const int zeros = std::countr_zero(bits);
   bits >>= zeros;
   Integer mantissa = bits;
   if (x < 0) mantissa = -mantissa;

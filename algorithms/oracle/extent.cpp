@@ -69,8 +69,8 @@ Enclosure separation_along(const Body& a, const Body& b, const Vec3d& n) {
   pair.place_exactly();
   const Reach found = reach(pair, direction);
   const double radius_a = a.solid->radius, radius_b = b.solid->radius;
-  return {-round_up_less(negated(found.low), radius_a, radius_b),
-          -round_down_less(negated(found.high), radius_a, radius_b)};
+  return {-round_less(negated(found.low), radius_a, radius_b).high,
+          -round_less(negated(found.high), radius_a, radius_b).low};
 }
 
 bool holds(const Aabb& box, const Body& body) {

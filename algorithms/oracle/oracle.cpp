@@ -160,11 +160,16 @@ Measure Oracle::Workspace::measure(const Body& a, const Body& b, Certificate* ce
     }
   }
   const double radius_a = a.solid->radius, radius_b = b.solid->radius;
-  measure.exact = measure.core_lower == measure.core_upper;
-  measure.lower = round_down_less(measure.core_lower, radius_a, radius_b);
-  measure.upper = round_up_less(measure.core_upper, radius_a, radius_b);
-  measure.answer = answer_of(compare(measure.core_lower, radius_a, radius_b),
-                             compare(measure.core_upper, radius_a, radius_b));
+  const auto lower_order = compare(measure.core_lower, radius_a, radius_b);
+  const DoubleBounds lower = round_less(measure.core_lower, radius_a, radius_b);
+  // Polytopes and half-spaces are exact without a look: the bounds are the same fraction.
+  const bool curved = a.solid->is_curved() || b.solid->is_curved();
+  measure.exact = !curved || measure.core_lower == measure.core_upper;
+  measure.answer = answer_of(
+      lower_order, measure.exact ? lower_order : compare(measure.core_upper, radius_a, radius_b));
+  measure.lower = lower.low;
+  measure.upper =
+      measure.exact ? lower.high : round_less(measure.core_upper, radius_a, radius_b).high;
   if (certificate != nullptr) {
     certificate->answer = measure.answer;
     certificate->lower = measure.core_lower;

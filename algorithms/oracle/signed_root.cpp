@@ -28,10 +28,11 @@ Sum sum(double radius_a, double radius_b) {
   return {a.over_power(exponent) + b.over_power(exponent), exponent};
 }
 
-// Of value - sum; rounded to the double below or above.
-double round_less(const SignedRoot& value, double radius_a, double radius_b, bool up) {
+}  // namespace
+
+DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_b) {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  if (value.is_infinite()) return value.sign * inf;
+  if (value.is_infinite()) return {value.sign * inf, value.sign * inf};
   const Sum radius = sum(radius_a, radius_b);
   // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first. More
   // where the radius leaves so little of the root that these do not tell the double.
@@ -62,14 +63,13 @@ double round_less(const SignedRoot& value, double radius_a, double radius_b, boo
       low -= r;
       high -= r;
     }
-    const double of_low = up ? round_up(low, -shift) : round_down(low, -shift);
-    if (exact) return of_low;
-    const double of_high = up ? round_up(high, -shift) : round_down(high, -shift);
-    if (of_low == of_high) return of_low;
+    const DoubleBounds bounds = {round_down(low, -shift), round_up(high, -shift)};
+    // Both integers have the same doubles beside them: then so has the number between.
+    if (exact || (round_down(high, -shift) == bounds.low && round_up(low, -shift) == bounds.high)) {
+      return bounds;
+    }
   }
 }
-
-}  // namespace
 
 std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y) {
   if (x.sign != y.sign) return x.sign <=> y.sign;
@@ -81,15 +81,6 @@ std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y) {
 }
 
 bool operator==(const SignedRoot& x, const SignedRoot& y) { return (x <=> y) == 0; }
-
-double round_down(const SignedRoot& value) { return round_less(value, 0, 0, false); }
-double round_up(const SignedRoot& value) { return round_less(value, 0, 0, true); }
-double round_down_less(const SignedRoot& value, double radius_a, double radius_b) {
-  return round_less(value, radius_a, radius_b, false);
-}
-double round_up_less(const SignedRoot& value, double radius_a, double radius_b) {
-  return round_less(value, radius_a, radius_b, true);
-}
 
 std::strong_ordering compare(const SignedRoot& value, double radius_a, double radius_b) {
   const Sum radius = sum(radius_a, radius_b);

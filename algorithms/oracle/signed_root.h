@@ -23,14 +23,12 @@ struct SignedRoot {
 std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y);
 bool operator==(const SignedRoot& x, const SignedRoot& y);
 
-// The greatest double <= value, the least >= value. May be infinite, or a zero or subnormal number.
-double round_down(const SignedRoot& value);
-double round_up(const SignedRoot& value);
-
-// The same for value - radius_a - radius_b, and the order of value and radius_a + radius_b; radii
-// are finite and >= 0.
-double round_down_less(const SignedRoot& value, double radius_a, double radius_b);
-double round_up_less(const SignedRoot& value, double radius_a, double radius_b);
+// The doubles on both sides of value - radius_a - radius_b, the same one twice where it is a
+// double; and the order of value and radius_a + radius_b. Radii are finite and >= 0.
+struct DoubleBounds {
+  double low, high;
+};
+DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_b);
 std::strong_ordering compare(const SignedRoot& value, double radius_a, double radius_b);
 
 }  // namespace touchstone::oracle

@@ -1,7 +1,6 @@
-// Kernel benchmarks: every algorithm of the registry under Google Benchmark, for profiling one at a
-// time
-// (--benchmark_filter=narrow/gjk/double/box-box). The harness proper times whole scenes; see
-// `touchstone run`.
+// Kernel benchmarks: every algorithm of the registry, and the oracle, under Google Benchmark, for
+// profiling one at a time (--benchmark_filter=narrow/gjk/double/box-box). The harness proper times
+// whole scenes; see `touchstone run`.
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
@@ -11,6 +10,7 @@
 
 #include "algorithms/core/executor.h"
 #include "algorithms/registry.h"
+#include "harness/bench/oracle.h"
 #include "harness/run/build_info.h"
 #include "harness/run/pair_groups.h"
 #include "harness/scene/player.h"
@@ -101,6 +101,7 @@ int main(int argc, char** argv) {
   const Stage boxes("uniform.toml", 1000, 64);
   const Stage bodies("primitives.toml", 2000, 1);
   register_all(boxes, bodies);
+  register_oracle_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -18,7 +18,7 @@ struct Options {
   std::string campaign, out;
   // A campaign of one group, from the command line.
   std::vector<std::string> scenes;
-  std::string broad = "all", narrow = "all";
+  std::string broad = "ours,peers", narrow = "ours,peers";
   std::vector<Task> tasks = {Task::intersect};
   std::vector<Precision> scalars = {Precision::float32, Precision::float64};
   std::vector<BoxKind> boxes = {BoxKind::tight};
@@ -102,10 +102,10 @@ void add_run(CLI::App& app, int& status) {
           ->excludes(campaign)
           ->group(one);
   const auto add = [&](CLI::Option* option) { option->needs(scene)->group(one); };
-  add(command->add_option("--broad", options->broad, "Broad phases: names, all, ours, peers, none")
+  add(command->add_option("--broad", options->broad, "Broad phases: names, all, ours, peers, oracle, none")
           ->capture_default_str());
   add(command
-          ->add_option("--narrow", options->narrow, "Narrow phases: names, all, ours, peers, none")
+          ->add_option("--narrow", options->narrow, "Narrow phases: names, all, ours, peers, oracle, none")
           ->capture_default_str());
   const std::map<std::string, Task> tasks = {{"intersect", Task::intersect},
                                              {"distance", Task::distance},

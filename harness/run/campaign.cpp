@@ -81,7 +81,7 @@ class Settings {
 template <class Entry>
 std::vector<const Entry*> algorithms(Settings& settings, const std::string& key,
                                      std::span<const Entry> entries) {
-  const std::vector<std::string> names = settings.texts(key, {"all"});
+  const std::vector<std::string> names = settings.texts(key, {"ours", "peers"});
   try {
     return select(entries, names, key + " phase");
   } catch (const InputError& error) {

@@ -44,7 +44,7 @@ Status status_of(const OutcomeFaults& faults, Origin origin) {
 }  // namespace
 
 NarrowRunner::NarrowRunner(const RunContext& context, Executor& executor)
-    : context_(context), executor_(&executor), reference_(context.scene->shapes) {
+    : context_(context), executor_(&executor), reference_(context.scene->shapes, executor) {
   for (const Body& body : context.scene->bodies) shape_of_.push_back(body.shape);
   for (const NarrowChoice& choice : context.block->group->narrow) {
     Contestant contestant{choice,
@@ -135,7 +135,7 @@ void NarrowRunner::report(const Contestant& contestant, Task task, const PairGro
     const std::size_t i = *faults.worst_pair;
     departure.what =
         fmt::format("{} of {} answers differ from {}'s, by up to {:.3g} m (bodies {} and {})",
-                    faults.disagree, faults.compared, ReferenceNarrowPhase::name(), faults.worst,
+                    faults.disagree, faults.compared, Reference::name(), faults.worst,
                     group.first[i], group.second[i]);
   }
   if (contestant.choice.entry->approximate) departure.what += "; approximate by design";

@@ -22,12 +22,12 @@ class NarrowRunner {
   NarrowRunner(const RunContext& context, Executor& executor);
 
   // Takes every algorithm's answers for every task on these pairs and compares them with the
-  // reference's, untimed. A peer runs in a process of its own: one that crashes or hangs here is
+  // oracle's, untimed. A peer runs in a process of its own: one that crashes or hangs here is
   // not timed after.
   void compare(int frame, std::span<const Pose> poses, std::span<const IndexPair> pairs);
 
   // Times every algorithm and task on these pairs, each kind of pairs apart, in the order of
-  // `shuffle`. `broad` names the broad phase that found them; empty where they are the reference's.
+  // `shuffle`. `broad` names the broad phase that found them; empty where they are the true ones.
   // The frame has been compared before.
   void time(int frame, std::span<const Pose> poses, std::span<const IndexPair> pairs,
             const std::string& broad, std::mt19937_64& shuffle);
@@ -57,7 +57,7 @@ class NarrowRunner {
   Executor* executor_;
   std::vector<std::uint32_t> shape_of_;
   std::vector<Contestant> contestants_;
-  ReferenceNarrowPhase reference_;
+  Reference reference_;
   std::map<Key, OutcomeFaults> faults_;  // of the frame that was compared last
   std::set<Key> out_;                    // crashed, hung or too slow on such pairs: no longer run
   std::set<Key> reported_;               // a departure is told once a block

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "algorithms/core/bounds.h"
-#include "algorithms/registry.h"
 
 namespace touchstone {
 namespace {
@@ -104,31 +102,27 @@ OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
   return faults;
 }
 
-ReferenceNarrowPhase::ReferenceNarrowPhase(std::span<const Shape> shapes) : shapes_(shapes) {
-  const NarrowPhaseEntry* entry = find_narrow_phase(name());
-  if (entry == nullptr || !entry->make) throw std::logic_error("the reference is not built");
-  algorithm_ = entry->make({});
-  algorithm_->bind(shapes);
-}
+Reference::Reference(std::span<const Shape> shapes, Executor& executor)
+    : shapes_(shapes),
+      executor_(&executor),
+      solids_(shapes.begin(), shapes.end()),
+      oracles_(static_cast<std::size_t>(executor.width())) {}
 
-std::vector<ReferenceOutcome> ReferenceNarrowPhase::solve(const PairGroup& group,
-                                                          std::span<const std::uint32_t> shape_of,
-                                                          std::span<const Pose> poses) {
+std::vector<ReferenceOutcome> Reference::solve(const PairGroup& group,
+                                               std::span<const std::uint32_t> shape_of,
+                                               std::span<const Pose> poses) {
   std::vector<ReferenceOutcome> reference(group.size());
-  std::vector<Outcome> gaps(group.size());
-  std::vector<Outcome> depths(group.size());
-  algorithm_->solve(group.batch(Task::distance, shape_of, poses, 0, group.size()), gaps);
-  algorithm_->solve(group.batch(Task::penetration, shape_of, poses, 0, group.size()), depths);
-  for (std::size_t i = 0; i < group.size(); ++i) {
+  executor_->run(group.size(), [&](std::size_t i, int worker) {
     ReferenceOutcome& result = reference[i];
-    for (const std::uint32_t body : {group.first[i], group.second[i]}) {
-      grow(result, shapes_[shape_of[body]], poses[body]);
-    }
-    const bool apart = gaps[i].answer == Answer::separated;
-    const Outcome& source = apart ? gaps[i] : depths[i];
-    result.answer = source.answer;
-    result.distance = source.distance;
-  }
+    const auto body = [&](std::uint32_t k) {
+      grow(result, shapes_[shape_of[k]], poses[k]);
+      return oracle::Body(solids_[shape_of[k]], poses[k]);
+    };
+    const oracle::Measure measure = oracles_[static_cast<std::size_t>(worker)].measure(
+        body(group.first[i]), body(group.second[i]));
+    result.answer = measure.answer;
+    result.distance = measure.middle();
+  });
   return reference;
 }
 

@@ -291,7 +291,7 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
         "on some pair, ! crashed, hung or was too slow\n\n",
         to_string(task));
     text +=
-        grid.text("", fmt::format("agreement with {}", ReferenceNarrowPhase::name()), page_width);
+        grid.text("", fmt::format("agreement with {}", Reference::name()), page_width);
     text += '\n';
   }
   return text;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,9 +27,9 @@ inline std::vector<std::string> split_names(std::string_view list) {
 }
 
 // The entries of these names, in the order named, each once. "all" stands for every one that is
-// built, "ours" and "peers" for those of that origin, "none" for none. InputError for an unknown
-// name, with those that there are, and for one that is not built, with the reason. `what` is "broad
-// phase" or "narrow phase".
+// built, "ours", "peers" and "oracle" for those of that origin, "none" for none. InputError for an
+// unknown name, with those that there are, and for one that is not built, with the reason. `what`
+// is "broad phase" or "narrow phase".
 template <class Entry>
 std::vector<const Entry*> select(std::span<const Entry> entries,
                                  const std::vector<std::string>& names, std::string_view what) {
@@ -38,10 +39,13 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
   };
   for (const std::string& name : names) {
     if (name == "none") continue;
-    if (name == "all" || name == "ours" || name == "peers") {
+    std::optional<Origin> origin;
+    if (name == "ours") origin = Origin::ours;
+    if (name == "peers") origin = Origin::peer;
+    if (name == "oracle") origin = Origin::oracle;
+    if (name == "all" || origin) {
       for (const Entry& entry : entries) {
-        const bool ours = entry.info.origin == Origin::ours;
-        const bool wanted = name == "all" || ours == (name == "ours");
+        const bool wanted = !origin || entry.info.origin == *origin;
         if (wanted && is_built(entry.info)) choose(entry);
       }
       continue;
@@ -49,7 +53,7 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     const auto at =
         std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
     if (at == entries.end()) {
-      std::string known = "all, ours, peers, none";
+      std::string known = "all, ours, peers, oracle, none";
       for (const Entry& entry : entries) known += ", " + entry.info.name;
       throw InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
     }
