@@ -165,7 +165,7 @@ class Job {
     if (stands_by(outcome) && stands_by(of_variant)) {
       ++count.compared;
       const Outcome turned_back = to_original(variant, of_variant);
-      const double scale = scale_of(original);
+      const double scale = original.scale;
       if (is_contact(outcome.answer) != is_contact(of_variant.answer)) {
         if (original.exact == Answer::separated || original.exact == Answer::overlapping) {
           const double gap = original.exact == Answer::separated ? original.lower : -original.upper;

@@ -64,7 +64,7 @@ bool is_alike(const GradedAnswer& small, const GradedAnswer& failure) {
   if (failure.beyond && !small.beyond) return false;
   if (small.given.verdict != failure.given.verdict) return false;
   if (failure.given.verdict == Verdict::silent_error) {
-    return small.given.margin / scale_of(small) >= failure.given.margin / scale_of(failure) / 10;
+    return small.given.margin / small.scale >= failure.given.margin / failure.scale / 10;
   }
   return badness(small) >= badness(failure) / 10;
 }
@@ -149,7 +149,7 @@ std::string describe(const GradedAnswer& answer, const CheckRequest& request) {
     return beyond_margins(entry, answer, request.regimes[answer.regime]->extreme);
   }
   const Grade& grade = answer.given;
-  const double scale = scale_of(answer);
+  const double scale = answer.scale;
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   switch (grade.verdict) {

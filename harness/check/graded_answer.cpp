@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <type_traits>
 
 namespace touchstone {
@@ -16,8 +15,11 @@ static_assert(std::is_trivially_copyable_v<GradedAnswer>);
 template <class Row, class Visit>
 void for_each_number(Row& row, const Visit& visit) {
   visit("size", row.size);
+  visit("scale", row.scale);
   visit("exact_lower", row.lower);
   visit("exact_upper", row.upper);
+  visit("given_lower", row.given_lower);
+  visit("given_upper", row.given_upper);
   visit("margin", row.given.margin);
   visit("distance_error", row.given.distance_error);
   visit("depth_error", row.given.depth_error);
@@ -127,14 +129,6 @@ GradedAnswer read_graded_answer(const CsvReader::Row& row, const CheckSubjects& 
     ++column;
   });
   return out;
-}
-
-double scale_of(const GradedAnswer& answer) {
-  double scale = answer.size;
-  for (const double end : {answer.lower, answer.upper}) {
-    if (std::isfinite(end)) scale = std::max(scale, std::abs(end));
-  }
-  return scale;
 }
 
 }  // namespace touchstone

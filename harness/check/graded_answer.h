@@ -33,16 +33,14 @@ struct GradedAnswer {
   Status status{};
   bool beyond = false;  // one of ours, and beyond its documented margins
   std::int32_t iterations = -1;
-  double size = 0;              // of the pair, metres
-  double lower = 0, upper = 0;  // metres: enclose the exact signed distance of the case
-  Grade given;                  // against what the algorithm was given
-  Grade end_to_end;             // against the case
-  WitnessGrade witnesses;       // against the case
+  double size = 0;              // pair_size, metres
+  double scale = 0;             // what errors are parts of, metres; see margins.h
+  double lower = 0, upper = 0;  // metres: enclose the exact signed distance of the case,
+  double given_lower = 0, given_upper = 0;  // and of what the algorithm was given
+  Grade given;                              // against what the algorithm was given
+  Grade end_to_end;                         // against the case
+  WitnessGrade witnesses;                   // against the case
 };
-
-// What a row's numbers are parts of: the pair's size, or its exact distance where that is greater
-// (metres).
-double scale_of(const GradedAnswer& answer);
 
 std::vector<std::string> graded_answer_header();
 void write(CsvWriter& file, const GradedAnswer& row, const CheckSubjects& subjects);

@@ -36,7 +36,7 @@ std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& an
                            bool extreme) {
   const Grade& grade = answer.end_to_end;
   const Margins margins = documented_margins(answer.scalar, extreme);
-  Remarks remarks(scale_of(answer));
+  Remarks remarks(answer.scale);
   if (grade.verdict == Verdict::crashed) remarks.add("crashed");
   if (grade.verdict == Verdict::timed_out) remarks.add("no answer in time");
   if (grade.verdict == Verdict::silent_error && !(entry.approximate && is_contact(answer.answer))) {

@@ -35,7 +35,7 @@ AnswerCount::AnswerCount()
 void AnswerCount::add(const GradedAnswer& answer) {
   const Grade& given = answer.given;
   const Grade& end = answer.end_to_end;
-  const double scale = scale_of(answer);
+  const double scale = answer.scale;
   ++answers;
   switch (given.verdict) {
     case Verdict::silent_error: ++silent; break;
@@ -105,7 +105,7 @@ void FlipCount::add(const VariantCount& count) {
 double badness(const GradedAnswer& answer) {
   if (answer.given.verdict == Verdict::crashed) return 1e9;
   if (answer.given.verdict == Verdict::timed_out) return 1e8;
-  const double scale = scale_of(answer);
+  const double scale = answer.scale;
   double bad = 0;
   if (answer.given.verdict == Verdict::silent_error) {
     bad = 1e3 * (1 + answer.given.margin / scale);

@@ -11,7 +11,7 @@
 namespace touchstone {
 
 // Answers of one algorithm in one scalar, over all tasks. Errors are parts of the scale
-// (scale_of), the greatest of each; NaN where there is none.
+// (GradedAnswer::scale), the greatest of each; NaN where there is none.
 struct AnswerCount {
   std::int64_t answers = 0;       // supported pairs that were asked about
   std::int64_t not_reported = 0;  // with a status that says nothing

@@ -1,5 +1,7 @@
 #include "harness/check/true_case.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -7,6 +9,27 @@
 #include "harness/check/pair_size.h"
 
 namespace touchstone {
+namespace {
+
+// The greatest of the numbers that a distance is the difference of, in metres: a hull and a
+// half-space may lie away from their own origins, and a half-space has no centre to be near.
+double greatest_coordinate(const Case& c) {
+  double greatest = 0;
+  for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
+    if (shape->kind == ShapeKind::hull) {
+      for (const Vec3d& v : shape->hull->vertices) greatest = std::max(greatest, v.stableNorm());
+    } else if (shape->kind == ShapeKind::halfspace) {
+      greatest = std::max(greatest, std::abs(UnitHalfspace(*shape).offset));
+      greatest = std::max(greatest, (c.pose_a.translation - c.pose_b.translation).stableNorm());
+    }
+  }
+  return greatest;
+}
+
+// Of that, what counts as size: seen only where bodies are points, or nearly so.
+constexpr double coordinate_share = 1e-3;
+
+}  // namespace
 
 TrueCase::Truth::Truth(const Case& c, Encoding encoding, oracle::Oracle& oracle)
     : pair(c, encoding) {
@@ -19,7 +42,7 @@ TrueCase::Truth::Truth(const Case& c, Encoding encoding, oracle::Oracle& oracle)
 }
 
 TrueCase::TrueCase(Case c, std::uint64_t index, oracle::Oracle& oracle)
-    : case_(std::move(c)), index_(index), size_(pair_size(case_)), oracle_(&oracle) {}
+    : case_(std::move(c)), index_(index), oracle_(&oracle) {}
 
 const TrueCase::Truth& TrueCase::truth(Encoding encoding) {
   auto& slot = truths_[static_cast<std::size_t>(encoding)];
@@ -42,16 +65,24 @@ GradedAnswer grade_answer(const CheckRequest& request, const Query& query, TrueC
   answer.answer = outcome.answer;
   answer.status = outcome.status;
   answer.iterations = outcome.iterations;
-  answer.size = c.size();
   const TrueCase::Truth& end = c.truth(Encoding::as_given);
   answer.exact = end.measure.answer;
   answer.lower = end.measure.lower;
   answer.upper = end.measure.upper;
   answer.end_to_end = grade(outcome, query.task, end.measure, end.pair.a(), end.pair.b());
   answer.given = answer.end_to_end;
+  answer.given_lower = end.measure.lower;
+  answer.given_upper = end.measure.upper;
   if (answer.encoding != Encoding::as_given) {
     const TrueCase::Truth& given = c.truth(answer.encoding);
+    answer.given_lower = given.measure.lower;
+    answer.given_upper = given.measure.upper;
     answer.given = grade(outcome, query.task, given.measure, given.pair.a(), given.pair.b());
+  }
+  answer.size = pair_size(c.pair());
+  answer.scale = std::max(answer.size, coordinate_share * greatest_coordinate(c.pair()));
+  for (const double end_of : {answer.lower, answer.upper, answer.given_lower, answer.given_upper}) {
+    if (std::isfinite(end_of)) answer.scale = std::max(answer.scale, std::abs(end_of));
   }
   answer.witnesses = grade_witnesses(outcome, query.task, end.pair.a(), end.pair.b(), c.oracle());
   answer.beyond =

@@ -27,13 +27,11 @@ class TrueCase {
 
   const Case& pair() const { return case_; }
   std::uint64_t index() const { return index_; }
-  double size() const { return size_; }  // pair_size
   oracle::Oracle& oracle() { return *oracle_; }
 
  private:
   Case case_;
   std::uint64_t index_;
-  double size_;
   oracle::Oracle* oracle_;
   std::array<std::unique_ptr<Truth>, all_encodings.size()> truths_;
 };

@@ -1,0 +1,32 @@
+// Pairs of boxes and balls whose exact answers anybody can name.
+#pragma once
+
+#include "harness/io/cases.h"
+
+namespace touchstone {
+
+inline Shape ball(double radius) {
+  Shape shape;
+  shape.kind = ShapeKind::sphere;
+  shape.radius = radius;
+  return shape;
+}
+
+inline Shape cube(double half) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.half_extents = Vec3d::Constant(half);
+  return shape;
+}
+
+// Two bodies of these shapes, the second moved along x.
+inline Case along_x(const Shape& a, const Shape& b, double x) {
+  Case c;
+  c.id = "along-x";
+  c.shape_a = a;
+  c.shape_b = b;
+  c.pose_b.translation = {x, 0, 0};
+  return c;
+}
+
+}  // namespace touchstone
