@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "algorithms/core/shape.h"
 #include "harness/scene/random.h"
@@ -24,13 +25,13 @@ struct ShapeStyle {
 // Boxes and hulls most, then spheres and capsules, then the other bounded kinds.
 ShapeKind random_kind(Random& random);
 
-// Hulls come from a pool of the seed's, built when they are first drawn: random points, tetrahedra,
-// split icosahedra, subsets of a grid (coplanar points) and prisms, of 4 to 64 vertices and now and
-// then up to 512; some lie away from their local origin. Safe to call from several threads.
+// Half of each side, the longest between size / 2 and size, in no order.
+Vec3d random_sides(const ShapeStyle& style, Random& random);
+
+// Hulls come from the pool of the seed's (hull_pool.h). Safe to call from several threads.
 Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed, Random& random);
 
-// The hull turned inside out: each vertex v becomes -v, exactly. Of a random hull of the pool, it
-// comes from the pool.
+// A hull turned inside out: each vertex v becomes -v, exactly.
 Shape mirrored(const Shape& hull);
 
 // A box with the same points as a hull of eight vertices.

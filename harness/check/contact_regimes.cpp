@@ -147,7 +147,8 @@ void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, Ca
   c.shape_b = hull_of(std::move(corners));
   c.pose_a = first_pose(setting, pair_size(c), random);
   c.pose_b.rotation = c.pose_a.rotation;
-  const Vec3d signs(random.below(2) == 0 ? 1 : -1, random.below(2) == 0 ? 1 : -1, 0);
+  const double sign_x = random.below(2) == 0 ? 1 : -1;
+  const Vec3d signs(sign_x, random.below(2) == 0 ? 1 : -1, 0);
   const Feature a = box_feature(c.shape_a.half_extents, unit(signs), random);
   // Between two of the corners, (-x s, 0) and (0, -y s), exactly.
   Feature b;

@@ -21,7 +21,8 @@ double inside(Random& random) { return random.uniform(0.1, 0.9); }
 Feature pick_box_feature(const Vec3d& half, FeatureKind kind, Random& random) {
   Vec3d n;
   for (int i = 0; i < 3; ++i) {
-    n[i] = random.uniform(0.2, 1) * (random.below(2) == 0 ? 1 : -1);
+    n[i] = random.uniform(0.2, 1);
+    if (random.below(2) == 0) n[i] = -n[i];
   }
   const auto axis = static_cast<int>(random.below(3));
   if (kind == FeatureKind::edge) n[axis] = 0;
@@ -170,7 +171,7 @@ Feature pick_axial_feature(const Shape& shape, FeatureKind kind, Random& random)
   switch (kind) {
     case FeatureKind::tip:
       feature.point = exactly({0, 0, h});
-      feature.normal = unit(random.uniform(0.2, 1) * Vec3d::UnitZ() + random.unit() * side_normal);
+      feature.normal = unit(Vec3d::UnitZ() + 2 * random.unit() * side_normal);
       break;
     case FeatureKind::base: {
       feature.normal = {0, 0, end};
@@ -180,8 +181,7 @@ Feature pick_axial_feature(const Shape& shape, FeatureKind kind, Random& random)
     }
     case FeatureKind::rim:
       feature.point = base_centre + scaled(around, {r, 0});
-      feature.normal =
-          unit(random.uniform(0.2, 1) * side_normal + random.uniform(0.2, 1) * Vec3d(0, 0, end));
+      feature.normal = unit(side_normal + random.magnitude(0.25, 4) * Vec3d(0, 0, end));
       feature.direction = {-across.y(), across.x(), 0};
       break;
     default:  // side

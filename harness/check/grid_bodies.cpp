@@ -218,8 +218,8 @@ std::string touch_along_axis(Case& c, Random& random) {
   const SignedPermutation turn = random_turn(random);
   const Vec3d opposite = turn.inverse()(Vec3d(Vec3d::Zero() - axis));
   c.pose_b.rotation = turn.matrix();
-  c.pose_b.translation =
-      furthest(c.shape_a, axis, random) - turn(furthest(c.shape_b, opposite, random));
+  const Vec3d point_a = furthest(c.shape_a, axis, random);
+  c.pose_b.translation = point_a - turn(furthest(c.shape_b, opposite, random));
   move_both(c, random);
   return "axis";
 }

@@ -1,9 +1,9 @@
 // Regimes: named families of pairs that random poses never hit.
 //
-// A case is made from the regime, a seed and an index alone, with the same bits on every platform,
-// and none before it has to be made. What is asked for (a gap, a depth) comes as close as the
-// rounding of a translation and a rotation to doubles allows; what was achieved is for the oracle
-// to say.
+// A case is made from the regime, a seed and an index alone, with the same bits on every platform
+// (as far as Qhull lists a hull's faces in the same order), and none before it has to be made. What
+// is asked for (a gap, a depth) comes as close as the rounding of a translation and a rotation to
+// doubles allows; what was achieved is for the oracle to say.
 #pragma once
 
 #include <cstdint>

@@ -37,6 +37,19 @@ int digits_of(double x) {
   return digits;
 }
 
+// Whether nothing that had a size has lost it, so that a solid does not become flat.
+bool keeps_sizes(const Shape& before, const Shape& after) {
+  if (before.kind != after.kind) return true;
+  const auto kept = [](double x, double y) { return x == 0 || y > 0; };
+  if (before.kind == ShapeKind::hull) return after.hull->dimension >= before.hull->dimension;
+  bool all = kept(before.radius, after.radius) && kept(before.half_length, after.half_length);
+  for (int i = 0; i < 3; ++i) {
+    all = all && kept(before.half_extents[i], after.half_extents[i]) &&
+          kept(before.radii[i], after.radii[i]);
+  }
+  return all;
+}
+
 class Shrinker {
  public:
   Shrinker(const Case& c, const FailurePredicate& still_fails, int budget)
@@ -50,6 +63,7 @@ class Shrinker {
       simplify_shapes();
       move_to_origin();
       simplify_rotations();
+      bake_poses();
       round_all();
     } while (changed_ && budget_ > 0);
     return std::move(best_);
@@ -57,7 +71,13 @@ class Shrinker {
 
  private:
   bool keep_if_fails(Case candidate) {
-    if (budget_ <= 0) return false;
+    if (budget_ <= 0 || !keeps_sizes(best_.shape_a, candidate.shape_a) ||
+        !keeps_sizes(best_.shape_b, candidate.shape_b)) {
+      return false;
+    }
+    for (Pose* pose : {&candidate.pose_a, &candidate.pose_b}) {
+      pose->translation.array() += 0.0;  // no negative zeros
+    }
     --budget_;
     if (!still_fails_(candidate)) return false;
     best_ = std::move(candidate);
@@ -104,9 +124,42 @@ class Shrinker {
   // --- places and rotations
   // -----------------------------------------------------------------------
 
-  // Both bodies, so that one of them, the first if possible, is at the origin and not turned.
+  // Hulls need no rotation of their own, and their first vertex can be the local origin.
+  void bake_poses() {
+    for (const bool first : {true, false}) {
+      Shape Case::*shape = first ? &Case::shape_a : &Case::shape_b;
+      Pose Case::*pose = first ? &Case::pose_a : &Case::pose_b;
+      if ((best_.*shape).kind != ShapeKind::hull) continue;
+      const auto try_vertices = [&](const Pose& new_pose, const auto& change) {
+        std::vector<Vec3d> vertices = (best_.*shape).hull->vertices;
+        for (Vec3d& v : vertices) v = change(v);
+        Case candidate = best_;
+        candidate.*shape = hull_of(std::move(vertices));
+        candidate.*pose = new_pose;
+        keep_if_fails(std::move(candidate));
+      };
+      const Pose old = best_.*pose;
+      if (old.rotation != Mat3d::Identity()) {
+        try_vertices({Mat3d::Identity(), old.translation},
+                     [&](const Vec3d& v) { return times(old.rotation, v); });
+      }
+      const Mat3d rotation = (best_.*pose).rotation;
+      const Vec3d origin = (best_.*shape).hull->vertices.front();
+      if (!origin.isZero(0)) {
+        try_vertices({rotation, old.translation + times(rotation, origin)},
+                     [&](const Vec3d& v) -> Vec3d { return v - origin; });
+      }
+    }
+  }
+
+  // Both bodies, so that one of them is at the origin and not turned: the first if possible, but
+  // rather a body that is no hull.
   void move_to_origin() {
-    for (Pose Case::*first : {&Case::pose_a, &Case::pose_b}) {
+    std::array<Pose Case::*, 2> order = {&Case::pose_a, &Case::pose_b};
+    if (best_.shape_a.kind == ShapeKind::hull && best_.shape_b.kind != ShapeKind::hull) {
+      std::swap(order[0], order[1]);
+    }
+    for (Pose Case::*first : order) {
       if (!best_.pose_a.translation.isZero(0) && !best_.pose_b.translation.isZero(0)) {
         Case candidate = best_;
         const Vec3d away = (best_.*first).translation;

@@ -12,10 +12,11 @@ using FailurePredicate = std::function<bool(const Case&)>;
 
 // Changes the case, one thing at a time, to something simpler, and keeps each change after which
 // still_fails holds: hulls lose vertices, the first body goes to the origin with the identity as
-// its rotation, rotations become signed permutations or those of quaternions of small whole
-// numbers, round shapes become spheres, and lengths and coordinates become zero, or get fewer
-// decimal digits. Goes round until nothing more is kept, or still_fails was called `budget` times.
-// Rotations stay rotations, and sizes stay what read_cases takes.
+// its rotation, hulls take their rotation into their vertices, other rotations become signed
+// permutations or those of quaternions of small whole numbers, round shapes become spheres, and
+// lengths and coordinates become zero or one, or get fewer decimal digits. Goes round until nothing
+// more is kept, or still_fails was called `budget` times. Rotations stay rotations, and what is
+// solid stays solid: sizes that are not zero do not become zero, and hulls keep their dimension.
 //
 // Greedy, after Zeller and Hildebrandt, "Simplifying and isolating failure-inducing input", 2002
 // (the vertices are dropped in chunks, from half of them down to one). The same calls and the same

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "harness/check/grid_bodies.h"
 #include "harness/check/plain_math.h"
@@ -17,7 +18,7 @@ using Points = std::vector<Vec3d>;
 constexpr std::array<std::string_view, 3> names = {"vertex", "edge", "face"};
 
 int integer(int low, int high, Random& random) {
-  return low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+  return low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low) + 1));
 }
 Vec3d integers(int most, Random& random) {
   const int x = integer(-most, most, random), y = integer(-most, most, random);
@@ -29,7 +30,7 @@ Vec3d integers(int most, Random& random) {
 // Non-zero, across k, of whole numbers; all of these come about.
 Vec3d across(const Vec3d& k, Random& random) {
   for (;;) {
-    const Vec3d v = outer(k, integers(6, random));
+    Vec3d v = outer(k, integers(6, random));
     if (!v.isZero(0)) return v;
   }
 }
@@ -147,7 +148,10 @@ RegimeCase draw_touching_origin(RegimeDraw& draw) {
   // Both are above z = 0; a is then turned upside down.
   const auto line = [&] {
     Vec3d v = Vec3d::Zero();
-    while (v.isZero(0)) v = Vec3d(integer(-8, 8, random), integer(-8, 8, random), 0) / 8;
+    while (v.isZero(0)) {
+      v = integers(8, random) / 8;
+      v.z() = 0;
+    }
     return v;
   };
   const Vec3d line_a = line();

@@ -37,7 +37,8 @@ struct Separation {
 };
 Separation separate(const IntegerPair& pair);
 
-// The squared distance of the cores, by CGAL's quadratic program; zero where they meet.
+// The squared distance of the cores, by CGAL's quadratic program; zero where they meet. Only where
+// TOUCHSTONE_CGAL is defined.
 SignedSquare squared_distance(const IntegerPair& pair);
 
 // The bodies' answer where the cores' signed square is this.

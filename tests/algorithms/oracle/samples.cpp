@@ -322,6 +322,17 @@ Sample slivers(Random& random, int number) {
   return sample;
 }
 
+// A polytope beside a ball that is hardly there: what is added for the rounding of a distance has
+// to be more than a part of the radius.
+Sample small_balls(Random& random, int number) {
+  const Shape polytope = number % 2 == 0 ? random_box(random) : random_hull(random, 4);
+  const Shape ball = make_sphere(random.uniform(1, 2) * 1e-9);
+  const Pose pose = random_pose(random, 1);
+  Sample sample = {placed(polytope, pose), placed(ball, random_pose(random, 2))};
+  bring(sample, random.uniform(-1, 1) * 1e-16);
+  return sample;
+}
+
 }  // namespace
 
 std::vector<Regime> exact_regimes() {
@@ -346,6 +357,7 @@ std::vector<Regime> exact_regimes() {
       {"SizeRatio", size_ratio, 20, 0, 20, 1000, 300, 500},
       {"NearlyParallel", nearly_parallel, 10, 0, 10, 1000, 300, 500},
       {"Slivers", slivers, 20, 0, 20, 1000, 300, 500},
+      {"SmallBalls", small_balls, 20, 0, 20, 1000, 300, 500},
   };
 }
 
@@ -382,10 +394,11 @@ Sample halfspace_sample(Random& random, int number) {
 }
 
 Sample nearly_touching_sample(Random& random, int number) {
-  switch (number % 4) {
+  switch (number % 5) {
     case 0: return nearly_parallel(random, number);
     case 1: return slivers(random, 5 * number);
     case 2: return one_pose(random, number);
+    case 3: return small_balls(random, number);
     default: return near(random, number);
   }
 }
