@@ -30,6 +30,8 @@ std::string count(std::int64_t n) { return std::to_string(n); }
 struct Label {
   std::uint32_t entry;
   Precision scalar;
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
+  // pointer's
   friend auto operator<=>(const Label&, const Label&) = default;
 };
 
@@ -146,7 +148,9 @@ std::string checked_text(const CheckReport& report) {
   return text;
 }
 
-std::string markdown(const Rows& rows) {
+// The first column is to the left, the others to the right, or all to the left where they are
+// texts.
+std::string markdown(const Rows& rows, bool are_texts = false) {
   std::string text;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (const std::string& cell : rows[r]) {
@@ -159,7 +163,7 @@ std::string markdown(const Rows& rows) {
     text += "|\n";
     if (r > 0) continue;
     text += "|---|";
-    for (std::size_t i = 1; i < rows[r].size(); ++i) text += "---:|";
+    for (std::size_t i = 1; i < rows[r].size(); ++i) text += are_texts ? "---|" : "---:|";
     text += '\n';
   }
   return text;
@@ -380,11 +384,14 @@ std::string page_text(const CheckReport& report, const std::string& command) {
         if (check.entry != entry) continue;
         ++scenes;
         if (check.good()) continue;
-        if (wrong++ == 0) first = fmt::format("{}: {}", check.scene->name, check.faults());
+        if (wrong++ == 0) {
+          const std::string faults = check.faults();
+          first = fmt::format("{}: {}", check.scene->name, faults.substr(0, faults.find(';')));
+        }
       }
       rows.push_back({entry->info.name, count(scenes), count(wrong), first});
     }
-    text += markdown(rows);
+    text += markdown(rows, true);
   }
 
   text += "\n## What was checked beside them\n\n" + checked_text(report);
@@ -402,7 +409,7 @@ std::string page_text(const CheckReport& report, const std::string& command) {
                     failure->what});
   }
   if (worst.empty()) return text + "None.\n";
-  return text + markdown(rows);
+  return text + markdown(rows, true);
 }
 
 }  // namespace touchstone

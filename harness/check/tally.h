@@ -55,6 +55,8 @@ class Tally {
     std::uint32_t entry = 0;
     Precision scalar{};
     std::uint32_t regime = 0;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
+    // pointer's
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 
