@@ -176,22 +176,21 @@ std::vector<std::string> CheckReport::ours_wrong() const {
                                 to_string(failure.answer.scalar), to_string(failure.answer.task),
                                 failure.id, failure.what));
   }
-  for (const auto& [key, flips] : tally->flips()) {
-    if (flips.beyond == 0) continue;
+  for (const VariantFailure& failure : variant_failures) {
+    const VariantCount& count = failure.count;
     lines.push_back(fmt::format(
-        "{} {} in {}: {} answers to the same pair in another form differ, by {:.0e} of the size "
-        "(variants.csv)",
-        request->narrow[key.entry]->info.name, to_string(key.scalar),
-        request->regimes[key.regime]->name, flips.beyond,
-        std::max(flips.worst_flip, flips.worst_difference)));
+        "{} {} {} on {} and its variant '{}': {} answers in another form differ, by {:.0e} of the "
+        "size",
+        request->narrow[count.entry]->info.name, to_string(count.scalar), to_string(count.task),
+        failure.id, count.name(), count.beyond,
+        std::max(count.worst_flip, count.worst_difference)));
   }
-  for (const JobSummary& job : tally->jobs()) {
-    if (job.refused + job.boxes_broken == 0) continue;
-    const Regime& regime = *request->regimes[job.regime];
+  for (const TruthFailure& failure : truth_failures) {
     lines.push_back(fmt::format(
-        "{}: {} certificates of the oracle refused, {} boxes that do not hold their body; first {}",
-        regime.name, job.refused, job.boxes_broken,
-        make(regime, request->seed, job.worst_index).id));
+        "{}: {} certificates of the oracle refused, {} boxes that do not hold their body; first {} "
+        "in {}",
+        request->regimes[failure.job.regime]->name, failure.job.refused, failure.job.boxes_broken,
+        failure.id, failure.file.string()));
   }
   for (const BroadCheck& check : broad) {
     if (check.good() || check.entry->info.origin != Origin::ours) continue;
@@ -227,6 +226,9 @@ std::string summary_text(const CheckReport& report, std::size_t page_width) {
   std::set<std::string> commands;
   for (const FailureCase& failure : report.failures) {
     if (failure.answer.beyond) commands.insert(failure.command(*report.request));
+  }
+  for (const VariantFailure& failure : report.variant_failures) {
+    commands.insert(query_command(*report.request, failure.query, failure.file));
   }
   if (!commands.empty()) text += "Shown by\n";
   for (const std::string& command : commands) text += "  " + command + '\n';

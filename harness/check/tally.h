@@ -66,6 +66,13 @@ class Tally {
   const std::map<Key, FlipCount>& flips() const { return flips_; }
   const std::vector<JobSummary>& jobs() const { return jobs_; }
 
+  // Counts with some of ours beyond the margins.
+  struct RegimeVariants {
+    std::uint32_t regime;
+    VariantCount count;
+  };
+  const std::vector<RegimeVariants>& variants_beyond() const { return variants_beyond_; }
+
   // Answers that are worth a case file, the worst first: of ours what is beyond the margins, of
   // others crashes, silent errors, and numbers off by more than our margins would allow.
   std::vector<GradedAnswer> failures(const CheckRequest& request) const;
@@ -82,6 +89,7 @@ class Tally {
   std::map<Key, AnswerCount> answers_;
   std::map<Key, FlipCount> flips_;
   std::vector<JobSummary> jobs_;
+  std::vector<RegimeVariants> variants_beyond_;
   std::map<Key, std::vector<Failure>> failures_;
 };
 
