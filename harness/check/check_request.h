@@ -16,9 +16,9 @@ struct CheckRequest {
   std::vector<Precision> scalars = {Precision::float64, Precision::float32};
   std::vector<const Regime*> regimes;
   std::uint64_t seed = 1;
-  int cases = 200;        // of each regime in a round
-  double seconds = 0;     // rounds are done until these are over; 0: one round
-  int workers = 2;        // processes
+  int cases = 200;         // of each regime in a round
+  double seconds = 0;      // rounds are done until these are over; 0: one round
+  int workers = 2;         // processes
   double time_limit = 10;  // seconds a query
   std::filesystem::path out;
   bool resume = false;  // go on where the folder's last run ended

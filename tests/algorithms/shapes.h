@@ -16,9 +16,7 @@ inline Shape make_round(ShapeKind kind, double radius, double half_length) {
   shape.half_length = half_length;
   return shape;
 }
-inline Shape make_sphere(double radius) {
-  return make_round(ShapeKind::sphere, radius, 0);
-}
+inline Shape make_sphere(double radius) { return make_round(ShapeKind::sphere, radius, 0); }
 inline Shape make_capsule(double radius, double half_length) {
   return make_round(ShapeKind::capsule, radius, half_length);
 }

@@ -1,7 +1,8 @@
 // What an algorithm that goes by support functions is compared with: signed distances and normals
-// of bodies whose cores are polytopes, from their vertices alone, in long double. Takes points, segments and flat bodies as well, and hulls that came without faces; the time
-// grows with the fifth power of the vertices, so these are few.
-// brute_force.h is for boxes and hulls with their faces and edges, and much faster.
+// of bodies whose cores are polytopes, from their vertices alone, in long double. Takes points,
+// segments and flat bodies as well, and hulls that came without faces; the time grows with the
+// fifth power of the vertices, so these are few. brute_force.h is for boxes and hulls with their
+// faces and edges, and much faster.
 #pragma once
 
 #include "algorithms/narrow_phase.h"
