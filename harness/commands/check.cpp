@@ -84,6 +84,15 @@ int check(Options& options, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
   CheckRequest& request = options.request;
   request.narrow = chosen_narrow(options.narrow);
+  // With all of them, those without the scalar are left out; one that was named is not.
+  for (const NarrowPhaseEntry* entry : request.narrow) {
+    const bool named = std::ranges::count(split_names(options.narrow), entry->info.name) > 0;
+    const bool offered = std::ranges::any_of(
+        request.scalars, [&](Precision scalar) { return offers(*entry, scalar); });
+    if (!named || offered) continue;
+    throw InputError(fmt::format("'{}' does not compute in {}; expected another --scalar",
+                                 entry->info.name, to_string(request.scalars.front())));
+  }
   request.broad = select(broad_phases(), split_names(options.broad), "broad phase");
   request.regimes = chosen_regimes(options.regimes, options.groups);
   request.out = options.out.empty() ? std::filesystem::path(source_folder) / "results/local/check"

@@ -164,6 +164,7 @@ TEST_F(CheckCommand, BadRequests) {
   expect_refusal("--group what" + out(),
                  "no group of regimes is called 'what'; expected some of gap, depth, ");
   expect_refusal("--scalar half" + out(), "--scalar");
+  expect_refusal("--narrow exact --scalar float" + out(), "'exact' does not compute in float");
   expect_refusal("--seed x" + out(), "--seed");
   for (const char* value : {"0", "-1", "x"}) {
     expect_refusal(std::string("--cases=") + value + out(), "--cases");
