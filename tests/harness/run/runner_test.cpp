@@ -93,7 +93,7 @@ TEST_F(Runner, TablesNameEveryAlgorithmAndMarkTheFastest) {
   }
   EXPECT_THAT(broad, testing::HasSubstr("*"));
   EXPECT_THAT(broad, testing::HasSubstr("all 3 frames"));
-  EXPECT_THAT(narrow, testing::HasSubstr("agreement with gjk"));
+  EXPECT_THAT(narrow, testing::HasSubstr("agreement with exact"));
 }
 
 TEST_F(Runner, LeavesNothingBehindWhenASceneIsWrong) {
