@@ -102,10 +102,13 @@ void add_run(CLI::App& app, int& status) {
           ->excludes(campaign)
           ->group(one);
   const auto add = [&](CLI::Option* option) { option->needs(scene)->group(one); };
-  add(command->add_option("--broad", options->broad, "Broad phases: names, all, ours, peers, oracle, none")
+  add(command
+          ->add_option("--broad", options->broad,
+                       "Broad phases: names, all, ours, peers, oracle, none")
           ->capture_default_str());
   add(command
-          ->add_option("--narrow", options->narrow, "Narrow phases: names, all, ours, peers, oracle, none")
+          ->add_option("--narrow", options->narrow,
+                       "Narrow phases: names, all, ours, peers, oracle, none")
           ->capture_default_str());
   const std::map<std::string, Task> tasks = {{"intersect", Task::intersect},
                                              {"distance", Task::distance},

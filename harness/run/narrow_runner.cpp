@@ -133,10 +133,9 @@ void NarrowRunner::report(const Contestant& contestant, Task task, const PairGro
                                  faults.timed_out, group.size(), context_.block->group->time_limit);
   } else {
     const std::size_t i = *faults.worst_pair;
-    departure.what =
-        fmt::format("{} of {} answers differ from {}'s, by up to {:.3g} m (bodies {} and {})",
-                    faults.disagree, faults.compared, Reference::name(), faults.worst,
-                    group.first[i], group.second[i]);
+    departure.what = fmt::format(
+        "{} of {} answers differ from {}'s, by up to {:.3g} m (bodies {} and {})", faults.disagree,
+        faults.compared, Reference::name(), faults.worst, group.first[i], group.second[i]);
   }
   if (contestant.choice.entry->approximate) departure.what += "; approximate by design";
   if (!contestant.info().known_defect.empty()) {

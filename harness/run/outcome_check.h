@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/core/outcome.h"
 #include "algorithms/core/executor.h"
+#include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 #include "algorithms/oracle/oracle.h"

@@ -290,8 +290,7 @@ std::string narrow_tables(const Findings& findings, std::size_t page_width) {
         "disagrees "
         "on some pair, ! crashed, hung or was too slow\n\n",
         to_string(task));
-    text +=
-        grid.text("", fmt::format("agreement with {}", Reference::name()), page_width);
+    text += grid.text("", fmt::format("agreement with {}", Reference::name()), page_width);
     text += '\n';
   }
   return text;
