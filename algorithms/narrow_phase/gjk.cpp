@@ -21,6 +21,7 @@
 
 #include "algorithms/kernels/expanding_polytope.h"
 #include "algorithms/kernels/halfspace.h"
+#include "algorithms/kernels/nesterov_direction.h"
 #include "algorithms/kernels/simplex.h"
 #include "algorithms/kernels/support.h"
 #include "algorithms/narrow_phase.h"
@@ -50,40 +51,6 @@ struct Approach {
 
 // Where to look for the next support point.
 enum class Momentum : std::uint8_t { none, nesterov };
-
-// The search direction of Nesterov-accelerated GJK. Points towards the origin, as the direction of
-// a support call does.
-template <class Scalar>
-class NesterovDirection {
- public:
-  // `start` is the point of the difference that the search starts at. A normalised direction keeps
-  // a corner, whose support point stays where it is, from pulling.
-  NesterovDirection(bool normalised, const Vec3<Scalar>& start)
-      : normalised_(normalised), direction_(start) {}
-
-  // `nearest` is the simplex's nearest point to the origin, `support` the newest support point.
-  Vec3<Scalar> next(const Vec3<Scalar>& nearest, const Vec3<Scalar>& support) {
-    const Scalar k = static_cast<Scalar>(step_++);
-    const Scalar weight = (normalised_ ? k + 2 : k + 1) / (k + 3);
-    Vec3<Scalar> ahead = weight * nearest + (1 - weight) * support;
-    if (normalised_) {
-      ahead = unit(ahead);
-      direction_ = unit(direction_);
-    }
-    direction_ = weight * direction_ + (1 - weight) * ahead;
-    return -unit(direction_);
-  }
-
- private:
-  static Vec3<Scalar> unit(const Vec3<Scalar>& v) {
-    const Scalar length = v.norm();
-    return length > 0 ? Vec3<Scalar>(v / length) : v;
-  }
-
-  bool normalised_;
-  int step_ = 1;
-  Vec3<Scalar> direction_;
-};
 
 template <class Scalar>
 class Gjk final : public NarrowPhase {

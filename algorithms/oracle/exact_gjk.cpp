@@ -4,7 +4,6 @@ namespace touchstone::oracle {
 namespace {
 
 constexpr int curved_iterations = 300;
-constexpr int root_shift = 160;  // bits of a root behind the grid's point
 
 }  // namespace
 
@@ -24,7 +23,8 @@ ExactSearch search_exactly(GridPair& pair, const Hint& hint, const Filters& filt
     const DifferencePoint point = pair.exact_support(direction, filters.support);
     const Integer along = dot(plane.normal, pair.exact(point));
     if (pair.is_curved()) {
-      if (decide && along > 0 && pair.support_above(direction, root_shift, filters.support) < 0) {
+      if (decide && along > 0 &&
+          pair.support_above(direction, GridPair::root_shift, filters.support) < 0) {
         search.decided = true;
         return search;
       }

@@ -10,7 +10,6 @@ namespace touchstone::oracle {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr int root_shift = 160;
 
 bool is_half_space(const Body& body) { return body.solid->core == Solid::Core::halfspace; }
 
@@ -33,7 +32,7 @@ struct Reach {
 Reach reach(GridPair& pair, const IntegerVector& n) {
   const Filters filters;
   const Direction direction = make_direction(n);
-  const int shift = pair.is_curved() ? root_shift : 0;
+  const int shift = pair.is_curved() ? GridPair::root_shift : 0;
   const Integer square = dot(n, n) << (2 * shift);
   const Integer high = pair.support_above(direction, shift, filters.support);
   const Integer low =

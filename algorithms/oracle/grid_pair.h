@@ -24,6 +24,8 @@ class GridPair {
   // A point of the difference a - b that is furthest along the direction; a curved core's is only
   // about that.
   DifferencePoint exact_support(const Direction& direction, double filter_scale);
+  // Enough for `shift` below: bits of a curved core's root behind the grid's point.
+  static constexpr int root_shift = 160;
   // Not less, and not more, than the support of the whole difference, times 2^shift; both equal it
   // for polytopes.
   Integer support_above(const Direction& direction, int shift, double filter_scale);

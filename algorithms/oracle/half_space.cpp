@@ -7,8 +7,6 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr int root_shift = 160;  // bits of a curved core's support behind the grid's point
-
 bool is_half_space(const Body& body) { return body.solid->core == Solid::Core::halfspace; }
 
 Vec3d unit(const IntegerVector& direction) {
@@ -69,7 +67,7 @@ Measure above_plane(const Body& body, const Body& half_space, GridPair& pair,
   measure.core_upper = height(dot(plane.normal, pair.exact(nearest)), 0);
   measure.core_lower = measure.core_upper;
   if (pair.is_curved()) {
-    const int shift = root_shift;
+    const int shift = GridPair::root_shift;
     measure.core_lower = height(-pair.support_above(down, shift, filters.support), shift);
   }
   measure.normal = unit(down.exact);

@@ -11,8 +11,6 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr int root_shift = 160;  // bits of a curved core's support behind the grid's point
-
 Answer answer_of(std::strong_ordering lower, std::strong_ordering upper) {
   if (lower > 0) return Answer::separated;
   if (upper < 0) return Answer::overlapping;
@@ -51,6 +49,7 @@ struct Oracle::Workspace {
   Measure measure(const Body& a, const Body& b, Certificate* certificate);
   void measure_apart(const ExactSearch& search, Measure& measure, Certificate* certificate);
   void measure_around(const ExactSimplex& simplex, Measure& measure, Certificate* certificate);
+  SignedRoot lower_along(const Direction& direction);
   void write_closest(const ExactSimplex& simplex, Certificate& certificate);
 };
 
@@ -97,6 +96,13 @@ void Oracle::Workspace::write_closest(const ExactSimplex& simplex, Certificate& 
   }
 }
 
+// What the direction proves of the cores' signed distance, with curved supports rounded up.
+SignedRoot Oracle::Workspace::lower_along(const Direction& direction) {
+  const Integer above = pair.support_above(direction, GridPair::root_shift, filters.support);
+  const Integer length = dot(direction.exact, direction.exact) << (2 * GridPair::root_shift);
+  return pair.in_metres(-above.sign(), above * above, length);
+}
+
 void Oracle::Workspace::measure_apart(const ExactSearch& search, Measure& measure,
                                       Certificate* certificate) {
   const NearestPlane& plane = search.plane;
@@ -108,9 +114,7 @@ void Oracle::Workspace::measure_apart(const ExactSearch& search, Measure& measur
   measure.core_lower = measure.core_upper;
   const Direction direction = make_direction(-plane.normal);
   if (pair.is_curved()) {
-    const Integer above = pair.support_above(direction, root_shift, filters.support);
-    const Integer length = dot(plane.normal, plane.normal) << (2 * root_shift);
-    measure.core_lower = pair.in_metres(-above.sign(), above * above, length);
+    measure.core_lower = lower_along(direction);
   }
   measure.normal = direction.rounded.normalized();
   if (certificate == nullptr) return;
@@ -132,9 +136,7 @@ void Oracle::Workspace::measure_around(const ExactSimplex& simplex, Measure& mea
   if (!pair.is_curved()) {
     measure.core_lower = measure.core_upper;
   } else {
-    const Integer above = pair.support_above(least, root_shift, filters.support);
-    const Integer length = dot(least.exact, least.exact) << (2 * root_shift);
-    measure.core_lower = pair.in_metres(-above.sign(), above * above, length);
+    measure.core_lower = lower_along(least);
   }
   if (certificate == nullptr) return;
   certificate->direction = least.exact;
