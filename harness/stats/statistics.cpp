@@ -114,6 +114,10 @@ MedianInterval median_interval(std::vector<double> values, double confidence) {
   return between_ranks(values, rank, n);
 }
 
+MedianInterval exponential(const MedianInterval& of_logs) {
+  return {std::exp(of_logs.median), std::exp(of_logs.low), std::exp(of_logs.high), of_logs.n};
+}
+
 double sign_test(std::span<const double> values) {
   const auto positive = std::ranges::count_if(values, [](double x) { return x > 0; });
   const auto negative = std::ranges::count_if(values, [](double x) { return x < 0; });

@@ -22,6 +22,9 @@ struct MedianInterval {
 // distribution. 0 < confidence < 1. At 0.95 there is no interval below 6 values.
 MedianInterval median_interval(std::vector<double> values, double confidence);
 
+// Of logarithms, back to what they are the logarithms of.
+MedianInterval exponential(const MedianInterval& of_logs);
+
 // Two-sided sign test of a median of 0: the probability of signs at least so uneven. Zeros are left
 // out (Dixon and Mood 1946); 1 where nothing is left.
 double sign_test(std::span<const double> values);
