@@ -164,7 +164,7 @@ void add_compare(CLI::App& app, int& status) {
   CLI::Option* exe = command->add_option(
       "--exe", options->programs,
       "A program to run; given twice, A and B, whose runs of the campaign are interleaved");
-  exe->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  exe->allow_extra_args(false);  // one each: what follows is the campaign
   command
       ->add_option("--threshold", options->threshold, "A slower B is a regression beyond this part")
       ->check(CLI::PositiveNumber)

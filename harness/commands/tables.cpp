@@ -117,8 +117,9 @@ int tables(const Options& options) {
                      "cannot be read; expected a reference with tables (`touchstone tables "
                      "REFERENCE` writes them)");
   }
-  const std::filesystem::path results =
-      options.results.empty() ? run_again(reference, options) : options.results;
+  const std::filesystem::path results = options.results.empty()
+                                            ? run_again(reference, options)
+                                            : std::filesystem::path(options.results);
   return check(reference, results, options);
 }
 
