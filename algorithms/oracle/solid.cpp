@@ -28,7 +28,8 @@ Solid::Solid(const Shape& shape) {
     case ShapeKind::cylinder:
     case ShapeKind::cone:
       extents = {shape.radius, shape.radius, shape.half_length};
-      core = shape.kind == ShapeKind::cone ? Core::cone : Core::cylinder;
+      // A cone without a height is a disc, as a cylinder without one is.
+      core = shape.kind == ShapeKind::cone && shape.half_length > 0 ? Core::cone : Core::cylinder;
       if (shape.radius == 0) {
         core = Core::polytope;
         vertices = {-axis, axis};
