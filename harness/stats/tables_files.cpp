@@ -152,12 +152,13 @@ std::string markdown(const Tables& tables) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
     all += header({"input", "algorithm", "exponent", "95 % interval", "counts"}, 2);
     for (const ExponentRow& row : tables.exponents) {
-      all += line(
-          {fmt::format("{}, {} boxes, {} threads", row.key.scene, row.key.boxes, row.key.threads),
-           row.label, fmt::format("{:.2f}", row.law.exponent),
-           std::isnan(row.law.low) ? std::string("-")
-                                   : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
-           fmt::format("{}", fmt::join(row.counts, ", "))});
+      all += line({fmt::format("{}, {} boxes, {} thread{}", row.key.scene, row.key.boxes,
+                               row.key.threads, row.key.threads == 1 ? "" : "s"),
+                   row.label, fmt::format("{:.2f}", row.law.exponent),
+                   std::isnan(row.law.low)
+                       ? std::string("-")
+                       : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
+                   fmt::format("{}", fmt::join(row.counts, ", "))});
     }
     all += "\n";
   }
