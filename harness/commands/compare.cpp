@@ -110,6 +110,7 @@ int compare_files(const Options& options) {
 Results run(const std::string& program, const std::string& campaign,
             const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
+  std::filesystem::remove(folder / "raw.csv");  // of an earlier comparison, perhaps not finished
   const std::filesystem::path log = folder / "output.txt";
   const int status = run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
   if (status != exit_done && status != exit_measured_wrong) {

@@ -53,6 +53,7 @@ std::filesystem::path run_again(const std::filesystem::path& reference, const Op
   const std::filesystem::path out =
       options.out.empty() ? source / "results/local/tables" : std::filesystem::path(options.out);
   std::filesystem::create_directories(out);
+  std::filesystem::remove(out / "raw.csv");  // of an earlier check, perhaps not finished
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
              (out / "output.txt").string());
   const int status = run_and_wait(

@@ -31,10 +31,10 @@ constexpr std::array machine_facts_compared = {"processor",
                                                "instructions_in_use",
                                                "build_type",
                                                "sanitizers"};
-constexpr std::array facts_remarked = {"microcode", "kernel", "address_randomisation",
-                                       "compiler",  "flags",  "eigen",
-                                       "onetbb",    "bullet", "fcl",
-                                       "libccd",    "commit", "tree"};
+constexpr std::array facts_remarked = {
+    "campaign_hash", "seed",   "microcode", "kernel", "address_randomisation",
+    "compiler",      "flags",  "eigen",     "onetbb", "bullet",
+    "fcl",           "libccd", "commit",    "tree"};
 
 std::string fact(const Results& results, const char* name) {
   const auto at = results.machine.find(name);
