@@ -120,10 +120,10 @@ def varying(rows, columns):
 
 
 def words(row, columns):
-    """ "uniform, loose boxes, 2 threads" """
+    """For a title: uniform, loose boxes, 2 threads."""
     forms = {
         "scene": lambda v: v.replace("_", " "),
-        "bodies": lambda v: f"{int(v):,} bodies".replace(",", "\u202f"),
+        "bodies": lambda v: f"{int(v):,} bodies",
         "boxes": lambda v: v + " boxes",
         "threads": lambda v: "1 thread" if v == 1 else f"{int(v)} threads",
         "seed": lambda v: "seed " + v,

@@ -55,8 +55,6 @@ def draw(tables):
         axes.set_title(common.words(own[0], titles), loc="left")
         axes.set_xlabel("share of a frame's time (%)")
         axes.tick_params(axis="y", length=0)
-        # Room for the times, which stand outside of the bars.
-        axes.text(127, 0, " ", fontsize=6.5)
     used = [p for p in PARTS if any(r[p] for own in greatest.values() for r in own)]
     common.legend_below(figure, [Patch(color=PARTS[p], label=p.replace("_", " ")) for p in used])
     return figure

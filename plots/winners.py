@@ -35,13 +35,14 @@ def draw(tables):
         if not decided:
             axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, fill=False, hatch="////",
                                      edgecolor="white", linewidth=0))
-        lead = f"{row['ratio']:.2f} ×" if decided else "undecided"
-        axes.text(x, y, f"{row['winner']}\n{lead} {row['runner_up']}", ha="center", va="center",
-                  fontsize=6.2, linespacing=1.35)
+        axes.text(x, y - 0.2, row["winner"], ha="center", va="center", fontsize=6.4)
+        lead = f"{row['ratio']:.2f} × faster than" if decided else "not told apart from"
+        axes.text(x, y + 0.2, f"{lead}\n{row['runner_up']}", ha="center", va="center",
+                  fontsize=5.2, linespacing=1.2, color="#333333")
     axes.set_xlim(-0.5, len(settings) - 0.5)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
     axes.set_xticks(range(len(settings)),
-                    [common.words(dict(zip(COLUMNS, s)), titles).replace(", ", "\n")
+                    ["\n".join(common.words(dict(zip(COLUMNS, s)), [c]) for c in titles)
                      for s in settings])
     axes.set_yticks(range(len(scenes)), [s.replace("_", " ") for s in scenes])
     axes.tick_params(length=0)

@@ -5,6 +5,7 @@
 // size wide
 //          apart and 1e-12 deep; where zero is in it the answer is unknown, not_converged.
 // Cost:    10 to 100 us a query for polytopes, up to some ms for curved cores; allocates.
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -78,7 +79,7 @@ class Exact final : public NarrowPhase {
     return {in_world(certificate.a[point.a], a), in_world(certificate.b[point.b], b)};
   }
 
-  // Of the point of the certificate's evidence that is nearest to the origin.
+  // Of the point of the difference that is the shortest connection, or translation, away.
   static Witnesses witnesses(const Certificate& certificate, const Body& a, const Body& b,
                              const Vec3d& normal) {
     if (certificate.a.empty() || certificate.b.empty()) {
@@ -96,17 +97,34 @@ class Exact final : public NarrowPhase {
       }
       return sum;
     }
+    return pierced(certificate, a, b, normal);
+  }
+
+  // Where the ray from the origin along the normal leaves the surface.
+  static Witnesses pierced(const Certificate& certificate, const Body& a, const Body& b,
+                           const Vec3d& normal) {
     Witnesses best;
-    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
     for (const auto& triangle : certificate.surface.triangles) {
       std::array<Witnesses, 3> corners;
       for (int i = 0; i < 3; ++i) {
         corners[i] = at(certificate, certificate.surface.points[triangle[i]], a, b);
       }
-      const Witnesses w = nearest_of(corners);
-      if (!(w.difference().norm() < least)) continue;
-      least = w.difference().norm();
-      best = w;
+      const Vec3d p = corners[0].difference(), q = corners[1].difference(),
+                  r = corners[2].difference();
+      std::array<double, 3> weights = {normal.dot(q.cross(r)), normal.dot(r.cross(p)),
+                                       normal.dot(p.cross(q))};
+      const double sum = weights[0] + weights[1] + weights[2];
+      if (!(sum > 0)) continue;
+      // Not negative in the triangle that is hit, but for rounding.
+      const double inside = std::ranges::min(weights) / sum;
+      if (!(inside > most)) continue;
+      most = inside;
+      best = {};
+      for (int i = 0; i < 3; ++i) {
+        best.a += weights[i] / sum * corners[i].a;
+        best.b += weights[i] / sum * corners[i].b;
+      }
     }
     return best;
   }
@@ -129,35 +147,6 @@ class Exact final : public NarrowPhase {
   static Vec3d in_world_plane_point(const Body& body) {
     const Vec3d& n = body.solid->normal;
     return body.matrix * (body.solid->offset / n.squaredNorm() * n) + body.translation;
-  }
-
-  // Nearest to the origin on a triangle: inside, or on an edge.
-  static Witnesses nearest_of(const std::array<Witnesses, 3>& corners) {
-    const Vec3d p = corners[0].difference(), q = corners[1].difference(),
-                r = corners[2].difference();
-    const Vec3d normal = (q - p).cross(r - p);
-    const std::array<double, 3> weights = {normal.dot(q.cross(r)), normal.dot(r.cross(p)),
-                                           normal.dot(p.cross(q))};
-    const double sum = weights[0] + weights[1] + weights[2];
-    if (sum > 0 && weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0) {
-      Witnesses inside;
-      for (int i = 0; i < 3; ++i) {
-        inside.a += weights[i] / sum * corners[i].a;
-        inside.b += weights[i] / sum * corners[i].b;
-      }
-      return inside;
-    }
-    Witnesses best = corners[0];
-    for (int i = 0; i < 3; ++i) {
-      const Witnesses &tail = corners[i], &head = corners[(i + 1) % 3];
-      const Vec3d edge = head.difference() - tail.difference();
-      const double whole = edge.squaredNorm();
-      const double part =
-          whole > 0 ? std::clamp(-tail.difference().dot(edge) / whole, 0.0, 1.0) : 0;
-      const Witnesses w = {tail.a + part * (head.a - tail.a), tail.b + part * (head.b - tail.b)};
-      if (w.difference().squaredNorm() < best.difference().squaredNorm()) best = w;
-    }
-    return best;
   }
 
   static double ratio(const oracle::Integer& part, const oracle::Integer& whole) {

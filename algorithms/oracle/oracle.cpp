@@ -162,9 +162,11 @@ Measure Oracle::Workspace::measure(const Body& a, const Body& b, Certificate* ce
   const double radius_a = a.solid->radius, radius_b = b.solid->radius;
   const auto lower_order = compare(measure.core_lower, radius_a, radius_b);
   const DoubleBounds lower = round_less(measure.core_lower, radius_a, radius_b);
-  // Polytopes and half-spaces are exact without a look: the bounds are the same fraction.
+  // Polytopes and half-spaces are exact without a look: the bounds are the same fraction. Of a
+  // singular half-space nothing is known.
   const bool curved = a.solid->is_curved() || b.solid->is_curved();
-  measure.exact = !curved || measure.core_lower == measure.core_upper;
+  const bool known = measure.core_upper.sign < 0 || !measure.core_upper.is_infinite();
+  measure.exact = known && (!curved || measure.core_lower == measure.core_upper);
   measure.answer = answer_of(
       lower_order, measure.exact ? lower_order : compare(measure.core_upper, radius_a, radius_b));
   measure.lower = lower.low;

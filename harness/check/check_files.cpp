@@ -41,6 +41,7 @@ std::string hash_of_program() {
 template <class Entry>
 std::string names_of(const std::vector<const Entry*>& entries) {
   std::vector<std::string_view> names;
+  names.reserve(entries.size());
   for (const Entry* entry : entries) names.push_back(entry->info.name);
   return fmt::format("{}", fmt::join(names, " "));
 }
@@ -79,8 +80,10 @@ CheckFiles::CheckFiles(const CheckRequest& request, Tally& tally)
 
 std::vector<std::pair<std::string, std::string>> CheckFiles::identity() const {
   std::vector<std::string_view> regimes;
+  regimes.reserve(request_.regimes.size());
   for (const Regime* regime : request_.regimes) regimes.push_back(regime->name);
   std::vector<std::string_view> scalars;
+  scalars.reserve(request_.scalars.size());
   for (const Precision scalar : request_.scalars) scalars.push_back(to_string(scalar));
   return {{"seed", std::to_string(request_.seed)},
           {"cases", std::to_string(request_.cases)},

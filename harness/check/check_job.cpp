@@ -12,7 +12,6 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/oracle/certificate_check.h"
 #include "harness/check/margins.h"
-#include "harness/check/metamorphic.h"
 #include "harness/check/true_case.h"
 #include "harness/run/isolate.h"
 #include "harness/run/solve_case.h"
@@ -27,14 +26,12 @@ struct Item {
   Task task;
 };
 
-// "rotation" of "rotation+y+z+x".
-std::string kind_of(const Variant& variant) {
-  return variant.name.substr(0, variant.name.find_first_of("+-"));
-}
-
 void note_worst(JobSummary& summary, bool is_first, std::uint64_t index) {
   if (is_first) summary.worst_index = index;
 }
+
+// Of a job's queries; a hang costs a time limit each.
+constexpr std::size_t most_failures = 100;
 
 class Job {
  public:
@@ -49,9 +46,7 @@ class Job {
     for (std::uint64_t index = summary.round * count; index < (summary.round + 1) * count;
          ++index) {
       cases_.emplace_back(make(regime(), request.seed, index), index, oracle);
-      Random random(request.seed, index);
-      variants_.push_back(is_sampled(index) ? variants(cases_.back().pair(), random)
-                                            : std::vector<Variant>());
+      variants_.push_back(sampled_variants(cases_.back().pair(), request.seed, index));
     }
   }
 
@@ -109,7 +104,7 @@ class Job {
     }
     SharedArray<Outcome> outcomes(items.size());
     const NarrowPhaseSettings settings = {.scalar = scalar};
-    const IsolationLimits limits = {.item_seconds = request_.time_limit, .failures = 30};
+    const IsolationLimits limits = {.item_seconds = request_.time_limit, .failures = most_failures};
     const IsolationReport report = isolate(items.size(), limits, [&]() -> ItemWork {
       return [&](std::size_t i) {
         const Item& item = items[i];
@@ -226,6 +221,16 @@ void take(std::string_view& bytes, std::vector<T>& values) {
 
 JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle) {
   return Job(request, job, oracle).run();
+}
+
+std::vector<Variant> sampled_variants(const Case& c, std::uint64_t seed, std::uint64_t index) {
+  if (!is_sampled(index)) return {};
+  Random random(seed, index);
+  return variants(c, random);
+}
+
+std::string kind_of(const Variant& variant) {
+  return variant.name.substr(0, variant.name.find_first_of("+-"));
 }
 
 std::string pack(const JobResult& result) {

@@ -9,6 +9,7 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/check_request.h"
+#include "harness/check/metamorphic.h"
 
 namespace touchstone {
 
@@ -51,6 +52,11 @@ struct JobResult {
 
 // Job number -> regime and round: all regimes of a round, then the next.
 JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle);
+
+// The other forms that a sampled case is asked about in.
+std::vector<Variant> sampled_variants(const Case& c, std::uint64_t seed, std::uint64_t index);
+// "rotation" of "rotation+y+z+x".
+std::string kind_of(const Variant& variant);
 
 // The same bytes for another process.
 std::string pack(const JobResult& result);

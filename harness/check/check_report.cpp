@@ -30,6 +30,8 @@ std::string count(std::int64_t n) { return std::to_string(n); }
 struct Label {
   std::uint32_t entry;
   Precision scalar;
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
+  // pointer's
   friend auto operator<=>(const Label&, const Label&) = default;
 };
 
@@ -146,7 +148,9 @@ std::string checked_text(const CheckReport& report) {
   return text;
 }
 
-std::string markdown(const Rows& rows) {
+// The first column is to the left, the others to the right, or all to the left where they are
+// texts.
+std::string markdown(const Rows& rows, bool are_texts = false) {
   std::string text;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (const std::string& cell : rows[r]) {
@@ -159,7 +163,7 @@ std::string markdown(const Rows& rows) {
     text += "|\n";
     if (r > 0) continue;
     text += "|---|";
-    for (std::size_t i = 1; i < rows[r].size(); ++i) text += "---:|";
+    for (std::size_t i = 1; i < rows[r].size(); ++i) text += are_texts ? "---|" : "---:|";
     text += '\n';
   }
   return text;
@@ -176,22 +180,21 @@ std::vector<std::string> CheckReport::ours_wrong() const {
                                 to_string(failure.answer.scalar), to_string(failure.answer.task),
                                 failure.id, failure.what));
   }
-  for (const auto& [key, flips] : tally->flips()) {
-    if (flips.beyond == 0) continue;
+  for (const VariantFailure& failure : variant_failures) {
+    const VariantCount& count = failure.count;
     lines.push_back(fmt::format(
-        "{} {} in {}: {} answers to the same pair in another form differ, by {:.0e} of the size "
-        "(variants.csv)",
-        request->narrow[key.entry]->info.name, to_string(key.scalar),
-        request->regimes[key.regime]->name, flips.beyond,
-        std::max(flips.worst_flip, flips.worst_difference)));
+        "{} {} {} on {} and its variant '{}': {} answers in another form differ, by {:.0e} of the "
+        "size",
+        request->narrow[count.entry]->info.name, to_string(count.scalar), to_string(count.task),
+        failure.id, count.name(), count.beyond,
+        std::max(count.worst_flip, count.worst_difference)));
   }
-  for (const JobSummary& job : tally->jobs()) {
-    if (job.refused + job.boxes_broken == 0) continue;
-    const Regime& regime = *request->regimes[job.regime];
+  for (const TruthFailure& failure : truth_failures) {
     lines.push_back(fmt::format(
-        "{}: {} certificates of the oracle refused, {} boxes that do not hold their body; first {}",
-        regime.name, job.refused, job.boxes_broken,
-        make(regime, request->seed, job.worst_index).id));
+        "{}: {} certificates of the oracle refused, {} boxes that do not hold their body; first {} "
+        "in {}",
+        request->regimes[failure.job.regime]->name, failure.job.refused, failure.job.boxes_broken,
+        failure.id, failure.file.string()));
   }
   for (const BroadCheck& check : broad) {
     if (check.good() || check.entry->info.origin != Origin::ours) continue;
@@ -227,6 +230,9 @@ std::string summary_text(const CheckReport& report, std::size_t page_width) {
   std::set<std::string> commands;
   for (const FailureCase& failure : report.failures) {
     if (failure.answer.beyond) commands.insert(failure.command(*report.request));
+  }
+  for (const VariantFailure& failure : report.variant_failures) {
+    commands.insert(query_command(*report.request, failure.query, failure.file));
   }
   if (!commands.empty()) text += "Shown by\n";
   for (const std::string& command : commands) text += "  " + command + '\n';
@@ -378,11 +384,14 @@ std::string page_text(const CheckReport& report, const std::string& command) {
         if (check.entry != entry) continue;
         ++scenes;
         if (check.good()) continue;
-        if (wrong++ == 0) first = fmt::format("{}: {}", check.scene->name, check.faults());
+        if (wrong++ == 0) {
+          const std::string faults = check.faults();
+          first = fmt::format("{}: {}", check.scene->name, faults.substr(0, faults.find(';')));
+        }
       }
       rows.push_back({entry->info.name, count(scenes), count(wrong), first});
     }
-    text += markdown(rows);
+    text += markdown(rows, true);
   }
 
   text += "\n## What was checked beside them\n\n" + checked_text(report);
@@ -400,7 +409,7 @@ std::string page_text(const CheckReport& report, const std::string& command) {
                     failure->what});
   }
   if (worst.empty()) return text + "None.\n";
-  return text + markdown(rows);
+  return text + markdown(rows, true);
 }
 
 }  // namespace touchstone

@@ -16,6 +16,8 @@ struct CheckReport {
   const CheckRequest* request = nullptr;
   const Tally* tally = nullptr;
   std::vector<FailureCase> failures;  // of ours and of others
+  std::vector<VariantFailure> variant_failures;
+  std::vector<TruthFailure> truth_failures;
   std::vector<BroadCheck> broad;
 
   // What of ours is wrong beyond its documented margin, a line each; empty where nothing is.

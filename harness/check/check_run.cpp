@@ -52,7 +52,7 @@ void grade_all(const CheckRequest& request, CheckFiles& files, Tally& tally) {
 
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   std::error_code error;
-  std::filesystem::create_directories(request.out, error);
+  if (!request.resume) std::filesystem::create_directories(request.out, error);
   if (error) throw InputError(request.out.string(), 0, "cannot be made: " + error.message());
   auto result = std::make_unique<CheckResult>();
   result->report.request = &request;
@@ -66,6 +66,8 @@ std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   files.close();
   if (!request.broad.empty()) result->scenes = box_scenes(request.seed);
   result->report.failures = write_failures(request, result->tally);
+  result->report.variant_failures = write_variant_failures(request, result->tally);
+  result->report.truth_failures = write_truth_failures(request, result->tally);
   result->report.broad = check_broad_phases(request.broad, result->scenes, broad_seconds);
   write_summary(result->report, request.out / "summary.csv");
   return result;

@@ -141,6 +141,40 @@ Shown shown_from(const std::string& bytes) {
   return shown;
 }
 
+// "gjk-double-distance"
+std::string stem(const CheckRequest& request, const Query& query) {
+  return fmt::format("{}-{}-{}", request.narrow[query.entry]->info.name, to_string(query.scalar),
+                     to_string(query.task));
+}
+
+// The files of a folder, each made when its first line comes.
+class CaseFiles {
+ public:
+  explicit CaseFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  std::filesystem::path add(const std::string& name, const std::string& line) {
+    std::filesystem::path file = folder_ / (name + ".jsonl");
+    std::ofstream& stream = streams_[file];
+    if (!stream.is_open()) {
+      std::error_code ignored;
+      std::filesystem::create_directories(folder_, ignored);
+      stream.open(file, std::ios::binary);
+    }
+    stream << line << '\n';
+    return file;
+  }
+  void close() {
+    for (auto& [file, stream] : streams_) {
+      stream.close();
+      if (!stream) throw InputError(file.string(), 0, "cannot be written");
+    }
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::filesystem::path, std::ofstream> streams_;
+};
+
 }  // namespace
 
 std::string describe(const GradedAnswer& answer, const CheckRequest& request) {
@@ -176,10 +210,15 @@ std::string describe(const GradedAnswer& answer, const CheckRequest& request) {
   return text;
 }
 
-std::string FailureCase::command(const CheckRequest& request) const {
+std::string query_command(const CheckRequest& request, const Query& query,
+                          const std::filesystem::path& file) {
   return fmt::format("touchstone query {} --narrow {} --task {} --scalar {} --out answers.csv",
-                     file.string(), request.narrow[answer.entry]->info.name, to_string(answer.task),
-                     to_string(answer.scalar));
+                     file.string(), request.narrow[query.entry]->info.name, to_string(query.task),
+                     to_string(query.scalar));
+}
+
+std::string FailureCase::command(const CheckRequest& request) const {
+  return query_command(request, query_of(answer), file);
 }
 
 std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally& tally) {
@@ -188,10 +227,8 @@ std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     if (entry.path().extension() == ".jsonl") std::filesystem::remove(entry.path());
   }
+  CaseFiles files(folder);
   const std::vector<GradedAnswer> failures = tally.failures(request);
-  if (failures.empty()) return {};
-  std::filesystem::create_directories(folder);
-  std::map<std::filesystem::path, std::ofstream> streams;
   std::vector<FailureCase> cases;
   run_jobs(
       0, failures.size(), request.workers,
@@ -201,22 +238,45 @@ std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally
       [&](std::size_t job, const std::string& bytes) {
         const Shown shown = shown_from(bytes);
         const GradedAnswer& failure = failures[job];
-        const std::filesystem::path file =
-            folder / fmt::format("{}-{}-{}.jsonl", request.narrow[failure.entry]->info.name,
-                                 to_string(failure.scalar), to_string(failure.task));
-        std::ofstream& stream = streams[file];
-        if (!stream.is_open()) stream.open(file, std::ios::binary);
-        stream << shown.line << '\n';
+        const std::filesystem::path file = files.add(stem(request, query_of(failure)), shown.line);
         const Regime& regime = *request.regimes[failure.regime];
         cases.push_back({shown.answer, make(regime, request.seed, failure.index).id,
                          describe(shown.answer, request), file});
         return true;
       });
-  for (auto& [file, stream] : streams) {
-    stream.close();
-    if (!stream) throw InputError(file.string(), 0, "cannot be written");
-  }
+  files.close();
   return cases;
+}
+
+std::vector<VariantFailure> write_variant_failures(const CheckRequest& request,
+                                                   const Tally& tally) {
+  CaseFiles files(request.out / "failures");
+  std::vector<VariantFailure> failures;
+  for (const Tally::RegimeVariants& found : tally.variants_beyond()) {
+    const VariantCount& count = found.count;
+    const Query query = {found.regime, count.entry, count.scalar, count.task};
+    const Case original = make(*request.regimes[found.regime], request.seed, count.worst_index);
+    const std::string name = stem(request, query) + "-variants";
+    std::filesystem::path file = files.add(name, to_json(original));
+    for (const Variant& variant : sampled_variants(original, request.seed, count.worst_index)) {
+      if (kind_of(variant) == count.name()) files.add(name, to_json(variant.transformed));
+    }
+    failures.push_back({query, original.id, count, std::move(file)});
+  }
+  files.close();
+  return failures;
+}
+
+std::vector<TruthFailure> write_truth_failures(const CheckRequest& request, const Tally& tally) {
+  CaseFiles files(request.out / "failures");
+  std::vector<TruthFailure> failures;
+  for (const JobSummary& job : tally.jobs()) {
+    if (job.refused + job.boxes_broken == 0) continue;
+    const Case c = make(*request.regimes[job.regime], request.seed, job.worst_index);
+    failures.push_back({job, c.id, files.add("truth", to_json(c))});
+  }
+  files.close();
+  return failures;
 }
 
 }  // namespace touchstone

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/check/tally.h"
+#include "harness/check/true_case.h"
 
 namespace touchstone {
 
@@ -19,12 +20,34 @@ struct FailureCase {
   std::string command(const CheckRequest& request) const;
 };
 
+// One of ours that answers a case and another form of it differently.
+struct VariantFailure {
+  Query query;
+  std::string id;  // of the first such case
+  VariantCount count;
+  std::filesystem::path file;  // the case and its other form
+};
+
+// A case whose proof was refused, or a box of a body that does not hold it.
+struct TruthFailure {
+  JobSummary job;
+  std::string id;  // of the first such case
+  std::filesystem::path file;
+};
+
 // What is wrong with an answer, in words.
 std::string describe(const GradedAnswer& answer, const CheckRequest& request);
+// That shows the cases of a file again.
+std::string query_command(const CheckRequest& request, const Query& query,
+                          const std::filesystem::path& file);
 
 // Writes Tally::failures, each shrunk as far as it still fails in the same way, into the request's
 // folder: failures/ALGORITHM-SCALAR-TASK.jsonl, one case a line. Case files of an earlier check
-// there are removed.
+// there are removed first.
 std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally& tally);
+// The same for failures/ALGORITHM-SCALAR-TASK-variants.jsonl and failures/truth.jsonl, not shrunk.
+// After write_failures.
+std::vector<VariantFailure> write_variant_failures(const CheckRequest& request, const Tally& tally);
+std::vector<TruthFailure> write_truth_failures(const CheckRequest& request, const Tally& tally);
 
 }  // namespace touchstone

@@ -132,6 +132,7 @@ void Tally::add(const GradedAnswer& answer) {
 
 void Tally::add(std::uint32_t regime, const VariantCount& count) {
   flips_[{count.entry, count.scalar, regime}].add(count);
+  if (count.beyond > 0) variants_beyond_.push_back({regime, count});
 }
 
 void Tally::add(const JobSummary& summary) { jobs_.push_back(summary); }

@@ -55,6 +55,8 @@ class Tally {
     std::uint32_t entry = 0;
     Precision scalar{};
     std::uint32_t regime = 0;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
+    // pointer's
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 
@@ -65,6 +67,13 @@ class Tally {
   const std::map<Key, AnswerCount>& answers() const { return answers_; }
   const std::map<Key, FlipCount>& flips() const { return flips_; }
   const std::vector<JobSummary>& jobs() const { return jobs_; }
+
+  // Counts with some of ours beyond the margins.
+  struct RegimeVariants {
+    std::uint32_t regime;
+    VariantCount count;
+  };
+  const std::vector<RegimeVariants>& variants_beyond() const { return variants_beyond_; }
 
   // Answers that are worth a case file, the worst first: of ours what is beyond the margins, of
   // others crashes, silent errors, and numbers off by more than our margins would allow.
@@ -82,6 +91,7 @@ class Tally {
   std::map<Key, AnswerCount> answers_;
   std::map<Key, FlipCount> flips_;
   std::vector<JobSummary> jobs_;
+  std::vector<RegimeVariants> variants_beyond_;
   std::map<Key, std::vector<Failure>> failures_;
 };
 

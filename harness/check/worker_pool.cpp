@@ -162,6 +162,7 @@ void run_jobs(std::size_t first, std::size_t end, int workers, const std::functi
   board.taken = first;
   const std::size_t lead = 8 * static_cast<std::size_t>(workers);
   std::vector<Worker> pool;
+  pool.reserve(static_cast<std::size_t>(workers));
   for (int i = 0; i < workers; ++i) pool.emplace_back(end, lead, board, make);
   std::map<std::size_t, std::string> store;
   for (std::size_t next = first; next < end;) {

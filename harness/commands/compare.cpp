@@ -110,6 +110,7 @@ int compare_files(const Options& options) {
 Results run(const std::string& program, const std::string& campaign,
             const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
+  std::filesystem::remove(folder / "raw.csv");  // of an earlier comparison, perhaps not finished
   const std::filesystem::path log = folder / "output.txt";
   const int status = run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
   if (status != exit_done && status != exit_measured_wrong) {
@@ -164,7 +165,7 @@ void add_compare(CLI::App& app, int& status) {
   CLI::Option* exe = command->add_option(
       "--exe", options->programs,
       "A program to run; given twice, A and B, whose runs of the campaign are interleaved");
-  exe->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  exe->allow_extra_args(false);  // one each: what follows is the campaign
   command
       ->add_option("--threshold", options->threshold, "A slower B is a regression beyond this part")
       ->check(CLI::PositiveNumber)

@@ -53,6 +53,7 @@ std::filesystem::path run_again(const std::filesystem::path& reference, const Op
   const std::filesystem::path out =
       options.out.empty() ? source / "results/local/tables" : std::filesystem::path(options.out);
   std::filesystem::create_directories(out);
+  std::filesystem::remove(out / "raw.csv");  // of an earlier check, perhaps not finished
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
              (out / "output.txt").string());
   const int status = run_and_wait(
@@ -117,8 +118,9 @@ int tables(const Options& options) {
                      "cannot be read; expected a reference with tables (`touchstone tables "
                      "REFERENCE` writes them)");
   }
-  const std::filesystem::path results =
-      options.results.empty() ? run_again(reference, options) : options.results;
+  const std::filesystem::path results = options.results.empty()
+                                            ? run_again(reference, options)
+                                            : std::filesystem::path(options.results);
   return check(reference, results, options);
 }
 

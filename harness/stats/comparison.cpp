@@ -14,6 +14,7 @@ namespace {
 
 constexpr double confidence = 0.95;
 constexpr double significance = 0.05;
+constexpr std::size_t fewest_squares = 6;  // on either side, as for the interval of a median
 
 // Facts of machine.csv that must be the same, and those that may explain a difference.
 constexpr std::array machine_facts_compared = {"processor",
@@ -30,10 +31,10 @@ constexpr std::array machine_facts_compared = {"processor",
                                                "instructions_in_use",
                                                "build_type",
                                                "sanitizers"};
-constexpr std::array facts_remarked = {"microcode", "kernel", "address_randomisation",
-                                       "compiler",  "flags",  "eigen",
-                                       "onetbb",    "bullet", "fcl",
-                                       "libccd",    "commit", "tree"};
+constexpr std::array facts_remarked = {
+    "campaign_hash", "seed",   "microcode", "kernel", "address_randomisation",
+    "compiler",      "flags",  "eigen",     "onetbb", "bullet",
+    "fcl",           "libccd", "commit",    "tree"};
 
 std::string fact(const Results& results, const char* name) {
   const auto at = results.machine.find(name);
@@ -241,8 +242,10 @@ std::vector<ComparedCell> compare(const Results& a, const Results& b, Noise nois
     const std::vector<double> of_a = logs(by_square(in_a, noise));
     const std::vector<double> of_b = logs(by_square(in_b, noise));
     if (of_a.empty() && of_b.empty() && !in_a.failure.empty()) return;  // has no times
-    cells.push_back({set.key, in_a.label, exponential(shift(of_a, of_b, confidence)),
-                     mann_whitney(of_a, of_b), 1, of_a.size(), of_b.size()});
+    MedianInterval ratio = exponential(shift(of_a, of_b, confidence));
+    if (ratio.n < fewest_squares) ratio.low = ratio.high = std::nan("");
+    cells.push_back(
+        {set.key, in_a.label, ratio, mann_whitney(of_a, of_b), 1, of_a.size(), of_b.size()});
   });
   correct(cells);
   return cells;

@@ -78,9 +78,12 @@ Part part_of(const Fields& row) {
   row.fail("phase", "expected build, update, find_pairs or narrow");
 }
 
+// Of a set whose baseline and twin were told apart; the tables tell it from the twin's times.
+constexpr std::string_view canary = "canary";
+
 bool failed(const std::string& status) {
   return status == to_string(Status::crashed) || status == to_string(Status::timed_out) ||
-         status == to_string(Status::unsupported);
+         status == to_string(Status::unsupported) || status == "wrong";
 }
 
 class Reader {
@@ -94,7 +97,6 @@ class Reader {
     });
     // A file that was cut may end with a set's twin alone.
     std::erase_if(results_.sets, [](const SampleSet& set) { return set.contestants.empty(); });
-    for (SampleSet& set : results_.sets) count_units(set);
     return std::move(results_);
   }
 
@@ -111,20 +113,18 @@ class Reader {
     const std::string status = row.text("status");
     if (failed(status)) contestant.failure = status;
     if (kind == "check") {
-      std::int64_t& frames = frames_[block_of(set.key)];
-      frames = std::max(frames, frame + 1);
       contestant.checks.push_back({frame, part_of(row), status, row.text("pair_hash"),
                                    row.text("outcome_hash"), row.count("pair_count"),
                                    row.count("contact_count"), row.count("disagreements"),
                                    row.count("failures"), row.count("compared"),
                                    row.count("iterations"), row.count("support_calls")});
     } else {
-      take_sample(contestant, row, frame);
+      take_sample(contestant, row, set.key.narrow());
     }
   }
 
   // Rows of one sample are together, a phase each.
-  static void take_sample(Contestant& contestant, const Fields& row, std::int64_t frame) {
+  static void take_sample(Contestant& contestant, const Fields& row, bool narrow) {
     const Part part = part_of(row);
     const double seconds = row.seconds();
     if (std::isnan(seconds)) return;  // a failure, which the status tells
@@ -133,9 +133,8 @@ class Reader {
     sample.square = row.needed_count("square");
     sample.round = row.needed_count("round");
     sample.position = row.needed_count("position");
-    sample.frame = frame;
-    sample.frames = row.needed_count("frames", 1);
-    sample.noisy = row.has("noise");
+    sample.units = static_cast<double>(row.needed_count(narrow ? "pair_count" : "frames", 1));
+    sample.noisy = row.has("noise") && row.text("noise") != canary;
     sample.parts.fill(nan);
     const auto place = [](const Sample& s) {
       return std::tuple(s.process, s.square, s.round, s.position);
@@ -151,7 +150,6 @@ class Reader {
     }
     *slot = seconds;
     Sample& last = contestant.samples.back();
-    last.frames = std::max(last.frames, sample.frames);
     last.noisy = last.noisy || sample.noisy;
   }
 
@@ -192,41 +190,8 @@ class Reader {
     return set.contestants.back();
   }
 
-  static SetKey block_of(SetKey key) {
-    key.task = key.pair_kind = key.pairs_of = "";
-    return key;
-  }
-
-  // The queries of a sample are those of the frames that it went through; the checks tell how many
-  // there are in each frame.
-  void count_units(SampleSet& set) const {
-    std::vector<double> queries;
-    if (set.key.narrow()) {
-      const auto frames = frames_.find(block_of(set.key));
-      if (frames != frames_.end()) queries.resize(static_cast<std::size_t>(frames->second), 0.0);
-      for (const Contestant& contestant : set.contestants) {
-        for (const Check& check : contestant.checks) {
-          double& known = queries[static_cast<std::size_t>(check.frame)];
-          known = std::max(known, static_cast<double>(check.pair_count));
-        }
-      }
-      set.per_query = std::ranges::any_of(queries, [](double n) { return n > 0; });
-    }
-    const auto count = [&](Sample& sample) {
-      sample.units = static_cast<double>(sample.frames);
-      if (!set.per_query) return;
-      sample.units = 0;
-      for (std::int64_t i = 0; i < sample.frames; ++i) {
-        sample.units += queries[static_cast<std::size_t>(sample.frame + i) % queries.size()];
-      }
-    };
-    for (Contestant& contestant : set.contestants) std::ranges::for_each(contestant.samples, count);
-    std::ranges::for_each(set.twin.samples, count);
-  }
-
   Results results_;
   std::map<SetKey, std::size_t> places_;
-  std::map<SetKey, std::int64_t> frames_;  // of each block
 };
 
 bool is_ours(const SetKey& key, const std::string& label) {

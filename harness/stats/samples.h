@@ -38,9 +38,8 @@ inline constexpr std::array<const char*, 4> part_names = {"build", "update", "fi
 // that it did not have.
 struct Sample {
   std::int64_t process = 0, square = 0, round = 0, position = 0;
-  std::int64_t frame = 0, frames = 0;
   std::array<double, 4> parts;
-  double units = 0;  // frames of a broad phase; queries of a narrow one, where they are known
+  double units = 0;  // frames of a broad phase, queries of a narrow one
   bool noisy = false;
 
   double seconds() const;  // all parts; NaN where nothing was timed
@@ -59,7 +58,7 @@ struct Contestant {
   std::string label;  // "sweep-and-prune", "gjk double 1e-06"
   std::vector<Sample> samples;
   std::vector<Check> checks;
-  std::string failure;  // crashed, timed_out, unsupported; empty where none
+  std::string failure;  // crashed, timed_out, unsupported, wrong; empty where none
 };
 
 struct SampleSet {
@@ -67,7 +66,6 @@ struct SampleSet {
   std::vector<Contestant> contestants;  // in the order of the file
   Contestant twin;                      // the baseline's second registration
   std::string stop;                     // why repetition ended
-  bool per_query = false;               // samples count queries, not frames
 
   const Contestant* find(const std::string& label) const;
   // What the others are measured by: the one with a twin, else sweep-and-prune or gjk in double,
@@ -89,8 +87,8 @@ struct Results {
 // line.
 Results read_results(const std::filesystem::path& folder_or_file);
 
-// Seconds a unit of each square: the median over the square's rounds. Noisy rounds are left out
-// unless they are asked for.
+// Seconds a frame or a query, of each square: the median over the square's rounds. Noisy rounds are
+// left out unless they are asked for.
 using SquareKey = std::pair<std::int64_t, std::int64_t>;  // process, square
 enum class Noise : std::uint8_t { left_out, kept };
 std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise);

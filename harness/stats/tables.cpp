@@ -53,7 +53,6 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
   row.key = set.key;
   row.label = contestant.label;
   row.origin = origin_of(set.key, contestant.label);
-  row.per_query = set.per_query;
   row.seconds = median_interval(values_of(by_square(contestant, noise)), confidence);
   row.minimum = nan;
   std::vector<double> all;

@@ -85,9 +85,9 @@ std::string remark(const TimeRow& row) {
 std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) {
   const TimeRow& first = tables.times[begin];
   const bool broad = !first.key.narrow();
-  const double scale = first.per_query ? 1e9 : 1e3;
-  std::vector<std::string> names = {"", first.per_query ? "ns a query" : "ms a frame",
-                                    "95 % interval", "minimum"};
+  const double scale = broad ? 1e3 : 1e9;
+  std::vector<std::string> names = {"", broad ? "ms a frame" : "ns a query", "95 % interval",
+                                    "minimum"};
   if (broad) names.insert(names.end(), {"build", "update", "find pairs"});
   names.insert(names.end(), {"ratio", "95 % interval", "p (Holm)", "squares", "remarks"});
   std::string body;
@@ -119,8 +119,10 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     cells.push_back(remark(row));
     body += line(cells);
     if (const RatioRow* const twin = ratio_of(row.label, true)) {
-      canary = fmt::format("The canary, {} against itself: {}, {}.\n", row.label,
-                           text(twin->ratio.median), interval(twin->ratio));
+      const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
+      canary = fmt::format("The canary, {} against itself: {}, {}{}.\n", row.label,
+                           text(twin->ratio.median), interval(twin->ratio),
+                           told_apart ? " (**told apart**: trust no smaller difference)" : "");
     }
   }
   std::string all = fmt::format("### {}\n\n", first.key.words());
@@ -150,12 +152,13 @@ std::string markdown(const Tables& tables) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
     all += header({"input", "algorithm", "exponent", "95 % interval", "counts"}, 2);
     for (const ExponentRow& row : tables.exponents) {
-      all += line(
-          {fmt::format("{}, {} boxes, {} threads", row.key.scene, row.key.boxes, row.key.threads),
-           row.label, fmt::format("{:.2f}", row.law.exponent),
-           std::isnan(row.law.low) ? std::string("-")
-                                   : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
-           fmt::format("{}", fmt::join(row.counts, ", "))});
+      all += line({fmt::format("{}, {} boxes, {} thread{}", row.key.scene, row.key.boxes,
+                               row.key.threads, row.key.threads == 1 ? "" : "s"),
+                   row.label, fmt::format("{:.2f}", row.law.exponent),
+                   std::isnan(row.law.low)
+                       ? std::string("-")
+                       : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
+                   fmt::format("{}", fmt::join(row.counts, ", "))});
     }
     all += "\n";
   }
@@ -206,7 +209,7 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
                    "noisy", "outliers", "wrong", "failure"});
   for (const TimeRow& row : tables.times) {
     CsvWriter& csv = times.row(row.key).field(row.label).field(row.origin);
-    csv.field(row.per_query ? "query" : "frame").field(row.seconds.median);
+    csv.field(row.key.narrow() ? "query" : "frame").field(row.seconds.median);
     csv.field(row.seconds.low).field(row.seconds.high).field(row.minimum);
     for (const double part : row.parts) csv.field(part);
     csv.field(row.seconds.n).field(row.samples).field(row.noisy).field(row.outliers);

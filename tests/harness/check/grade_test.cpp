@@ -106,9 +106,9 @@ TEST(Grade, ErrorsOfDistances) {
   // Not asked, not stood by, or about bodies that overlap.
   const Outcome far = outcome(Answer::separated, Status::ok, 2);
   EXPECT_TRUE(std::isnan(apart.grade(far, Task::penetration).distance_error));
-  EXPECT_TRUE(std::isnan(
-      apart.grade(outcome(Answer::separated, Status::not_converged, 2), Task::distance)
-          .distance_error));
+  EXPECT_TRUE(
+      std::isnan(apart.grade(outcome(Answer::separated, Status::not_converged, 2), Task::distance)
+                     .distance_error));
   EXPECT_TRUE(std::isnan(Cubes(1.5).grade(far, Task::distance).distance_error));
   EXPECT_EQ(Cubes(2).grade(far, Task::distance).distance_error, 2);
 }
@@ -181,8 +181,8 @@ TEST(Grade, TwoHalfspacesOverlapForEver) {
   oracle::Oracle oracle;
   const oracle::Measure exact = oracle.measure(pair.a(), pair.b());
   const auto error = [&](double distance) {
-    return touchstone::grade(outcome(Answer::overlapping, Status::ok, distance),
-                             Task::penetration, exact, pair.a(), pair.b())
+    return touchstone::grade(outcome(Answer::overlapping, Status::ok, distance), Task::penetration,
+                             exact, pair.a(), pair.b())
         .depth_error;
   };
   EXPECT_EQ(error(-inf), 0);

@@ -17,9 +17,7 @@ class Beyond : public ::testing::Test {
     answer.scale = 10;
     answer.end_to_end.verdict = Verdict::right;
   }
-  std::string beyond(bool extreme = false) const {
-    return beyond_margins(entry, answer, extreme);
-  }
+  std::string beyond(bool extreme = false) const { return beyond_margins(entry, answer, extreme); }
 
   NarrowPhaseEntry entry;
   GradedAnswer answer;

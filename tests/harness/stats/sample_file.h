@@ -80,9 +80,9 @@ struct FakeRun {
               if (c.status == "crashed") continue;
               const double seconds = c.seconds * (twin ? block.twin_factor : 1) * shared *
                                      std::exp(spread * draw(random)) * frames * (narrow ? 50 : 1);
-              const std::string place =
-                  fmt::format(",,,,,,{},sample,{},{},{},{},{},{},{},{},", c.status, b, process,
-                              square, round, i, frames, twin ? "1" : "", noisy ? "pressure" : "");
+              const std::string place = fmt::format(
+                  "{},,,,,,{},sample,{},{},{},{},{},{},{},{},", frames * 50, c.status, b, process,
+                  square, round, i, frames, twin ? "1" : "", noisy ? "pressure" : "");
               if (narrow) {
                 row(c, 0, "narrow", seconds, place);
               } else {

@@ -33,7 +33,6 @@ TEST_F(Samples, SetsContestantsAndSquares) {
   ASSERT_EQ(broad.contestants.size(), 3u);
   EXPECT_EQ(broad.baseline().label, "sweep-and-prune");
   EXPECT_EQ(broad.twin.samples.size(), 3u * 4 * 4);
-  EXPECT_FALSE(broad.per_query);
   const Contestant& first = broad.contestants[0];
   EXPECT_EQ(first.samples.size(), 3u * 4 * 4);
   EXPECT_EQ(first.checks.size(), 8u);
@@ -44,7 +43,6 @@ TEST_F(Samples, SetsContestantsAndSquares) {
   EXPECT_EQ(narrow.key.words(),
             "uniform, 1000 bodies, tight boxes, 2 threads, distance box-sphere");
   EXPECT_EQ(narrow.contestants[1].label, "mpr double");
-  EXPECT_TRUE(narrow.per_query);
   EXPECT_EQ(narrow.contestants[0].samples[0].units, 8 * 50);
 }
 

@@ -39,7 +39,6 @@ TEST_F(TablesOf, TimesRatiosAndWinners) {
   EXPECT_EQ(tables.times[1].origin, "ours");
   EXPECT_NEAR(tables.times[1].parts[2] / tables.times[1].parts[1], 3, 0.1);
   EXPECT_NEAR(tables.times[3].seconds.median / 100e-9, 1, 0.1);
-  EXPECT_TRUE(tables.times[3].per_query);
 
   ASSERT_EQ(tables.ratios.size(), 5u);  // 2 + canary, 1 + canary
   EXPECT_NEAR(tables.ratios[0].ratio.median, 2, 0.01);
@@ -130,6 +129,18 @@ TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
   EXPECT_THAT(text, HasSubstr("### uniform, 1000 bodies, tight boxes, 2 threads, broad phases"));
   EXPECT_THAT(text, HasSubstr("Ratios are to sweep-and-prune. The canary, sweep-and-prune against "
                               "itself: "));
+}
+
+TEST_F(TablesOf, ACanaryThatIsToldApartIsTold) {
+  FakeRun run = fake_run();
+  const auto text = [&] {
+    std::filesystem::create_directory(folder_.path() / "t");
+    write_tables(make(run), 1.5, folder_.path() / "t");
+    return folder_.read("t/tables.md");
+  };
+  EXPECT_THAT(text(), testing::Not(HasSubstr("told apart")));
+  run.blocks[0].twin_factor = 1.05;
+  EXPECT_THAT(text(), HasSubstr("told apart"));
 }
 
 TEST(HoldsIn, IntervalAgainstTheBand) {

@@ -1,0 +1,71 @@
+#include "harness/check/certificate_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/harness/check/planted.h"
+#include "tests/harness/input_fault.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(CertificateFiles, WhatIsSavedIsVerified) {
+  const TemporaryFolder folder;
+  const Regime balls = balls_regime();
+  CheckRequest request;
+  request.regimes = {&balls, find_regime("gap-1e-9"), find_regime("depth-1e-3"),
+                     find_regime("touching-grid"), find_regime("degenerate-flat")};
+  ASSERT_EQ(std::ranges::count(request.regimes, nullptr), 0);
+  request.cases = 8;
+  const auto file = folder.path() / "proofs.jsonl";
+  EXPECT_EQ(save_certificates(request, file), 40);
+  const CertificateVerdicts verdicts = verify_certificates(file);
+  EXPECT_EQ(verdicts.verified, 40);
+  EXPECT_EQ(verdicts.refused_count, 0);
+
+  // One that claims the opposite, and one whose body was moved.
+  std::string text = folder.read("proofs.jsonl");
+  const auto line = [&](int number) {
+    std::size_t at = 0;
+    for (int i = 1; i < number; ++i) at = text.find('\n', at) + 1;
+    return at;
+  };
+  const auto replace = [&](int number, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from, line(number));
+    ASSERT_LT(at, line(number + 1));
+    text.replace(at, from.size(), to);
+  };
+  replace(1, "\"separated\"", "\"overlapping\"");
+  replace(2, "\"radius\":1.0", "\"radius\":0.5");
+  folder.write("spoilt.jsonl", text);
+  const auto spoilt = folder.path() / "spoilt.jsonl";
+  const CertificateVerdicts found = verify_certificates(spoilt);
+  EXPECT_EQ(found.verified, 38);
+  EXPECT_EQ(found.refused_count, 2);
+  EXPECT_THAT(found.refused, ElementsAre(StartsWith(spoilt.string() + ":1: balls/"),
+                                         StartsWith(spoilt.string() + ":2: balls/")));
+}
+
+TEST(CertificateFiles, BadFiles) {
+  const TemporaryFolder folder;
+  const auto bad = folder.write("bad.jsonl", "{}\n");
+  EXPECT_THAT(input_fault([&] { verify_certificates(bad); }), HasSubstr("bad.jsonl:1: "));
+  EXPECT_THAT(input_fault([&] { verify_certificates(folder.path() / "none.jsonl"); }),
+              HasSubstr("none.jsonl: "));
+  CheckRequest request;
+  const Regime balls = balls_regime();
+  request.regimes = {&balls};
+  request.cases = 1;
+  EXPECT_THAT(input_fault([&] { save_certificates(request, folder.path() / "no/x.jsonl"); }),
+              HasSubstr("cannot be written"));
+}
+
+}  // namespace
+}  // namespace touchstone

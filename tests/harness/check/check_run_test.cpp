@@ -1,0 +1,359 @@
+#include "harness/check/check_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <map>
+
+#include "harness/error.h"
+#include "harness/run/clock.h"
+#include "harness/run/text_table.h"
+#include "tests/harness/check/planted.h"
+#include "tests/harness/input_fault.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+class CheckRun : public ::testing::Test {
+ protected:
+  CheckRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
+    CheckRequest request;
+    request.narrow = narrow;
+    request.scalars = {Precision::float64};
+    request.regimes = {&balls};
+    request.cases = 8;
+    request.time_limit = 0.3;
+    request.out = folder.path() / "out";
+    return request;
+  }
+  std::string read(const std::string& name) const { return folder.read("out/" + name); }
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out")) {
+      all.push_back(entry.path().filename().string());
+    }
+    return all;
+  }
+  // Of the only algorithm in the only regime.
+  static const AnswerCount& count(const CheckResult& result) {
+    return result.tally.answers().begin()->second;
+  }
+
+  TemporaryFolder folder;
+  Regime balls = balls_regime();
+};
+
+TEST_F(CheckRun, AnAlgorithmThatIsRight) {
+  const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
+  const CheckRequest request = request_for({&entry});
+  const auto result = run_check(request);
+  EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
+  EXPECT_EQ(count(*result).answers, 8 * 3);
+  EXPECT_EQ(count(*result).silent, 0);
+  EXPECT_LT(count(*result).distance, 1e-12);
+  EXPECT_LT(count(*result).too_deep, 1e-12);
+  EXPECT_THAT(result->report.failures, IsEmpty());
+  ASSERT_THAT(result->tally.jobs(), SizeIs(1));
+  EXPECT_EQ(result->tally.jobs()[0].boxes, 8 * 4);
+  EXPECT_EQ(result->tally.jobs()[0].boxes_broken, 0);
+  EXPECT_EQ(result->tally.jobs()[0].proven, 2);
+  EXPECT_EQ(result->tally.jobs()[0].refused, 0);
+  for (const char* name :
+       {"grades.csv", "variants.csv", "jobs.csv", "progress.csv", "summary.csv", "machine.csv"}) {
+    EXPECT_THAT(names(), Contains(name));
+  }
+  EXPECT_THAT(summary_text(result->report, 120),
+              HasSubstr("None of our own algorithms is wrong beyond its margin."));
+}
+
+struct HarmCase {
+  Harm harm;
+  NarrowPhaseEntry (*entry)(const std::string&, Origin);
+  std::int64_t AnswerCount::*counted;  // what it shows in
+  std::int64_t expected;
+  bool is_fault;      // of ours
+  std::string words;  // in the report
+
+  friend void PrintTo(const HarmCase& harm, std::ostream* out) {
+    *out << static_cast<int>(harm.harm);
+  }
+};
+
+class CheckRunHarm : public CheckRun, public ::testing::WithParamInterface<HarmCase> {};
+
+TEST_P(CheckRunHarm, IsFoundInOursAndInAPeers) {
+  const HarmCase& harm = GetParam();
+  for (const Origin origin : {Origin::ours, Origin::peer}) {
+    const NarrowPhaseEntry entry = harm.entry("bad", origin);
+    const CheckRequest request = request_for({&entry});
+    const auto result = run_check(request);
+    if (harm.counted != nullptr) {
+      EXPECT_EQ(count(*result).*harm.counted, harm.expected);
+    }
+    const bool ours = origin == Origin::ours;
+    const std::vector<std::string> wrong = result->report.ours_wrong();
+    EXPECT_EQ(!wrong.empty(), ours && harm.is_fault);
+    if (!harm.is_fault) continue;
+    ASSERT_THAT(result->report.failures, Not(IsEmpty()));
+    const FailureCase& failure = result->report.failures.front();
+    EXPECT_THAT(failure.what,
+                HasSubstr(ours || harm.words != "does not separate" ? harm.words : ""));
+    if (ours) {
+      EXPECT_THAT(wrong, Contains(HasSubstr(failure.what)));
+      EXPECT_THAT(summary_text(result->report, 120), HasSubstr(failure.command(request)));
+    }
+    // The case file shows it, and is a case.
+    const std::vector<Case> cases = read_cases(failure.file);
+    ASSERT_THAT(cases, Not(IsEmpty()));
+    EXPECT_THAT(failure.command(request), HasSubstr("--narrow bad --task "));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Harms, CheckRunHarm,
+    ::testing::Values(
+        HarmCase{Harm::wrong_side, planted<Harm::wrong_side>, &AnswerCount::silent, 12, true,
+                 "called"},
+        HarmCase{Harm::wrong_depth, planted<Harm::wrong_depth>, nullptr, 0, true, "by"},
+        HarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>, &AnswerCount::bounds, 12, true,
+                 "bounds miss"},
+        HarmCase{Harm::gives_up, planted<Harm::gives_up>, &AnswerCount::honest, 12, false, ""},
+        HarmCase{Harm::crashes, planted<Harm::crashes>, &AnswerCount::crashed, 12, true, "crashed"},
+        HarmCase{Harm::nan, planted<Harm::nan>, &AnswerCount::not_a_number, 4, true, "NaN"}));
+
+TEST_F(CheckRun, AHangIsARow) {
+  const NarrowPhaseEntry entry = planted<Harm::hangs>("bad", Origin::ours);
+  CheckRequest request = request_for({&entry});
+  request.cases = 2;
+  request.time_limit = 0.1;
+  const auto result = run_check(request);
+  EXPECT_EQ(count(*result).timed_out, 6);
+  EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("no answer in time")));
+  EXPECT_THAT(read("grades.csv"), HasSubstr("timed_out"));
+}
+
+// Wrong on one side only, so it answers the swapped pair otherwise.
+TEST_F(CheckRun, AnotherFormOfAPairHasTheSameAnswer) {
+  const NarrowPhaseEntry entry = planted<Harm::wrong_side>("bad", Origin::ours);
+  const CheckRequest request = request_for({&entry});
+  const auto result = run_check(request);
+  const FlipCount& flips = result->tally.flips().begin()->second;
+  EXPECT_GT(flips.compared, 0);
+  EXPECT_GT(flips.flips, 0);
+  EXPECT_GT(flips.beyond, 0);
+  EXPECT_NEAR(flips.worst_flip, 0.25, 0.02);
+  EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("in another form differ")));
+  ASSERT_THAT(result->report.variant_failures, Not(IsEmpty()));
+  EXPECT_GE(read_cases(result->report.variant_failures[0].file).size(), 2u);
+  EXPECT_THAT(read("variants.csv"), HasSubstr(",swap,"));
+}
+
+TEST_F(CheckRun, TheRowsSayWhatTheSummarySays) {
+  const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
+  const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
+  const CheckRequest request = request_for({&good, &bad});
+  run_check(request);
+  std::map<std::string, std::map<std::string, int>> verdicts;
+  CsvReader(request.out / "grades.csv", {"algorithm", "verdict", "margin", "size", "group"})
+      .read([&](const CsvReader::Row& row) {
+        ++verdicts[std::string(row.text(0))][std::string(row.text(1))];
+        EXPECT_EQ(row.text(1) == "silent_error", !row.text(2).empty());
+        EXPECT_EQ(row.number(3), 2);
+        EXPECT_EQ(row.text(4), "test");
+      });
+  EXPECT_EQ(verdicts["good"]["right"], 24);
+  EXPECT_EQ(verdicts["bad"]["right"], 12);
+  EXPECT_EQ(verdicts["bad"]["silent_error"], 12);
+  int rows = 0;
+  CsvReader(request.out / "summary.csv", {"algorithm", "regime", "answers", "silent", "margin"})
+      .read([&](const CsvReader::Row& row) {
+        ++rows;
+        EXPECT_EQ(row.text(1), "balls");
+        EXPECT_EQ(row.integer(2), 24);
+        EXPECT_EQ(row.integer(3), row.text(0) == "bad" ? 12 : 0);
+      });
+  EXPECT_EQ(rows, 2);
+}
+
+TEST_F(CheckRun, ThePage) {
+  const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
+  const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
+  const CheckRequest request = request_for({&good, &bad});
+  const auto result = run_check(request);
+  const std::string page = page_text(result->report, "touchstone check --cases 8");
+  EXPECT_THAT(page, HasSubstr("# Who is wrong where"));
+  EXPECT_THAT(page, HasSubstr("`touchstone check --cases 8` (seed 1, 8 cases"));
+  EXPECT_THAT(page, HasSubstr("| good double | 24 | 0 | - | 0 | - |"));
+  EXPECT_THAT(page, HasSubstr("| bad double | 24 | 12 | 3e-01 | 12 | 3e-01 |"));
+  EXPECT_THAT(page, HasSubstr("| algorithm | test |\n|---|---:|\n| good double | 0 |\n"
+                              "| bad double | 12 (3e-01) |\n"));
+  EXPECT_THAT(page, HasSubstr("called "));
+}
+
+TEST_F(CheckRun, ShrunkCasesStillFail) {
+  const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::ours);
+  const CheckRequest request = request_for({&bad});
+  const auto result = run_check(request);
+  ASSERT_THAT(result->report.failures, Not(IsEmpty()));
+  for (const FailureCase& failure : result->report.failures) {
+    EXPECT_EQ(failure.answer.given.verdict, Verdict::silent_error);
+    for (const Case& c : read_cases(failure.file)) {
+      EXPECT_GT((c.pose_b.translation - c.pose_a.translation).x(), 0);
+    }
+  }
+}
+
+TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
+  const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
+  CheckRequest request = request_for({&entry});
+  const Regime other = balls_regime("more-balls");
+  request.regimes = {&balls, &other};
+  request.seconds = 0.5;
+  const Stopwatch watch;
+  const auto result = run_check(request);
+  EXPECT_GE(watch.seconds(), 0.5);
+  EXPECT_GE(result->tally.jobs().size(), 3u);
+  for (std::size_t i = 0; i < result->tally.jobs().size(); ++i) {
+    EXPECT_EQ(result->tally.jobs()[i].round, i / 2);
+    EXPECT_EQ(result->tally.jobs()[i].regime, i % 2);
+  }
+  // No case twice.
+  std::map<std::string, int> seen;
+  CsvReader(request.out / "grades.csv", {"regime", "index", "task"})
+      .read([&](const CsvReader::Row& row) {
+        ++seen[fmt::format("{} {} {}", row.text(0), row.text(1), row.text(2))];
+      });
+  EXPECT_EQ(seen.size(), result->tally.jobs().size() * 8 * 3);
+}
+
+TEST_F(CheckRun, BoxesOfBodiesAreChecked) {
+  const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
+  Regime all{.name = "mixed", .group = "test", .what = "any", .draw = [](RegimeDraw& draw) {
+               return find_regime("random-mixed")->draw(draw);
+             }};
+  CheckRequest request = request_for({&entry});
+  request.regimes = {&all};
+  request.cases = 20;
+  const auto result = run_check(request);
+  EXPECT_EQ(result->tally.jobs()[0].boxes, 80);
+  EXPECT_EQ(result->tally.jobs()[0].boxes_broken, 0);
+}
+
+// --- what is interrupted is gone on with
+// -----------------------------------------------------------
+
+class CheckResume : public CheckRun {
+ protected:
+  CheckResume() {
+    for (int i = 0; i < 6; ++i) more.push_back(balls_regime("balls-" + std::to_string(i)));
+    request = request_for({&slow, &bad});
+    for (const Regime& regime : more) request.regimes.push_back(&regime);
+    request.workers = 2;
+  }
+
+  // Kills a check when it has done so many jobs.
+  void kill_after(std::size_t jobs) {
+    const pid_t child = fork();
+    if (child == 0) {
+      std::freopen("/dev/null", "w", stderr);
+      run_check(request);
+      _exit(0);
+    }
+    const std::string wanted = "\njobs,";
+    const Stopwatch watch;
+    while (watch.seconds() < 60) {
+      const std::string progress = read("progress.csv");
+      const auto at = progress.find(wanted);
+      if (at != std::string::npos && std::stoul(progress.substr(at + wanted.size())) >= jobs) break;
+      usleep(1000);
+    }
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "it was done before it could be killed";
+  }
+
+  NarrowPhaseEntry slow = planted<Harm::none, 300>("slow", Origin::ours);
+  NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
+  std::vector<Regime> more;
+  CheckRequest request;
+};
+
+TEST_F(CheckResume, NoRowIsLostOrDoubled) {
+  kill_after(2);
+  // A job that was being written when the process was killed.
+  std::ofstream(request.out / "grades.csv", std::ios::app) << "balls-5,3,sphere,sph";
+  std::ofstream(request.out / "jobs.csv", std::ios::app) << "balls-5,test,0,8,0,0,0,0,0,0\n";
+  request.resume = true;
+  const auto resumed = run_check(request);
+  const std::map<std::string, std::string> found = {{"grades.csv", read("grades.csv")},
+                                                    {"variants.csv", read("variants.csv")},
+                                                    {"jobs.csv", read("jobs.csv")},
+                                                    {"summary.csv", read("summary.csv")}};
+  request.resume = false;
+  run_check(request);
+  for (const auto& [name, text] : found) EXPECT_EQ(text, read(name)) << name;
+  EXPECT_EQ(resumed->tally.jobs().size(), 7u);
+
+  // What is done is not done again, and tells the same.
+  request.resume = true;
+  const auto again = run_check(request);
+  for (const auto& [name, text] : found) EXPECT_EQ(text, read(name)) << name;
+  EXPECT_EQ(again->report.failures.size(), resumed->report.failures.size());
+}
+
+TEST_F(CheckResume, AnotherRequestIsRefused) {
+  run_check(request);
+  const std::string before = read("grades.csv");
+  request.resume = true;
+  const auto refuse = [&](const std::function<void(CheckRequest&)>& change,
+                          const std::string& text) {
+    CheckRequest other = request;
+    change(other);
+    EXPECT_THAT(input_fault([&] { run_check(other); }),
+                testing::AllOf(HasSubstr("progress.csv: "), HasSubstr(text)));
+  };
+  refuse([](CheckRequest& r) { r.seed = 2; }, "had seed '1', and this one has '2'");
+  refuse([](CheckRequest& r) { r.cases = 9; }, "cases '8'");
+  refuse([](CheckRequest& r) { r.narrow.pop_back(); }, "narrow 'slow bad'");
+  refuse([](CheckRequest& r) { r.regimes.pop_back(); }, "regimes");
+  refuse([](CheckRequest& r) { r.scalars = {Precision::float32}; }, "scalars 'double'");
+  refuse([](CheckRequest& r) { r.time_limit = 3; }, "time_limit");
+  refuse([](CheckRequest& r) { r.out /= "none"; }, "no such file");
+  EXPECT_EQ(read("grades.csv"), before);
+  // Rounds may be added.
+  request.seconds = 0.1;
+  run_check(request);
+  EXPECT_TRUE(read("grades.csv").starts_with(before));
+  EXPECT_GT(read("grades.csv").size(), before.size());
+}
+
+TEST_F(CheckResume, AnotherProgramAndShortFilesAreRefused) {
+  run_check(request);
+  request.resume = true;
+  const std::string progress = read("progress.csv");
+  const auto at = progress.find("program,") + 8;
+  folder.write("out/progress.csv", progress.substr(0, at) + "x" + progress.substr(at + 1));
+  EXPECT_THAT(input_fault([&] { run_check(request); }), HasSubstr("program"));
+  folder.write("out/progress.csv", progress);
+  std::filesystem::resize_file(request.out / "grades.csv", 10);
+  EXPECT_THAT(input_fault([&] { run_check(request); }),
+              HasSubstr("grades.csv: 10 bytes; expected"));
+  std::filesystem::remove(request.out / "grades.csv");
+  EXPECT_THAT(input_fault([&] { run_check(request); }), HasSubstr("grades.csv: 0 bytes; expected"));
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,86 @@
+// Algorithms and regimes that a test plants in a check.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "algorithms/registry.h"
+#include "harness/check/check_request.h"
+#include "tests/harness/check/pairs.h"
+
+namespace touchstone {
+
+// What each case's first translation says on z: an algorithm that is right but for one of these.
+enum class Harm : int { none, wrong_side, wrong_depth, bad_bounds, gives_up, crashes, hangs, nan };
+
+// Balls answer by the formula; what the harm says is done to the pairs whose second ball is to the
+// right of the first.
+class Planted final : public NarrowPhase {
+ public:
+  explicit Planted(Harm harm, int microseconds) : harm_(harm), microseconds_(microseconds) {}
+  void bind(std::span<const Shape> shapes) override { shapes_ = shapes; }
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const Pose& a = batch.poses[batch.first[i]];
+      const Pose& b = batch.poses[batch.second[i]];
+      const Vec3d between = b.translation - a.translation;
+      const double radii = shapes_[batch.shape_of[batch.first[i]]].radius +
+                           shapes_[batch.shape_of[batch.second[i]]].radius;
+      Outcome& out = outcomes[i];
+      out.distance = between.norm() - radii;
+      out.answer = out.distance > 0 ? Answer::separated : Answer::overlapping;
+      out.status = Status::ok;
+      out.normal = between.normalized();
+      if (between.x() > 0) do_harm(out);
+      if (microseconds_ > 0) usleep(static_cast<useconds_t>(microseconds_));
+    }
+  }
+
+ private:
+  void do_harm(Outcome& out) const {
+    switch (harm_) {
+      case Harm::none: break;
+      case Harm::wrong_side:
+        out.answer = out.distance > 0 ? Answer::overlapping : Answer::separated;
+        break;
+      case Harm::wrong_depth: out.distance *= 1.5; break;
+      case Harm::bad_bounds: out.lower = out.distance + 0.1; break;
+      case Harm::gives_up: out.status = Status::not_converged; break;
+      case Harm::crashes: std::abort();
+      case Harm::hangs: usleep(60'000'000); break;
+      case Harm::nan: out.normal.x() = Outcome::none; break;
+    }
+  }
+
+  Harm harm_;
+  int microseconds_;
+  std::span<const Shape> shapes_;
+};
+
+template <Harm harm, int microseconds = 0>
+NarrowPhaseEntry planted(const std::string& name, Origin origin) {
+  return {.info = {.name = name, .citation = "a test", .origin = origin},
+          .tasks = {Task::intersect, Task::distance, Task::penetration},
+          .scalars = {Precision::float64},
+          .supports = [](ShapeKind a, ShapeKind b,
+                         Task) { return a == ShapeKind::sphere && b == ShapeKind::sphere; },
+          .make = [](const NarrowPhaseSettings&) -> std::unique_ptr<NarrowPhase> {
+            return std::make_unique<Planted>(harm, microseconds);
+          }};
+}
+
+// Balls of radius 1, apart and overlapping in turn, on both sides of each other.
+inline Regime balls_regime(const std::string& name = "balls", const std::string& group = "test") {
+  return {.name = name, .group = group, .what = "two balls", .draw = [](RegimeDraw& draw) {
+            const double gap = draw.index % 2 == 0 ? 0.5 : -0.5;
+            const double side = draw.index / 2 % 2 == 0 ? 1 : -1;
+            RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
+            c.pair.pose_b.translation.y() = draw.random.uniform(-0.25, 0.25);
+            return c;
+          }};
+}
+
+}  // namespace touchstone
