@@ -107,6 +107,7 @@ std::vector<BoxScene> box_scenes(std::uint64_t seed) {
        }},
   };
   std::vector<BoxScene> scenes;
+  scenes.reserve(makers.size());
   for (const auto& [name, make] : makers) {
     scenes.push_back(play(name, seed, scenes.size(), make));
   }

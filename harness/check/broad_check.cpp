@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
 #include <memory>
 
 #include "algorithms/core/executor.h"
@@ -32,6 +33,11 @@ std::vector<IndexPair> true_pairs(std::span<const Aabb> boxes) {
   return pairs;
 }
 
+// Of its coordinates: as numbers, 0 and -0 are equal.
+std::array<std::uint32_t, 6> bits(const Aabb& box) {
+  return std::bit_cast<std::array<std::uint32_t, 6>>(box);
+}
+
 struct Change {
   std::vector<std::uint32_t> moved, inserted, removed;
 
@@ -41,8 +47,7 @@ struct Change {
       const bool is = !now[id].is_empty();
       if (was && !is) removed.push_back(id);
       if (!was && is) inserted.push_back(id);
-      // Bit for bit: 0 and -0 are equal.
-      if (was && is && std::memcmp(&before[id], &now[id], sizeof(Aabb)) != 0) moved.push_back(id);
+      if (was && is && bits(before[id]) != bits(now[id])) moved.push_back(id);
     }
   }
 };

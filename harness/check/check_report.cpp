@@ -30,8 +30,7 @@ std::string count(std::int64_t n) { return std::to_string(n); }
 struct Label {
   std::uint32_t entry;
   Precision scalar;
-  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
-  // pointer's
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a pointer in the comparison with 0
   friend auto operator<=>(const Label&, const Label&) = default;
 };
 

@@ -19,7 +19,7 @@ struct CheckRequest {
   int cases = 200;        // of each regime in a round
   double seconds = 0;     // rounds are done until these are over; 0: one round
   int workers = 2;        // processes
-  double time_limit = 1;  // seconds a query
+  double time_limit = 10;  // seconds a query
   std::filesystem::path out;
   bool resume = false;  // go on where the folder's last run ended
 

@@ -37,8 +37,7 @@ Pose rounded(const Pose& pose) {
 
 template <class Scalar>
 std::array<double, 4> quaternion_of(const Mat3d& rotation) {
-  const Mat3<Scalar> matrix = rotation.cast<Scalar>();
-  const Eigen::Quaternion<Scalar> q = to_quaternion<Scalar>(matrix);
+  const Eigen::Quaternion<Scalar> q = to_quaternion<Scalar>(rotation.cast<Scalar>());
   return {static_cast<double>(q.w()), static_cast<double>(q.x()), static_cast<double>(q.y()),
           static_cast<double>(q.z())};
 }

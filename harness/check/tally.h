@@ -55,8 +55,7 @@ class Tally {
     std::uint32_t entry = 0;
     Precision scalar{};
     std::uint32_t regime = 0;
-    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
-    // pointer's
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a pointer in the comparison with 0
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 

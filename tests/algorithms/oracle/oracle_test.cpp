@@ -102,7 +102,8 @@ TEST_P(ExactRegime, IsProvenAndAgreesWithTheReferences) {
   Random random(17);
   Oracle oracle;
   std::array<int, 4> answers{};
-  for (int i = 0; i < regime.count && !HasFailure(); ++i) {
+  const int count = regime.count / one_in;
+  for (int i = 0; i < count && !HasFailure(); ++i) {
     const Sample sample = regime.make(random, i);
     SCOPED_TRACE(std::to_string(i) + describe(sample));
     const Body a = sample.a.body(), b = sample.b.body();
@@ -122,9 +123,9 @@ TEST_P(ExactRegime, IsProvenAndAgreesWithTheReferences) {
     EXPECT_TRUE(measure.lower == measure.upper ||
                 std::nextafter(measure.lower, inf) == measure.upper);
 
-    if (i >= std::max(regime.by_axes, regime.by_cgal)) continue;
+    if (i >= std::max(regime.by_axes, regime.by_cgal) / one_in) continue;
     const reference::IntegerPair pair = reference::integer_pair(a, b);
-    if (i < regime.by_axes) {
+    if (i < regime.by_axes / one_in) {
       const reference::Separation separation = reference::separate(pair);
       EXPECT_EQ(separation.answer, reference::answer_of(cores, 0));
       if (cores <= 0) {
@@ -132,13 +133,13 @@ TEST_P(ExactRegime, IsProvenAndAgreesWithTheReferences) {
       }
     }
 #ifdef TOUCHSTONE_CGAL
-    if (i < regime.by_cgal && cores >= 0) {
+    if (i < regime.by_cgal / one_in && cores >= 0) {
       EXPECT_EQ(reference::squared_distance(pair), cores);
     }
 #endif
   }
   const auto percent = [&](Answer answer) {
-    return 100 * answers[static_cast<std::size_t>(answer)] / regime.count;
+    return 100 * answers[static_cast<std::size_t>(answer)] / count;
   };
   EXPECT_GE(percent(Answer::separated), regime.separated);
   EXPECT_GE(percent(Answer::touching), regime.touching);
@@ -161,7 +162,7 @@ TEST(Oracle, EnclosesCurvedBodies) {
   Random random(19);
   Oracle oracle;
   std::array<int, 4> answers{};
-  constexpr int count = 1500;
+  constexpr int count = 1500 / one_in;
   int narrow = 0;
   for (int i = 0; i < count && !HasFailure(); ++i) {
     const Sample sample = curved_sample(random, i);
@@ -186,7 +187,7 @@ TEST(Oracle, MeasuresHalfspaces) {
   Random random(23);
   Oracle oracle;
   std::array<int, 4> answers{};
-  constexpr int count = 3000;
+  constexpr int count = 3000 / one_in;
   for (int i = 0; i < count && !HasFailure(); ++i) {
     const Sample sample = halfspace_sample(random, i);
     SCOPED_TRACE(std::to_string(i) + describe(sample));
@@ -313,10 +314,10 @@ constexpr int noticed = 3, not_noticed = 4;
 
 // Ends the process with whether one of the answers is wrong, and is found to be so by its
 // certificate or by the verdict of an oracle that is sound. An answer may take two seconds.
-[[noreturn]] void ask_with(const Filters& filters) {
+[[noreturn]] void ask_with(const Filters& filters, int count) {
   Random random(41);
   Oracle sound, broken(filters);
-  for (int i = 0; i < 2500; ++i) {
+  for (int i = 0; i < count; ++i) {
     const Sample sample = nearly_touching_sample(random, i);
     const Body a = sample.a.body(), b = sample.b.body();
     const Measure measure = sound.measure(a, b);
@@ -331,7 +332,8 @@ constexpr int noticed = 3, not_noticed = 4;
 }
 
 TEST(OracleDeathTest, ABrokenFilterIsNoticed) {
-  EXPECT_EXIT(ask_with({}), ::testing::ExitedWithCode(not_noticed), "");
+  constexpr int count = 2500;
+  EXPECT_EXIT(ask_with({}, count / one_in), ::testing::ExitedWithCode(not_noticed), "");
   // A polytope whose faces disagree on what they see may also grow for ever.
   const auto is_noticed = [](int status) {
     return (WIFEXITED(status) && WEXITSTATUS(status) == noticed) ||
@@ -341,7 +343,7 @@ TEST(OracleDeathTest, ABrokenFilterIsNoticed) {
                                  &Filters::support, &Filters::visibility, &Filters::nearest}) {
     Filters filters;
     filters.*bound = 0;
-    EXPECT_EXIT(ask_with(filters), is_noticed, "");
+    EXPECT_EXIT(ask_with(filters, count), is_noticed, "");
   }
 }
 
