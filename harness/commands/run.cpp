@@ -79,9 +79,10 @@ void print_plan(const Campaign& campaign) {
     }
     if (!blocks[i].sets.empty()) seconds += blocks[i].seconds;
   }
-  fmt::print("{} blocks, {} cells; at most about {:.0f} s of samples, and the check of every frame "
-             "before them\n",
-             blocks.size(), cells, seconds);
+  fmt::print(
+      "{} blocks, {} cells; at most about {:.0f} s of samples, and the check of every frame "
+      "before them\n",
+      blocks.size(), cells, seconds);
 }
 
 RunStart start_of(const Options& options) {
@@ -152,10 +153,13 @@ void add_run(CLI::App& app, int& status) {
           ->excludes(campaign)
           ->group(one);
   const auto add = [&](CLI::Option* option) { option->needs(scene)->group(one); };
-  add(command->add_option("--broad", options->broad, "Broad phases: names, all, ours, peers, oracle, none")
+  add(command
+          ->add_option("--broad", options->broad,
+                       "Broad phases: names, all, ours, peers, oracle, none")
           ->capture_default_str());
   add(command
-          ->add_option("--narrow", options->narrow, "Narrow phases: names, all, ours, peers, oracle, none")
+          ->add_option("--narrow", options->narrow,
+                       "Narrow phases: names, all, ours, peers, oracle, none")
           ->capture_default_str());
   const std::map<std::string, Task> tasks = {{"intersect", Task::intersect},
                                              {"distance", Task::distance},

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double setup_seconds = 60;
 constexpr double confidence = 0.95;
-constexpr double slack = 10;  // times its time in the check, before a sample is stopped
+constexpr double patience = 4;  // times its share of the budget, for a set without an interval
+constexpr double slack = 10;    // times its time in the check, before a sample is stopped
 
 // A sampler with the executor that it runs on.
 template <class Made>
@@ -90,8 +91,7 @@ bool BlockRun::is_open(std::size_t s, const ProcessSpan& span) const {
   for (int lap = span.first; lap < span.end; ++lap) {
     for (std::size_t group = 0; group < set.groups.size(); ++group) {
       for (std::size_t round = 0; round < set.groups[group].size(); ++round) {
-        if (!states_[s].done.contains(
-                {set.square(lap, group), static_cast<std::int64_t>(round)})) {
+        if (!states_[s].done.contains({set.square(lap, group), static_cast<std::int64_t>(round)})) {
           return true;
         }
       }
@@ -130,8 +130,8 @@ bool BlockRun::run_process(const ProcessSpan& span, bool ends_stage, bool ends_a
           }
           const bool ends_lap = group + 1 == set.groups.size() && round + 1 == rounds;
           const bool last = ends_lap && lap + 1 == span.end;
-          run_round({s, span.process, lap, group, round, ends_lap, last && ends_stage,
-                     last && ends_all});
+          run_round(
+              {s, span.process, lap, group, round, ends_lap, last && ends_stage, last && ends_all});
           go_on = commit_();
         }
       }
@@ -181,9 +181,8 @@ void BlockRun::verify(Worker& worker, std::size_t c, int process,
     for (const std::size_t s : sets) {
       const MeasuredSet& set = schedule_.sets[s];
       if (set.narrow != nullptr && set.narrow->frames[frame].size() == 0) continue;
-      const SampleRequest request = {.set = set.number,
-                                     .frame = static_cast<std::uint32_t>(frame),
-                                     .hashed = true};
+      const SampleRequest request = {
+          .set = set.number, .frame = static_cast<std::uint32_t>(frame), .hashed = true};
       const auto reply = worker.ask(request, deadline(c, s, 1));
       if (reply && matches(*reply, c, s, request)) continue;
       RawRow row = row_of(c, s, frame);
@@ -333,10 +332,10 @@ std::vector<RawRow> BlockRun::sample(const Place& place, std::size_t c, std::uin
     row.outcome_hash = to_hex(reply->outcome_hash);
     row.iterations = reply->iterations;
     row.support_calls = reply->support_calls;
-    row.status = to_string(checked.gave_up ? Status::not_converged
-                           : schedule_.contestants[c].info().origin == Origin::ours
-                               ? Status::ok
-                               : Status::not_reported);
+    row.status =
+        to_string(checked.gave_up                                          ? Status::not_converged
+                  : schedule_.contestants[c].info().origin == Origin::ours ? Status::ok
+                                                                           : Status::not_reported);
     return {row};
   }
   row.status = to_string(reply->status);
@@ -371,8 +370,10 @@ std::string BlockRun::reason_to_stop(const Place& place) const {
     }
     if (narrow_enough) return "width";
   }
+  // Below the squares of the first look there is no interval: worth some time beyond the budget.
   const double share = group.seconds / static_cast<double>(schedule_.sets.size());
-  return state.spent > share ? "budget" : "";
+  const bool looked = place.lap + 1 >= first_look;
+  return state.spent > (looked ? 1 : patience) * share ? "budget" : "";
 }
 
 bool BlockRun::canary_sings(const Place& place) const {

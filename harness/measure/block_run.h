@@ -61,8 +61,8 @@ class BlockRun {
   bool matches(const SampleReply& reply, std::size_t contestant, std::size_t set,
                const SampleRequest& request) const;
   // Marks it as out of the block, with a row and a departure.
-  RawRow leave(RawRow row, std::size_t contestant, std::string_view status,
-               const std::string& what, const std::string& words, bool known);
+  RawRow leave(RawRow row, std::size_t contestant, std::string_view status, const std::string& what,
+               const std::string& words, bool known);
   RawRow lose(RawRow row, std::size_t contestant, const IsolationFailure& failure);
 
   const RunContext* context_;
@@ -71,8 +71,8 @@ class BlockRun {
   const CheckTable* checks_;
   Schedule schedule_;
   std::vector<SetState> states_;
-  std::vector<char> out_;                          // of each contestant
-  std::vector<std::unique_ptr<Worker>> workers_;   // of each contestant; null: none at the moment
+  std::vector<char> out_;                         // of each contestant
+  std::vector<std::unique_ptr<Worker>> workers_;  // of each contestant; null: none at the moment
   std::function<bool()> commit_;
 };
 

@@ -24,14 +24,15 @@ struct ChildAnswer {
 };
 
 std::span<const Aabb> boxes_before(const BlockInput& input, std::size_t frame) {
-  return frame == 0 ? std::span<const Aabb>() : std::span<const Aabb>(input.frames[frame - 1].boxes);
+  return frame == 0 ? std::span<const Aabb>()
+                    : std::span<const Aabb>(input.frames[frame - 1].boxes);
 }
 
 std::string write_frames(const RunContext& context, const BlockInput& input,
                          const std::string& name, std::size_t frame) {
   const std::filesystem::path file =
-      context.reproductions / fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name,
-                                          context.scene->size(), frame);
+      context.reproductions /
+      fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name, context.scene->size(), frame);
   // The frame before comes too: an update may be what went wrong.
   std::vector<std::vector<Aabb>> frames;
   if (frame > 0) frames.push_back(input.frames[frame - 1].boxes);
@@ -59,21 +60,21 @@ BroadCheck check_broad(const RunContext& context, const BlockInput& input,
   const IsolationReport report = isolate(count, limits, [&]() -> ItemWork {
     const auto executor = std::make_shared<Executor>(1);
     const auto sampler = std::make_shared<BroadSampler>(entry, input, group.rebuild, *executor);
-  
+
     return [&, executor, sampler](std::size_t frame) {
       if (too_slow[0] > 0) return;
       ChildAnswer& answer = answers[frame];
       answer.reply = sampler->play(frame);
       std::vector<IndexPair> pairs = sampler->sink().gather();
       if (with_pairs) {
-        answer.pairs_at =
-            frame == 0 ? 0
-                       : answers[frame - 1].pairs_at +
-                             static_cast<std::size_t>(answers[frame - 1].reply.pairs);
+        answer.pairs_at = frame == 0 ? 0
+                                     : answers[frame - 1].pairs_at +
+                                           static_cast<std::size_t>(answers[frame - 1].reply.pairs);
         if (answer.pairs_at + pairs.size() > kept.size()) {
           throw std::runtime_error("more than four times as many pairs as there are");
         }
-        std::ranges::copy(pairs, kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
+        std::ranges::copy(pairs,
+                          kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
       }
       answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
       if (answer.reply.prepare + answer.reply.query > group.time_limit) too_slow[0] = frame + 1;
@@ -126,8 +127,8 @@ BroadCheck check_broad(const RunContext& context, const BlockInput& input,
       context.findings->add(std::move(departure));
     }
     if (with_pairs) {
-      const auto found = kept.span().subspan(answer.pairs_at,
-                                             static_cast<std::size_t>(answer.reply.pairs));
+      const auto found =
+          kept.span().subspan(answer.pairs_at, static_cast<std::size_t>(answer.reply.pairs));
       result.pairs.emplace_back(found.begin(), found.end());
     }
     if (too_slow[0] == frame + 1) {

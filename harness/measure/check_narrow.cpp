@@ -57,8 +57,8 @@ void NarrowCheck::run() {
     for (std::size_t set = 0; set < sets_.size(); ++set) {
       const PairGroup& pairs = sets_[set].frames[frame];
       if (pairs.size() == 0) continue;
-      const auto [at, is_new] =
-          known.try_emplace({sets_[set].broad, pairs.kind_a, pairs.kind_b}, batch.references.size());
+      const auto [at, is_new] = known.try_emplace({sets_[set].broad, pairs.kind_a, pairs.kind_b},
+                                                  batch.references.size());
       if (is_new) {
         batch.references.push_back(
             oracle.solve(pairs, input_->shape_of, input_->frames[frame].poses));
@@ -85,7 +85,8 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
   for (const Piece& piece : batch.pieces) {
     const NarrowSet& set = sets_[piece.set];
     if (!offers(*choice.entry, set.task) || out_.contains({&choice, piece.set}) ||
-        !context_->admits(choice, set.broad, set.task, set.kind_name())) continue;
+        !context_->admits(choice, set.broad, set.task, set.kind_name()))
+      continue;
     if (offers(*choice.entry, set.kind_a, set.kind_b, set.task)) {
       pieces.push_back(piece);
       continue;
@@ -111,9 +112,8 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
       const Piece& piece = pieces[item];
       if (lost[piece.set] != 0) return;
       lost[piece.set] = 1;
-      const SampleReply reply =
-          sampler->sample({.set = static_cast<std::uint32_t>(piece.set),
-                           .frame = static_cast<std::uint32_t>(piece.frame)});
+      const SampleReply reply = sampler->sample({.set = static_cast<std::uint32_t>(piece.set),
+                                                 .frame = static_cast<std::uint32_t>(piece.frame)});
       answers[item] = {reply.query, reply.outcome_hash, reply.contacts, reply.iterations,
                        reply.support_calls};
       std::ranges::copy(sampler->outcomes(),
@@ -207,10 +207,9 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
   if (!reported_.insert({&choice, piece.set}).second) return;
   const AlgorithmInfo& info = choice.entry->info;
   const NarrowSet& set = sets_[piece.set];
-  Departure departure = context_->departure(
-      info, label(choice),
-      fmt::format("{}, {}, {}", context_->place(piece.frame), set.kind_name(),
-                  to_string(set.task)));
+  Departure departure = context_->departure(info, label(choice),
+                                            fmt::format("{}, {}, {}", context_->place(piece.frame),
+                                                        set.kind_name(), to_string(set.task)));
   departure.known = departure.known || choice.entry->approximate;
   if (faults.crashed > 0) {
     departure.what = fmt::format("{} of {} queries crashed", faults.crashed, group(piece).size());
@@ -243,10 +242,10 @@ std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choi
       .pose_a = poses[a],
       .pose_b = poses[b]};
   const std::filesystem::path file =
-      context_->reproductions /
-      fmt::format("{}-{}-{}-{}-{}.jsonl", choice.entry->info.name,
-                  to_string(choice.settings.scalar), to_string(sets_[piece.set].task),
-                  sets_[piece.set].kind_name(), reproduction.id);
+      context_->reproductions / fmt::format("{}-{}-{}-{}-{}.jsonl", choice.entry->info.name,
+                                            to_string(choice.settings.scalar),
+                                            to_string(sets_[piece.set].task),
+                                            sets_[piece.set].kind_name(), reproduction.id);
   std::filesystem::create_directories(context_->reproductions);
   std::ofstream stream(file);
   stream << to_json(reproduction) << '\n';

@@ -36,9 +36,7 @@ class NarrowCheck {
     std::vector<std::vector<ReferenceOutcome>> references;
     std::size_t outcomes = 0;
   };
-  const PairGroup& group(const Piece& piece) const {
-    return sets_[piece.set].frames[piece.frame];
-  }
+  const PairGroup& group(const Piece& piece) const { return sets_[piece.set].frames[piece.frame]; }
   void run(const Batch& batch, const NarrowChoice& choice);
   void take(const Piece& piece, const NarrowChoice& choice, std::span<const Outcome> outcomes,
             const std::vector<ReferenceOutcome>& reference, RawRow row);

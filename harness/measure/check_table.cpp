@@ -26,9 +26,7 @@ std::string set_key(const RawRow& row) {
   return row.narrow.empty() ? "" : key(row.broad, row.task, row.pair_kind);
 }
 
-double Checked::greatest_seconds() const {
-  return seconds.empty() ? 0 : std::ranges::max(seconds);
-}
+double Checked::greatest_seconds() const { return seconds.empty() ? 0 : std::ranges::max(seconds); }
 
 CheckTable::CheckTable(std::span<const RawRow> rows, std::int64_t block, std::size_t frames) {
   for (const RawRow& row : rows) {

@@ -21,7 +21,7 @@ std::string set_key(const RawRow& row);
 
 // One algorithm on one set, at one thread.
 struct Checked {
-  bool out = false;  // crashed, too slow or wrong: it is not timed
+  bool out = false;                         // crashed, too slow or wrong: it is not timed
   std::vector<std::int64_t> pairs;          // of each frame; 0 where there is no row
   std::vector<std::uint64_t> hash;          // of the pairs, or of the outcomes
   std::vector<double> seconds;              // all phases

@@ -81,9 +81,10 @@ std::string MachineLoad::objection() const {
                        pressure ? "/proc/loadavg" : "/proc/pressure/cpu");
   }
   if (*pressure > busy_percent) {
-    return fmt::format("tasks waited for a processor for {:.1f} % of the last ten seconds "
-                       "(/proc/pressure/cpu); expected at most {:g} %",
-                       *pressure, busy_percent);
+    return fmt::format(
+        "tasks waited for a processor for {:.1f} % of the last ten seconds "
+        "(/proc/pressure/cpu); expected at most {:g} %",
+        *pressure, busy_percent);
   }
   // This process is one of them.
   if (*running > 1) {

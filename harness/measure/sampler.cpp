@@ -94,9 +94,9 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
     const PairGroup& group = set.frames[frame];
     for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task) {
       const std::size_t end = std::min(begin + pairs_a_task, group.size());
-      chunks.push_back({group.batch(set.task, input_->shape_of, input_->frames[frame].poses, begin,
-                                    end),
-                        total + begin});
+      chunks.push_back(
+          {group.batch(set.task, input_->shape_of, input_->frames[frame].poses, begin, end),
+           total + begin});
     }
     total += group.size();
   });

@@ -11,7 +11,7 @@ namespace touchstone {
 namespace {
 
 constexpr std::size_t group_size = 4;
-constexpr std::array<int, 4> looks = {6, 12, 24, 48};  // squares of a group
+constexpr std::array<int, 4> looks = {first_look, 12, 24, 48};  // squares of a group
 constexpr int processes_a_stage = 3;
 
 // Seconds of a sample of the median contestant. Long enough for the clock and short enough for many
@@ -64,10 +64,10 @@ void add_set(Schedule& schedule, MeasuredSet set, std::vector<Contestant> candid
 }  // namespace
 
 std::string Contestant::label() const {
-  return broad != nullptr ? broad->info.name
-                          : narrow_label(narrow->entry->info.name,
-                                         to_string(narrow->settings.scalar),
-                                         narrow->settings.tolerance.value_or(Outcome::none));
+  return broad != nullptr
+             ? broad->info.name
+             : narrow_label(narrow->entry->info.name, to_string(narrow->settings.scalar),
+                            narrow->settings.tolerance.value_or(Outcome::none));
 }
 
 std::uint32_t MeasuredSet::first_frame(std::size_t frames, std::size_t round_of_group) const {
@@ -129,7 +129,7 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
     }
     double samples = 0;  // until the first look
     for (const auto& contestants : set.groups) {
-      samples += looks.front() * static_cast<double>(contestants.size() * contestants.size());
+      samples += first_look * static_cast<double>(contestants.size() * contestants.size());
     }
     const double share = group.seconds / static_cast<double>(schedule.sets.size());
     const double seconds = std::clamp(share / samples, shortest_sample, longest_sample);
@@ -164,9 +164,8 @@ std::vector<Stage> stages(std::optional<int> squares) {
 
 LatinSquare square_order(const RunContext& context, std::size_t set, std::int64_t square,
                          std::size_t size) {
-  const std::uint64_t place =
-      mix(mix(mix(static_cast<std::uint64_t>(context.number)) + set) +
-          static_cast<std::uint64_t>(square));
+  const std::uint64_t place = mix(mix(mix(static_cast<std::uint64_t>(context.number)) + set) +
+                                  static_cast<std::uint64_t>(square));
   Random random(context.seed, place);
   return latin_square(size, random);
 }

@@ -57,6 +57,7 @@ struct ProcessSpan {
   int process, first, end;
 };
 using Stage = std::vector<ProcessSpan>;
+inline constexpr int first_look = 6;  // squares; below, no interval of 95 % exists
 // 6, 12, 24 and 48 squares a group, by 3 processes each; or as many squares as are asked for.
 std::vector<Stage> stages(std::optional<int> squares);
 

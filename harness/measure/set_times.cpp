@@ -26,8 +26,7 @@ void SetTimes::add(const RawRow& row) {
     label = twin_of(label);
   }
   std::vector<Sample>& samples = samples_[label];
-  if (samples.empty() || samples.back().square != row.square ||
-      samples.back().round != row.round) {
+  if (samples.empty() || samples.back().square != row.square || samples.back().round != row.round) {
     samples.push_back({row.square, row.round, row.position, 0,
                        static_cast<double>(row.narrow.empty() ? row.frames : row.pair_count),
                        !row.noise.empty() && row.noise != "canary"});

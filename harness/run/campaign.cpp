@@ -196,9 +196,9 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder)
   group.tasks = settings.choices<Task>("tasks", task_names, {Task::intersect});
   group.pairing = static_cast<Pairing>(settings.of("pairing").choice("pairing", pairing_names, 0));
   group.time_limit = settings.of("time_limit").number("time_limit", positive, 10.0);
-  group.memory_limit =
-      static_cast<std::size_t>(settings.of("memory_limit").integer("memory_limit", 1, 1 << 24, 4096))
-      << 20;
+  group.memory_limit = static_cast<std::size_t>(
+                           settings.of("memory_limit").integer("memory_limit", 1, 1 << 24, 4096))
+                       << 20;
   group.width = settings.of("width").number("width", {.low = 1e-4, .high = 10}, 0.02);
   group.seconds = settings.of("seconds").number("seconds", positive, 10.0);
   if (settings.of("squares").has("squares")) {

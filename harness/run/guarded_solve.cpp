@@ -14,20 +14,19 @@ void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make,
   const Stopwatch total;
   const IsolationLimits limits = {
       .item_seconds = time_limit, .failures = 3, .memory = memory_limit};
-  const IsolationReport report =
-      isolate(batch.size(), limits, [&]() -> ItemWork {
-        const std::shared_ptr<NarrowPhase> algorithm = make();
-        return [&, algorithm](std::size_t i) {
-          if (total.seconds() > time_limit) {
-            shared[i].status = Status::timed_out;
-            return;
-          }
-          PairBatch one = batch;
-          one.first = batch.first.subspan(i, 1);
-          one.second = batch.second.subspan(i, 1);
-          algorithm->solve(one, shared.span().subspan(i, 1));
-        };
-      });
+  const IsolationReport report = isolate(batch.size(), limits, [&]() -> ItemWork {
+    const std::shared_ptr<NarrowPhase> algorithm = make();
+    return [&, algorithm](std::size_t i) {
+      if (total.seconds() > time_limit) {
+        shared[i].status = Status::timed_out;
+        return;
+      }
+      PairBatch one = batch;
+      one.first = batch.first.subspan(i, 1);
+      one.second = batch.second.subspan(i, 1);
+      algorithm->solve(one, shared.span().subspan(i, 1));
+    };
+  });
   std::ranges::copy(shared.span(), outcomes.begin());
   Status last = Status::crashed;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {

@@ -95,10 +95,9 @@ std::vector<std::pair<std::string, std::string>> campaign_facts(
     const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes) {
   std::uint64_t hash = 0;
   for (const char c : description(campaign)) hash = mix(hash ^ static_cast<unsigned char>(c));
-  std::vector<std::pair<std::string, std::string>> facts = {
-      {"campaign", campaign.name},
-      {"seed", std::to_string(campaign.seed)},
-      {"campaign_hash", to_hex(hash)}};
+  std::vector<std::pair<std::string, std::string>> facts = {{"campaign", campaign.name},
+                                                            {"seed", std::to_string(campaign.seed)},
+                                                            {"campaign_hash", to_hex(hash)}};
   for (const auto& [name, value] : scene_hashes) facts.emplace_back("scene " + name, value);
   for (auto& fact : machine_facts()) facts.push_back(std::move(fact));
   return facts;

@@ -60,10 +60,9 @@ std::string broad_table(const Findings& findings, const ReportStyle& style) {
       ++departed;
       known = known && departure.known;
     }
-    grid.add_remark(name, departed == 0
-                              ? fmt::format("all {} frames", checked[name])
-                              : fmt::format("{} of {} frames depart{}", departed, checked[name],
-                                            known ? " (known)" : ""));
+    grid.add_remark(name, departed == 0 ? fmt::format("all {} frames", checked[name])
+                                        : fmt::format("{} of {} frames depart{}", departed,
+                                                      checked[name], known ? " (known)" : ""));
   }
   return "Broad phases: milliseconds a frame, median; * is the fastest, = cannot be told from it, "
          "! was too slow or failed, ~ is wrong\n\n" +
@@ -92,14 +91,15 @@ std::string measurement_notes(const Findings& findings, const ReportStyle& style
   std::string text = "Sets of contestants ended by:";
   for (const auto& [reason, count] : stops) text += fmt::format(" {} {}", reason, count);
   text += fmt::format(". {} of {} rounds were disturbed{}", flagged.size(), rounds.size(),
-                      flagged.empty()  ? ""
-                      : style.noisy    ? ", and count"
-                                       : ", and do not count (--noisy counts them; ? has no other)");
+                      flagged.empty() ? ""
+                      : style.noisy   ? ", and count"
+                                      : ", and do not count (--noisy counts them; ? has no other)");
   text += ".\n";
   if (canaries > 0) {
-    text += fmt::format("In {} sets the baseline could be told from itself: their ratios are not to "
-                        "be trusted.\n",
-                        canaries);
+    text += fmt::format(
+        "In {} sets the baseline could be told from itself: their ratios are not to "
+        "be trusted.\n",
+        canaries);
   }
   return text;
 }

@@ -146,15 +146,13 @@ std::string TimeGrid::winners() const {
     const Ranking ranking = rank(column);
     if (ranking.second.empty()) continue;
     const stats::MedianInterval& ratio = ranking.log_ratio;
-    const std::string times =
-        std::isfinite(ratio.low)
-            ? fmt::format("{:.3f} ({:.3f} to {:.3f})", std::exp(ratio.median),
-                          std::exp(ratio.low), std::exp(ratio.high))
-            : "too few squares to tell";
-    text += fmt::format("  {}: {} takes {} times the time of {}{}\n", column, ranking.second,
-                        times, ranking.first,
-                        ranking.alone ? "" : fmt::format("; {} cannot be told apart",
-                                                         ranking.leaders.size()));
+    const std::string times = std::isfinite(ratio.low)
+                                  ? fmt::format("{:.3f} ({:.3f} to {:.3f})", std::exp(ratio.median),
+                                                std::exp(ratio.low), std::exp(ratio.high))
+                                  : "too few squares to tell";
+    text += fmt::format(
+        "  {}: {} takes {} times the time of {}{}\n", column, ranking.second, times, ranking.first,
+        ranking.alone ? "" : fmt::format("; {} cannot be told apart", ranking.leaders.size()));
   }
   return text;
 }

@@ -37,9 +37,9 @@ struct Agreement {
     worst_error = std::fmax(worst_error, row.worst_error);
   }
   std::string text(Task task) const {
-    std::string remark = disagree == 0 ? fmt::format("all {}", compared)
-                                       : fmt::format("{} of {} differ, by {:.2g} m", disagree,
-                                                     compared, worst);
+    std::string remark =
+        disagree == 0 ? fmt::format("all {}", compared)
+                      : fmt::format("{} of {} differ, by {:.2g} m", disagree, compared, worst);
     if (gave_up > 0) remark += fmt::format(", {} gave up", gave_up);
     if (lost > 0) remark += fmt::format(", {} lost", lost);
     if (task != Task::intersect && !std::isnan(worst_error)) {
@@ -61,7 +61,8 @@ class NarrowTable {
       }
       sets_[{row.block, set_key(row)}].add(row);
       if (row.twin != 1) rows_.push_back(&row);
-      if (row.kind == RowKind::check) queries_[row.pair_kind] += std::max<std::int64_t>(row.pair_count, 0);
+      if (row.kind == RowKind::check)
+        queries_[row.pair_kind] += std::max<std::int64_t>(row.pair_count, 0);
     }
     std::ranges::stable_sort(rows_, {}, [](const RawRow* row) { return place(*row); });
   }
@@ -93,10 +94,11 @@ class NarrowTable {
       }
     }
     for (const auto& [label, agreement] : agreements) grid.add_remark(label, agreement.text(task));
-    return fmt::format("Narrow phases, task {}: nanoseconds a query, median; * is the fastest of "
-                       "those that agree, = cannot be told from it, ~ disagrees on some pair, "
-                       "! crashed, hung or was too slow\n\n",
-                       to_string(task)) +
+    return fmt::format(
+               "Narrow phases, task {}: nanoseconds a query, median; * is the fastest of "
+               "those that agree, = cannot be told from it, ~ disagrees on some pair, "
+               "! crashed, hung or was too slow\n\n",
+               to_string(task)) +
            grid.text(fmt::format("agreement with {}", Reference::name()), style_.page_width) +
            "\nThe runner-up against the winner, with the 95 % interval:\n" + grid.winners() + "\n";
   }

@@ -93,8 +93,8 @@ void ResultFiles::begin_anew(RunStart start) {
   std::error_code error;
   const bool any = std::filesystem::exists(raw(), error);
   if (start == RunStart::fresh && any) {
-    const bool finished = std::filesystem::exists(machine(), error) &&
-                          read_facts(machine())[finished_key] == "yes";
+    const bool finished =
+        std::filesystem::exists(machine(), error) && read_facts(machine())[finished_key] == "yes";
     if (!finished) {
       throw InputError(raw().string(), 0,
                        "is of a run that was not finished; expected --resume to go on with it, "

@@ -197,8 +197,14 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     const Block& block = blocks[number];
     const CampaignGroup& group = *block.group;
     const Scenes::Loaded& loaded = scenes.of(block);
-    const RunContext context{campaign.name, campaign.seed, static_cast<std::int64_t>(number),
-                             &block, &loaded.scene, loaded.hash, {}, nullptr};
+    const RunContext context{campaign.name,
+                             campaign.seed,
+                             static_cast<std::int64_t>(number),
+                             &block,
+                             &loaded.scene,
+                             loaded.hash,
+                             {},
+                             nullptr};
     PlannedBlock& planned = plan.emplace_back();
     planned.label = label(block, loaded.scene);
     planned.seconds = group.seconds;
