@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   });
   int status = exit_done;
   add_run(app, status);
+  add_compare(app, status);
+  add_tables(app, status);
   add_check(app, status);
   add_list(app, status);
   add_query(app, status);

@@ -10,6 +10,7 @@ enum ExitStatus : int {
   exit_done = 0,
   exit_measured_wrong = 1,  // done, and something measured is wrong
   exit_bad_request = 2,     // the request or an input file is wrong (InputError)
+  exit_undecided = 3,       // `compare` alone: too few samples, or too much noise, to tell
 };
 
 // Each puts its exit status into `status` when its subcommand was given.
@@ -18,6 +19,8 @@ void add_query(CLI::App& app, int& status);
 void add_pairs(CLI::App& app, int& status);
 void add_check(CLI::App& app, int& status);
 void add_run(CLI::App& app, int& status);
+void add_compare(CLI::App& app, int& status);
+void add_tables(CLI::App& app, int& status);
 void add_draw(CLI::App& app, int& status);
 void add_record(CLI::App& app, int& status);
 

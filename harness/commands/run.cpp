@@ -1,10 +1,11 @@
 // touchstone run: the main job.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <memory>
 
 #include "harness/commands/commands.h"
 #include "harness/error.h"
+#include "harness/measure/noise.h"
 #include "harness/run/build_info.h"
 #include "harness/run/report.h"
 #include "harness/run/runner.h"
@@ -28,6 +29,8 @@ struct Options {
   int frames = -1;
   double tolerance = 0, time_limit = 10;
   bool product = false, rebuild = false;
+  // How to go about it.
+  bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
 };
 
 Campaign campaign_of(const Options& options) {
@@ -63,21 +66,57 @@ Campaign campaign_of(const Options& options) {
   return campaign;
 }
 
+// What would be measured, without measuring it.
+void print_plan(const Campaign& campaign) {
+  double seconds = 0;
+  std::size_t cells = 0;
+  const std::vector<PlannedBlock> blocks = plan_campaign(campaign);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    fmt::print("block {}: {}\n", i, blocks[i].label);
+    for (const PlannedBlock::Set& set : blocks[i].sets) {
+      fmt::print("  {}: {}\n", set.name, fmt::join(set.contestants, ", "));
+      cells += set.contestants.size();
+    }
+    if (!blocks[i].sets.empty()) seconds += blocks[i].seconds;
+  }
+  fmt::print(
+      "{} blocks, {} cells; at most about {:.0f} s of samples, and the check of every frame "
+      "before them\n",
+      blocks.size(), cells, seconds);
+}
+
+RunStart start_of(const Options& options) {
+  if (options.resume) return RunStart::resume;
+  return options.overwrite ? RunStart::overwrite : RunStart::fresh;
+}
+
 int run(const Options& options) {
   const Campaign campaign = campaign_of(options);
   const std::filesystem::path folder = options.out.empty() ? std::filesystem::path(source_folder) /
                                                                  "results" / "local" / campaign.name
                                                            : std::filesystem::path(options.out);
-  const RunResult result = run_campaign(campaign, folder);
-  const std::size_t width = page_width();
+  if (options.dry_run) {
+    print_plan(campaign);
+    return exit_done;
+  }
+  if (options.strict) {
+    const std::string objection = MachineLoad::now().objection();
+    if (!objection.empty()) {
+      throw InputError("the machine is not quiet, and --strict was given: " + objection);
+    }
+  }
+  const RunResult result = run_campaign(campaign, folder, start_of(options));
+  const ReportStyle style = {.page_width = page_width(), .noisy = options.noisy};
   for (const std::string& text :
-       {broad_table(result.findings, width), narrow_tables(result.findings, width),
-        departures(result.findings)}) {
+       {broad_table(result.findings, style), narrow_tables(result.findings, style),
+        measurement_notes(result.findings, style), departures(result.findings)}) {
     if (!text.empty()) fmt::print("{}\n", text);
   }
   fmt::print("{} rows in {}\n", result.findings.rows().size(), (folder / "raw.csv").string());
   if (result.interrupted) {
-    fmt::print(stderr, "touchstone: interrupted; what was measured until then is kept\n");
+    fmt::print(stderr,
+               "touchstone: interrupted; what was measured until then is kept, and --resume goes "
+               "on with it\n");
     return exit_bad_request;
   }
   return result.findings.ours_are_wrong() ? exit_measured_wrong : exit_done;
@@ -94,6 +133,18 @@ void add_run(CLI::App& app, int& status) {
   command->add_option(
       "--out", options->out,
       "Folder for raw.csv and machine.csv (default: results/local/NAME in the project)");
+
+  CLI::Option* resume = command->add_flag(
+      "--resume", options->resume, "Go on with the run that was stopped in the folder of --out");
+  command
+      ->add_flag("--overwrite", options->overwrite,
+                 "Begin anew even where the folder holds a run that was not finished")
+      ->excludes(resume);
+  command->add_flag("--strict", options->strict, "Refuse to measure on a machine that is busy");
+  command->add_flag("--noisy", options->noisy,
+                    "Let the tables count rounds that the machine disturbed");
+  command->add_flag("--dry-run", options->dry_run,
+                    "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";
   CLI::Option* scene =

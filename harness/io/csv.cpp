@@ -152,11 +152,15 @@ void CsvReader::Row::fail(const std::string& message) const {
   throw InputError(reader_->file_.string(), line_, message);
 }
 
-CsvReader::CsvReader(std::filesystem::path file, std::vector<std::string> columns)
-    : file_(std::move(file)), columns_(std::move(columns)) {}
+CsvReader::CsvReader(std::filesystem::path file, std::vector<std::string> columns,
+                     const std::vector<std::string>& optional)
+    : file_(std::move(file)), columns_(std::move(columns)), required_(columns_.size()) {
+  columns_.insert(columns_.end(), optional.begin(), optional.end());
+}
 
 void CsvReader::read(const std::function<void(const Row&)>& row) const {
   const std::string file = file_.string();
+  constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
   std::vector<std::size_t> place;  // of each of our columns in the file
   std::size_t width = 0;
   std::vector<std::string> wanted(columns_.size());
@@ -168,9 +172,13 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
     for (const std::string& column : columns_) {
       const auto at = std::ranges::find(header, column);
       if (at == header.end()) {
+        if (place.size() >= required_) {
+          place.push_back(nowhere);
+          continue;
+        }
         throw InputError(file, line,
                          fmt::format("no column '{}'; expected a header line with the columns {}",
-                                     column, fmt::join(columns_, ",")));
+                                     column, fmt::join(std::span(columns_).first(required_), ",")));
       }
       if (std::find(at + 1, header.end(), column) != header.end()) {
         throw InputError(file, line, fmt::format("column '{}' comes twice", column));
@@ -185,7 +193,9 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
           file, line,
           fmt::format("{} fields; expected {}, as in the header", fields.size(), width));
     }
-    for (std::size_t i = 0; i < place.size(); ++i) wanted[i] = fields[place[i]];
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (place[i] != nowhere) wanted[i] = fields[place[i]];
+    }
     current.line_ = line;
     row(current);
   });

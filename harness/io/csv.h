@@ -35,8 +35,10 @@ class CsvReader {
   };
 
   // `columns` must all be in the header, in any order; others are passed over. Row columns are
-  // numbered in the order of `columns`.
-  CsvReader(std::filesystem::path file, std::vector<std::string> columns);
+  // numbered in the order of `columns`, then of `optional`: those are empty where the header has
+  // them not.
+  CsvReader(std::filesystem::path file, std::vector<std::string> columns,
+            const std::vector<std::string>& optional = {});
   // Calls row for each line behind the header, in order. A line with another number of fields than
   // the header is an InputError.
   void read(const std::function<void(const Row&)>& row) const;
@@ -44,7 +46,8 @@ class CsvReader {
  private:
   friend class Row;
   std::filesystem::path file_;
-  std::vector<std::string> columns_;
+  std::vector<std::string> columns_;  // the optional ones last
+  std::size_t required_;
 };
 
 // Appends one field, quoted where it has to be: what goes to a terminal or a pipe as CSV.

@@ -1,9 +1,12 @@
 #include "harness/run/campaign.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "harness/run/selection.h"
 #include "harness/scene/toml_table.h"
@@ -119,6 +122,61 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
   return choices;
 }
 
+std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
+  std::vector<CampaignRule> rules;
+  TomlTable& holder = settings.of(key);
+  for (const toml::node* node : settings.elements(key)) {
+    TomlTable table = holder.from(*node, key);
+    CampaignRule& rule = rules.emplace_back();
+    const auto text = [&](const char* name, std::optional<std::string>& value) {
+      if (table.has(name)) value = table.text(name);
+    };
+    const auto choice = [&](const char* name, const auto& names, auto& value) {
+      using Value = typename std::remove_reference_t<decltype(value)>::value_type;
+      if (table.has(name)) value = static_cast<Value>(table.choice(name, names));
+    };
+    text("broad", rule.broad);
+    text("narrow", rule.narrow);
+    text("scene", rule.scene);
+    text("pair_kind", rule.pair_kind);
+    choice("scalar", scalar_names, rule.scalar);
+    choice("task", task_names, rule.task);
+    choice("boxes", box_names, rule.boxes);
+    if (table.has("threads")) rule.threads = static_cast<int>(table.integer("threads", 1, 1024));
+    if (table.has("counts_above")) {
+      rule.counts_above = table.integer("counts_above", 0, greatest_count);
+    }
+    if (table.has("counts_below")) {
+      rule.counts_below = table.integer("counts_below", 0, greatest_count);
+    }
+    if (rule.broad && rule.narrow) {
+      table.fail("narrow", "a rule is about a broad phase or a narrow phase, not both");
+    }
+    if (rule.broad && find_broad_phase(*rule.broad) == nullptr) {
+      table.fail("broad", "no broad phase is called '" + *rule.broad + "'");
+    }
+    if (rule.narrow && find_narrow_phase(*rule.narrow) == nullptr) {
+      table.fail("narrow", "no narrow phase is called '" + *rule.narrow + "'");
+    }
+    table.finish();
+  }
+  return rules;
+}
+
+bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
+  const bool narrow = !cell.narrow.empty();
+  const auto names = [](const auto& wanted, const auto& value) {
+    return !wanted || *wanted == value;
+  };
+  return (!rule.broad || (!narrow && *rule.broad == cell.broad)) &&
+         names(rule.narrow, cell.narrow) && names(rule.scene, cell.scene) &&
+         (!rule.scalar || rule.scalar == cell.scalar) && (!rule.task || rule.task == cell.task) &&
+         names(rule.pair_kind, cell.pair_kind) && names(rule.boxes, cell.boxes) &&
+         names(rule.threads, cell.threads) &&
+         (!rule.counts_above || cell.bodies > *rule.counts_above) &&
+         (!rule.counts_below || cell.bodies < *rule.counts_below);
+}
+
 CampaignGroup read_group(Settings settings, const std::filesystem::path& folder) {
   CampaignGroup group;
   for (const std::string& scene : settings.texts("scenes", {}))
@@ -138,10 +196,73 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder)
   group.tasks = settings.choices<Task>("tasks", task_names, {Task::intersect});
   group.pairing = static_cast<Pairing>(settings.of("pairing").choice("pairing", pairing_names, 0));
   group.time_limit = settings.of("time_limit").number("time_limit", positive, 10.0);
+  group.memory_limit = static_cast<std::size_t>(
+                           settings.of("memory_limit").integer("memory_limit", 1, 1 << 24, 4096))
+                       << 20;
+  group.width = settings.of("width").number("width", {.low = 1e-4, .high = 10}, 0.02);
+  group.seconds = settings.of("seconds").number("seconds", positive, 10.0);
+  if (settings.of("squares").has("squares")) {
+    group.squares = static_cast<int>(settings.of("squares").integer("squares", 6, 10'000));
+  }
+  group.include = rules(settings, "include");
+  group.exclude = rules(settings, "exclude");
   return group;
 }
 
+std::string describe(const CampaignRule& rule) {
+  std::string text = "{";
+  const auto add = [&](const char* name, const auto& value) {
+    if (value) text += fmt::format(" {}={}", name, *value);
+  };
+  const auto named = [&](const char* name, const auto& value) {
+    if (value) text += fmt::format(" {}={}", name, to_string(*value));
+  };
+  add("broad", rule.broad);
+  add("narrow", rule.narrow);
+  add("scene", rule.scene);
+  named("scalar", rule.scalar);
+  named("task", rule.task);
+  add("pair_kind", rule.pair_kind);
+  named("boxes", rule.boxes);
+  add("threads", rule.threads);
+  add("counts_above", rule.counts_above);
+  add("counts_below", rule.counts_below);
+  return text + " }";
+}
+
 }  // namespace
+
+bool CampaignGroup::admits(const CampaignCell& cell) const {
+  const auto about = [&](const CampaignRule& rule) { return is_about(rule, cell); };
+  return (include.empty() || std::ranges::any_of(include, about)) &&
+         std::ranges::none_of(exclude, about);
+}
+
+std::string description(const Campaign& campaign) {
+  std::string text = fmt::format("{} seed {}\n", campaign.name, campaign.seed);
+  for (const CampaignGroup& group : campaign.groups) {
+    text += "group";
+    for (const auto& scene : group.scenes) text += " " + scene.filename().string();
+    text += fmt::format(" counts {} seeds {} frames {} threads {} rebuild {} pairing {}",
+                        fmt::join(group.counts, ","), fmt::join(group.seeds, ","), group.frames,
+                        fmt::join(group.threads, ","), group.rebuild,
+                        pairing_names[static_cast<std::size_t>(group.pairing)]);
+    for (const BoxKind boxes : group.boxes) text += fmt::format(" boxes {}", to_string(boxes));
+    for (const auto* entry : group.broad) text += " broad " + entry->info.name;
+    for (const NarrowChoice& choice : group.narrow) {
+      text += fmt::format(" narrow {} {} {} {}", choice.entry->info.name,
+                          to_string(choice.settings.scalar), choice.settings.tolerance.value_or(0),
+                          choice.settings.max_iterations.value_or(0));
+    }
+    for (const Task task : group.tasks) text += fmt::format(" task {}", to_string(task));
+    for (const CampaignRule& rule : group.include) text += " include " + describe(rule);
+    for (const CampaignRule& rule : group.exclude) text += " exclude " + describe(rule);
+    text += fmt::format(" time_limit {} memory_limit {} width {} seconds {} squares {}\n",
+                        group.time_limit, group.memory_limit, group.width, group.seconds,
+                        group.squares.value_or(0));
+  }
+  return text;
+}
 
 Campaign read_campaign(const std::filesystem::path& file) {
   const toml::table root = parse_toml(file);

@@ -1,8 +1,10 @@
 // A campaign: which algorithms run on which scenes, with which settings.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,31 @@ enum class Pairing : std::uint8_t {
   product,   // each narrow phase on the pairs of each broad phase, as that one reports them
 };
 
+// Which cells a rule is about: those of which all that it names holds.
+struct CampaignRule {
+  std::optional<std::string> broad, narrow;  // a rule that names one is about no cell of the other
+  std::optional<std::string> scene;          // its name
+  std::optional<Precision> scalar;
+  std::optional<Task> task;
+  std::optional<std::string> pair_kind;  // "box-sphere"
+  std::optional<BoxKind> boxes;
+  std::optional<int> threads;
+  std::optional<std::int64_t> counts_above, counts_below;  // bodies
+};
+
+// One algorithm in one set of a block. Of a broad phase, the fields from `narrow` on are empty; of
+// a narrow phase, `broad` is the one that found the pairs, or empty.
+struct CampaignCell {
+  std::string scene;
+  std::int64_t bodies = 0;
+  BoxKind boxes = BoxKind::tight;
+  int threads = 1;
+  std::string broad, narrow;
+  std::optional<Precision> scalar;
+  std::optional<Task> task;
+  std::string pair_kind;
+};
+
 // A grid: every scene x count x seed x boxes x threads is a block, in which every algorithm of the
 // group meets the same frames.
 struct CampaignGroup {
@@ -36,8 +63,17 @@ struct CampaignGroup {
   std::vector<NarrowChoice> narrow;
   std::vector<Task> tasks = {Task::intersect};
   Pairing pairing = Pairing::separate;
-  double time_limit =
-      10;  // seconds, for one frame of one algorithm; then it is left out of the block
+  std::vector<CampaignRule> include, exclude;
+  // Seconds, for one frame of one algorithm; then it is left out of the block.
+  double time_limit = 10;
+  std::size_t memory_limit = std::size_t{4} << 30;  // bytes that one algorithm may take
+  // Repetition ends where the half-width of every ratio's interval is at most `width`, or these
+  // seconds are spent, shared over the sets of a block; or after so many squares.
+  double width = 0.02;
+  double seconds = 10;
+  std::optional<int> squares;
+
+  bool admits(const CampaignCell& cell) const;
 };
 
 struct Campaign {
@@ -50,5 +86,8 @@ struct Campaign {
 // defaults of each [[group]]; scenes are relative to the file. Throws InputError with file, line
 // and what was expected.
 Campaign read_campaign(const std::filesystem::path& file);
+
+// All that decides what is measured, as one text: the same for equal campaigns only.
+std::string description(const Campaign& campaign);
 
 }  // namespace touchstone

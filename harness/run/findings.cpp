@@ -4,17 +4,43 @@
 
 namespace touchstone {
 
-void Findings::add(const std::string& narrow, Task task, const std::string& pair_kind,
-                   const OutcomeFaults& faults) {
-  outcomes_[{task, narrow, pair_kind}].add(faults);
-}
-
-bool Findings::same_at_every_width(const std::string& key, const std::string& fingerprint) {
-  return fingerprints_.try_emplace(key, fingerprint).first->second == fingerprint;
+void Findings::add(Departure departure) {
+  departure.where = one_line(std::move(departure.where));
+  departure.what = one_line(std::move(departure.what));
+  const bool told = std::ranges::any_of(departures_, [&](const Departure& d) {
+    return d.block == departure.block && d.algorithm == departure.algorithm &&
+           d.where == departure.where && d.what == departure.what;
+  });
+  if (!told) departures_.push_back(std::move(departure));
 }
 
 bool Findings::ours_are_wrong() const {
   return std::ranges::any_of(departures_, [](const Departure& d) { return d.ours && !d.known; });
+}
+
+std::vector<std::string> departure_header() {
+  return {"block", "algorithm", "ours", "known", "where", "what", "reproduction"};
+}
+
+void write(CsvWriter& file, const Departure& departure) {
+  file.field(departure.block).field(departure.algorithm);
+  file.field(departure.ours ? 1 : 0).field(departure.known ? 1 : 0);
+  file.field(departure.where).field(departure.what).field(departure.reproduction);
+  file.end_row();
+}
+
+std::vector<Departure> read_departures(const std::filesystem::path& file) {
+  std::vector<Departure> departures;
+  CsvReader(file, departure_header()).read([&](const CsvReader::Row& row) {
+    departures.push_back({.block = row.integer(0),
+                          .algorithm = std::string(row.text(1)),
+                          .ours = row.integer(2) != 0,
+                          .known = row.integer(3) != 0,
+                          .where = std::string(row.text(4)),
+                          .what = std::string(row.text(5)),
+                          .reproduction = std::string(row.text(6))});
+  });
+  return departures;
 }
 
 }  // namespace touchstone

@@ -7,23 +7,26 @@
 
 namespace touchstone {
 
-void solve_guarded(NarrowPhase& algorithm, const PairBatch& batch, std::span<Outcome> outcomes,
-                   double time_limit) {
+void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make,
+                   const PairBatch& batch, std::span<Outcome> outcomes, double time_limit,
+                   std::size_t memory_limit) {
   SharedArray<Outcome> shared(batch.size());
   const Stopwatch total;
-  const IsolationReport report =
-      isolate(batch.size(), {.item_seconds = time_limit, .failures = 3}, [&]() -> ItemWork {
-        return [&](std::size_t i) {
-          if (total.seconds() > time_limit) {
-            shared[i].status = Status::timed_out;
-            return;
-          }
-          PairBatch one = batch;
-          one.first = batch.first.subspan(i, 1);
-          one.second = batch.second.subspan(i, 1);
-          algorithm.solve(one, shared.span().subspan(i, 1));
-        };
-      });
+  const IsolationLimits limits = {
+      .item_seconds = time_limit, .failures = 3, .memory = memory_limit};
+  const IsolationReport report = isolate(batch.size(), limits, [&]() -> ItemWork {
+    const std::shared_ptr<NarrowPhase> algorithm = make();
+    return [&, algorithm](std::size_t i) {
+      if (total.seconds() > time_limit) {
+        shared[i].status = Status::timed_out;
+        return;
+      }
+      PairBatch one = batch;
+      one.first = batch.first.subspan(i, 1);
+      one.second = batch.second.subspan(i, 1);
+      algorithm->solve(one, shared.span().subspan(i, 1));
+    };
+  });
   std::ranges::copy(shared.span(), outcomes.begin());
   Status last = Status::crashed;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {

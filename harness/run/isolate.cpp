@@ -1,10 +1,6 @@
 #include "harness/run/isolate.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -21,15 +16,14 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
-#include <thread>
 
+#include "harness/run/child_process.h"
 #include "harness/run/clock.h"
 
 namespace touchstone {
 namespace {
 
 constexpr int tick_milliseconds = 20;
-constexpr std::size_t kept_words = 400;  // bytes
 
 // What a child tells its parent, in shared memory.
 struct Progress {
@@ -39,27 +33,9 @@ struct Progress {
   std::atomic<bool> in_setup = false;
   std::atomic<std::size_t> item = 0;  // at hand
   std::atomic<ItemState> end = ItemState::running;
-  std::array<char, kept_words> thrown{};
+  std::array<char, LastWords::kept> thrown{};
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
-
-void allow_memory(std::size_t bytes) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static_cast<void>(bytes);  // a sanitizer maps terabytes
-#else
-  unsigned long long pages = 0;
-  if (std::FILE* const file = std::fopen("/proc/self/statm", "re")) {
-    if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
-    std::fclose(file);
-  }
-  if (pages == 0) return;
-  const rlim_t used = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-  rlimit limit{};
-  if (bytes > RLIM_INFINITY - used || getrlimit(RLIMIT_AS, &limit) != 0) return;
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, used + bytes);
-  setrlimit(RLIMIT_AS, &limit);
-#endif
-}
 
 void keep_thrown(Progress& progress, std::string_view what) {
   const std::size_t size = std::min(what.size(), progress.thrown.size() - 1);
@@ -73,14 +49,7 @@ void keep_thrown(Progress& progress, std::string_view what) {
 [[noreturn]] void be_child(pid_t parent, int output, const IsolationLimits& limits,
                            std::size_t first, Progress& progress, SharedArray<ItemState>& states,
                            const std::function<ItemWork()>& setup) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could be asked for
-  prctl(PR_SET_DUMPABLE, 0);                     // no core dump, not even into a pipe
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP}) {
-    std::signal(signal, SIG_DFL);
-  }
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
+  begin_child(parent, output);
   allow_memory(limits.memory);
   try {
     const ItemWork work = setup();
@@ -102,47 +71,6 @@ void keep_thrown(Progress& progress, std::string_view what) {
   }
   _exit(EXIT_FAILURE);
 }
-
-// The end of what a child prints.
-class LastWords {
- public:
-  explicit LastWords(int descriptor) : descriptor_(descriptor) {}
-  ~LastWords() { close(descriptor_); }
-  LastWords(const LastWords&) = delete;
-  LastWords& operator=(const LastWords&) = delete;
-
-  // Takes what is there, and waits for a tick when it is nothing.
-  void listen(int milliseconds) {
-    if (at_end_) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(std::min(milliseconds, 1)));
-      return;
-    }
-    pollfd waiting{.fd = descriptor_, .events = POLLIN, .revents = 0};
-    if (poll(&waiting, 1, milliseconds) <= 0) return;
-    std::array<char, 4096> bytes;
-    const ssize_t got = read(descriptor_, bytes.data(), bytes.size());
-    if (got > 0) {
-      text_.append(bytes.data(), static_cast<std::size_t>(got));
-      if (text_.size() > kept_words) text_.erase(0, text_.size() - kept_words);
-    }
-    at_end_ = got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN);
-    heard_ = got > 0;
-  }
-  std::string take() {
-    do {
-      heard_ = false;
-      listen(0);
-    } while (heard_);
-    while (!text_.empty() && (text_.back() == '\n' || text_.back() == ' ')) text_.pop_back();
-    return text_;
-  }
-
- private:
-  int descriptor_;
-  bool at_end_ = false;
-  bool heard_ = false;
-  std::string text_;
-};
 
 // The child at work, as its parent sees it.
 class Child {
@@ -203,24 +131,18 @@ class Child {
  private:
   pid_t start(const IsolationLimits& limits, std::size_t first, Progress& progress,
               SharedArray<ItemState>& states, const std::function<ItemWork()>& setup) {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-      throw std::system_error(errno, std::generic_category(), "pipe");
-    words_ = std::make_unique<LastWords>(ends[0]);
+    const WordsPipe pipe = make_words_pipe();
+    words_ = std::make_unique<LastWords>(pipe.listening);
     std::fflush(nullptr);  // or the child would have a copy of what is not written yet
     const pid_t parent = getpid();
     const pid_t child = fork();
     const int error = errno;
-    if (child == 0) be_child(parent, ends[1], limits, first, progress, states, setup);
-    close(ends[1]);
+    if (child == 0) be_child(parent, pipe.speaking, limits, first, progress, states, setup);
+    close(pipe.speaking);
     if (child < 0) throw std::system_error(error, std::generic_category(), "fork");
     return child;
   }
-  void stop() {
-    kill(pid_, SIGKILL);
-    while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
-    }
-  }
+  void stop() { status_ = kill_and_wait(pid_); }
 
   const IsolationLimits& limits_;
   Progress& progress_;

@@ -12,6 +12,7 @@
 #include "algorithms/core/isa.h"
 #include "harness/io/csv.h"
 #include "harness/run/build_info.h"
+#include "harness/run/pair_hash.h"
 
 namespace touchstone {
 namespace {
@@ -90,12 +91,16 @@ void write_facts(std::vector<std::pair<std::string, std::string>> first,
   csv.close();
 }
 
-void write_machine(const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes,
-                   const std::filesystem::path& file) {
-  std::vector<std::pair<std::string, std::string>> first = {
-      {"campaign", campaign.name}, {"seed", std::to_string(campaign.seed)}};
-  for (const auto& [name, hash] : scene_hashes) first.emplace_back("scene " + name, hash);
-  write_facts(std::move(first), file);
+std::vector<std::pair<std::string, std::string>> campaign_facts(
+    const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes) {
+  std::uint64_t hash = 0;
+  for (const char c : description(campaign)) hash = mix(hash ^ static_cast<unsigned char>(c));
+  std::vector<std::pair<std::string, std::string>> facts = {{"campaign", campaign.name},
+                                                            {"seed", std::to_string(campaign.seed)},
+                                                            {"campaign_hash", to_hex(hash)}};
+  for (const auto& [name, value] : scene_hashes) facts.emplace_back("scene " + name, value);
+  for (auto& fact : machine_facts()) facts.push_back(std::move(fact));
+  return facts;
 }
 
 }  // namespace touchstone

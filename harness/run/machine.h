@@ -20,8 +20,9 @@ std::vector<std::pair<std::string, std::string>> machine_facts();
 void write_facts(std::vector<std::pair<std::string, std::string>> first,
                  const std::filesystem::path& file);
 
-// The same for a campaign: the facts, the campaign's name and seed, and each scene's hash.
-void write_machine(const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes,
-                   const std::filesystem::path& file);
+// What decides a campaign's measurements: its name, seed and content, each scene's hash, and the
+// facts.
+std::vector<std::pair<std::string, std::string>> campaign_facts(
+    const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes);
 
 }  // namespace touchstone

@@ -2,40 +2,63 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
-
-#include "algorithms/core/isa.h"
 
 namespace touchstone {
 namespace {
 
-// Calls visit(column name, value) for each column in order: the header and the rows cannot differ.
-template <class Visit>
-void columns(const RawRow& row, const std::string& campaign, Visit visit) {
-  visit("campaign", campaign);
+constexpr std::array all_phases = {Phase::build, Phase::update, Phase::find_pairs, Phase::narrow};
+constexpr std::array all_row_kinds = {RowKind::check, RowKind::sample};
+
+// Calls visit(column name, field) for each column in order: the header, what is written and what is
+// read cannot differ.
+template <class Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("campaign", row.campaign);
+  visit("kind", row.kind);
+  visit("block", row.block);
   visit("scene", row.scene);
   visit("scene_hash", row.scene_hash);
+  visit("seed", row.seed);
   visit("bodies", row.bodies);
   visit("boxes", row.boxes);
-  visit("frame", std::int64_t{row.frame});
+  visit("frame", row.frame);
+  visit("frames", row.frames);
   visit("broad", row.broad);
   visit("narrow", row.narrow);
   visit("scalar", row.scalar);
   visit("task", row.task);
   visit("tolerance", row.tolerance);
-  visit("threads", std::int64_t{row.threads});
-  visit("isa", std::string(to_string(isa())));
+  visit("twin", row.twin);
+  visit("threads", row.threads);
+  visit("isa", row.isa);
   visit("pair_kind", row.pair_kind);
-  visit("phase", std::string(to_string(row.phase)));
+  visit("process", row.process);
+  visit("square", row.square);
+  visit("round", row.round);
+  visit("position", row.position);
+  visit("phase", row.phase);
   visit("seconds", row.seconds);
   visit("pair_count", row.pair_count);
   visit("pair_hash", row.pair_hash);
   visit("contact_count", row.contact_count);
   visit("outcome_hash", row.outcome_hash);
+  visit("compared", row.compared);
   visit("disagreements", row.disagreements);
   visit("worst_disagreement", row.worst_disagreement);
+  visit("worst_error", row.worst_error);
   visit("failures", row.failures);
+  visit("iterations", row.iterations);
+  visit("support_calls", row.support_calls);
+  visit("peak_kb", row.peak_kb);
+  visit("minor_faults", row.minor_faults);
+  visit("voluntary_switches", row.voluntary_switches);
+  visit("involuntary_switches", row.involuntary_switches);
   visit("status", row.status);
+  visit("noise", row.noise);
+  visit("words", row.words);
+  visit("stop", row.stop);
 }
 
 struct Names {
@@ -49,6 +72,8 @@ struct Names {
 struct Fields {
   CsvWriter& file;
   void operator()(const char*, const std::string& text) const { file.field(text); }
+  void operator()(const char*, Phase phase) const { file.field(to_string(phase)); }
+  void operator()(const char*, RowKind kind) const { file.field(to_string(kind)); }
   void operator()(const char*, double value) const { file.field(value); }
   void operator()(const char*, std::int64_t value) const {
     if (value < 0) {
@@ -56,6 +81,33 @@ struct Fields {
     } else {
       file.field(value);
     }
+  }
+};
+
+struct Parse {
+  const CsvReader::Row& row;
+  std::size_t& column;
+  void operator()(const char*, std::string& text) { text = row.text(column++); }
+  void operator()(const char*, Phase& phase) { choose(all_phases, phase); }
+  void operator()(const char*, RowKind& kind) { choose(all_row_kinds, kind); }
+  void operator()(const char*, double& value) {
+    value = row.text(column).empty() ? Outcome::none : row.number(column);
+    ++column;
+  }
+  void operator()(const char*, std::int64_t& value) {
+    value = row.text(column).empty() ? -1 : row.integer(column);
+    ++column;
+  }
+  template <class Choices, class Choice>
+  void choose(const Choices& choices, Choice& chosen) {
+    const std::string_view text = row.text(column++);
+    for (const Choice choice : choices) {
+      if (to_string(choice) == text) {
+        chosen = choice;
+        return;
+      }
+    }
+    row.fail(fmt::format("found '{}'; expected a phase or kind of row", text));
   }
 };
 
@@ -71,21 +123,44 @@ std::string_view to_string(Phase phase) {
   return "?";
 }
 
+std::string_view to_string(RowKind kind) { return kind == RowKind::check ? "check" : "sample"; }
+
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance) {
   std::string label = fmt::format("{} {}", name, scalar);
   if (!std::isnan(tolerance)) label += fmt::format(" {:g}", tolerance);
   return label;
 }
 
+std::string label_of(const RawRow& row) {
+  return row.narrow.empty() ? row.broad : narrow_label(row.narrow, row.scalar, row.tolerance);
+}
+
 std::vector<std::string> raw_header() {
   std::vector<std::string> names;
-  columns(RawRow{}, "", Names{names});
+  const RawRow row;
+  columns(row, Names{names});
   return names;
 }
 
-void write(CsvWriter& file, const RawRow& row, const std::string& campaign) {
-  columns(row, campaign, Fields{file});
+void write(CsvWriter& file, const RawRow& row) {
+  columns(row, Fields{file});
   file.end_row();
+}
+
+std::vector<RawRow> read_raw_rows(const std::filesystem::path& file) {
+  std::vector<RawRow> rows;
+  CsvReader(file, raw_header()).read([&](const CsvReader::Row& fields) {
+    std::size_t column = 0;
+    columns(rows.emplace_back(), Parse{fields, column});
+  });
+  return rows;
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
 }
 
 }  // namespace touchstone

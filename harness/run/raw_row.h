@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,34 +14,70 @@ namespace touchstone {
 enum class Phase : std::uint8_t { build, update, find_pairs, narrow };
 std::string_view to_string(Phase phase);
 
+enum class RowKind : std::uint8_t {
+  check,   // one frame, verified; its time is no sample
+  sample,  // a timed sample of a window of frames
+};
+std::string_view to_string(RowKind kind);
+
 // What the columns mean is documented in results/README.md. Counts of -1, empty texts and NaN are
 // empty fields.
 struct RawRow {
+  std::string campaign;
+  RowKind kind = RowKind::check;
+  std::int64_t block = 0;
   std::string scene, scene_hash;
+  std::int64_t seed = -1;
   std::int64_t bodies = 0;
   std::string boxes;  // tight, loose
-  int frame = 0;
+  std::int64_t frame = 0;
+  std::int64_t frames = -1;
   std::string broad, narrow, scalar, task;
   double tolerance = Outcome::none;
-  int threads = 0;
+  std::int64_t twin = -1;
+  std::int64_t threads = 0;
+  std::string isa;
   std::string pair_kind;
+  std::int64_t process = -1, square = -1, round = -1, position = -1;
   Phase phase = Phase::build;
   double seconds = Outcome::none;
   std::int64_t pair_count = -1;
   std::string pair_hash;
   std::int64_t contact_count = -1;
   std::string outcome_hash;
+  std::int64_t compared = -1;
   std::int64_t disagreements = -1;
   double worst_disagreement = Outcome::none;
+  double worst_error = Outcome::none;
   std::int64_t failures = -1;
+  std::int64_t iterations = -1, support_calls = -1;
+  std::int64_t peak_kb = -1, minor_faults = -1;
+  std::int64_t voluntary_switches = -1, involuntary_switches = -1;
   std::string status;
+  std::string noise, words, stop;
+
+  // Its algorithm answered no more.
+  bool lost() const {
+    return status == to_string(Status::crashed) || status == to_string(Status::timed_out);
+  }
 };
+
+// The status, of a row only, of an algorithm whose answers at work were not those of its check.
+inline constexpr std::string_view status_wrong = "wrong";
 
 // A narrow phase with its settings, as the tables name it: "gjk double", "gjk double 1e-06". A NaN
 // is the algorithm's own tolerance.
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance);
+// Of the row's algorithm: a broad phase's name, or a narrow phase's label.
+std::string label_of(const RawRow& row);
 
 std::vector<std::string> raw_header();
-void write(CsvWriter& file, const RawRow& row, const std::string& campaign);
+void write(CsvWriter& file, const RawRow& row);
+
+// All rows of a file that `write` wrote; InputError with file and line for any other.
+std::vector<RawRow> read_raw_rows(const std::filesystem::path& file);
+
+// A text of one line, as `words` must be: a row is a line.
+std::string one_line(std::string text);
 
 }  // namespace touchstone

@@ -1,12 +1,12 @@
-// What the runners of a block share.
+// What the parts of a run share about the block at hand.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
-#include <vector>
+#include <string_view>
 
+#include "algorithms/core/isa.h"
 #include "harness/run/campaign.h"
 #include "harness/run/findings.h"
 #include "harness/scene/scene.h"
@@ -23,6 +23,9 @@ struct Block {
 };
 
 struct RunContext {
+  std::string campaign;
+  std::uint64_t seed = 1;   // the campaign's
+  std::int64_t number = 0;  // the block's, in the campaign's order
   const Block* block = nullptr;
   const Scene* scene = nullptr;
   std::string scene_hash;
@@ -30,17 +33,18 @@ struct RunContext {
   Findings* findings = nullptr;
 
   // A row with the columns that the block decides.
-  RawRow row(int frame) const {
-    RawRow row;
-    row.scene = scene->name;
-    row.scene_hash = scene_hash;
-    row.bodies = static_cast<std::int64_t>(scene->size());
-    row.boxes = to_string(block->boxes);
-    row.frame = frame;
-    row.threads = block->threads;
-    return row;
-  }
-  std::string place(int frame) const;
+  RawRow row(std::size_t frame) const;
+  // The same for an algorithm.
+  RawRow row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const;
+  RawRow row(std::size_t frame, const NarrowChoice& choice) const;
+  // Whether the campaign's rules let it take part.
+  bool admits(const BroadPhaseEntry& entry) const;
+  bool admits(const NarrowChoice& choice, const std::string& broad, Task task,
+              const std::string& pair_kind) const;
+  // "home, 85 bodies, frame 3"
+  std::string place(std::size_t frame) const;
+  // A departure of this algorithm in this block.
+  Departure departure(const AlgorithmInfo& info, std::string label, std::string where) const;
 };
 
 }  // namespace touchstone

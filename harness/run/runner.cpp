@@ -2,26 +2,26 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <csignal>
 #include <map>
-#include <random>
-#include <set>
-#include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "harness/error.h"
-#include "harness/run/broad_runner.h"
+#include "harness/measure/block_run.h"
+#include "harness/measure/check_broad.h"
+#include "harness/measure/check_narrow.h"
+#include "harness/run/clock.h"
 #include "harness/run/machine.h"
-#include "harness/run/narrow_runner.h"
 #include "harness/run/progress.h"
-#include "harness/scene/player.h"
 
 namespace touchstone {
 namespace {
 
 volatile std::sig_atomic_t interrupt = 0;
 
-// Lets the frame at hand end on SIGINT; a second one ends the program as usual.
+// Lets the round at hand end on SIGINT; a second one ends the program as usual.
 class InterruptGuard {
  public:
   InterruptGuard() {
@@ -54,6 +54,7 @@ std::vector<Block> blocks_of(const Campaign& campaign) {
       }
     }
   }
+  if (blocks.empty()) throw InputError("the campaign has no scene");
   return blocks;
 }
 
@@ -63,102 +64,179 @@ std::string label(const Block& block, const Scene& scene) {
                      block.threads == 1 ? "" : "s");
 }
 
-// Appends the findings' new rows to the file.
-class RowWriter {
+// Each distinct scene once.
+class Scenes {
  public:
-  RowWriter(const Campaign& campaign, const std::filesystem::path& file)
-      : campaign_(campaign.name), file_(file, raw_header(), CsvWriter::Keep::flushed_rows) {}
-  void write_new(const Findings& findings) {
-    for (; written_ < findings.rows().size(); ++written_) {
-      write(file_, findings.rows()[written_], campaign_);
-    }
-    file_.flush();
-  }
-  void close() { file_.close(); }
-
- private:
-  std::string campaign_;
-  CsvWriter file_;
-  std::size_t written_ = 0;
-};
-
-void run_block(const RunContext& context, std::mt19937_64& shuffle, Progress& progress,
-               RowWriter& rows) {
-  const Block& block = *context.block;
-  Executor executor(block.threads);
-  BroadRunner broad(context, executor);
-  NarrowRunner narrow(context, executor);
-  ScenePlayer player(*context.scene, block.boxes);
-  std::span<const Aabb> before;
-  do {
-    const std::vector<IndexPair> truth = broad.truth(player.boxes());
-    broad.run_frame(player, truth, before, shuffle);
-    if (!block.group->narrow.empty() && context.scene->recording.empty()) {
-      narrow.compare(player.frame(), player.poses(), truth);
-      if (block.group->pairing == Pairing::separate) {
-        narrow.time(player.frame(), player.poses(), truth, "", shuffle);
-      } else {
-        for (const BroadRunner::Found& found : broad.found()) {
-          narrow.time(player.frame(), player.poses(), found.pairs, found.entry->info.name, shuffle);
-        }
-      }
-    }
-    rows.write_new(*context.findings);
-    progress.part((player.frame() + 1.0) / context.scene->frames);
-    before = player.boxes();
-  } while (interrupt == 0 && player.next());
-}
-
-}  // namespace
-
-RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder) {
-  const std::vector<Block> blocks = blocks_of(campaign);
-  if (blocks.empty()) throw InputError("the campaign has no scene");
-
-  // Each distinct scene once, all before the first row is written.
-  using SceneKey = std::tuple<std::filesystem::path, std::int64_t, std::int64_t, int>;
-  const auto key = [](const Block& block) {
-    return SceneKey{block.scene_file, block.overrides.count, block.overrides.seed,
-                    block.overrides.frames};
-  };
   struct Loaded {
     Scene scene;
     std::string hash;
   };
-  std::map<SceneKey, Loaded> scenes;
-  for (const Block& block : blocks) {
-    if (scenes.contains(key(block))) continue;
-    Scene scene = load_scene(block.scene_file, block.overrides);
-    std::string hash = scene_hash(scene);
-    scenes.emplace(key(block), Loaded{std::move(scene), std::move(hash)});
+  explicit Scenes(const std::vector<Block>& blocks) {
+    for (const Block& block : blocks) {
+      if (loaded_.contains(key(block))) continue;
+      Scene scene = load_scene(block.scene_file, block.overrides);
+      std::string hash = scene_hash(scene);
+      loaded_.emplace(key(block), Loaded{std::move(scene), std::move(hash)});
+    }
+  }
+  const Loaded& of(const Block& block) const { return loaded_.at(key(block)); }
+  // By name and count.
+  std::map<std::string, std::string> hashes() const {
+    std::map<std::string, std::string> hashes;
+    for (const auto& [key, loaded] : loaded_) {
+      std::string& hash =
+          hashes[fmt::format("{}, {} bodies", loaded.scene.name, loaded.scene.size())];
+      hash += (hash.empty() ? "" : " ") + loaded.hash;
+    }
+    return hashes;
   }
 
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), 0, "cannot be made: " + error.message());
-  const std::filesystem::path reproductions = folder / "reproductions";
-  std::filesystem::remove_all(reproductions, error);
+ private:
+  using Key = std::tuple<std::filesystem::path, std::int64_t, std::int64_t, int>;
+  static Key key(const Block& block) {
+    return {block.scene_file, block.overrides.count, block.overrides.seed, block.overrides.frames};
+  }
+  std::map<Key, Loaded> loaded_;
+};
 
+bool has_narrow(const RunContext& context) {
+  return !context.block->group->narrow.empty() && context.scene->recording.empty();
+}
+
+// The sets of true pairs, and those of what broad phases found.
+struct NarrowInput {
+  std::vector<NarrowSet> checked, measured;
+};
+
+std::vector<std::vector<IndexPair>> true_pairs(const BlockInput& input) {
+  std::vector<std::vector<IndexPair>> pairs;
+  for (const BlockFrame& frame : input.frames) pairs.push_back(frame.truth);
+  return pairs;
+}
+
+// Checks the broad phases and gives what narrow phases are asked. Rows go to `context.findings`.
+NarrowInput check_broad_phases(const RunContext& context, const BlockInput& input) {
+  const CampaignGroup& group = *context.block->group;
+  const bool narrow = has_narrow(context);
+  const bool product = narrow && group.pairing == Pairing::product;
+  NarrowInput sets;
+  if (narrow) sets.checked = narrow_sets(input, "", true_pairs(input), group.tasks);
+  if (!product) sets.measured = sets.checked;
+  for (const BroadPhaseEntry* entry : group.broad) {
+    if (!context.admits(*entry)) continue;
+    const BroadCheck check = check_broad(context, input, *entry, product);
+    if (!product || !check.whole) continue;
+    auto found = narrow_sets(input, entry->info.name, check.pairs, group.tasks);
+    // Other pairs than the true ones have answers of their own.
+    if (!check.right) sets.checked.insert(sets.checked.end(), found.begin(), found.end());
+    sets.measured.insert(sets.measured.end(), found.begin(), found.end());
+  }
+  return sets;
+}
+
+void run_block(const RunContext& context, bool checked, Progress& progress, ResultFiles& files) {
+  const Stopwatch watch;
+  const double budget = context.block->group->seconds;
+  const BlockInput input(*context.scene, context.block->boxes, has_narrow(context));
+  NarrowInput narrow;
+  if (checked) {
+    // The rows are there; what the broad phases found has to be found again.
+    Findings known;
+    RunContext silent = context;
+    silent.findings = &known;
+    narrow = check_broad_phases(silent, input);
+  } else {
+    narrow = check_broad_phases(context, input);
+    NarrowCheck(context, input, narrow.checked).run();
+    files.write_new(*context.findings);
+  }
+  const CheckTable table(context.findings->rows(), context.number, input.frames.size());
+  BlockRun run(context, input, narrow.measured, table,
+               make_schedule(context, input, narrow.measured, table));
+  run.run([&] {
+    files.write_new(*context.findings);
+    progress.part(std::min(watch.seconds() / budget, 1.0));
+    return interrupt == 0;
+  });
+}
+
+}  // namespace
+
+RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
+                       RunStart start) {
+  const std::vector<Block> blocks = blocks_of(campaign);
+  const Scenes scenes(blocks);
   RunResult result;
-  RowWriter rows(campaign, folder / "raw.csv");
-  std::mt19937_64 shuffle(campaign.seed);
-  std::map<std::string, std::string> hashes;
+  ResultFiles files(folder, campaign_facts(campaign, scenes.hashes()), start, result.findings);
+  if (files.was_finished()) return result;
+  const auto& rows = result.findings.rows();
+  const std::int64_t at = rows.empty() ? -1 : rows.back().block;  // where it stopped
   {
     const InterruptGuard guard;
     Progress progress(blocks.size());
-    for (const Block& block : blocks) {
-      if (interrupt != 0) break;
-      const Loaded& loaded = scenes.at(key(block));
-      hashes[fmt::format("{}, {} bodies", loaded.scene.name, loaded.scene.size())] = loaded.hash;
+    for (std::size_t number = 0; number < blocks.size() && interrupt == 0; ++number) {
+      const Block& block = blocks[number];
+      const Scenes::Loaded& loaded = scenes.of(block);
       progress.start(label(block, loaded.scene));
-      run_block({&block, &loaded.scene, loaded.hash, reproductions, &result.findings}, shuffle,
-                progress, rows);
+      if (static_cast<std::int64_t>(number) < at) continue;
+      run_block({campaign.name, campaign.seed, static_cast<std::int64_t>(number), &block,
+                 &loaded.scene, loaded.hash, folder / "reproductions", &result.findings},
+                static_cast<std::int64_t>(number) == at, progress, files);
     }
     result.interrupted = interrupt != 0;
   }
-  rows.close();
-  write_machine(campaign, hashes, folder / "machine.csv");
+  if (!result.interrupted) files.finish();
   return result;
+}
+
+std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
+  const std::vector<Block> blocks = blocks_of(campaign);
+  const Scenes scenes(blocks);
+  std::vector<PlannedBlock> plan;
+  for (std::size_t number = 0; number < blocks.size(); ++number) {
+    const Block& block = blocks[number];
+    const CampaignGroup& group = *block.group;
+    const Scenes::Loaded& loaded = scenes.of(block);
+    const RunContext context{campaign.name,
+                             campaign.seed,
+                             static_cast<std::int64_t>(number),
+                             &block,
+                             &loaded.scene,
+                             loaded.hash,
+                             {},
+                             nullptr};
+    PlannedBlock& planned = plan.emplace_back();
+    planned.label = label(block, loaded.scene);
+    planned.seconds = group.seconds;
+    const auto add = [&](std::string name, std::vector<std::string> contestants) {
+      if (!contestants.empty()) planned.sets.push_back({std::move(name), std::move(contestants)});
+    };
+    std::vector<std::string> broad;
+    for (const BroadPhaseEntry* entry : group.broad) {
+      if (context.admits(*entry)) broad.push_back(entry->info.name);
+    }
+    add("broad phases", broad);
+    if (!has_narrow(context)) continue;
+    const BlockInput input(loaded.scene, block.boxes, false);
+    const auto sets = narrow_sets(input, "", true_pairs(input), group.tasks);
+    const bool product = group.pairing == Pairing::product;
+    if (!product) broad.assign(1, "");
+    for (const std::string& source : broad) {
+      for (const NarrowSet& set : sets) {
+        std::vector<std::string> narrow;
+        for (const NarrowChoice& choice : group.narrow) {
+          if (offers(*choice.entry, set.kind_a, set.kind_b, set.task) &&
+              context.admits(choice, source, set.task, set.kind_name())) {
+            narrow.push_back(Contestant{.broad = nullptr, .narrow = &choice}.label());
+          }
+        }
+        add(fmt::format("{} {}{}{}", to_string(set.task), set.kind_name(),
+                        source.empty() ? "" : " on the pairs of ", source),
+            std::move(narrow));
+      }
+    }
+  }
+  return plan;
 }
 
 }  // namespace touchstone

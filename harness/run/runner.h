@@ -1,21 +1,41 @@
 // Runs a campaign.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "harness/run/campaign.h"
 #include "harness/run/findings.h"
+#include "harness/run/result_files.h"
 
 namespace touchstone {
 
-// Loads every scene first, so that a wrong one is told before anything is written (InputError).
-// Then runs block after block, writing rows to DIR/raw.csv as they are measured, DIR/machine.csv,
-// and a file into DIR/reproductions for each departure. An interrupt (SIGINT) ends the run after
-// the frame at hand; what was measured is kept.
 struct RunResult {
   Findings findings;
   bool interrupted = false;
 };
-RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder);
+
+// Loads every scene first, so that a wrong one is told before anything is written (InputError).
+// Then takes block after block: the check pass, then samples, written to DIR/raw.csv as they are
+// measured, with DIR/departures.csv, DIR/machine.csv, and a file into DIR/reproductions for each
+// departure. An interrupt (SIGINT) ends the run after the round at hand, and what was measured is
+// kept, to be resumed. The caller is the only thread of its process, which has never used a oneTBB
+// arena: workers are forked from it.
+RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
+                       RunStart start = RunStart::fresh);
+
+// What run_campaign would do, without doing it.
+struct PlannedBlock {
+  std::string label;  // "uniform, 1000 bodies, 64 frames, tight boxes, 2 threads"
+  struct Set {
+    std::string name;  // "broad phases", "intersect box-sphere"
+    std::vector<std::string> contestants;
+  };
+  std::vector<Set> sets;
+  double seconds = 0;  // for its samples, at most
+};
+std::vector<PlannedBlock> plan_campaign(const Campaign& campaign);
 
 }  // namespace touchstone

@@ -7,12 +7,21 @@
 #include <algorithm>
 
 namespace touchstone {
+namespace {
+
+// Characters of UTF-8, as fmt counts them when it fills a field.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & '\xc0') != '\x80'; }));
+}
+
+}  // namespace
 
 std::string TextTable::text(std::size_t page_width) const {
   const std::size_t columns = rows_.front().size();
   std::vector<std::size_t> width(columns, 0);
   for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], characters(row[i]));
   }
   constexpr std::size_t gap = 2;
   std::string text;

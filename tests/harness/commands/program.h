@@ -22,9 +22,9 @@ struct Ran {
   std::string text;  // what it printed, to either stream
 };
 
-// Runs the program with these arguments, as the shell splits them.
-inline Ran run_program(const std::string& arguments) {
-  std::FILE* const pipe = popen((TOUCHSTONE_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
+// Runs a command of the shell.
+inline Ran run_shell(const std::string& command) {
+  std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("popen");
   Ran ran;
   std::array<char, 4096> bytes;
@@ -34,6 +34,11 @@ inline Ran run_program(const std::string& arguments) {
   const int status = pclose(pipe);
   if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
   return ran;
+}
+
+// Runs the program with these arguments, as the shell splits them.
+inline Ran run_program(const std::string& arguments) {
+  return run_shell(TOUCHSTONE_PROGRAM " " + arguments);
 }
 
 // Runs it, and expects status 2, this text and nothing left behind in the folder.

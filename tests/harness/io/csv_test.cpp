@@ -1,5 +1,6 @@
 #include "harness/io/csv.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <sstream>
 
 #include "harness/error.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -73,6 +75,24 @@ TEST_F(Csv, ReadsColumnsByName) {
   EXPECT_EQ(read("a,b\n1,2\n3,4\n"), "2[1|2]3[3|4]");
   EXPECT_EQ(read("x,b,y,a\n1,2,3,4\n"), "2[4|2]");
   EXPECT_EQ(read("a,b\n"), "");
+}
+
+TEST_F(Csv, OptionalColumnsAreEmptyWhereThereAreNone) {
+  const auto seen = [&](const std::string& content) {
+    std::string text;
+    CsvReader(folder.write("in.csv", content), {"b"}, {"c", "a"})
+        .read([&](const CsvReader::Row& row) {
+          text += fmt::format("[{}|{}|{}]", row.text(0), row.text(1), row.text(2));
+        });
+    return text;
+  };
+  EXPECT_EQ(seen("a,b\n1,2\n3,4\n"), "[2||1][4||3]");
+  EXPECT_EQ(seen("b\n2\n"), "[2||]");
+  EXPECT_EQ(seen("a,b,c\n1,2,3\n"), "[2|3|1]");
+  EXPECT_THAT(input_fault([&] { seen("a,c\n1,2\n"); }),
+              ::testing::EndsWith("no column 'b'; expected a header line with the columns b"));
+  EXPECT_THAT(input_fault([&] { seen("b,c,c\n1,2,3\n"); }),
+              ::testing::EndsWith("column 'c' comes twice"));
 }
 
 TEST_F(Csv, ReadsWhatTheFormatAllows) {

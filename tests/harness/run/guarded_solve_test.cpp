@@ -36,8 +36,8 @@ std::vector<Outcome> solve(const std::vector<std::uint32_t>& behaviour, double l
   const PairBatch batch{
       Task::distance, ShapeKind::sphere, ShapeKind::sphere, behaviour, second, {}, {}};
   std::vector<Outcome> outcomes(behaviour.size());
-  Misbehaving algorithm;
-  solve_guarded(algorithm, batch, outcomes, limit);
+  solve_guarded([] { return std::make_unique<Misbehaving>(); }, batch, outcomes, limit,
+                std::size_t{1} << 30);
   return outcomes;
 }
 

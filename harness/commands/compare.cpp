@@ -1,0 +1,204 @@
+// touchstone compare: is B slower than A?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include "harness/commands/commands.h"
+#include "harness/error.h"
+#include "harness/io/csv.h"
+#include "harness/run/build_info.h"
+#include "harness/run/subprocess.h"
+#include "harness/run/text_table.h"
+#include "harness/stats/comparison.h"
+
+namespace touchstone {
+namespace {
+
+using namespace stats;
+
+struct Options {
+  std::vector<std::string> files, programs;
+  std::string out, csv;
+  double threshold = 0.03;
+  int runs = 8;
+  bool any_machine = false, noisy = false;
+
+  Noise noise() const { return noisy ? Noise::kept : Noise::left_out; }
+};
+
+void print(const std::string& title, const std::vector<std::string>& lines) {
+  constexpr std::size_t most = 20;
+  if (lines.empty()) return;
+  fmt::print("{}\n", title);
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) fmt::print("  {}\n", lines[i]);
+  if (lines.size() > most) fmt::print("  and {} more\n", lines.size() - most);
+  fmt::print("\n");
+}
+
+std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4f}", value); }
+
+void print(const std::vector<ComparedCell>& cells, double threshold) {
+  for (std::size_t i = 0; i < cells.size();) {
+    const SetKey& key = cells[i].key;
+    TextTable table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
+    for (; i < cells.size() && cells[i].key == key; ++i) {
+      const ComparedCell& cell = cells[i];
+      table.add({cell.label, number(cell.ratio.median), number(cell.ratio.low),
+                 number(cell.ratio.high), fmt::format("{:.2g}", cell.p_corrected),
+                 fmt::format("{} + {}", cell.squares_a, cell.squares_b),
+                 std::string(to_string(verdict(cell, threshold)))});
+    }
+    fmt::print("{}\n\n{}\n", key.words(), table.text(page_width()));
+  }
+}
+
+void write(const std::vector<ComparedCell>& cells, double threshold, const std::string& file) {
+  CsvWriter csv(file, {"scene", "scene_hash", "bodies", "seed", "boxes", "threads", "task",
+                       "pair_kind", "pairs_of", "algorithm", "ratio", "ratio_low", "ratio_high",
+                       "p", "p_corrected", "n_a", "n_b", "verdict"});
+  for (const ComparedCell& cell : cells) {
+    const SetKey& key = cell.key;
+    csv.field(key.scene).field(key.scene_hash).field(key.bodies).field(key.seed).field(key.boxes);
+    csv.field(key.threads).field(key.task).field(key.pair_kind).field(key.pairs_of);
+    csv.field(cell.label).field(cell.ratio.median).field(cell.ratio.low).field(cell.ratio.high);
+    csv.field(cell.p).field(cell.p_corrected).field(cell.squares_a).field(cell.squares_b);
+    csv.field(to_string(verdict(cell, threshold))).end_row();
+  }
+  csv.close();
+}
+
+// The whole judgement of A and B, printed; the exit status.
+int judge(const Options& options, const Results& a, const Results& b,
+          const std::vector<ComparedCell>& cells) {
+  print("A and B differ in", remarks(a, b));
+  print(cells, options.threshold);
+  if (!options.csv.empty()) write(cells, options.threshold, options.csv);
+  const std::vector<std::string> changed = changed_answers(a, b, Compared::answers);
+  print("The answers changed", changed);
+  const auto count = [&](Verdict wanted) {
+    return std::ranges::count_if(
+        cells, [&](const ComparedCell& c) { return verdict(c, options.threshold) == wanted; });
+  };
+  const auto slower = count(Verdict::slower);
+  const auto undecided = count(Verdict::undecided);
+  fmt::print("{} cells: {} slower, {} undecided, {} same, {} faster, {} not slower\n", cells.size(),
+             slower, undecided, count(Verdict::same), count(Verdict::faster),
+             count(Verdict::not_slower));
+  if (slower > 0 || !changed.empty()) return exit_measured_wrong;
+  return undecided > 0 || cells.empty() ? exit_undecided : exit_done;
+}
+
+int not_comparable(const std::vector<std::string>& reasons) {
+  print("A and B may not be compared", reasons);
+  return exit_bad_request;
+}
+
+int compare_files(const Options& options) {
+  if (options.files.size() != 2) {
+    throw InputError(fmt::format("found {} results; expected two, A and B", options.files.size()));
+  }
+  const Results a = read_results(options.files[0]);
+  const Results b = read_results(options.files[1]);
+  const std::vector<std::string> reasons = obstacles(a, b, !options.any_machine);
+  if (!reasons.empty()) return not_comparable(reasons);
+  return judge(options, a, b, stats::compare(a, b, options.noise()));
+}
+
+Results run(const std::string& program, const std::string& campaign,
+            const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::filesystem::remove(folder / "raw.csv");  // of an earlier comparison, perhaps not finished
+  const std::filesystem::path log = folder / "output.txt";
+  const int status = run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
+  if (status != exit_done && status != exit_measured_wrong) {
+    throw InputError(fmt::format("'{} run {}' ended with status {}; its output is in {}", program,
+                                 campaign, status, log.string()));
+  }
+  return read_results(folder);
+}
+
+int compare_programs(const Options& options) {
+  if (options.programs.size() != 2) {
+    throw InputError(
+        fmt::format("found {} times --exe; expected it twice, A and B", options.programs.size()));
+  }
+  if (options.files.size() > 1) {
+    throw InputError("with --exe, found more than one campaign; expected one or none");
+  }
+  const std::filesystem::path source(source_folder);
+  const std::string campaign = options.files.empty()
+                                   ? (source / "datasets/campaigns/compare.toml").string()
+                                   : options.files[0];
+  const std::filesystem::path out =
+      options.out.empty() ? source / "results/local/compare" : std::filesystem::path(options.out);
+  if (!std::ifstream(campaign)) throw InputError(campaign, 0, "cannot be read");
+  std::vector<Results> a, b;
+  for (int i = 0; i < options.runs; ++i) {
+    // A B, B A, A B, ...: a machine that grows slower or faster is fair to both.
+    for (const bool is_a : {i % 2 == 0, i % 2 != 0}) {
+      fmt::print(stderr, "run {} of {}, {}\n", i + 1, options.runs, is_a ? 'A' : 'B');
+      (is_a ? a : b)
+          .push_back(run(options.programs[is_a ? 0 : 1], campaign,
+                         out / (is_a ? "a" : "b") / std::to_string(i + 1)));
+    }
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    // Both ran on this machine; what its files say of it must agree all the same.
+    const std::vector<std::string> reasons = obstacles(a[i], b[i], !options.any_machine);
+    if (!reasons.empty()) return not_comparable(reasons);
+  }
+  return judge(options, a[0], b[0], compare_runs(a, b, options.noise()));
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare two results, or two builds of this program: is B slower than A?");
+  command->add_option("results", options->files,
+                      "A and B: results folders, or raw.csv files. With --exe: a campaign file "
+                      "(default: datasets/campaigns/compare.toml)");
+  CLI::Option* exe = command->add_option(
+      "--exe", options->programs,
+      "A program to run; given twice, A and B, whose runs of the campaign are interleaved");
+  exe->allow_extra_args(false);  // one each: what follows is the campaign
+  command
+      ->add_option("--threshold", options->threshold, "A slower B is a regression beyond this part")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--runs", options->runs, "With --exe: runs of each program")
+      ->check(CLI::Range(1, 1000))
+      ->needs(exe)
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--out", options->out,
+          "With --exe: folder for the runs (default: results/local/compare in the project)")
+      ->needs(exe);
+  command->add_option("--csv", options->csv, "Write the cells to this file, too");
+  command->add_flag("--any-machine", options->any_machine,
+                    "Compare although the machines differ or are not known");
+  command->add_flag("--noisy", options->noisy,
+                    "Keep the rounds that were measured under noise; they are left out otherwise");
+  command->footer(
+      "A cell is one algorithm on one input. Its ratio B / A comes with an interval of 95 %: a "
+      "cell\n"
+      "is slower where all of it is above 1 + threshold and Mann-Whitney's p, corrected by Holm "
+      "over\n"
+      "all cells, is below 0.05.\n\n"
+      "Exit status:\n"
+      "  0  the same: no cell is slower, none is undecided\n"
+      "  1  a regression: at least one cell is slower, or answers otherwise, or fails in B alone\n"
+      "  2  not comparable: machine, scene hash, settings or vector instructions differ (it says\n"
+      "     which); or the request or a file is wrong\n"
+      "  3  undecided: no regression is shown, and in at least one cell none is ruled out");
+  command->callback([options, &status] {
+    status = options->programs.empty() ? compare_files(*options) : compare_programs(*options);
+  });
+}
+
+}  // namespace touchstone

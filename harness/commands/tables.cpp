@@ -1,0 +1,169 @@
+// touchstone tables: the tables of a results folder, and whether they hold here.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include "algorithms/core/isa.h"
+#include "harness/commands/commands.h"
+#include "harness/error.h"
+#include "harness/run/build_info.h"
+#include "harness/run/subprocess.h"
+#include "harness/run/text_table.h"
+#include "harness/stats/table_check.h"
+#include "harness/stats/tables.h"
+
+namespace touchstone {
+namespace {
+
+using namespace stats;
+
+struct Options {
+  std::string results, reference, out, campaign;
+  double band = 1.5;
+  bool check = false, noisy = false;
+};
+
+std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
+
+int write(const Results& results, const std::filesystem::path& folder, const Options& options) {
+  const Tables tables = make_tables(results, options.noisy ? Noise::kept : Noise::left_out);
+  std::filesystem::create_directories(folder);
+  write_tables(tables, options.band, folder);
+  fmt::print("{} times, {} ratios, {} winners, {} exponents in {}\n", tables.times.size(),
+             tables.ratios.size(), tables.winners.size(), tables.exponents.size(),
+             (folder / "tables.md").string());
+  return exit_done;
+}
+
+// Runs the reference's campaign with this program, in its own process as a user would; the folder.
+std::filesystem::path run_again(const std::filesystem::path& reference, const Options& options) {
+  const std::filesystem::path source(source_folder);
+  std::filesystem::path campaign = options.campaign;
+  if (campaign.empty()) {
+    campaign = source / "datasets/campaigns" / (read_results(reference).campaign + ".toml");
+  }
+  if (!std::ifstream(campaign)) {
+    throw InputError(
+        campaign.string(), 0,
+        "cannot be read; expected the reference's campaign (--campaign names another)");
+  }
+  const std::filesystem::path out =
+      options.out.empty() ? source / "results/local/tables" : std::filesystem::path(options.out);
+  std::filesystem::create_directories(out);
+  std::filesystem::remove(out / "raw.csv");  // of an earlier check, perhaps not finished
+  fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
+             (out / "output.txt").string());
+  const int status = run_and_wait(
+      "/proc/self/exe",
+      {"--isa", std::string(to_string(isa())), "run", campaign.string(), "--out", out.string()},
+      out / "output.txt");
+  if (status != exit_done && status != exit_measured_wrong) {
+    throw InputError(fmt::format("the campaign ended with status {}; its output is in {}", status,
+                                 (out / "output.txt").string()));
+  }
+  return out;
+}
+
+void print(const std::string& title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return;
+  fmt::print("{}\n", title);
+  for (const std::string& line : lines) fmt::print("  {}\n", line);
+  fmt::print("\n");
+}
+
+int check(const std::filesystem::path& reference, const std::filesystem::path& results,
+          const Options& options) {
+  const TableCheck found =
+      check_tables(reference, read_results(results), options.noisy ? Noise::kept : Noise::left_out);
+  print("FAIL: not the same to the digit", found.changed);
+  print("Not looked at", found.left_out);
+  for (std::size_t i = 0; i < found.cells.size();) {
+    const CheckedCell& first = found.cells[i];
+    TextTable table({"over " + first.baseline, "stated", "band", "here", "interval", ""});
+    for (; i < found.cells.size() && found.cells[i].key == first.key; ++i) {
+      const CheckedCell& cell = found.cells[i];
+      table.add({cell.label, number(cell.stated),
+                 number(cell.band_low) + " to " + number(cell.band_high), number(cell.ratio.median),
+                 number(cell.ratio.low) + " to " + number(cell.ratio.high),
+                 std::string(to_string(cell.state))});
+    }
+    fmt::print("{}\n\n{}\n", first.key.words(), table.text(page_width()));
+  }
+  const auto count = [&](Holds state) {
+    return std::ranges::count(found.cells, state, &CheckedCell::state);
+  };
+  fmt::print("{} cells: {} pass, {} fail, {} undecided; {} answers changed, {} not looked at\n",
+             found.cells.size(), count(Holds::pass), count(Holds::fail), count(Holds::undecided),
+             found.changed.size(), found.left_out.size());
+  return count(Holds::fail) > 0 || !found.changed.empty() ? exit_measured_wrong : exit_done;
+}
+
+int tables(const Options& options) {
+  if (!options.check && options.reference.empty() && !options.results.empty()) {
+    return write(read_results(options.results),
+                 options.out.empty() ? std::filesystem::is_directory(options.results)
+                                           ? std::filesystem::path(options.results)
+                                           : std::filesystem::path(options.results).parent_path()
+                                     : std::filesystem::path(options.out),
+                 options);
+  }
+  const std::filesystem::path reference =
+      options.reference.empty() ? std::filesystem::path(source_folder) / "results/reference"
+                                : std::filesystem::path(options.reference);
+  if (!std::ifstream(reference / "ratios.csv")) {
+    throw InputError((reference / "ratios.csv").string(), 0,
+                     "cannot be read; expected a reference with tables (`touchstone tables "
+                     "REFERENCE` writes them)");
+  }
+  const std::filesystem::path results = options.results.empty()
+                                            ? run_again(reference, options)
+                                            : std::filesystem::path(options.results);
+  return check(reference, results, options);
+}
+
+}  // namespace
+
+void add_tables(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "tables",
+      "Write the tables of a results folder, or see whether those of a reference hold here");
+  command->add_option("results", options->results,
+                      "Results folder, or raw.csv: its tables are written beside it. Without one, "
+                      "the campaign of the reference is run again and checked");
+  command
+      ->add_option("--check", options->reference,
+                   "Check against this reference: a results folder with tables (default: "
+                   "results/reference in the project)")
+      ->expected(0, 1);
+  command->add_option("--campaign", options->campaign,
+                      "The campaign to run again (default: the one in datasets/campaigns that has "
+                      "the name in the reference's raw.csv)");
+  command->add_option("--out", options->out,
+                      "Folder for the tables, or for the campaign run again");
+  command
+      ->add_option("--band", options->band,
+                   "Written tables state that a ratio holds within its interval, widened by this "
+                   "factor at both ends")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  command->add_flag("--noisy", options->noisy,
+                    "Keep the rounds that were measured under noise; they are left out otherwise");
+  command->footer(
+      "A check looks at hashes, pair counts, contact counts and work counters first: they must be\n"
+      "the same to the digit. Then a cell passes where the interval of its ratio lies within the\n"
+      "stated band, and fails where it lies wholly outside; absolute times count for nothing.\n\n"
+      "Exit status:\n"
+      "  0  written; or nothing failed\n"
+      "  1  at least one cell failed, or answers are not the same\n"
+      "  2  the request or a file is wrong");
+  command->callback([options, command, &status] {
+    options->check = command->count("--check") > 0;
+    status = tables(*options);
+  });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,61 @@
+#include "harness/measure/block_input.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "algorithms/registry.h"
+#include "harness/scene/player.h"
+
+namespace touchstone {
+
+BlockInput::BlockInput(const Scene& scene, BoxKind kind, bool with_poses) : shapes(scene.shapes) {
+  for (const Body& body : scene.bodies) shape_of.push_back(body.shape);
+  Executor executor(1);
+  const std::unique_ptr<BroadPhase> naive = find_broad_phase("naive")->make(executor);
+  PairSink sink;
+  ScenePlayer player(scene, kind);
+  do {
+    BlockFrame& frame = frames.emplace_back();
+    frame.boxes.assign(player.boxes().begin(), player.boxes().end());
+    const FrameChange change = player.change();
+    frame.moved.assign(change.moved.begin(), change.moved.end());
+    if (with_poses) frame.poses.assign(player.poses().begin(), player.poses().end());
+    naive->build(frame.boxes);
+    naive->find_pairs(sink);
+    frame.truth = sink.gather();
+    std::ranges::sort(frame.truth);
+  } while (player.next());
+}
+
+std::string NarrowSet::kind_name() const { return PairGroup{kind_a, kind_b, {}, {}}.name(); }
+
+std::size_t NarrowSet::pairs() const {
+  std::size_t total = 0;
+  for (const PairGroup& group : frames) total += group.size();
+  return total;
+}
+
+std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& broad,
+                                   std::span<const std::vector<IndexPair>> pairs,
+                                   std::span<const Task> tasks) {
+  std::map<std::pair<ShapeKind, ShapeKind>, std::vector<PairGroup>> kinds;
+  for (std::size_t frame = 0; frame < pairs.size(); ++frame) {
+    for (PairGroup& group : group_by_kind(pairs[frame], input.shapes, input.shape_of)) {
+      std::vector<PairGroup>& frames = kinds[{group.kind_a, group.kind_b}];
+      if (frames.empty()) {
+        frames.assign(pairs.size(), PairGroup{group.kind_a, group.kind_b, {}, {}});
+      }
+      frames[frame] = std::move(group);
+    }
+  }
+  std::vector<NarrowSet> sets;
+  for (const Task task : tasks) {
+    for (const auto& [kind, frames] : kinds) {
+      sets.push_back({broad, task, kind.first, kind.second, frames});
+    }
+  }
+  return sets;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,52 @@
+// What the algorithms of a block are given, all frames of it at once, so that a window of frames
+// can be timed at any place.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/core/pose.h"
+#include "harness/run/pair_groups.h"
+#include "harness/scene/scene.h"
+
+namespace touchstone {
+
+struct BlockFrame {
+  std::vector<Aabb> boxes;
+  std::vector<std::uint32_t> moved;  // against the frame before
+  std::vector<Pose> poses;           // only where a narrow phase wants them
+  std::vector<IndexPair> truth;      // sorted
+
+  FrameChange change() const { return {boxes, moved, {}, {}}; }
+};
+
+struct BlockInput {
+  // Plays the scene. The true pairs are those of the naive broad phase, which tests every pair of
+  // boxes; it runs in the caller's thread.
+  BlockInput(const Scene& scene, BoxKind kind, bool with_poses);
+
+  std::span<const Shape> shapes;  // the scene's
+  std::vector<std::uint32_t> shape_of;
+  std::vector<BlockFrame> frames;
+};
+
+// What narrow phases are asked about together: the pairs of one kind that one source has found.
+struct NarrowSet {
+  std::string broad;  // the broad phase that found the pairs; empty where they are the true ones
+  Task task;
+  ShapeKind kind_a, kind_b;
+  std::vector<PairGroup> frames;  // of each frame, perhaps without pairs
+
+  std::string kind_name() const;
+  std::size_t pairs() const;  // of all frames
+};
+
+// One set for each task and kind of pairs that occurs; `pairs` are those of each frame.
+std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& broad,
+                                   std::span<const std::vector<IndexPair>> pairs,
+                                   std::span<const Task> tasks);
+
+}  // namespace touchstone

@@ -1,0 +1,145 @@
+#include "harness/measure/check_broad.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "harness/io/box_frames.h"
+#include "harness/measure/sampler.h"
+#include "harness/run/isolate.h"
+#include "harness/run/pair_check.h"
+#include "harness/run/pair_hash.h"
+
+namespace touchstone {
+namespace {
+
+constexpr double setup_seconds = 60;
+
+// What the child finds in one frame.
+struct ChildAnswer {
+  SampleReply reply;
+  PairFaults faults;
+  std::size_t pairs_at = 0;  // in the array of all pairs, where they are kept
+};
+
+std::span<const Aabb> boxes_before(const BlockInput& input, std::size_t frame) {
+  return frame == 0 ? std::span<const Aabb>()
+                    : std::span<const Aabb>(input.frames[frame - 1].boxes);
+}
+
+std::string write_frames(const RunContext& context, const BlockInput& input,
+                         const std::string& name, std::size_t frame) {
+  const std::filesystem::path file =
+      context.reproductions /
+      fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name, context.scene->size(), frame);
+  // The frame before comes too: an update may be what went wrong.
+  std::vector<std::vector<Aabb>> frames;
+  if (frame > 0) frames.push_back(input.frames[frame - 1].boxes);
+  frames.push_back(input.frames[frame].boxes);
+  std::filesystem::create_directories(context.reproductions);
+  write_box_frames(frames, file);
+  return file.string();
+}
+
+}  // namespace
+
+BroadCheck check_broad(const RunContext& context, const BlockInput& input,
+                       const BroadPhaseEntry& entry, bool with_pairs) {
+  const CampaignGroup& group = *context.block->group;
+  const std::size_t count = input.frames.size();
+  std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
+  for (const BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
+  SharedArray<ChildAnswer> answers(count);
+  SharedArray<IndexPair> kept(with_pairs ? room : 0);
+  SharedArray<std::size_t> too_slow(1);  // 0: no frame was, else the frame's number and one
+  const IsolationLimits limits = {.item_seconds = group.time_limit,
+                                  .setup_seconds = setup_seconds,
+                                  .failures = 1,
+                                  .memory = group.memory_limit};
+  const IsolationReport report = isolate(count, limits, [&]() -> ItemWork {
+    const auto executor = std::make_shared<Executor>(1);
+    const auto sampler = std::make_shared<BroadSampler>(entry, input, group.rebuild, *executor);
+
+    return [&, executor, sampler](std::size_t frame) {
+      if (too_slow[0] > 0) return;
+      ChildAnswer& answer = answers[frame];
+      answer.reply = sampler->play(frame);
+      std::vector<IndexPair> pairs = sampler->sink().gather();
+      if (with_pairs) {
+        answer.pairs_at = frame == 0 ? 0
+                                     : answers[frame - 1].pairs_at +
+                                           static_cast<std::size_t>(answers[frame - 1].reply.pairs);
+        if (answer.pairs_at + pairs.size() > kept.size()) {
+          throw std::runtime_error("more than four times as many pairs as there are");
+        }
+        std::ranges::copy(pairs,
+                          kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
+      }
+      answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
+      if (answer.reply.prepare + answer.reply.query > group.time_limit) too_slow[0] = frame + 1;
+    };
+  });
+
+  BroadCheck result;
+  result.whole = result.right = true;
+  const auto leave = [&](std::size_t frame, Status status, const std::string& why,
+                         const std::string& words) {
+    RawRow row = context.row(frame, entry, Phase::find_pairs);
+    row.status = to_string(status);
+    row.words = one_line(words);
+    context.findings->add(std::move(row));
+    Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
+    departure.known = departure.known || status == Status::timed_out;
+    departure.what = why + "; left out from here on";
+    context.findings->add(std::move(departure));
+    result.whole = result.right = false;
+  };
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    if (report.states[frame] != ItemState::done) {
+      const IsolationFailure& failure = report.failures.front();
+      const bool late = failure.state == ItemState::timed_out;
+      leave(frame, late ? Status::timed_out : Status::crashed,
+            late ? fmt::format("no answer to a frame within the limit of {:g} s, over the limit",
+                               group.time_limit)
+                 : failure.reason(),
+            failure.words);
+      break;
+    }
+    const ChildAnswer& answer = answers[frame];
+    const bool build = group.rebuild || frame == 0;
+    RawRow prepare = context.row(frame, entry, build ? Phase::build : Phase::update);
+    prepare.seconds = answer.reply.prepare;
+    RawRow query = context.row(frame, entry, Phase::find_pairs);
+    query.seconds = answer.reply.query;
+    query.status = to_string(answer.reply.status);
+    query.pair_count = answer.reply.pairs;
+    query.pair_hash = to_hex(answer.reply.pair_hash);
+    if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = status_wrong;
+    context.findings->add(std::move(prepare));
+    context.findings->add(std::move(query));
+    if (!answer.faults.none()) {
+      result.right = false;
+      Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
+      departure.what = to_string(answer.faults);
+      if (departure.known) departure.what += "; known defect: " + entry.info.known_defect;
+      departure.reproduction = write_frames(context, input, entry.info.name, frame);
+      context.findings->add(std::move(departure));
+    }
+    if (with_pairs) {
+      const auto found =
+          kept.span().subspan(answer.pairs_at, static_cast<std::size_t>(answer.reply.pairs));
+      result.pairs.emplace_back(found.begin(), found.end());
+    }
+    if (too_slow[0] == frame + 1) {
+      leave(frame, Status::timed_out,
+            fmt::format("{:.1f} s for a frame, over the limit of {:g} s",
+                        answer.reply.prepare + answer.reply.query, group.time_limit),
+            "");
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace touchstone

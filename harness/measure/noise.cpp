@@ -1,0 +1,97 @@
+#include "harness/measure/noise.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+namespace touchstone {
+namespace {
+
+constexpr double pressure_share = 0.1;
+constexpr double steal_share = 0.01;
+constexpr double switches_a_second = 20;
+constexpr double busy_percent = 5;
+
+// The number behind "key" on the line that begins with `line`.
+std::optional<double> pressure_value(std::string_view key) {
+  std::ifstream stream("/proc/pressure/cpu");
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t at = line.find(key);
+    if (!line.starts_with("some ") || at == std::string::npos) continue;
+    std::istringstream number(line.substr(at + key.size()));
+    double value = 0;
+    if (number >> value) return value;
+  }
+  return {};
+}
+
+std::optional<double> stolen_seconds() {
+  std::ifstream stream("/proc/stat");
+  std::string name;
+  double user = 0, nice = 0, system = 0, idle = 0, iowait = 0, irq = 0, softirq = 0, steal = 0;
+  if (!(stream >> name >> user >> nice >> system >> idle >> iowait >> irq >> softirq >> steal) ||
+      name != "cpu") {
+    return {};
+  }
+  return steal / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+}  // namespace
+
+NoiseReading NoiseReading::now() {
+  NoiseReading reading;
+  if (const auto total = pressure_value("total=")) reading.waited = *total * 1e-6;
+  reading.stolen = stolen_seconds();
+  return reading;
+}
+
+std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
+                        std::int64_t involuntary_switches) {
+  std::string flags;
+  const auto add = [&](bool raised, const char* flag) {
+    if (raised) flags += (flags.empty() ? "" : "+") + std::string(flag);
+  };
+  const auto grew = [](const std::optional<double>& from, const std::optional<double>& to) {
+    return from && to ? *to - *from : 0.0;
+  };
+  add(grew(before.waited, after.waited) > pressure_share * seconds, "pressure");
+  add(grew(before.stolen, after.stolen) > steal_share * seconds, "steal");
+  add(static_cast<double>(involuntary_switches) > switches_a_second * seconds, "preempted");
+  return flags;
+}
+
+MachineLoad MachineLoad::now() {
+  MachineLoad load;
+  load.pressure = pressure_value("avg10=");
+  std::ifstream stream("/proc/loadavg");
+  double one = 0, five = 0, fifteen = 0;
+  int running = 0;
+  char slash = 0;
+  if (stream >> one >> five >> fifteen >> running >> slash && slash == '/') load.running = running;
+  return load;
+}
+
+std::string MachineLoad::objection() const {
+  if (!pressure || !running) {
+    return fmt::format("the load is unknown: {} cannot be read",
+                       pressure ? "/proc/loadavg" : "/proc/pressure/cpu");
+  }
+  if (*pressure > busy_percent) {
+    return fmt::format(
+        "tasks waited for a processor for {:.1f} % of the last ten seconds "
+        "(/proc/pressure/cpu); expected at most {:g} %",
+        *pressure, busy_percent);
+  }
+  // This process is one of them.
+  if (*running > 1) {
+    return fmt::format("{} other task{} at work (/proc/loadavg); expected none", *running - 1,
+                       *running == 2 ? " is" : "s are");
+  }
+  return "";
+}
+
+}  // namespace touchstone

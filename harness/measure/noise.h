@@ -1,0 +1,35 @@
+// What else the machine did while something was timed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace touchstone {
+
+// Counters of the system, ever growing; empty where the system does not tell.
+struct NoiseReading {
+  std::optional<double> waited;  // seconds in which some task waited for a processor
+  std::optional<double> stolen;  // seconds that the hypervisor gave to others, over all processors
+
+  static NoiseReading now();
+};
+
+// Flags of a round joined by '+', empty where it was quiet or nothing is known: "pressure" where
+// tasks waited for a processor for over a tenth of it, "steal" where over a hundredth was stolen,
+// "preempted" where the workers were switched out against their will, more than 20 times a second.
+std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
+                        std::int64_t involuntary_switches);
+
+// The share of the last ten seconds in which some task waited for a processor, in percent, and how
+// many tasks run or wait to run now; empty where the system does not tell.
+struct MachineLoad {
+  std::optional<double> pressure;
+  std::optional<int> running;
+
+  static MachineLoad now();
+  // Why no measurement should begin; empty where it may, "unknown ..." where nothing is known.
+  std::string objection() const;
+};
+
+}  // namespace touchstone

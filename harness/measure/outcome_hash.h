@@ -1,0 +1,44 @@
+// The fingerprint of the answers to a set of pairs.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "algorithms/core/outcome.h"
+#include "harness/run/pair_groups.h"
+#include "harness/run/pair_hash.h"
+
+namespace touchstone {
+
+// The same for every order of the pairs and every number of threads; a sum modulo 2^64 over the
+// pairs, so that of several frames is the sum of theirs.
+inline std::uint64_t outcome_hash(const PairGroup& group, std::span<const Outcome> outcomes) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const Outcome& outcome = outcomes[i];
+    std::uint64_t hash = mix((std::uint64_t{group.first[i]} << 32) + group.second[i]);
+    hash = mix(hash ^ (static_cast<std::uint64_t>(outcome.answer) << 8) ^
+               static_cast<std::uint64_t>(outcome.status));
+    // Every NaN counts as the same: it says that there is no number.
+    if (!std::isnan(outcome.distance)) {
+      hash = mix(hash ^ std::bit_cast<std::uint64_t>(outcome.distance));
+    }
+    sum += hash;
+  }
+  return sum;
+}
+
+// The fingerprint of the pairs of a group, as pair_hash has it.
+inline std::uint64_t group_hash(const PairGroup& group) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const std::uint32_t a = group.first[i];
+    const std::uint32_t b = group.second[i];
+    sum += mix((std::uint64_t{a < b ? a : b} << 32) + (a < b ? b : a));
+  }
+  return sum;
+}
+
+}  // namespace touchstone

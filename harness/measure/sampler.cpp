@@ -1,0 +1,130 @@
+#include "harness/measure/sampler.h"
+
+#include <algorithm>
+
+#include "harness/measure/outcome_hash.h"
+
+namespace touchstone {
+namespace {
+
+// Pairs that one task of the executor answers: enough to hide the cost of handing it out, few
+// enough to share a small group between two threads.
+constexpr std::size_t pairs_a_task = 256;
+
+void count(std::int64_t& sum, std::int32_t value) {
+  if (value >= 0) sum = std::max<std::int64_t>(sum, 0) + value;
+}
+
+}  // namespace
+
+BroadSampler::BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
+                           Executor& executor)
+    : input_(&input),
+      rebuild_(rebuild || input.frames.size() == 1),
+      algorithm_(entry.make(executor)) {}
+
+void BroadSampler::step(std::size_t frame, SampleReply& reply) {
+  const BlockFrame& now = input_->frames[frame];
+  const bool build = is_built(frame);
+  const Stopwatch preparing;
+  if (build) {
+    algorithm_->build(now.boxes);
+  } else {
+    algorithm_->update(now.change());
+  }
+  reply.prepare += preparing.seconds();
+  const Stopwatch finding;
+  const Status status = algorithm_->find_pairs(sink_);
+  reply.query += finding.seconds();
+  if (status != Status::ok) reply.status = status;
+  reply.pairs += static_cast<std::int64_t>(sink_.size());
+  at_ = static_cast<std::ptrdiff_t>(frame);
+}
+
+SampleReply BroadSampler::play(std::size_t frame) {
+  SampleReply untimed, reply;
+  untimed.prepare = reply.prepare = 0;
+  if (!is_built(frame) && at_ != static_cast<std::ptrdiff_t>(frame) - 1) {
+    for (std::size_t before = 0; before < frame; ++before) step(before, untimed);
+  }
+  step(frame, reply);
+  for (const PairBuffer& chunk : sink_.chunks()) reply.pair_hash += pair_hash(chunk.pairs());
+  return reply;
+}
+
+SampleReply BroadSampler::sample(const SampleRequest& request) {
+  if (request.hashed) return play(request.frame);
+  SampleReply untimed, reply;
+  untimed.prepare = reply.prepare = 0;
+  std::size_t frame = request.frame;
+  if (!rebuild_ && at_ != static_cast<std::ptrdiff_t>(frame) - 1) {
+    for (std::size_t before = 0; before < frame; ++before) step(before, untimed);
+  }
+  for (std::uint32_t i = 0; i < request.frames; ++i) {
+    if (frame == input_->frames.size()) frame = 0;
+    if (frame == 0 && !rebuild_) step(frame++, untimed);
+    step(frame++, reply);
+  }
+  return reply;
+}
+
+NarrowSampler::NarrowSampler(const NarrowChoice& choice, const BlockInput& input,
+                             std::span<const NarrowSet> sets, Executor& executor)
+    : input_(&input), sets_(sets), executor_(&executor) {
+  for (int worker = 0; worker < executor.width(); ++worker) {
+    instances_.push_back(choice.entry->make(choice.settings));
+    instances_.back()->bind(input.shapes);
+  }
+}
+
+SampleReply NarrowSampler::sample(const SampleRequest& request) {
+  struct Chunk {
+    PairBatch batch;
+    std::size_t first;  // outcome
+  };
+  const NarrowSet& set = sets_[request.set];
+  std::vector<Chunk> chunks;
+  std::size_t total = 0;
+  const auto each_frame = [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < request.frames; ++i) {
+      visit((request.frame + i) % input_->frames.size());
+    }
+  };
+  each_frame([&](std::size_t frame) {
+    const PairGroup& group = set.frames[frame];
+    for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task) {
+      const std::size_t end = std::min(begin + pairs_a_task, group.size());
+      chunks.push_back(
+          {group.batch(set.task, input_->shape_of, input_->frames[frame].poses, begin, end),
+           total + begin});
+    }
+    total += group.size();
+  });
+  outcomes_.assign(total, Outcome{});
+  SampleReply reply;
+  const Stopwatch watch;
+  executor_->run(chunks.size(), [&](std::size_t i, int worker) {
+    const Chunk& chunk = chunks[i];
+    instances_[static_cast<std::size_t>(worker)]->solve(
+        chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()));
+  });
+  reply.query = watch.seconds();
+  reply.pairs = static_cast<std::int64_t>(total);
+  reply.contacts = 0;
+  for (const Outcome& outcome : outcomes_) {
+    reply.contacts +=
+        outcome.answer == Answer::touching || outcome.answer == Answer::overlapping ? 1 : 0;
+    count(reply.iterations, outcome.iterations);
+    count(reply.support_calls, outcome.support_calls);
+  }
+  std::size_t first = 0;
+  each_frame([&](std::size_t frame) {
+    const PairGroup& group = set.frames[frame];
+    reply.pair_hash += group_hash(group);
+    reply.outcome_hash += outcome_hash(group, std::span(outcomes_).subspan(first, group.size()));
+    first += group.size();
+  });
+  return reply;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,88 @@
+// What one contestant does when it is asked for a sample. Only its own calls are inside the clock.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/executor.h"
+#include "harness/measure/block_input.h"
+#include "harness/run/campaign.h"
+#include "harness/run/clock.h"
+
+namespace touchstone {
+
+// A window of frames. In a narrow phase's sample the pairs of one set; a broad phase has one input.
+struct SampleRequest {
+  std::uint32_t set = 0;
+  std::uint32_t frame = 0;   // the first
+  std::uint32_t frames = 1;  // how many, going round
+  bool hashed = false;       // a broad phase's pairs are hashed, between its frames
+};
+
+// Sums over the window. -1 and NaN where something was not counted.
+struct SampleReply {
+  double prepare = Outcome::none;  // seconds: build or update; none in a narrow phase
+  double query = 0;                // seconds: find_pairs, or the narrow phase
+  std::int64_t pairs = 0;
+  std::uint64_t pair_hash = 0;
+  std::int64_t contacts = -1;
+  std::uint64_t outcome_hash = 0;
+  std::int64_t iterations = -1, support_calls = -1;
+  Status status = Status::ok;  // a broad phase's, the last that was not ok
+  std::int64_t peak_kb = -1, minor_faults = -1;
+  std::int64_t voluntary_switches = -1, involuntary_switches = -1;
+};
+
+class Sampler {
+ public:
+  virtual ~Sampler() = default;
+  virtual SampleReply sample(const SampleRequest& request) = 0;
+};
+
+// Frame 0 is built and each other frame is an update of the one before, as in a scene that is
+// played again and again. The build of frame 0 is outside a sample of updates, and so is frame 0;
+// with `rebuild`, or where there is no other frame, every frame is built and counts. Frames that a
+// window does not follow upon are played up to it before the clock starts.
+class BroadSampler final : public Sampler {
+ public:
+  BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
+               Executor& executor);
+
+  SampleReply sample(const SampleRequest& request) override;
+  // One frame, frame 0 too; its pairs are in sink() until the next call.
+  SampleReply play(std::size_t frame);
+  const PairSink& sink() const { return sink_; }
+
+ private:
+  void step(std::size_t frame, SampleReply& reply);
+  bool is_built(std::size_t frame) const { return rebuild_ || frame == 0; }
+
+  const BlockInput* input_;
+  bool rebuild_;
+  std::unique_ptr<BroadPhase> algorithm_;
+  PairSink sink_;
+  std::ptrdiff_t at_ = -1;  // the frame that the algorithm holds; -1: none yet
+};
+
+// The pairs of all frames of the window in one piece of work for the executor.
+class NarrowSampler final : public Sampler {
+ public:
+  // `sets` outlives it: what a request's number means.
+  NarrowSampler(const NarrowChoice& choice, const BlockInput& input,
+                std::span<const NarrowSet> sets, Executor& executor);
+
+  SampleReply sample(const SampleRequest& request) override;
+  std::span<const Outcome> outcomes() const { return outcomes_; }  // of the last sample, in order
+
+ private:
+  const BlockInput* input_;
+  std::span<const NarrowSet> sets_;
+  Executor* executor_;
+  std::vector<std::unique_ptr<NarrowPhase>> instances_;  // one a worker
+  std::vector<Outcome> outcomes_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,249 @@
+#include "harness/measure/worker.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "harness/run/clock.h"
+#include "harness/scene/random.h"
+
+namespace touchstone {
+namespace {
+
+constexpr int tick_milliseconds = 20;
+constexpr double seconds_to_leave = 2;  // of a worker that hung up
+
+// What a worker says: once when it is made, then once a sample.
+struct Message {
+  bool threw = false;
+  std::array<char, LastWords::kept> thrown{};
+  SampleReply reply;
+};
+
+// Where its heap, its mappings and its stack begin is a little different in each process, as it is
+// from one start of a program to the next: forked workers would all have their parent's layout.
+// (Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything obviously
+// wrong!", ASPLOS 2009.)
+class Layout {
+ public:
+  explicit Layout(Random& random) {
+    for (int i = 0; i < 64; ++i) {
+      const std::size_t size = 16 + 16 * random.below(512);
+      kept_.emplace_back(size, '\1');
+    }
+    for (std::size_t i = 0; i < kept_.size(); i += 2) kept_[i] = {};  // holes
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    mmap(nullptr, page * (1 + random.below(256)), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  }
+
+ private:
+  std::vector<std::vector<char>> kept_;
+};
+
+// Calls `work` that many bytes further down the stack.
+[[gnu::noinline]] void deeper(std::size_t bytes, const std::function<void()>& work) {
+  volatile char* const room = static_cast<char*>(__builtin_alloca(bytes + 16));
+  room[0] = 0;
+  work();
+  room[bytes] = 0;
+}
+
+// What the system counts for this process: between `start` and `finish`.
+class Usage {
+ public:
+  // The files are opened before the process is made undumpable, which hides them.
+  Usage()
+      : clear_(open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC)),
+        status_(open("/proc/self/status", O_RDONLY | O_CLOEXEC)) {}
+
+  void start() {
+    // From here on the peak is that of what follows (proc(5), clear_refs).
+    can_reset_ = clear_ >= 0 && write(clear_, "5", 1) == 1;
+    getrusage(RUSAGE_SELF, &before_);
+  }
+  void finish(SampleReply& reply) const {
+    rusage after{};
+    getrusage(RUSAGE_SELF, &after);
+    reply.minor_faults = after.ru_minflt - before_.ru_minflt;
+    reply.voluntary_switches = after.ru_nvcsw - before_.ru_nvcsw;
+    reply.involuntary_switches = after.ru_nivcsw - before_.ru_nivcsw;
+    if (can_reset_) reply.peak_kb = peak_kb();
+  }
+
+ private:
+  std::int64_t peak_kb() const {
+    std::array<char, 4096> text;
+    const ssize_t got = status_ < 0 ? -1 : pread(status_, text.data(), text.size(), 0);
+    if (got <= 0) return -1;
+    const std::string_view all(text.data(), static_cast<std::size_t>(got));
+    constexpr std::string_view key = "VmHWM:";
+    const std::size_t at = all.find(key);
+    if (at == std::string_view::npos) return -1;
+    const std::size_t digits = all.find_first_of("0123456789", at);
+    std::int64_t value = -1;
+    if (digits != std::string_view::npos) {
+      std::from_chars(all.data() + digits, all.data() + all.size(), value);
+    }
+    return value;
+  }
+
+  int clear_, status_;
+  bool can_reset_ = false;
+  rusage before_{};
+};
+
+void serve(int line, const Worker::Make& make, Usage& usage) {
+  const std::unique_ptr<Sampler> sampler = make();
+  Message message;
+  for (;;) {
+    if (send(line, &message, sizeof message, MSG_NOSIGNAL) < 0) return;
+    SampleRequest request;
+    ssize_t got = 0;
+    do {
+      got = recv(line, &request, sizeof request, 0);
+    } while (got < 0 && errno == EINTR);
+    if (got != sizeof request) return;
+    usage.start();
+    message.reply = sampler->sample(request);
+    usage.finish(message.reply);
+  }
+}
+
+// Never returns: what the parent has open, buffered and registered for its exit is none of its.
+[[noreturn]] void be_worker(pid_t parent, int line, int output, const Worker::Make& make,
+                            const WorkerSettings& settings) {
+  Usage usage;
+  begin_child(parent, output);
+  Random random(settings.layout);
+  const Layout layout(random);
+  allow_memory(settings.memory);
+  Message message;
+  message.threw = true;
+  const auto keep = [&](std::string_view what) {
+    std::copy_n(what.data(), std::min(what.size(), message.thrown.size() - 1),
+                message.thrown.data());
+  };
+  try {
+    deeper(16 * random.below(1024), [&] { serve(line, make, usage); });
+    _exit(EXIT_SUCCESS);
+  } catch (const std::exception& error) {
+    keep(error.what());
+  } catch (...) {
+    keep("something that is no std::exception");
+  }
+  send(line, &message, sizeof message, MSG_NOSIGNAL);
+  _exit(EXIT_FAILURE);
+}
+
+}  // namespace
+
+Worker::Worker(const Make& make, const WorkerSettings& settings) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
+    throw std::system_error(errno, std::generic_category(), "socketpair");
+  }
+  const WordsPipe pipe = make_words_pipe();
+  words_ = std::make_unique<LastWords>(pipe.listening);
+  std::fflush(nullptr);  // or the worker would have a copy of what is not written yet
+  const pid_t parent = getpid();
+  pid_ = fork();
+  const int error = errno;
+  if (pid_ == 0) {
+    ::close(ends[0]);
+    be_worker(parent, ends[1], pipe.speaking, make, settings);
+  }
+  ::close(ends[1]);
+  ::close(pipe.speaking);
+  line_ = ends[0];
+  if (pid_ < 0) {
+    ::close(line_);
+    throw std::system_error(error, std::generic_category(), "fork");
+  }
+}
+
+Worker::~Worker() {
+  if (alive()) kill_and_wait(pid_);
+  if (line_ >= 0) ::close(line_);
+}
+
+std::optional<IsolationFailure> Worker::wait_until_made(double seconds) {
+  if (wait(seconds)) return {};
+  failure_.in_setup = true;
+  return failure_;
+}
+
+std::optional<SampleReply> Worker::ask(const SampleRequest& request, double seconds) {
+  if (!alive()) return {};
+  if (send(line_, &request, sizeof request, MSG_NOSIGNAL) < 0) {
+    end(false);
+    return {};
+  }
+  return wait(seconds);
+}
+
+std::optional<SampleReply> Worker::wait(double seconds) {
+  const Stopwatch watch;
+  while (watch.seconds() <= seconds) {
+    std::array<pollfd, 2> sources = {
+        {{.fd = line_, .events = POLLIN, .revents = 0},
+         {.fd = words_->descriptor(), .events = POLLIN, .revents = 0}}};
+    if (poll(sources.data(), sources.size(), tick_milliseconds) <= 0) continue;
+    if (sources[1].revents != 0) words_->listen(0);
+    if (sources[0].revents == 0) continue;
+    Message message;
+    const ssize_t got = recv(line_, &message, sizeof message, 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got == sizeof message && !message.threw) return message.reply;
+    if (got == sizeof message) {
+      end(false);
+      failure_.state = ItemState::threw;
+      failure_.words = message.thrown.data();
+    } else {
+      end(false);
+    }
+    return {};
+  }
+  end(true);
+  return {};
+}
+
+// A worker that hung up has ended or is about to, unless it closed its line by mistake.
+void Worker::end(bool late) {
+  int status = 0;
+  if (late) {
+    status = kill_and_wait(pid_);
+  } else {
+    const Stopwatch watch;
+    while (waitpid(pid_, &status, WNOHANG) == 0) {
+      words_->listen(1);
+      if (watch.seconds() > seconds_to_leave) {
+        status = kill_and_wait(pid_);
+        break;
+      }
+    }
+  }
+  pid_ = -1;
+  failure_.words = words_->take();
+  failure_.state = late ? ItemState::timed_out : ItemState::crashed;
+  if (!late && WIFSIGNALED(status)) failure_.signal = WTERMSIG(status);
+  if (!late && WIFEXITED(status)) failure_.exit_code = WEXITSTATUS(status);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,55 @@
+// One contestant in a process of its own, warm between samples: what it does wrong costs only
+// itself.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "harness/measure/sampler.h"
+#include "harness/run/child_process.h"
+#include "harness/run/isolate.h"
+
+namespace touchstone {
+
+struct WorkerSettings {
+  std::size_t memory = std::size_t{4} << 30;  // bytes that it may add to what is there
+  std::uint64_t layout = 0;                   // seed of where its heap and stack begin
+};
+
+// Forks in the constructor; dies in the destructor. The caller must be the only thread of its
+// process.
+class Worker {
+ public:
+  // `make` is called in the worker; it makes the executor too, and keeps it alive.
+  using Make = std::function<std::unique_ptr<Sampler>()>;
+  Worker(const Make& make, const WorkerSettings& settings);
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  // Waits until `make` has returned. Empty: it went well.
+  std::optional<IsolationFailure> wait_until_made(double seconds);
+
+  // Nothing when it crashed, left, threw or took longer than so many seconds: it is dead then, and
+  // failure() says how.
+  std::optional<SampleReply> ask(const SampleRequest& request, double seconds);
+  const IsolationFailure& failure() const { return failure_; }
+  bool alive() const { return pid_ > 0; }
+
+ private:
+  std::optional<SampleReply> wait(double seconds);
+  void end(bool late);
+
+  pid_t pid_ = -1;
+  int line_ = -1;  // requests and replies, one a packet
+  std::unique_ptr<LastWords> words_;
+  IsolationFailure failure_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,81 @@
+#include "harness/run/run_context.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace touchstone {
+
+RawRow RunContext::row(std::size_t frame) const {
+  RawRow row;
+  row.campaign = campaign;
+  row.block = number;
+  row.scene = scene->name;
+  row.scene_hash = scene_hash;
+  row.seed = block->overrides.seed;
+  row.bodies = static_cast<std::int64_t>(scene->size());
+  row.boxes = to_string(block->boxes);
+  row.frame = static_cast<std::int64_t>(frame);
+  row.threads = block->threads;
+  row.isa = to_string(isa());
+  return row;
+}
+
+RawRow RunContext::row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const {
+  RawRow result = row(frame);
+  result.broad = entry.info.name;
+  result.phase = phase;
+  result.status = to_string(Status::ok);
+  return result;
+}
+
+RawRow RunContext::row(std::size_t frame, const NarrowChoice& choice) const {
+  RawRow result = row(frame);
+  result.narrow = choice.entry->info.name;
+  result.scalar = to_string(choice.settings.scalar);
+  if (choice.settings.tolerance) result.tolerance = *choice.settings.tolerance;
+  result.phase = Phase::narrow;
+  return result;
+}
+
+bool RunContext::admits(const BroadPhaseEntry& entry) const {
+  return block->group->admits({.scene = scene->name,
+                               .bodies = static_cast<std::int64_t>(scene->size()),
+                               .boxes = block->boxes,
+                               .threads = block->threads,
+                               .broad = entry.info.name,
+                               .narrow = {},
+                               .scalar = {},
+                               .task = {},
+                               .pair_kind = {}});
+}
+
+bool RunContext::admits(const NarrowChoice& choice, const std::string& broad, Task task,
+                        const std::string& pair_kind) const {
+  return block->group->admits({.scene = scene->name,
+                               .bodies = static_cast<std::int64_t>(scene->size()),
+                               .boxes = block->boxes,
+                               .threads = block->threads,
+                               .broad = broad,
+                               .narrow = choice.entry->info.name,
+                               .scalar = choice.settings.scalar,
+                               .task = task,
+                               .pair_kind = pair_kind});
+}
+
+std::string RunContext::place(std::size_t frame) const {
+  return fmt::format("{}, {} bodies, frame {}", scene->name, scene->size(), frame);
+}
+
+Departure RunContext::departure(const AlgorithmInfo& info, std::string label,
+                                std::string where) const {
+  return {.block = number,
+          .algorithm = std::move(label),
+          .ours = info.origin == Origin::ours,
+          .known = !info.known_defect.empty(),
+          .where = std::move(where),
+          .what = "",
+          .reproduction = ""};
+}
+
+}  // namespace touchstone

@@ -1,0 +1,274 @@
+#include "harness/stats/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+namespace touchstone::stats {
+namespace {
+
+constexpr double confidence = 0.95;
+constexpr double significance = 0.05;
+constexpr std::size_t fewest_squares = 6;  // on either side, as for the interval of a median
+
+// Facts of machine.csv that must be the same, and those that may explain a difference.
+constexpr std::array machine_facts_compared = {"processor",
+                                               "cores_online",
+                                               "simultaneous_multithreading",
+                                               "cache_0",
+                                               "cache_1",
+                                               "cache_2",
+                                               "cache_3",
+                                               "governor",
+                                               "boost",
+                                               "hypervisor",
+                                               "instructions_of_machine",
+                                               "instructions_in_use",
+                                               "build_type",
+                                               "sanitizers"};
+constexpr std::array facts_remarked = {
+    "campaign_hash", "seed",   "microcode", "kernel", "address_randomisation",
+    "compiler",      "flags",  "eigen",     "onetbb", "bullet",
+    "fcl",           "libccd", "commit",    "tree"};
+
+std::string fact(const Results& results, const char* name) {
+  const auto at = results.machine.find(name);
+  return at == results.machine.end() ? "unknown" : at->second;
+}
+
+template <class Names>
+void add_differences(const Results& a, const Results& b, const Names& names,
+                     std::vector<std::string>& lines) {
+  for (const char* name : names) {
+    const std::string in_a = fact(a, name);
+    const std::string in_b = fact(b, name);
+    if (in_a != in_b) lines.push_back(fmt::format("{}: '{}' in A, '{}' in B", name, in_a, in_b));
+  }
+}
+
+SetKey without_hash(SetKey key) {
+  key.scene_hash.clear();
+  return key;
+}
+
+// The hashes of every scene as it is asked for.
+std::set<std::string> hashes_of(const Results& results, const SetKey& key) {
+  std::set<std::string> hashes;
+  for (const SampleSet& set : results.sets) {
+    if (without_hash(set.key) == without_hash(key)) hashes.insert(set.key.scene_hash);
+  }
+  return hashes;
+}
+
+std::vector<double> logs(const std::map<SquareKey, double>& values) {
+  std::vector<double> list;
+  for (const auto& [square, value] : values) list.push_back(std::log(value));
+  return list;
+}
+
+void correct(std::vector<ComparedCell>& cells) {
+  std::vector<double> p;
+  for (const ComparedCell& cell : cells) p.push_back(cell.p);
+  const std::vector<double> corrected = holm(p);
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i].p_corrected = corrected[i];
+}
+
+// log of the median over the squares: what a run counts as.
+double log_of_run(const Results& run, const SetKey& key, const std::string& label, Noise noise) {
+  const SampleSet* const set = run.find(key);
+  const Contestant* const contestant = set == nullptr ? nullptr : set->find(label);
+  if (contestant == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  return median(logs(by_square(*contestant, noise)));
+}
+
+// What a verified frame must give again, to the digit.
+struct Fact {
+  const char* name;
+  std::string value;
+  bool operator==(const Fact&) const = default;
+};
+
+std::vector<Fact> facts(const Check& check, Compared what) {
+  const auto known = [](std::int64_t n) { return n < 0 ? std::string("none") : std::to_string(n); };
+  std::vector<Fact> all = {{"pair count", known(check.pair_count)},
+                           {"pair hash", check.pair_hash},
+                           {"contact count", known(check.contact_count)}};
+  if (what == Compared::answers_and_work) {
+    all.push_back({"iterations", known(check.iterations)});
+    all.push_back({"support calls", known(check.support_calls)});
+  }
+  return all;
+}
+
+// Calls visit(set of A, contestant of A, contestant of B) for each contestant that both have.
+template <class Visit>
+void for_each_common(const Results& a, const Results& b, const Visit& visit) {
+  for (const SampleSet& set : a.sets) {
+    const SampleSet* const other = b.find(set.key);
+    if (other == nullptr) continue;
+    for (const Contestant& contestant : set.contestants) {
+      if (const Contestant* const match = other->find(contestant.label)) {
+        visit(set, contestant, *match);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::same: return "same";
+    case Verdict::faster: return "faster";
+    case Verdict::not_slower: return "not slower";
+    case Verdict::slower: return "SLOWER";
+    case Verdict::undecided: return "undecided";
+  }
+  return "?";
+}
+
+Verdict verdict(const ComparedCell& cell, double threshold) {
+  const double high = 1 + threshold;
+  const double low = 1 / high;
+  const MedianInterval& ratio = cell.ratio;
+  // Comparisons with a missing end (NaN) are false.
+  if (ratio.low > high && cell.p_corrected < significance) return Verdict::slower;
+  if (ratio.high < low) return Verdict::faster;
+  if (ratio.low >= low && ratio.high <= high) return Verdict::same;
+  if (ratio.high <= high) return Verdict::not_slower;
+  return Verdict::undecided;
+}
+
+Missing missing(const Results& a, const Results& b, const ResultNames& names) {
+  Missing gone;
+  std::set<std::tuple<std::string, std::int64_t, std::string>> told;
+  for (const SampleSet& set : a.sets) {
+    const SampleSet* const other = b.find(set.key);
+    if (other == nullptr) {
+      const std::set<std::string> hashes = hashes_of(b, set.key);
+      if (hashes.empty()) {
+        gone.cells.push_back(fmt::format("{} is not in {}", set.key.words(), names.b));
+      } else if (told.emplace(set.key.scene, set.key.bodies, set.key.seed).second) {
+        gone.scenes.push_back(fmt::format("scene {} with {} bodies: hash {} in {}, {} in {}",
+                                          set.key.scene, set.key.bodies, set.key.scene_hash,
+                                          names.a, fmt::join(hashes, "+"), names.b));
+      }
+      continue;
+    }
+    for (const Contestant& contestant : set.contestants) {
+      if (other->find(contestant.label) == nullptr) {
+        gone.cells.push_back(
+            fmt::format("{} in {} is not in {}", contestant.label, set.key.words(), names.b));
+      }
+    }
+  }
+  return gone;
+}
+
+std::vector<std::string> obstacles(const Results& a, const Results& b, bool machines) {
+  std::vector<std::string> lines;
+  if (machines) {
+    for (const auto& [results, name] : {std::pair(&a, "A"), std::pair(&b, "B")}) {
+      if (results->machine.empty()) {
+        lines.push_back(
+            fmt::format("machine of {}: no machine.csv beside {}", name, results->file.string()));
+      }
+    }
+    if (lines.empty()) add_differences(a, b, machine_facts_compared, lines);
+  }
+  if (a.isa != b.isa) {
+    lines.push_back(fmt::format("vector instructions: {} in A, {} in B", fmt::join(a.isa, "+"),
+                                fmt::join(b.isa, "+")));
+  }
+  const Missing gone = missing(a, b);
+  lines.insert(lines.end(), gone.scenes.begin(), gone.scenes.end());
+  for (const std::string& cell : gone.cells) lines.push_back("settings: " + cell);
+  if (a.sets.empty()) lines.push_back("A has no rows");
+  return lines;
+}
+
+std::vector<std::string> remarks(const Results& a, const Results& b) {
+  std::vector<std::string> lines;
+  if (!a.machine.empty() && !b.machine.empty()) add_differences(a, b, facts_remarked, lines);
+  for (const SampleSet& set : b.sets) {
+    const SampleSet* const other = a.find(set.key);
+    if (other == nullptr) {
+      lines.push_back(fmt::format("only B has {}", set.key.words()));
+      continue;
+    }
+    for (const Contestant& contestant : set.contestants) {
+      if (other->find(contestant.label) == nullptr) {
+        lines.push_back(fmt::format("only B has {} in {}", contestant.label, set.key.words()));
+      }
+    }
+  }
+  return lines;
+}
+
+std::vector<std::string> changed_answers(const Results& a, const Results& b, Compared what,
+                                         const ResultNames& names) {
+  std::vector<std::string> lines;
+  for_each_common(a, b, [&](const SampleSet& set, const Contestant& in_a, const Contestant& in_b) {
+    const std::string where = fmt::format("{} in {}", in_a.label, set.key.words());
+    if (in_a.failure.empty() && !in_b.failure.empty()) {
+      lines.push_back(fmt::format("{}: {} in {}", where, in_b.failure, names.b));
+      return;
+    }
+    std::map<std::pair<std::int64_t, Part>, const Check*> by_frame;
+    for (const Check& check : in_b.checks) by_frame[{check.frame, check.part}] = &check;
+    for (const Check& check : in_a.checks) {
+      const auto at = by_frame.find({check.frame, check.part});
+      if (at == by_frame.end()) continue;
+      const std::vector<Fact> of_a = facts(check, what);
+      const std::vector<Fact> of_b = facts(*at->second, what);
+      const auto [one, other] = std::ranges::mismatch(of_a, of_b);
+      if (one == of_a.end()) continue;
+      lines.push_back(fmt::format("{}, frame {}: {} {} in {}, {} in {}", where, check.frame,
+                                  one->name, one->value, names.a, other->value, names.b));
+      return;  // the first frame stands for the others
+    }
+  });
+  return lines;
+}
+
+std::vector<ComparedCell> compare(const Results& a, const Results& b, Noise noise) {
+  std::vector<ComparedCell> cells;
+  for_each_common(a, b, [&](const SampleSet& set, const Contestant& in_a, const Contestant& in_b) {
+    const std::vector<double> of_a = logs(by_square(in_a, noise));
+    const std::vector<double> of_b = logs(by_square(in_b, noise));
+    if (of_a.empty() && of_b.empty() && !in_a.failure.empty()) return;  // has no times
+    MedianInterval ratio = exponential(shift(of_a, of_b, confidence));
+    if (ratio.n < fewest_squares) ratio.low = ratio.high = std::nan("");
+    cells.push_back(
+        {set.key, in_a.label, ratio, mann_whitney(of_a, of_b), 1, of_a.size(), of_b.size()});
+  });
+  correct(cells);
+  return cells;
+}
+
+std::vector<ComparedCell> compare_runs(std::span<const Results> a, std::span<const Results> b,
+                                       Noise noise) {
+  std::vector<ComparedCell> cells;
+  for_each_common(a[0], b[0], [&](const SampleSet& set, const Contestant& in_a, const Contestant&) {
+    std::vector<double> of_a, of_b, ratios;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double run_a = log_of_run(a[i], set.key, in_a.label, noise);
+      const double run_b = log_of_run(b[i], set.key, in_a.label, noise);
+      if (!std::isnan(run_a)) of_a.push_back(run_a);
+      if (!std::isnan(run_b)) of_b.push_back(run_b);
+      if (!std::isnan(run_a + run_b)) ratios.push_back(run_b - run_a);
+    }
+    if (of_a.empty() && of_b.empty() && !in_a.failure.empty()) return;
+    cells.push_back({set.key, in_a.label, exponential(median_interval(ratios, confidence)),
+                     mann_whitney(of_a, of_b), 1, of_a.size(), of_b.size()});
+  });
+  correct(cells);
+  return cells;
+}
+
+}  // namespace touchstone::stats

@@ -1,0 +1,99 @@
+// The timed samples of a results folder, sorted into what may be compared with what.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace touchstone::stats {
+
+// A set: contestants that were given the same input and asked the same, so that their times may be
+// compared.
+struct SetKey {
+  std::string scene;
+  std::int64_t bodies = 0;
+  std::string seed;  // empty where the file does not tell
+  std::string boxes;
+  std::int64_t threads = 0;
+  std::string task, pair_kind;  // of narrow phases; empty for broad phases
+  std::string pairs_of;         // narrow phases: whose pairs; empty: the true ones
+  std::string scene_hash;
+
+  bool narrow() const { return !task.empty(); }
+  auto operator<=>(const SetKey&) const = default;
+  std::string words() const;  // "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"
+};
+
+enum class Part : std::uint8_t { build, update, find_pairs, narrow };
+inline constexpr std::array<const char*, 4> part_names = {"build", "update", "find_pairs",
+                                                          "narrow"};
+
+// One contestant's work on the same run of frames: its phases together. Seconds, NaN for a part
+// that it did not have.
+struct Sample {
+  std::int64_t process = 0, square = 0, round = 0, position = 0;
+  std::array<double, 4> parts;
+  double units = 0;  // frames of a broad phase, queries of a narrow one
+  bool noisy = false;
+
+  double seconds() const;  // all parts; NaN where nothing was timed
+};
+
+// The verified answer to one frame. Counts of -1 are not known.
+struct Check {
+  std::int64_t frame = 0;
+  Part part = Part::build;
+  std::string status, pair_hash, outcome_hash;
+  std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
+               compared = -1, iterations = -1, support_calls = -1;
+};
+
+struct Contestant {
+  std::string label;  // "sweep-and-prune", "gjk double 1e-06"
+  std::vector<Sample> samples;
+  std::vector<Check> checks;
+  std::string failure;  // crashed, timed_out, unsupported, wrong; empty where none
+};
+
+struct SampleSet {
+  SetKey key;
+  std::vector<Contestant> contestants;  // in the order of the file
+  Contestant twin;                      // the baseline's second registration
+  std::string stop;                     // why repetition ended
+
+  const Contestant* find(const std::string& label) const;
+  // What the others are measured by: the one with a twin, else sweep-and-prune or gjk in double,
+  // else the first of ours, else the first.
+  const Contestant& baseline() const;
+};
+
+struct Results {
+  std::filesystem::path file;
+  std::string campaign;
+  std::set<std::string> isa;                   // vector instructions in use
+  std::map<std::string, std::string> machine;  // machine.csv; empty where there is none
+  std::vector<SampleSet> sets;                 // in the order of the file
+
+  const SampleSet* find(const SetKey& key) const;
+};
+
+// Reads a raw.csv, or the one of a folder, and the machine.csv beside it. InputError with file and
+// line.
+Results read_results(const std::filesystem::path& folder_or_file);
+
+// Seconds a frame or a query, of each square: the median over the square's rounds. Noisy rounds are
+// left out unless they are asked for.
+using SquareKey = std::pair<std::int64_t, std::int64_t>;  // process, square
+enum class Noise : std::uint8_t { left_out, kept };
+std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise);
+
+// log(a / b) for every square that both were in: the values of paired statistics.
+std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, Noise noise);
+
+}  // namespace touchstone::stats

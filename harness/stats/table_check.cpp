@@ -1,0 +1,85 @@
+#include "harness/stats/table_check.h"
+
+#include <limits>
+
+#include "harness/io/csv.h"
+#include "harness/stats/comparison.h"
+
+namespace touchstone::stats {
+namespace {
+
+constexpr double confidence = 0.95;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// The cells as the table states them, without those of the canaries.
+std::vector<CheckedCell> read_bands(const std::filesystem::path& file) {
+  std::vector<CheckedCell> cells;
+  CsvReader(file,
+            {"scene", "bodies", "seed", "boxes", "threads", "task", "pair_kind", "pairs_of",
+             "scene_hash", "algorithm", "baseline", "canary", "ratio", "band_low", "band_high"})
+      .read([&](const CsvReader::Row& row) {
+        const auto text = [&](std::size_t column) { return std::string(row.text(column)); };
+        const auto number = [&](std::size_t column) {
+          return row.text(column).empty() ? nan : row.number(column);
+        };
+        if (row.text(11) == "1") return;
+        CheckedCell cell;
+        cell.key = {text(0), row.integer(1), text(2), text(3), row.integer(4),
+                    text(5), text(6),        text(7), text(8)};
+        cell.label = text(9);
+        cell.baseline = text(10);
+        cell.stated = number(12);
+        cell.band_low = number(13);
+        cell.band_high = number(14);
+        if (cell.band_low > cell.band_high) {
+          row.fail("column band_low is above band_high; expected a band");
+        }
+        cells.push_back(cell);
+      });
+  return cells;
+}
+
+}  // namespace
+
+std::string_view to_string(Holds holds) {
+  switch (holds) {
+    case Holds::pass: return "pass";
+    case Holds::fail: return "FAIL";
+    case Holds::undecided: return "undecided";
+  }
+  return "?";
+}
+
+Holds holds(const MedianInterval& ratio, double band_low, double band_high) {
+  // Comparisons with what is missing (NaN) are false.
+  if (ratio.low >= band_low && ratio.high <= band_high) return Holds::pass;
+  if (ratio.low > band_high || ratio.high < band_low) return Holds::fail;
+  return Holds::undecided;
+}
+
+TableCheck check_tables(const std::filesystem::path& reference, const Results& here, Noise noise) {
+  const Results stated = read_results(reference);
+  const ResultNames names = {"the reference", "these results"};
+  TableCheck check;
+  Missing gone = missing(stated, here, names);
+  check.changed = std::move(gone.scenes);
+  check.left_out = std::move(gone.cells);
+  for (std::string& line : changed_answers(stated, here, Compared::answers_and_work, names)) {
+    check.changed.push_back(std::move(line));
+  }
+  for (CheckedCell& cell : read_bands(reference / "ratios.csv")) {
+    const SampleSet* const set = here.find(cell.key);
+    const Contestant* const contestant = set == nullptr ? nullptr : set->find(cell.label);
+    const Contestant* const baseline = set == nullptr ? nullptr : set->find(cell.baseline);
+    cell.ratio = {nan, nan, nan, 0};
+    if (contestant != nullptr && baseline != nullptr) {
+      cell.ratio = exponential(
+          median_interval(paired_log_ratios(*contestant, *baseline, noise), confidence));
+    }
+    cell.state = holds(cell.ratio, cell.band_low, cell.band_high);
+    check.cells.push_back(std::move(cell));
+  }
+  return check;
+}
+
+}  // namespace touchstone::stats

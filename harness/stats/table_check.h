@@ -1,0 +1,40 @@
+// Whether what a table says holds in other results too.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/stats/samples.h"
+#include "harness/stats/statistics.h"
+
+namespace touchstone::stats {
+
+// Pass: the ratio's interval lies within the stated band. Fail: it lies wholly outside. Undecided:
+// it does neither, or there is no interval, or no band.
+enum class Holds : std::uint8_t { pass, fail, undecided };
+std::string_view to_string(Holds holds);
+Holds holds(const MedianInterval& ratio, double band_low, double band_high);
+
+struct CheckedCell {
+  SetKey key;
+  std::string label, baseline;
+  double stated = 0, band_low = 0, band_high = 0;  // by the table
+  MedianInterval ratio;                            // here
+  Holds state = Holds::undecided;
+};
+
+struct TableCheck {
+  // Hashes, pair counts, contact counts and work counters that are not the same to the digit.
+  std::vector<std::string> changed;
+  // What could not be looked at: an algorithm that is not built here, a scene that was left out.
+  std::vector<std::string> left_out;
+  std::vector<CheckedCell> cells;
+};
+
+// The stated bands are those of ratios.csv in the reference's folder, in which raw.csv and
+// machine.csv stand too. InputError with file and line.
+TableCheck check_tables(const std::filesystem::path& reference, const Results& here, Noise noise);
+
+}  // namespace touchstone::stats

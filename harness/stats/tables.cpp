@@ -1,0 +1,254 @@
+#include "harness/stats/tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "algorithms/registry.h"
+
+namespace touchstone::stats {
+namespace {
+
+constexpr double confidence = 0.95;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+template <class Entry>
+std::string origin_among(std::span<const Entry> entries, const std::string& name) {
+  const auto at =
+      std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
+  return at == entries.end() ? "" : std::string(to_string(at->info.origin));
+}
+
+std::string origin_of(const SetKey& key, const std::string& label) {
+  const std::string name = label.substr(0, label.find(' '));
+  return key.narrow() ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
+}
+
+std::vector<double> values_of(const std::map<SquareKey, double>& squares) {
+  std::vector<double> values;
+  for (const auto& [square, value] : squares) values.push_back(value);
+  return values;
+}
+
+std::vector<double> logs(std::vector<double> values) {
+  for (double& value : values) value = std::log(value);
+  return values;
+}
+
+// What is corrected over a table: each row's p becomes its p_corrected.
+template <class Row>
+void correct(std::vector<Row>& rows, const auto& counts) {
+  std::vector<double> p;
+  for (const Row& row : rows) {
+    if (counts(row)) p.push_back(row.p);
+  }
+  const std::vector<double> corrected = holm(p);
+  std::size_t next = 0;
+  for (Row& row : rows) row.p_corrected = counts(row) ? corrected[next++] : row.p;
+}
+
+TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise) {
+  TimeRow row;
+  row.key = set.key;
+  row.label = contestant.label;
+  row.origin = origin_of(set.key, contestant.label);
+  row.seconds = median_interval(values_of(by_square(contestant, noise)), confidence);
+  row.minimum = nan;
+  std::vector<double> all;
+  std::array<std::vector<double>, 4> parts;
+  for (const Sample& sample : contestant.samples) {
+    ++row.samples;
+    row.noisy += sample.noisy;
+    const double value = sample.seconds() / sample.units;
+    if (!std::isfinite(value)) continue;
+    if (!(value >= row.minimum)) row.minimum = value;
+    if (sample.noisy && noise == Noise::left_out) continue;
+    all.push_back(value);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (!std::isnan(sample.parts[i])) parts[i].push_back(sample.parts[i] / sample.units);
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) row.parts[i] = median(std::move(parts[i]));
+  for (const double z : modified_z(all)) row.outliers += std::abs(z) > outlier_z;
+  row.wrong = is_wrong(set, contestant);
+  row.failure = contestant.failure;
+  return row;
+}
+
+RatioRow ratio_row(const SampleSet& set, const Contestant& a, const Contestant& base, bool canary,
+                   Noise noise) {
+  const std::vector<double> ratios = paired_log_ratios(a, base, noise);
+  return {set.key,
+          a.label,
+          base.label,
+          canary,
+          exponential(median_interval(ratios, confidence)),
+          sign_test(ratios),
+          1};
+}
+
+// The log ratios of a contestant to the baseline: how those that were never in one square meet.
+std::vector<double> to_baseline(const SampleSet& set, const Contestant& contestant, Noise noise) {
+  return paired_log_ratios(contestant, set.baseline(), noise);
+}
+
+std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise) {
+  struct Entry {
+    const Contestant* contestant;
+    double ratio;  // log, to the baseline
+  };
+  std::vector<Entry> entries;
+  for (const Contestant& contestant : set.contestants) {
+    if (is_wrong(set, contestant) || !contestant.failure.empty()) continue;
+    const double ratio = median(to_baseline(set, contestant, noise));
+    if (!std::isnan(ratio)) entries.push_back({&contestant, ratio});
+  }
+  if (entries.size() < 2) return std::nullopt;
+  std::ranges::stable_sort(entries, {}, &Entry::ratio);
+  const Contestant& winner = *entries[0].contestant;
+  const Contestant& runner_up = *entries[1].contestant;
+  WinnerRow row{set.key, winner.label, runner_up.label, {}, 1, 1};
+  const std::vector<double> paired = paired_log_ratios(runner_up, winner, noise);
+  if (!paired.empty()) {
+    row.ratio = exponential(median_interval(paired, confidence));
+    row.p = sign_test(paired);
+  } else {
+    const std::vector<double> of_winner = to_baseline(set, winner, noise);
+    const std::vector<double> of_runner_up = to_baseline(set, runner_up, noise);
+    row.ratio = exponential(shift(of_winner, of_runner_up, confidence));
+    row.p = mann_whitney(of_winner, of_runner_up);
+  }
+  return row;
+}
+
+std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times) {
+  struct Points {
+    std::vector<double> counts, seconds;
+  };
+  std::vector<ExponentRow> rows;
+  std::vector<Points> points;
+  for (const TimeRow& time : times) {
+    if (time.key.narrow() || std::isnan(time.seconds.median)) continue;
+    SetKey key = time.key;
+    key.bodies = 0;
+    key.seed = key.scene_hash = "";
+    auto at = std::ranges::find_if(
+        rows, [&](const ExponentRow& row) { return row.key == key && row.label == time.label; });
+    if (at == rows.end()) {
+      points.emplace_back();
+      at = rows.insert(rows.end(), {key, time.label, {}, {}});
+    }
+    at->counts.push_back(time.key.bodies);
+    Points& own = points[static_cast<std::size_t>(at - rows.begin())];
+    own.counts.push_back(static_cast<double>(time.key.bodies));
+    own.seconds.push_back(time.seconds.median);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].law = fit_power_law(points[i].counts, points[i].seconds, confidence);
+    std::ranges::sort(rows[i].counts);
+    const auto repeated = std::ranges::unique(rows[i].counts);
+    rows[i].counts.erase(repeated.begin(), repeated.end());
+  }
+  std::erase_if(rows, [](const ExponentRow& row) { return std::isnan(row.law.exponent); });
+  return rows;
+}
+
+std::vector<SpeedUpRow> speed_up_rows(const Results& results, Noise noise) {
+  std::vector<SpeedUpRow> rows;
+  for (const SampleSet& set : results.sets) {
+    // The same set with the fewest threads.
+    const SampleSet* base = &set;
+    bool alone = true;
+    for (const SampleSet& other : results.sets) {
+      SetKey key = other.key;
+      key.threads = set.key.threads;
+      if (key != set.key) continue;
+      alone = alone && &other == &set;
+      if (other.key.threads < base->key.threads) base = &other;
+    }
+    if (alone) continue;
+    for (const Contestant& contestant : set.contestants) {
+      const Contestant* const alike = base->find(contestant.label);
+      if (alike == nullptr) continue;
+      const MedianInterval speed_up =
+          exponential(shift(logs(values_of(by_square(contestant, noise))),
+                            logs(values_of(by_square(*alike, noise))), confidence));
+      if (std::isnan(speed_up.median)) continue;
+      rows.push_back({set.key, contestant.label, base->key.threads, speed_up});
+    }
+  }
+  return rows;
+}
+
+std::optional<AgreementRow> agreement_row(const SampleSet& set, const Contestant& contestant) {
+  AgreementRow row{set.key, contestant.label, origin_of(set.key, contestant.label)};
+  for (const Check& check : contestant.checks) {
+    if (check.pair_count < 0) continue;
+    const std::int64_t wrong = std::max<std::int64_t>(check.disagreements, 0);
+    const std::int64_t failed = std::max<std::int64_t>(check.failures, 0);
+    const std::int64_t compared = check.compared >= 0 ? check.compared : check.pair_count - failed;
+    row.queries += check.pair_count;
+    row.wrong += wrong;
+    row.failed += failed;
+    row.right += std::max<std::int64_t>(compared - wrong, 0);
+  }
+  row.unanswered = std::max<std::int64_t>(row.queries - row.right - row.wrong - row.failed, 0);
+  return row.queries > 0 ? std::optional(row) : std::nullopt;
+}
+
+}  // namespace
+
+bool is_wrong(const SampleSet& set, const Contestant& contestant) {
+  if (set.key.narrow()) {
+    return std::ranges::any_of(contestant.checks,
+                               [](const Check& check) { return check.disagreements > 0; });
+  }
+  // The pairs of each frame by those of 'naive', else by what most found.
+  const Contestant* const naive = set.find("naive");
+  return std::ranges::any_of(contestant.checks, [&](const Check& check) {
+    if (check.pair_hash.empty()) return false;
+    std::map<std::string, int> votes;
+    for (const Contestant& voter : set.contestants) {
+      if (naive != nullptr && &voter != naive) continue;
+      for (const Check& other : voter.checks) {
+        if (other.frame == check.frame && !other.pair_hash.empty()) ++votes[other.pair_hash];
+      }
+    }
+    const auto most =
+        std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; });
+    return most != votes.end() && votes[check.pair_hash] < most->second;
+  });
+}
+
+Tables make_tables(const Results& results, Noise noise) {
+  Tables tables;
+  tables.campaign = results.campaign;
+  for (const char* name : {"processor", "cores_online", "memory", "governor", "kernel", "compiler",
+                           "flags", "instructions_in_use", "commit", "tree"}) {
+    const auto at = results.machine.find(name);
+    if (at != results.machine.end()) tables.machine.push_back(at->first + ": " + at->second);
+  }
+  for (const SampleSet& set : results.sets) {
+    const Contestant& base = set.baseline();
+    for (const Contestant& contestant : set.contestants) {
+      tables.times.push_back(time_row(set, contestant, noise));
+      if (&contestant != &base && !contestant.samples.empty()) {
+        tables.ratios.push_back(ratio_row(set, contestant, base, false, noise));
+      }
+      if (!set.key.narrow()) continue;
+      if (auto row = agreement_row(set, contestant)) tables.agreement.push_back(*std::move(row));
+    }
+    if (!set.twin.samples.empty()) {
+      tables.ratios.push_back(ratio_row(set, set.twin, base, true, noise));
+    }
+    if (auto row = winner_row(set, noise)) tables.winners.push_back(*std::move(row));
+  }
+  correct(tables.ratios, [](const RatioRow& row) { return !row.canary; });
+  correct(tables.winners, [](const WinnerRow&) { return true; });
+  tables.exponents = exponent_rows(tables.times);
+  tables.speed_ups = speed_up_rows(results, noise);
+  return tables;
+}
+
+}  // namespace touchstone::stats

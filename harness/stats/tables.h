@@ -1,0 +1,90 @@
+// The tables of a results folder: every number of them is computed from raw.csv.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/stats/samples.h"
+#include "harness/stats/statistics.h"
+
+namespace touchstone::stats {
+
+// One contestant of one set.
+struct TimeRow {
+  SetKey key;
+  std::string label, origin;    // ours, peer, oracle; empty where the registry knows it not
+  bool per_query = false;       // the times are of a query, not of a frame
+  MedianInterval seconds;       // over the squares
+  double minimum = 0;           // of all samples, noisy ones too: noise only adds
+  std::array<double, 4> parts;  // medians of the phases, NaN where there is none
+  std::int64_t samples = 0, noisy = 0, outliers = 0;
+  bool wrong = false;   // departs from the pairs or answers of the others
+  std::string failure;  // crashed, timed_out, unsupported
+};
+
+// A contestant's time over the baseline's. The twin's row is the canary: its true ratio is 1.
+struct RatioRow {
+  SetKey key;
+  std::string label, baseline;
+  bool canary = false;
+  MedianInterval ratio;           // exp of the median of paired log ratios over the squares
+  double p = 1, p_corrected = 1;  // sign test; Holm over the table, canaries apart
+};
+
+// The fastest of those that answer right, against the next.
+struct WinnerRow {
+  SetKey key;
+  std::string winner, runner_up;
+  MedianInterval ratio;  // of the runner-up's time over the winner's
+  double p = 1, p_corrected = 1;
+};
+
+// How time grows with the number of bodies: least squares on the logarithms of the medians.
+struct ExponentRow {
+  SetKey key;  // bodies 0, seed and scene_hash empty
+  std::string label;
+  std::vector<std::int64_t> counts;
+  PowerLaw law;  // of seconds over bodies
+};
+
+// The time with the fewest threads over that with these.
+struct SpeedUpRow {
+  SetKey key;
+  std::string label;
+  std::int64_t base_threads = 1;
+  MedianInterval speed_up;
+};
+
+// How the answers of a narrow phase agree with the exact ones, over all its verified frames.
+struct AgreementRow {
+  SetKey key;
+  std::string label, origin;
+  std::int64_t queries = 0, right = 0, wrong = 0, failed = 0, unanswered = 0;
+};
+
+struct Tables {
+  std::string campaign;
+  std::vector<std::string> machine;  // what tells the machine, "processor: ..."
+  std::vector<TimeRow> times;
+  std::vector<RatioRow> ratios;
+  std::vector<WinnerRow> winners;
+  std::vector<ExponentRow> exponents;
+  std::vector<SpeedUpRow> speed_ups;
+  std::vector<AgreementRow> agreement;
+};
+
+Tables make_tables(const Results& results, Noise noise);
+
+// Whether a contestant found other pairs than the rest, or gave an answer that the exact one
+// contradicts.
+bool is_wrong(const SampleSet& set, const Contestant& contestant);
+
+// Writes tables.md and times.csv, ratios.csv, winners.csv, exponents.csv, speed_ups.csv,
+// agreement.csv into the folder. `band`: ratios.csv states for each cell the band within which its
+// ratio holds: the interval, widened by this factor at both ends. InputError where a file cannot be
+// written.
+void write_tables(const Tables& tables, double band, const std::filesystem::path& folder);
+
+}  // namespace touchstone::stats

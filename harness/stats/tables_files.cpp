@@ -1,0 +1,262 @@
+// The tables as files: Markdown for people, CSV for programs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "harness/error.h"
+#include "harness/io/csv.h"
+#include "harness/stats/tables.h"
+
+namespace touchstone::stats {
+namespace {
+
+const std::vector<std::string> key_columns = {
+    "scene", "scene_hash", "bodies", "seed", "boxes", "threads", "task", "pair_kind", "pairs_of"};
+
+// A CSV file whose rows begin with a set's key.
+class TableFile {
+ public:
+  TableFile(const std::filesystem::path& file, const std::vector<std::string>& columns)
+      : csv_(file, joined(columns)) {}
+  CsvWriter& row(const SetKey& key) {
+    csv_.field(key.scene).field(key.scene_hash);
+    if (key.bodies > 0) {
+      csv_.field(key.bodies);
+    } else {
+      csv_.field("");
+    }
+    csv_.field(key.seed).field(key.boxes).field(key.threads);
+    return csv_.field(key.task).field(key.pair_kind).field(key.pairs_of);
+  }
+  void close() { csv_.close(); }
+
+ private:
+  static std::vector<std::string> joined(const std::vector<std::string>& columns) {
+    std::vector<std::string> all = key_columns;
+    all.insert(all.end(), columns.begin(), columns.end());
+    return all;
+  }
+  CsvWriter csv_;
+};
+
+std::string text(double value, const char* none = "-") {
+  return std::isnan(value) ? none : fmt::format("{:.4g}", value);
+}
+
+std::string interval(const MedianInterval& values, double scale = 1) {
+  return std::isnan(values.low)
+             ? std::string("-")
+             : fmt::format("{:.4g} to {:.4g}", values.low * scale, values.high * scale);
+}
+
+std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
+
+// The bars of a table's row, with what would end a cell made harmless.
+std::string line(const std::vector<std::string>& cells) {
+  std::string all = "|";
+  for (std::string cell : cells) {
+    for (auto at = cell.find('|'); at != std::string::npos; at = cell.find('|', at + 2)) {
+      cell.insert(at, "\\");
+    }
+    all += " " + cell + " |";
+  }
+  return all + "\n";
+}
+
+std::string header(const std::vector<std::string>& names, std::size_t words = 1) {
+  std::string rule = "|";
+  for (std::size_t i = 0; i < names.size(); ++i) rule += i < words ? "---|" : "---:|";
+  return line(names) + rule + "\n";
+}
+
+std::string remark(const TimeRow& row) {
+  std::vector<std::string> words;
+  if (row.wrong) words.emplace_back("**wrong on some**");
+  if (!row.failure.empty()) words.push_back(row.failure);
+  if (row.noisy > 0) words.push_back(fmt::format("{} of {} noisy", row.noisy, row.samples));
+  if (row.outliers > 0) words.push_back(fmt::format("{} outliers", row.outliers));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// The times of one set, each beside its ratio to the baseline.
+std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) {
+  const TimeRow& first = tables.times[begin];
+  const bool broad = !first.key.narrow();
+  const double scale = broad ? 1e3 : 1e9;
+  std::vector<std::string> names = {"", broad ? "ms a frame" : "ns a query", "95 % interval",
+                                    "minimum"};
+  if (broad) names.insert(names.end(), {"build", "update", "find pairs"});
+  names.insert(names.end(), {"ratio", "95 % interval", "p (Holm)", "squares", "remarks"});
+  std::string body;
+  std::string baseline;
+  std::string canary;
+  const auto ratio_of = [&](const std::string& label, bool of_twin) -> const RatioRow* {
+    const auto at = std::ranges::find_if(tables.ratios, [&](const RatioRow& row) {
+      return row.key == first.key && row.label == label && row.canary == of_twin;
+    });
+    return at == tables.ratios.end() ? nullptr : &*at;
+  };
+  for (std::size_t i = begin; i < end; ++i) {
+    const TimeRow& row = tables.times[i];
+    std::vector<std::string> cells = {row.label, text(row.seconds.median * scale),
+                                      interval(row.seconds, scale), text(row.minimum * scale)};
+    if (broad) {
+      for (const Part part : {Part::build, Part::update, Part::find_pairs}) {
+        cells.push_back(text(row.parts[static_cast<std::size_t>(part)] * scale));
+      }
+    }
+    if (const RatioRow* const ratio = ratio_of(row.label, false)) {
+      baseline = ratio->baseline;
+      cells.insert(cells.end(), {text(ratio->ratio.median), interval(ratio->ratio),
+                                 probability(ratio->p_corrected)});
+    } else {
+      cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-", "-"});
+    }
+    cells.push_back(std::to_string(row.seconds.n));
+    cells.push_back(remark(row));
+    body += line(cells);
+    if (const RatioRow* const twin = ratio_of(row.label, true)) {
+      const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
+      canary = fmt::format("The canary, {} against itself: {}, {}{}.\n", row.label,
+                           text(twin->ratio.median), interval(twin->ratio),
+                           told_apart ? " (**told apart**: trust no smaller difference)" : "");
+    }
+  }
+  std::string all = fmt::format("### {}\n\n", first.key.words());
+  if (!baseline.empty()) all += fmt::format("Ratios are to {}. ", baseline);
+  if (!baseline.empty() || !canary.empty()) all += canary + "\n";
+  return all + header(names) + body + "\n";
+}
+
+std::string markdown(const Tables& tables) {
+  std::string all = fmt::format("# Tables of the campaign {}\n\n", tables.campaign);
+  for (const std::string& fact : tables.machine) all += fmt::format("- {}\n", fact);
+  all +=
+      "\nTimes are medians over squares, intervals those of the sign test at 95 %. A ratio is the "
+      "median of\npaired log ratios. p is corrected over the whole table by Holm's method. "
+      "`-`: too few samples to tell.\n\n";
+  if (!tables.winners.empty()) {
+    all += "## Winner against runner-up\n\n";
+    all += header(
+        {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
+    for (const WinnerRow& row : tables.winners) {
+      all += line({row.key.words(), row.winner, row.runner_up, text(row.ratio.median),
+                   interval(row.ratio), probability(row.p_corrected)});
+    }
+    all += "\n";
+  }
+  if (!tables.exponents.empty()) {
+    all += "## Scaling: time grows as bodies to the power of\n\n";
+    all += header({"input", "algorithm", "exponent", "95 % interval", "counts"}, 2);
+    for (const ExponentRow& row : tables.exponents) {
+      all += line({fmt::format("{}, {} boxes, {} thread{}", row.key.scene, row.key.boxes,
+                               row.key.threads, row.key.threads == 1 ? "" : "s"),
+                   row.label, fmt::format("{:.2f}", row.law.exponent),
+                   std::isnan(row.law.low)
+                       ? std::string("-")
+                       : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
+                   fmt::format("{}", fmt::join(row.counts, ", "))});
+    }
+    all += "\n";
+  }
+  if (!tables.speed_ups.empty()) {
+    all += "## Speed-up by threads\n\n";
+    all += header({"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
+    for (const SpeedUpRow& row : tables.speed_ups) {
+      all += line({row.key.words(), row.label, std::to_string(row.base_threads),
+                   text(row.speed_up.median), interval(row.speed_up)});
+    }
+    all += "\n";
+  }
+  if (!tables.agreement.empty()) {
+    all += "## Agreement with the exact answers\n\n";
+    all += header({"input", "algorithm", "queries", "right", "wrong", "failed", "unanswered"}, 2);
+    for (const AgreementRow& row : tables.agreement) {
+      all += line({row.key.words(), row.label, std::to_string(row.queries),
+                   std::to_string(row.right), std::to_string(row.wrong), std::to_string(row.failed),
+                   std::to_string(row.unanswered)});
+    }
+    all += "\n";
+  }
+  all += "## Times\n\n";
+  for (std::size_t begin = 0; begin < tables.times.size();) {
+    std::size_t end = begin;
+    while (end < tables.times.size() && tables.times[end].key == tables.times[begin].key) ++end;
+    all += set_table(tables, begin, end);
+    begin = end;
+  }
+  return all;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& content) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << content;
+  stream.close();
+  if (!stream) {
+    throw InputError(file.string(), 0, fmt::format("cannot be written: {}", std::strerror(errno)));
+  }
+}
+
+}  // namespace
+
+void write_tables(const Tables& tables, double band, const std::filesystem::path& folder) {
+  TableFile times(folder / "times.csv",
+                  {"algorithm", "origin", "unit", "seconds", "seconds_low", "seconds_high",
+                   "minimum", "build", "update", "find_pairs", "narrow", "squares", "samples",
+                   "noisy", "outliers", "wrong", "failure"});
+  for (const TimeRow& row : tables.times) {
+    CsvWriter& csv = times.row(row.key).field(row.label).field(row.origin);
+    csv.field(row.key.narrow() ? "query" : "frame").field(row.seconds.median);
+    csv.field(row.seconds.low).field(row.seconds.high).field(row.minimum);
+    for (const double part : row.parts) csv.field(part);
+    csv.field(row.seconds.n).field(row.samples).field(row.noisy).field(row.outliers);
+    csv.field(int{row.wrong}).field(row.failure).end_row();
+  }
+  times.close();
+  TableFile ratios(folder / "ratios.csv",
+                   {"algorithm", "baseline", "canary", "ratio", "ratio_low", "ratio_high",
+                    "squares", "p", "p_corrected", "band_low", "band_high"});
+  for (const RatioRow& row : tables.ratios) {
+    CsvWriter& csv = ratios.row(row.key).field(row.label).field(row.baseline);
+    csv.field(int{row.canary}).field(row.ratio.median).field(row.ratio.low).field(row.ratio.high);
+    csv.field(row.ratio.n).field(row.p).field(row.p_corrected);
+    csv.field(row.ratio.low / band).field(row.ratio.high * band).end_row();
+  }
+  ratios.close();
+  TableFile winners(folder / "winners.csv", {"winner", "runner_up", "ratio", "ratio_low",
+                                             "ratio_high", "squares", "p", "p_corrected"});
+  for (const WinnerRow& row : tables.winners) {
+    CsvWriter& csv = winners.row(row.key).field(row.winner).field(row.runner_up);
+    csv.field(row.ratio.median).field(row.ratio.low).field(row.ratio.high).field(row.ratio.n);
+    csv.field(row.p).field(row.p_corrected).end_row();
+  }
+  winners.close();
+  TableFile exponents(folder / "exponents.csv", {"algorithm", "exponent", "exponent_low",
+                                                 "exponent_high", "factor", "counts"});
+  for (const ExponentRow& row : tables.exponents) {
+    CsvWriter& csv = exponents.row(row.key).field(row.label).field(row.law.exponent);
+    csv.field(row.law.low).field(row.law.high).field(row.law.factor);
+    csv.field(fmt::format("{}", fmt::join(row.counts, " "))).end_row();
+  }
+  exponents.close();
+  TableFile speed_ups(folder / "speed_ups.csv",
+                      {"algorithm", "base_threads", "speed_up", "speed_up_low", "speed_up_high"});
+  for (const SpeedUpRow& row : tables.speed_ups) {
+    CsvWriter& csv = speed_ups.row(row.key).field(row.label).field(row.base_threads);
+    csv.field(row.speed_up.median).field(row.speed_up.low).field(row.speed_up.high).end_row();
+  }
+  speed_ups.close();
+  TableFile agreement(folder / "agreement.csv",
+                      {"algorithm", "origin", "queries", "right", "wrong", "failed", "unanswered"});
+  for (const AgreementRow& row : tables.agreement) {
+    CsvWriter& csv = agreement.row(row.key).field(row.label).field(row.origin).field(row.queries);
+    csv.field(row.right).field(row.wrong).field(row.failed).field(row.unanswered).end_row();
+  }
+  agreement.close();
+  write_text(folder / "tables.md", markdown(tables));
+}
+
+}  // namespace touchstone::stats

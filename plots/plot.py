@@ -1,0 +1,21 @@
+"""Every figure of a results folder: what `touchstone plot` runs."""
+
+import sys
+
+import agreement
+import common
+import phases
+import speed_up
+import time_against_count
+import winners
+
+FIGURES = {
+    "time_against_count": time_against_count.draw,
+    "speed_up": speed_up.draw,
+    "phases": phases.draw,
+    "winners": winners.draw,
+    "agreement": agreement.draw,
+}
+
+if __name__ == "__main__":
+    sys.exit(common.run(FIGURES, __doc__))

@@ -1,0 +1,81 @@
+// The scripts in plots/, as `touchstone plot` runs them.
+#include <string>
+
+#include "tests/harness/commands/program.h"
+#include "tests/harness/stats/sample_file.h"
+
+namespace touchstone {
+namespace {
+
+// A Python with matplotlib; empty where there is none.
+std::string python() {
+  for (const std::string name : {"/usr/bin/python3", "python3"}) {
+    if (std::system((name + " -c 'import matplotlib' 2>/dev/null").c_str()) == 0) return name;
+  }
+  return "";
+}
+
+Ran plot(const std::string& arguments) {
+  return run_shell(python() +
+                   " -B " TOUCHSTONE_SOURCE_DIR "/plots/plot.py --program " TOUCHSTONE_PROGRAM " " +
+                   arguments);
+}
+
+// Scenes at three counts and two widths, with a peer, and narrow phases that fail and err.
+FakeRun varied_run() {
+  FakeRun run;
+  for (const std::string scene : {"uniform", "rotating_gravity"}) {
+    for (const int threads : {1, 2}) {
+      for (const int bodies : {1000, 4000, 16000}) {
+        FakeBlock block;
+        block.scene = scene;
+        block.bodies = bodies;
+        block.threads = threads;
+        block.scene_hash = scene + std::to_string(bodies);
+        block.contestants = {{"sweep-and-prune", 1e-6 * bodies / threads},
+                             {"naive", 1e-9 * bodies * bodies},
+                             {"bullet-tree", 1.1e-6 * bodies}};
+        run.blocks.push_back(block);
+      }
+    }
+  }
+  FakeBlock narrow;
+  narrow.task = "distance";
+  narrow.pair_kind = "box-sphere";
+  narrow.contestants = {{"gjk", 100e-9}, {"bullet-gjk-epa", 130e-9, "00000000000000aa", "ok", 3}};
+  run.blocks.push_back(narrow);
+  return run;
+}
+
+TEST(Plots, EveryFigureInTheSameBytesTwice) {
+  if (python().empty()) GTEST_SKIP() << "no matplotlib";
+  const TemporaryFolder folder;
+  const std::string results = varied_run().write(folder.path() / "r").string();
+  for (const char* out : {"one", "two"}) {
+    const Ran ran = plot(results + " --out " + (folder.path() / out).string());
+    ASSERT_EQ(ran.status, 0) << ran.text;
+  }
+  for (const char* name : {"time_against_count", "speed_up", "phases", "winners", "agreement"}) {
+    for (const char* ending : {".svg", ".pdf", ".png"}) {
+      const std::string one = folder.read(std::string("one/") + name + ending);
+      EXPECT_GT(one.size(), 1000u) << name << ending;
+      EXPECT_TRUE(one == folder.read(std::string("two/") + name + ending)) << name << ending;
+    }
+  }
+}
+
+TEST(Plots, BadRequestsAreTold) {
+  if (python().empty()) GTEST_SKIP() << "no matplotlib";
+  const TemporaryFolder folder;
+  const std::string none = (folder.path() / "none").string();
+  Ran ran = plot(none);
+  EXPECT_EQ(ran.status, 2) << ran.text;
+  EXPECT_THAT(ran.text, testing::HasSubstr(none));
+  FakeRun run;
+  ran = plot(run.write(folder.path() / "empty").string());
+  EXPECT_EQ(ran.status, 2) << ran.text;
+  EXPECT_THAT(ran.text, testing::HasSubstr("nothing was drawn"));
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,138 @@
+#include "harness/measure/worker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+namespace touchstone {
+namespace {
+
+// Answers with the frame; at frame 3 it does harm.
+class Fake final : public Sampler {
+ public:
+  explicit Fake(std::function<void()> harm) : harm_(std::move(harm)) {}
+  SampleReply sample(const SampleRequest& request) override {
+    if (request.frame == 3) harm_();
+    SampleReply reply;
+    reply.pairs = request.frame;
+    return reply;
+  }
+
+ private:
+  std::function<void()> harm_;
+};
+
+IsolationFailure failure_of(const std::function<void()>& harm) {
+  Worker worker([&] { return std::make_unique<Fake>(harm); },
+                {.memory = std::size_t{256} << 20, .layout = 1});
+  EXPECT_FALSE(worker.wait_until_made(10));
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    const auto reply = worker.ask({.frame = frame}, 10);
+    EXPECT_TRUE(reply && reply->pairs == frame);
+  }
+  EXPECT_FALSE(worker.ask({.frame = 3}, 0.3));
+  EXPECT_FALSE(worker.alive());
+  EXPECT_FALSE(worker.ask({.frame = 4}, 10)) << "dead is dead";
+  return worker.failure();
+}
+
+void expect_no_child_is_left() {
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(Worker, ACrashIsTold) {
+  const IsolationFailure failure = failure_of([] {
+    std::fputs("the last words\n", stderr);
+    std::raise(SIGSEGV);
+  });
+  EXPECT_EQ(failure.state, ItemState::crashed);
+  EXPECT_EQ(failure.signal, SIGSEGV);
+  EXPECT_EQ(failure.words, "the last words");
+  expect_no_child_is_left();
+}
+
+TEST(Worker, AHangIsEnded) {
+  EXPECT_EQ(failure_of([] { pause(); }).state, ItemState::timed_out);
+  expect_no_child_is_left();
+}
+
+TEST(Worker, WhatIsThrownIsTold) {
+  const IsolationFailure failure = failure_of([] { throw std::runtime_error("no such luck"); });
+  EXPECT_EQ(failure.state, ItemState::threw);
+  EXPECT_EQ(failure.words, "no such luck");
+}
+
+TEST(Worker, LeavingIsTold) {
+  const IsolationFailure failure = failure_of([] { _exit(7); });
+  EXPECT_EQ(failure.state, ItemState::crashed);
+  EXPECT_EQ(failure.exit_code, 7);
+}
+
+TEST(Worker, WhatPrintsALotIsHeardAndNotStopped) {
+  const IsolationFailure failure = failure_of([] {
+    for (int i = 0; i < 100'000; ++i) std::fputs("talk talk talk\n", stderr);
+    std::abort();
+  });
+  EXPECT_EQ(failure.signal, SIGABRT);
+  EXPECT_THAT(failure.words, testing::EndsWith("talk"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Worker, ALeakEndsAtTheLimit) {
+  const IsolationFailure failure = failure_of([] {
+    for (;;) {
+      volatile char* const lost = new char[1 << 20];
+      lost[0] = 1;
+    }
+  });
+  EXPECT_EQ(failure.state, ItemState::threw);
+  EXPECT_THAT(failure.words, testing::HasSubstr("bad_alloc"));
+}
+#endif
+
+TEST(Worker, AFailureBeforeTheFirstSampleIsTold) {
+  Worker worker([]() -> std::unique_ptr<Sampler> { throw std::runtime_error("not today"); }, {});
+  const auto failure = worker.wait_until_made(10);
+  ASSERT_TRUE(failure);
+  EXPECT_TRUE(failure->in_setup);
+  EXPECT_EQ(failure->words, "not today");
+}
+
+TEST(Worker, LayoutsDiffer) {
+  // Where a new piece of memory lies tells where the heap was.
+  struct Where final : Sampler {
+    SampleReply sample(const SampleRequest&) override {
+      SampleReply reply;
+      char here = 0;
+      const auto heap = std::make_unique<char[]>(5000);
+      reply.pairs = static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(heap.get()));
+      reply.contacts = static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(&here));
+      return reply;
+    }
+  };
+  std::set<std::int64_t> heaps, stacks;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Worker worker([] { return std::make_unique<Where>(); }, {.layout = seed});
+    EXPECT_FALSE(worker.wait_until_made(10));
+    const auto reply = worker.ask({}, 10);
+    ASSERT_TRUE(reply);
+    heaps.insert(reply->pairs);
+    stacks.insert(reply->contacts);
+  }
+  EXPECT_GE(heaps.size(), 3u);
+  EXPECT_GE(stacks.size(), 7u);
+}
+
+}  // namespace
+}  // namespace touchstone

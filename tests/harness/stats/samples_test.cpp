@@ -1,0 +1,123 @@
+#include "harness/stats/samples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/stats/statistics.h"
+#include "tests/harness/input_fault.h"
+#include "tests/harness/stats/sample_file.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone::stats {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Samples : public testing::Test {
+ protected:
+  Results read(const FakeRun& run) { return read_results(run.write(folder_.path() / "r")); }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Samples, SetsContestantsAndSquares) {
+  const Results results = read(fake_run());
+  EXPECT_EQ(results.campaign, "fake");
+  EXPECT_THAT(results.isa, ElementsAre("avx2"));
+  EXPECT_EQ(results.machine.at("processor"), "Test CPU");
+  ASSERT_EQ(results.sets.size(), 2u);
+  const SampleSet& broad = results.sets[0];
+  EXPECT_EQ(broad.key.words(), "uniform, 1000 bodies, tight boxes, 2 threads, broad phases");
+  ASSERT_EQ(broad.contestants.size(), 3u);
+  EXPECT_EQ(broad.baseline().label, "sweep-and-prune");
+  EXPECT_EQ(broad.twin.samples.size(), 3u * 4 * 4);
+  const Contestant& first = broad.contestants[0];
+  EXPECT_EQ(first.samples.size(), 3u * 4 * 4);
+  EXPECT_EQ(first.checks.size(), 8u);
+  EXPECT_TRUE(std::isnan(first.samples[0].parts[0]));
+  EXPECT_NEAR(first.samples[0].parts[1] * 3, first.samples[0].parts[2], 1e-9);
+  EXPECT_EQ(by_square(first, Noise::left_out).size(), 12u);
+  const SampleSet& narrow = results.sets[1];
+  EXPECT_EQ(narrow.key.words(),
+            "uniform, 1000 bodies, tight boxes, 2 threads, distance box-sphere");
+  EXPECT_EQ(narrow.contestants[1].label, "mpr double");
+  EXPECT_EQ(narrow.contestants[0].samples[0].units, 8 * 50);
+}
+
+TEST_F(Samples, TimesAreASumOfPhasesForAUnit) {
+  const Results results = read(fake_run());
+  const auto middle = [&](std::size_t set, std::size_t contestant) {
+    std::vector<double> values;
+    for (const auto& [square, value] :
+         by_square(results.sets[set].contestants[contestant], Noise::left_out)) {
+      values.push_back(value);
+    }
+    return median(values);
+  };
+  EXPECT_NEAR(middle(0, 1) / 2e-3, 1, 0.1);
+  EXPECT_NEAR(middle(1, 0) / 100e-9, 1, 0.1);
+}
+
+TEST_F(Samples, RatiosArePairedBySquare) {
+  // What a square shares, here a factor that varies by half, cancels.
+  FakeRun run = fake_run();
+  run.square_spread = 0.5;
+  const Results results = read(run);
+  const SampleSet& set = results.sets[0];
+  const auto ratios = paired_log_ratios(set.contestants[1], set.contestants[0], Noise::left_out);
+  ASSERT_EQ(ratios.size(), 12u);
+  for (const double ratio : ratios) EXPECT_NEAR(std::exp(ratio), 2, 0.02);
+}
+
+TEST_F(Samples, NoisyRoundsAreLeftOutUnlessAskedFor) {
+  FakeRun run = fake_run();
+  run.noisy_squares = 1;
+  const Results results = read(run);
+  const Contestant& contestant = results.sets[0].contestants[0];
+  EXPECT_EQ(by_square(contestant, Noise::left_out).size(), 9u);
+  EXPECT_EQ(by_square(contestant, Noise::kept).size(), 12u);
+  EXPECT_GT(by_square(contestant, Noise::kept).at({0, 0}), 5e-3);
+}
+
+TEST_F(Samples, FailuresAreRemembered) {
+  FakeRun run = fake_run();
+  run.blocks[0].contestants[1].status = "crashed";
+  const Results results = read(run);
+  EXPECT_EQ(results.sets[0].contestants[1].failure, "crashed");
+  EXPECT_TRUE(results.sets[0].contestants[1].samples.empty());
+  EXPECT_EQ(results.sets[0].contestants[0].failure, "");
+}
+
+TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
+  const std::string raw = fake_run().raw();
+  const auto fault = [&](const std::string& from, const std::string& to) {
+    std::string text = raw;
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    const auto file = folder_.write("raw.csv", text);
+    return folder_.without_path(input_fault([&] { read_results(file); }));
+  };
+  EXPECT_THAT(fault("ok,check", "ok,chequed"),
+              HasSubstr("raw.csv:2: column kind: found 'chequed'; expected check or sample"));
+  EXPECT_THAT(fault(",find_pairs,", ",find,"), HasSubstr("raw.csv:2: column phase: found 'find'"));
+  EXPECT_THAT(fault(",find_pairs,0.001,", ",find_pairs,-1,"), testing::IsEmpty());  // not read
+  EXPECT_THAT(
+      fault("sample,0,0,0,0,0,8", "sample,0,0,0,0,0,0"),
+      HasSubstr("raw.csv:26: column frames: found '0'; expected a whole number of at least 1"));
+  EXPECT_THAT(fault("sample,0,0,0,0,0,8", "sample,0,0,,0,0,8"),
+              HasSubstr("raw.csv:26: column square: found ''"));
+  EXPECT_THAT(fault(",update,", ",update,-"), HasSubstr("raw.csv:26: column seconds"));
+  EXPECT_THAT(fault(",kind,", ",kin,"), HasSubstr("raw.csv:1: no column 'kind'"));
+  EXPECT_THAT(fault("1000", "many"), HasSubstr("raw.csv:2: column bodies: found 'many'"));
+  folder_.write("raw.csv", raw.substr(0, raw.size() - 30));
+  EXPECT_THAT(folder_.without_path(input_fault([&] { read_results(folder_.path()); })),
+              HasSubstr("expected 33, as in the header"));
+  EXPECT_THAT(input_fault([&] { read_results(folder_.path() / "none"); }),
+              HasSubstr("No such file"));
+}
+
+}  // namespace
+}  // namespace touchstone::stats

@@ -1,0 +1,212 @@
+#include "harness/stats/tables.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/stats/table_check.h"
+#include "tests/harness/input_fault.h"
+#include "tests/harness/stats/sample_file.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone::stats {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class TablesOf : public testing::Test {
+ protected:
+  std::filesystem::path write(const FakeRun& run, const std::string& name = "r") {
+    return run.write(folder_.path() / name);
+  }
+  Tables make(const FakeRun& run, Noise noise = Noise::left_out) {
+    return make_tables(read_results(write(run)), noise);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(TablesOf, TimesRatiosAndWinners) {
+  const Tables tables = make(fake_run());
+  ASSERT_EQ(tables.times.size(), 5u);
+  EXPECT_NEAR(tables.times[1].seconds.median / 2e-3, 1, 0.1);
+  EXPECT_LT(tables.times[1].seconds.low, tables.times[1].seconds.median);
+  EXPECT_LT(tables.times[1].minimum, tables.times[1].seconds.low);
+  EXPECT_EQ(tables.times[1].origin, "ours");
+  EXPECT_NEAR(tables.times[1].parts[2] / tables.times[1].parts[1], 3, 0.1);
+  EXPECT_NEAR(tables.times[3].seconds.median / 100e-9, 1, 0.1);
+
+  ASSERT_EQ(tables.ratios.size(), 5u);  // 2 + canary, 1 + canary
+  EXPECT_NEAR(tables.ratios[0].ratio.median, 2, 0.01);
+  EXPECT_LT(tables.ratios[0].ratio.high, 2.02);
+  EXPECT_GT(tables.ratios[0].ratio.low, 1.98);
+  EXPECT_LT(tables.ratios[0].p_corrected, 0.01);
+  EXPECT_TRUE(tables.ratios[2].canary);
+  EXPECT_NEAR(tables.ratios[2].ratio.median, 1, 0.01);
+
+  ASSERT_EQ(tables.winners.size(), 2u);
+  EXPECT_EQ(tables.winners[0].winner, "sweep-and-prune");
+  EXPECT_EQ(tables.winners[0].runner_up, "uniform-grid");
+  EXPECT_NEAR(tables.winners[0].ratio.median, 2, 0.01);
+  EXPECT_EQ(tables.winners[1].winner, "gjk double");
+  EXPECT_NEAR(tables.winners[1].ratio.median, 1.3, 0.01);
+}
+
+TEST_F(TablesOf, WhoIsWrongOrFailedDoesNotWin) {
+  FakeRun run = fake_run();
+  run.blocks[0].contestants[0].pair_hash = "00000000000000bb";
+  run.blocks[1].contestants.push_back({"sat", 50e-9, "00000000000000aa", "ok", 3});
+  const Tables tables = make(run);
+  EXPECT_TRUE(tables.times[0].wrong);
+  EXPECT_FALSE(tables.times[1].wrong);
+  EXPECT_TRUE(tables.times[5].wrong);
+  EXPECT_EQ(tables.winners[0].winner, "uniform-grid");
+  EXPECT_EQ(tables.winners[1].winner, "gjk double");
+  ASSERT_EQ(tables.agreement.size(), 3u);
+  EXPECT_EQ(tables.agreement[2].queries, 8 * 50);
+  EXPECT_EQ(tables.agreement[2].wrong, 8 * 3);
+  EXPECT_EQ(tables.agreement[2].right, 8 * 47);
+  EXPECT_EQ(tables.agreement[2].unanswered, 0);
+}
+
+TEST_F(TablesOf, NoiseIsLeftOutUnlessAskedForAndOutliersStay) {
+  FakeRun run = fake_run();
+  run.noisy_squares = 1;
+  EXPECT_EQ(make(run).times[0].seconds.n, 9u);
+  EXPECT_EQ(make(run).times[0].noisy, 12);
+  EXPECT_LT(make(run).times[0].outliers, 3);
+  const Tables noisy = make(run, Noise::kept);
+  EXPECT_EQ(noisy.times[0].seconds.n, 12u);
+  EXPECT_EQ(noisy.times[0].outliers, 12);
+}
+
+TEST_F(TablesOf, ExponentsAndSpeedUps) {
+  FakeRun run;
+  for (const int threads : {1, 2}) {
+    for (const int bodies : {1000, 4000, 16000}) {
+      FakeBlock block;
+      block.bodies = bodies;
+      block.threads = threads;
+      block.scene_hash = std::to_string(bodies);
+      block.contestants = {{"sweep-and-prune", 1e-6 * bodies / (threads == 2 ? 1.8 : 1)},
+                           {"naive", 1e-9 * bodies * bodies}};
+      run.blocks.push_back(block);
+    }
+  }
+  run.square_spread = 0.002;
+  const Tables tables = make(run);
+  ASSERT_EQ(tables.exponents.size(), 4u);
+  EXPECT_NEAR(tables.exponents[0].law.exponent, 1, 0.01);
+  EXPECT_NEAR(tables.exponents[1].law.exponent, 2, 0.01);
+  EXPECT_LE(tables.exponents[1].law.low, 2.01);
+  EXPECT_THAT(tables.exponents[1].counts, ElementsAre(1000, 4000, 16000));
+  ASSERT_EQ(tables.speed_ups.size(), 12u);
+  for (const SpeedUpRow& row : tables.speed_ups) {
+    const double expected = row.key.threads == 2 && row.label == "sweep-and-prune" ? 1.8 : 1;
+    EXPECT_NEAR(row.speed_up.median, expected, 0.02) << row.label;
+    EXPECT_EQ(row.base_threads, 1);
+  }
+}
+
+TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
+  const Tables tables = make(fake_run());
+  for (const char* name : {"one", "two"}) {
+    std::filesystem::create_directory(folder_.path() / name);
+    write_tables(tables, 1.5, folder_.path() / name);
+  }
+  for (const char* name : {"tables.md", "times.csv", "ratios.csv", "winners.csv", "exponents.csv",
+                           "speed_ups.csv", "agreement.csv"}) {
+    const std::string one = folder_.read(std::string("one/") + name);
+    EXPECT_FALSE(one.empty()) << name;
+    EXPECT_EQ(one, folder_.read(std::string("two/") + name)) << name;
+  }
+  const std::string text = folder_.read("one/tables.md");
+  EXPECT_THAT(text, HasSubstr("- processor: Test CPU"));
+  EXPECT_THAT(text, HasSubstr("### uniform, 1000 bodies, tight boxes, 2 threads, broad phases"));
+  EXPECT_THAT(text, HasSubstr("Ratios are to sweep-and-prune. The canary, sweep-and-prune against "
+                              "itself: "));
+}
+
+TEST_F(TablesOf, ACanaryThatIsToldApartIsTold) {
+  FakeRun run = fake_run();
+  const auto text = [&] {
+    std::filesystem::create_directory(folder_.path() / "t");
+    write_tables(make(run), 1.5, folder_.path() / "t");
+    return folder_.read("t/tables.md");
+  };
+  EXPECT_THAT(text(), testing::Not(HasSubstr("told apart")));
+  run.blocks[0].twin_factor = 1.05;
+  EXPECT_THAT(text(), HasSubstr("told apart"));
+}
+
+TEST(HoldsIn, IntervalAgainstTheBand) {
+  const auto state = [](double low, double high) {
+    return holds({(low + high) / 2, low, high, 12}, 1.5, 3);
+  };
+  EXPECT_EQ(state(1.6, 2.9), Holds::pass);
+  EXPECT_EQ(state(1.5, 3.0), Holds::pass);
+  EXPECT_EQ(state(1.0, 1.4), Holds::fail);
+  EXPECT_EQ(state(3.1, 9.9), Holds::fail);
+  EXPECT_EQ(state(1.4, 1.6), Holds::undecided);
+  EXPECT_EQ(state(1.0, 4.0), Holds::undecided);
+  EXPECT_EQ(state(0.0 / 0.0, 0.0 / 0.0), Holds::undecided);
+  EXPECT_EQ(holds({1, 1, 1, 12}, 0.0 / 0.0, 0.0 / 0.0), Holds::undecided);
+}
+
+TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
+  const auto reference = write(fake_run(), "reference");
+  write_tables(make_tables(read_results(reference), Noise::left_out), 1.2, reference);
+  const auto check = [&](const FakeRun& run) {
+    return check_tables(reference, read_results(write(run, "here")), Noise::left_out);
+  };
+  const auto states = [](const TableCheck& found) {
+    std::vector<std::string> all;
+    for (const CheckedCell& cell : found.cells) {
+      all.push_back(cell.label + " " + std::string(to_string(cell.state)));
+    }
+    return all;
+  };
+  // Another, slower machine with the same ratios.
+  FakeRun run = fake_run();
+  run.seed = 7;
+  run.machine["processor"] = "Slow CPU";
+  for (FakeBlock& block : run.blocks) {
+    for (FakeContestant& c : block.contestants) c.seconds *= 7;
+  }
+  TableCheck found = check(run);
+  EXPECT_THAT(found.changed, IsEmpty());
+  EXPECT_THAT(found.left_out, IsEmpty());
+  EXPECT_THAT(states(found), ElementsAre("uniform-grid pass", "naive pass", "mpr double pass"));
+
+  run.blocks[0].contestants[1].seconds *= 0.5;
+  run.blocks[1].contestants.pop_back();
+  found = check(run);
+  EXPECT_THAT(states(found),
+              ElementsAre("uniform-grid FAIL", "naive pass", "mpr double undecided"));
+  EXPECT_THAT(found.left_out, ElementsAre(AllOf(HasSubstr("mpr double in uniform"),
+                                                HasSubstr("is not in these results"))));
+
+  run = fake_run();
+  run.squares = 1;  // three squares: no interval
+  EXPECT_THAT(states(check(run)),
+              ElementsAre("uniform-grid undecided", "naive undecided", "mpr double undecided"));
+
+  run = fake_run();
+  run.blocks[0].contestants[2].pair_hash = "00000000000000bb";
+  EXPECT_THAT(check(run).changed, ElementsAre(HasSubstr("pair hash 00000000000000aa in the "
+                                                        "reference, 00000000000000bb in these "
+                                                        "results")));
+  run = fake_run();
+  run.blocks[0].scene_hash = "1";
+  EXPECT_THAT(check(run).changed, ElementsAre(HasSubstr("scene uniform with 1000 bodies")));
+
+  folder_.write("reference/ratios.csv", "scene\nuniform\n");
+  EXPECT_THAT(input_fault([&] { check(fake_run()); }), HasSubstr("ratios.csv:1: no column"));
+}
+
+}  // namespace
+}  // namespace touchstone::stats
