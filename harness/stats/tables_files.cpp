@@ -131,6 +131,24 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   return all + header(names) + body + "\n";
 }
 
+// Sums over the inputs and kinds of pairs, which are in agreement.csv.
+std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
+  std::vector<AgreementRow> sums;
+  for (const AgreementRow& row : rows) {
+    auto at = std::ranges::find_if(sums, [&](const AgreementRow& sum) {
+      return sum.key.task == row.key.task && sum.label == row.label;
+    });
+    if (at == sums.end()) at = sums.insert(sums.end(), {row.key, row.label, row.origin});
+    at->queries += row.queries;
+    at->right += row.right;
+    at->wrong += row.wrong;
+    at->failed += row.failed;
+    at->unanswered += row.unanswered;
+  }
+  std::ranges::stable_sort(sums, {}, [](const AgreementRow& sum) { return sum.key.task; });
+  return sums;
+}
+
 std::string markdown(const Tables& tables) {
   std::string all = fmt::format("# Tables of the campaign {}\n\n", tables.campaign);
   for (const std::string& fact : tables.machine) all += fmt::format("- {}\n", fact);
@@ -173,10 +191,10 @@ std::string markdown(const Tables& tables) {
   }
   if (!tables.agreement.empty()) {
     all += "## Agreement with the exact answers\n\n";
-    all += header({"input", "algorithm", "queries", "right", "wrong", "failed", "unanswered"}, 2);
-    for (const AgreementRow& row : tables.agreement) {
-      all += line({row.key.words(), row.label, std::to_string(row.queries),
-                   std::to_string(row.right), std::to_string(row.wrong), std::to_string(row.failed),
+    all += header({"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered"}, 2);
+    for (const AgreementRow& row : by_task(tables.agreement)) {
+      all += line({row.key.task, row.label, std::to_string(row.queries), std::to_string(row.right),
+                   std::to_string(row.wrong), std::to_string(row.failed),
                    std::to_string(row.unanswered)});
     }
     all += "\n";
