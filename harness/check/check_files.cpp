@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "harness/error.h"
-#include "harness/run/pair_hash.h"
+#include "harness/run/machine.h"
 
 namespace touchstone {
 namespace {
@@ -21,22 +21,6 @@ const std::vector<std::string> variant_header = {
 const std::vector<std::string> job_header = {"regime",       "group",      "round",   "cases",
                                              "unresolved",   "proven",     "refused", "boxes",
                                              "boxes_broken", "worst_index"};
-
-std::string hash_of_program() {
-  std::ifstream file("/proc/self/exe", std::ios::binary);
-  std::uint64_t hash = 0;
-  std::vector<char> buffer(std::size_t{1} << 20);
-  while (file) {
-    std::ranges::fill(buffer, '\0');
-    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    for (std::size_t i = 0; i < static_cast<std::size_t>(file.gcount()); i += 8) {
-      std::uint64_t word = 0;
-      std::copy_n(buffer.data() + i, 8, reinterpret_cast<char*>(&word));
-      hash = mix(hash ^ word);
-    }
-  }
-  return fmt::format("{:016x}", hash);
-}
 
 template <class Entry>
 std::string names_of(const std::vector<const Entry*>& entries) {

@@ -167,7 +167,7 @@ std::unique_ptr<Worker> BlockRun::start(std::size_t c, int process,
   if (const auto failure = worker->wait_until_made(setup_seconds)) {
     RawRow row = row_of(c, sets.front(), 0);
     row.process = process;
-    context_->findings->add(lose(std::move(row), c, *failure));
+    add(lose(std::move(row), c, *failure));
     return nullptr;
   }
   verify(*worker, c, process, sets);
@@ -186,8 +186,7 @@ void BlockRun::verify(Worker& worker, std::size_t c, int process,
       if (reply && matches(*reply, c, s, request)) continue;
       RawRow row = row_of(c, s, frame);
       row.process = process;
-      context_->findings->add(
-          reply ? leave(std::move(row), c, status_wrong,
+      add(reply ? leave(std::move(row), c, status_wrong,
                         fmt::format("another answer at {} threads than in the check at one",
                                     context_->block->threads),
                         "", false)
@@ -205,36 +204,35 @@ void BlockRun::run_round(const Place& place) {
       square_order(*context_, place.set, set.square(place.lap, place.group), group.size());
   const std::uint32_t frame = set.first_frame(
       input_->frames.size(), static_cast<std::size_t>(place.lap) * group.size() + place.round);
-  std::vector<RawRow> rows;
+  std::vector<Taken> round;
   std::int64_t switches = 0;
   const NoiseReading before = NoiseReading::now();
   const Stopwatch watch;
   for (std::size_t position = 0; position < group.size(); ++position) {
     const std::size_t c = group[order[place.round][position]];
     if (out_[c] != 0) continue;
-    std::vector<RawRow> taken = sample(place, c, frame);
-    for (RawRow& row : taken) {
-      row.position = static_cast<std::int64_t>(position);
-      rows.push_back(std::move(row));
-    }
-    switches += std::max<std::int64_t>(rows.back().involuntary_switches, 0);
+    Taken taken = sample(place, c, frame);
+    for (RawRow& row : taken.rows) row.position = static_cast<std::int64_t>(position);
+    switches += std::max<std::int64_t>(taken.rows.back().involuntary_switches, 0);
+    round.push_back(std::move(taken));
   }
   const double seconds = watch.seconds();
   const std::string flags = noise_flags(before, NoiseReading::now(), seconds, switches);
   state.spent += seconds;
-  for (RawRow& row : rows) {
-    row.noise = flags;
-    state.times.add(row);
-  }
-  if (rows.empty()) return;
-  rows.back().stop = reason_to_stop(place);
-  if (!rows.back().stop.empty()) {
-    state.stopped = true;
-    if (canary_sings(place)) {
-      rows.back().noise += rows.back().noise.empty() ? "canary" : "+canary";
+  for (Taken& taken : round) {
+    for (RawRow& row : taken.rows) {
+      row.noise = flags;
+      state.times.add(row);
     }
   }
-  for (RawRow& row : rows) context_->findings->add(std::move(row));
+  if (round.empty()) return;
+  RawRow& last = round.back().rows.back();
+  last.stop = reason_to_stop(place);
+  if (!last.stop.empty()) {
+    state.stopped = true;
+    if (canary_sings(place)) last.noise += last.noise.empty() ? "canary" : "+canary";
+  }
+  for (Taken& taken : round) add(std::move(taken));
 }
 
 std::string BlockRun::reason_to_stop(const Place& place) const {

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,8 +52,11 @@ class BlockRun {
   void verify(Worker& worker, std::size_t contestant, int process,
               const std::vector<std::size_t>& sets);
   void run_round(const Place& place);
-  // Rows of one sample; a failure is one row.
-  std::vector<RawRow> sample(const Place& place, std::size_t contestant, std::uint32_t frame);
+  struct Taken {
+    std::vector<RawRow> rows;  // of one sample; a failure is one row
+    std::optional<Departure> departure;
+  };
+  Taken sample(const Place& place, std::size_t contestant, std::uint32_t frame);
   std::string reason_to_stop(const Place& place) const;
   bool canary_sings(const Place& place) const;
 
@@ -60,10 +65,11 @@ class BlockRun {
   double deadline(std::size_t contestant, std::size_t set, std::size_t frames) const;
   bool matches(const SampleReply& reply, std::size_t contestant, std::size_t set,
                const SampleRequest& request) const;
-  // Marks it as out of the block, with a row and a departure.
-  RawRow leave(RawRow row, std::size_t contestant, std::string_view status, const std::string& what,
-               const std::string& words, bool known);
-  RawRow lose(RawRow row, std::size_t contestant, const IsolationFailure& failure);
+  // Marks it as out of the block.
+  Taken leave(RawRow row, std::size_t contestant, std::string_view status, const std::string& what,
+              const std::string& words, bool known);
+  Taken lose(RawRow row, std::size_t contestant, const IsolationFailure& failure);
+  void add(Taken taken);
 
   const RunContext* context_;
   const BlockInput* input_;

@@ -52,8 +52,8 @@ RawRow BlockRun::row_of(std::size_t c, std::size_t s, std::size_t frame) const {
   return row;
 }
 
-RawRow BlockRun::leave(RawRow row, std::size_t c, std::string_view status, const std::string& what,
-                       const std::string& words, bool known) {
+BlockRun::Taken BlockRun::leave(RawRow row, std::size_t c, std::string_view status,
+                                const std::string& what, const std::string& words, bool known) {
   const Contestant& contestant = schedule_.contestants[c];
   out_[c] = 1;
   workers_[c].reset();
@@ -62,19 +62,23 @@ RawRow BlockRun::leave(RawRow row, std::size_t c, std::string_view status, const
   Departure departure = context_->departure(contestant.info(), contestant.label(), where);
   departure.known = known;
   departure.what = what + "; left out from here on";
-  context_->findings->add(std::move(departure));
   row.status = status;
   row.words = one_line(words);
-  return row;
+  return {{std::move(row)}, std::move(departure)};
 }
 
-RawRow BlockRun::lose(RawRow row, std::size_t c, const IsolationFailure& failure) {
+BlockRun::Taken BlockRun::lose(RawRow row, std::size_t c, const IsolationFailure& failure) {
   const bool late = failure.state == ItemState::timed_out;
   return leave(std::move(row), c, to_string(late ? Status::timed_out : Status::crashed),
                failure.reason(), failure.words, late);
 }
 
-std::vector<RawRow> BlockRun::sample(const Place& place, std::size_t c, std::uint32_t frame) {
+void BlockRun::add(Taken taken) {
+  for (RawRow& row : taken.rows) context_->findings->add(std::move(row));
+  if (taken.departure) context_->findings->add(*std::move(taken.departure));
+}
+
+BlockRun::Taken BlockRun::sample(const Place& place, std::size_t c, std::uint32_t frame) {
   const MeasuredSet& set = schedule_.sets[place.set];
   const SampleRequest request = {.set = set.number, .frame = frame, .frames = set.window};
   RawRow row = row_of(c, place.set, frame);
@@ -86,11 +90,11 @@ std::vector<RawRow> BlockRun::sample(const Place& place, std::size_t c, std::uin
   const auto reply = workers_[c]->ask(request, deadline(c, place.set, set.window));
   if (!reply) {
     const IsolationFailure failure = workers_[c]->failure();
-    return {lose(std::move(row), c, failure)};
+    return lose(std::move(row), c, failure);
   }
   if (!matches(*reply, c, place.set, request)) {
-    return {leave(std::move(row), c, status_wrong, "another answer in a sample than in the check",
-                  "", false)};
+    return leave(std::move(row), c, status_wrong, "another answer in a sample than in the check",
+                 "", false);
   }
   row.pair_count = reply->pairs;
   row.peak_kb = reply->peak_kb;
@@ -109,7 +113,7 @@ std::vector<RawRow> BlockRun::sample(const Place& place, std::size_t c, std::uin
         to_string(checked.gave_up                                          ? Status::not_converged
                   : schedule_.contestants[c].info().origin == Origin::ours ? Status::ok
                                                                            : Status::not_reported);
-    return {row};
+    return {{row}, {}};
   }
   row.status = to_string(reply->status);
   RawRow prepare = row_of(c, place.set, frame);
@@ -120,7 +124,7 @@ std::vector<RawRow> BlockRun::sample(const Place& place, std::size_t c, std::uin
   prepare.frames = row.frames;
   prepare.phase = set.starts.front() == 0 ? Phase::build : Phase::update;
   prepare.seconds = reply->prepare;
-  return {prepare, row};
+  return {{prepare, row}, {}};
 }
 
 }  // namespace touchstone

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <memory>
 
@@ -250,7 +252,9 @@ std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choi
   std::ofstream stream(file);
   stream << to_json(reproduction) << '\n';
   stream.flush();
-  if (!stream) throw InputError(file.string(), 0, "cannot be written");
+  if (!stream) {
+    throw InputError(file.string(), 0, fmt::format("cannot be written: {}", std::strerror(errno)));
+  }
   return file.string();
 }
 

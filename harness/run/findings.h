@@ -15,6 +15,7 @@ namespace touchstone {
 // A departure of one algorithm from what it should have found, on one frame or window.
 struct Departure {
   std::int64_t block = 0;
+  std::int64_t row = -1;  // of raw.csv, from 0; -1: not added yet
   std::string algorithm;
   bool ours = false;
   bool known = false;  // the registry names it as a known defect, or the algorithm as approximate
@@ -26,7 +27,7 @@ struct Departure {
 class Findings {
  public:
   void add(RawRow row) { rows_.push_back(std::move(row)); }
-  // Once: a run that goes on after a stop may meet it again.
+  // What the row that was added last tells of, unless it names another; the same is told once.
   void add(Departure departure);
 
   const std::vector<RawRow>& rows() const { return rows_; }

@@ -4,10 +4,12 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "algorithms/core/isa.h"
 #include "harness/io/csv.h"
@@ -83,6 +85,22 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
   return facts;
 }
 
+std::string hash_of_program() {
+  std::ifstream file("/proc/self/exe", std::ios::binary);
+  std::uint64_t hash = 0;
+  std::vector<char> buffer(std::size_t{1} << 20);
+  while (file) {
+    std::ranges::fill(buffer, '\0');
+    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(file.gcount()); i += 8) {
+      std::uint64_t word = 0;
+      std::copy_n(buffer.data() + i, 8, reinterpret_cast<char*>(&word));
+      hash = mix(hash ^ word);
+    }
+  }
+  return to_hex(hash);
+}
+
 void write_facts(std::vector<std::pair<std::string, std::string>> first,
                  const std::filesystem::path& file) {
   CsvWriter csv(file, {"name", "value"});
@@ -98,6 +116,7 @@ std::vector<std::pair<std::string, std::string>> campaign_facts(
   std::vector<std::pair<std::string, std::string>> facts = {{"campaign", campaign.name},
                                                             {"seed", std::to_string(campaign.seed)},
                                                             {"campaign_hash", to_hex(hash)}};
+  facts.emplace_back("program", hash_of_program());
   for (const auto& [name, value] : scene_hashes) facts.emplace_back("scene " + name, value);
   for (auto& fact : machine_facts()) facts.push_back(std::move(fact));
   return facts;

@@ -16,12 +16,15 @@ namespace touchstone {
 // libraries, commit and whether the tree was changed since.
 std::vector<std::pair<std::string, std::string>> machine_facts();
 
+// 16 hexadecimal digits over the bytes of this program.
+std::string hash_of_program();
+
 // machine.csv (name,value): what comes first, then the facts.
 void write_facts(std::vector<std::pair<std::string, std::string>> first,
                  const std::filesystem::path& file);
 
-// What decides a campaign's measurements: its name, seed and content, each scene's hash, and the
-// facts.
+// What decides a campaign's measurements: its name, seed and content, each scene's hash, the
+// program's, and the facts.
 std::vector<std::pair<std::string, std::string>> campaign_facts(
     const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes);
 

@@ -1,19 +1,28 @@
 #include "harness/run/result_files.h"
 
-#include <fmt/core.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <system_error>
+#include <thread>
 #include <tuple>
 
 #include "harness/error.h"
+#include "harness/run/clock.h"
 
 namespace touchstone {
 namespace {
 
 constexpr const char* finished_key = "finished";
+constexpr double seconds_for_others = 2;
 
 bool is_sample(const RawRow& row) { return row.kind == RowKind::sample; }
 bool is_check_pass(const RawRow& row) { return !is_sample(row) && row.process < 0; }
@@ -41,24 +50,32 @@ std::size_t whole_rows(const std::vector<RawRow>& rows) {
   return kept;
 }
 
-// Where each line of the file ends, behind its line feed. What follows the last one is no line.
-std::vector<std::uintmax_t> line_ends(const std::filesystem::path& file) {
+void cut(const std::filesystem::path& file, std::uintmax_t bytes) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return;
+  std::filesystem::resize_file(file, bytes, error);
+  if (error) throw InputError(file.string(), 0, "cannot be cut: " + error.message());
+}
+
+// Where each line of the file ends, behind its line feed. What follows the last one is no line, and
+// is cut off. Empty where there is no file, or no header yet.
+std::vector<std::uintmax_t> line_ends(const std::filesystem::path& file,
+                                      const std::vector<std::string>& header) {
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::uintmax_t> ends;
   std::uintmax_t at = 0;
   for (std::string line; std::getline(stream, line) && !stream.eof();) {
+    if (ends.empty() && line != fmt::format("{}", fmt::join(header, ","))) {
+      throw InputError(file.string(), 1,
+                       fmt::format("other columns than this program writes; expected {} to resume",
+                                   fmt::join(header, ",")));
+    }
     at += line.size() + 1;
     ends.push_back(at);
   }
+  stream.close();
+  cut(file, at);
   return ends;
-}
-
-// Cuts a file back to its first `lines` lines.
-void cut(const std::filesystem::path& file, const std::vector<std::uintmax_t>& ends,
-         std::size_t lines) {
-  std::error_code error;
-  std::filesystem::resize_file(file, lines == 0 ? 0 : ends[lines - 1], error);
-  if (error) throw InputError(file.string(), 0, "cannot be cut: " + error.message());
 }
 
 std::map<std::string, std::string> read_facts(const std::filesystem::path& file) {
@@ -76,17 +93,57 @@ ResultFiles::ResultFiles(std::filesystem::path folder, Facts facts, RunStart sta
     : folder_(std::move(folder)), facts_(std::move(facts)) {
   std::error_code error;
   if (start == RunStart::resume) {
-    take_up(findings);
+    if (!std::filesystem::exists(machine(), error)) {
+      throw InputError(machine().string(), 0,
+                       "is not there; expected the folder of a run to resume");
+    }
   } else {
     std::filesystem::create_directories(folder_, error);
     if (error) throw InputError(folder_.string(), 0, "cannot be made: " + error.message());
-    begin_anew(start);
   }
-  const auto keep = CsvWriter::Keep::appended_rows;
-  row_file_ = std::make_unique<CsvWriter>(raw(), raw_header(), keep);
-  departure_file_ = std::make_unique<CsvWriter>(departures(), departure_header(), keep);
-  row_file_->flush();
-  departure_file_->flush();
+  try {
+    lock();
+    remove_leftovers();
+    if (start == RunStart::resume) {
+      take_up(findings);
+    } else {
+      begin_anew(start);
+    }
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+ResultFiles::~ResultFiles() { ::close(lock_); }
+
+// Workers hold the lock too, and end a moment later than a program that was killed.
+void ResultFiles::lock() {
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) {
+    throw InputError(folder_.string(), 0, fmt::format("cannot be used: {}", std::strerror(errno)));
+  }
+  const Stopwatch watch;
+  while (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK && errno != EINTR) return;  // a file system without locks
+    if (watch.seconds() > seconds_for_others) {
+      throw InputError(folder_.string(), 0,
+                       "another run is at work in it; expected a folder for each");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+// Of a machine.csv that was never whole, since a kill came before its time.
+void ResultFiles::remove_leftovers() const {
+  const std::string begin = machine().filename().string() + ".";
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(begin) && name.ends_with(".tmp")) {
+      std::filesystem::remove(entry.path(), error);
+    }
+  }
 }
 
 void ResultFiles::begin_anew(RunStart start) {
@@ -101,13 +158,14 @@ void ResultFiles::begin_anew(RunStart start) {
                        "--overwrite to lose it, or another --out");
     }
   }
-  // The rows go first: a machine.csv of this run beside rows of another would be trusted.
-  for (const auto& file : {raw(), departures()}) {
+  // machine.csv goes first and comes last: beside rows that are not its own it would be trusted.
+  for (const auto& file : {machine(), raw(), departures()}) {
     std::filesystem::remove(file, error);
     if (error) throw InputError(file.string(), 0, "cannot be replaced: " + error.message());
   }
   std::filesystem::remove_all(folder_ / "reproductions", error);
   write_facts(false);
+  open();
 }
 
 void ResultFiles::compare_facts() {
@@ -131,47 +189,43 @@ void ResultFiles::compare_facts() {
 }
 
 void ResultFiles::take_up(Findings& findings) {
-  std::error_code error;
-  if (!std::filesystem::exists(machine(), error)) {
-    throw InputError(machine().string(), 0, "is not there; expected the folder of a run to resume");
-  }
   compare_facts();
   std::vector<RawRow> rows;
-  if (std::filesystem::exists(raw(), error)) {
-    const std::vector<std::uintmax_t> ends = line_ends(raw());
-    cut(raw(), ends, ends.size());
-    if (!ends.empty()) {
-      rows = read_raw_rows(raw());
-      if (rows.size() + 1 != ends.size()) {
-        throw InputError(raw().string(), 0, "a row of several lines; expected a line a row");
-      }
-      if (!was_finished_) {
-        rows.resize(whole_rows(rows));
-        cut(raw(), ends, rows.size() + 1);
-      }
+  if (const auto ends = line_ends(raw(), raw_header()); !ends.empty()) {
+    rows = read_raw_rows(raw());
+    if (rows.size() + 1 != ends.size()) {
+      throw InputError(raw().string(), 0, "a row of several lines; expected a line a row");
     }
+    if (!was_finished_) rows.resize(whole_rows(rows));
+    rows_end_ = ends[rows.size()];
   }
   rows_written_ = rows.size();
-  const std::int64_t last_block = rows.empty() ? -1 : rows.back().block;
   for (RawRow& row : rows) findings.add(std::move(row));
-  if (std::filesystem::exists(departures(), error)) {
-    const std::vector<std::uintmax_t> ends = line_ends(departures());
-    cut(departures(), ends, ends.size());
-    std::size_t lines = ends.empty() ? 0 : 1;
-    if (!ends.empty()) {
-      // A check pass that is done again tells its departures again.
-      for (Departure& departure : read_departures(departures())) {
-        if (departure.block > last_block) break;
-        findings.add(std::move(departure));
-        ++lines;
-      }
+  if (const auto ends = line_ends(departures(), departure_header()); !ends.empty()) {
+    // Those of rows that are measured again are told again.
+    for (Departure& departure : read_departures(departures())) {
+      if (departure.row >= static_cast<std::int64_t>(rows_written_)) break;
+      findings.add(std::move(departure));
     }
-    cut(departures(), ends, lines);
+    departures_end_ = ends[findings.departures().size()];
   }
   departures_written_ = findings.departures().size();
+  // Told now if it cannot be written.
+  CsvWriter(raw(), raw_header(), CsvWriter::Keep::appended_rows);
+}
+
+void ResultFiles::open() {
+  cut(raw(), rows_end_);
+  cut(departures(), departures_end_);
+  const auto keep = CsvWriter::Keep::appended_rows;
+  row_file_ = std::make_unique<CsvWriter>(raw(), raw_header(), keep);
+  departure_file_ = std::make_unique<CsvWriter>(departures(), departure_header(), keep);
+  row_file_->flush();
+  departure_file_->flush();
 }
 
 void ResultFiles::write_new(const Findings& findings) {
+  if (!row_file_) open();
   // Departures first: a row that tells of one is not done again.
   for (; departures_written_ < findings.departures().size(); ++departures_written_) {
     write(*departure_file_, findings.departures()[departures_written_]);
@@ -184,6 +238,7 @@ void ResultFiles::write_new(const Findings& findings) {
 }
 
 void ResultFiles::finish() {
+  if (!row_file_) open();
   departure_file_->close();
   row_file_->close();
   write_facts(true);

@@ -70,6 +70,7 @@ std::string RunContext::place(std::size_t frame) const {
 Departure RunContext::departure(const AlgorithmInfo& info, std::string label,
                                 std::string where) const {
   return {.block = number,
+          .row = -1,
           .algorithm = std::move(label),
           .ours = info.origin == Origin::ours,
           .known = !info.known_defect.empty(),

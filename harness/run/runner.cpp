@@ -115,13 +115,15 @@ std::vector<std::vector<IndexPair>> true_pairs(const BlockInput& input) {
 }
 
 // Checks the broad phases and gives what narrow phases are asked. Rows go to `context.findings`.
-NarrowInput check_broad_phases(const RunContext& context, const BlockInput& input) {
+// `again`: they are known, and only the pairs that were found are wanted.
+NarrowInput check_broad_phases(const RunContext& context, const BlockInput& input, bool again) {
   const CampaignGroup& group = *context.block->group;
   const bool narrow = has_narrow(context);
   const bool product = narrow && group.pairing == Pairing::product;
   NarrowInput sets;
   if (narrow) sets.checked = narrow_sets(input, "", true_pairs(input), group.tasks);
   if (!product) sets.measured = sets.checked;
+  if (again && !product) return sets;
   for (const BroadPhaseEntry* entry : group.broad) {
     if (!context.admits(*entry)) continue;
     const BroadCheck check = check_broad(context, input, *entry, product);
@@ -144,9 +146,9 @@ void run_block(const RunContext& context, bool checked, Progress& progress, Resu
     Findings known;
     RunContext silent = context;
     silent.findings = &known;
-    narrow = check_broad_phases(silent, input);
+    narrow = check_broad_phases(silent, input, true);
   } else {
-    narrow = check_broad_phases(context, input);
+    narrow = check_broad_phases(context, input, false);
     NarrowCheck(context, input, narrow.checked).run();
     files.write_new(*context.findings);
   }
@@ -180,7 +182,8 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
       progress.start(label(block, loaded.scene));
       if (static_cast<std::int64_t>(number) < at) continue;
       run_block({campaign.name, campaign.seed, static_cast<std::int64_t>(number), &block,
-                 &loaded.scene, loaded.hash, folder / "reproductions", &result.findings},
+                 &loaded.scene, loaded.hash,
+                 folder / "reproductions" / fmt::format("block-{}", number), &result.findings},
                 static_cast<std::int64_t>(number) == at, progress, files);
     }
     result.interrupted = interrupt != 0;
