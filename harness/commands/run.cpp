@@ -69,6 +69,7 @@ Campaign campaign_of(const Options& options) {
 // What would be measured, without measuring it.
 void print_plan(const Campaign& campaign) {
   double seconds = 0;
+  double check_seconds = 0;
   std::size_t cells = 0;
   const std::vector<PlannedBlock> blocks = plan_campaign(campaign);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -77,12 +78,15 @@ void print_plan(const Campaign& campaign) {
       fmt::print("  {}: {}\n", set.name, fmt::join(set.contestants, ", "));
       cells += set.contestants.size();
     }
+    fmt::print("  check: about {:.2g} s\n", blocks[i].check_seconds);
+    check_seconds += blocks[i].check_seconds;
     if (!blocks[i].sets.empty()) seconds += blocks[i].seconds;
   }
   fmt::print(
-      "{} blocks, {} cells; at most about {:.0f} s of samples, and the check of every frame "
-      "before them\n",
-      blocks.size(), cells, seconds);
+      "{} blocks, {} cells; about {:.2g} s for the check of every frame, by a trial of some, and "
+      "at "
+      "most\nabout {:.0f} s for the samples\n",
+      blocks.size(), cells, check_seconds, seconds);
 }
 
 RunStart start_of(const Options& options) {

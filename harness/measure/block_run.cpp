@@ -81,12 +81,13 @@ void BlockRun::run(const std::function<bool()>& commit) {
   }
 }
 
+bool BlockRun::any_left(const std::vector<std::size_t>& contestants) const {
+  return std::ranges::any_of(contestants, [&](std::size_t c) { return out_[c] == 0; });
+}
+
 bool BlockRun::is_open(std::size_t s, const ProcessSpan& span) const {
   const MeasuredSet& set = schedule_.sets[s];
-  if (states_[s].stopped ||
-      std::ranges::all_of(set.members, [&](std::size_t c) { return out_[c] != 0; })) {
-    return false;
-  }
+  if (states_[s].stopped || !any_left(set.members)) return false;
   for (int lap = span.first; lap < span.end; ++lap) {
     for (std::size_t group = 0; group < set.groups.size(); ++group) {
       for (std::size_t round = 0; round < set.groups[group].size(); ++round) {
@@ -127,7 +128,10 @@ bool BlockRun::run_process(const ProcessSpan& span, bool ends_stage, bool ends_a
                   {set.square(lap, group), static_cast<std::int64_t>(round)})) {
             continue;
           }
-          const bool ends_lap = group + 1 == set.groups.size() && round + 1 == rounds;
+          const bool ends_lap =
+              round + 1 == rounds &&
+              std::none_of(set.groups.begin() + static_cast<std::ptrdiff_t>(group) + 1,
+                           set.groups.end(), [&](const auto& later) { return any_left(later); });
           const bool last = ends_lap && lap + 1 == span.end;
           run_round(
               {s, span.process, lap, group, round, ends_lap, last && ends_stage, last && ends_all});
@@ -217,7 +221,7 @@ void BlockRun::run_round(const Place& place) {
     round.push_back(std::move(taken));
   }
   const double seconds = watch.seconds();
-  const std::string flags = noise_flags(before, NoiseReading::now(), seconds, switches);
+  const std::string flags = noise_judge()(before, NoiseReading::now(), seconds, switches);
   state.spent += seconds;
   for (Taken& taken : round) {
     for (RawRow& row : taken.rows) {
@@ -239,9 +243,7 @@ std::string BlockRun::reason_to_stop(const Place& place) const {
   const MeasuredSet& set = schedule_.sets[place.set];
   const SetState& state = states_[place.set];
   const CampaignGroup& group = *context_->block->group;
-  if (std::ranges::all_of(set.members, [&](std::size_t c) { return out_[c] != 0; })) {
-    return "crashed";
-  }
+  if (!any_left(set.members)) return "crashed";
   if (place.ends_all) return "rounds";
   if (!place.ends_lap || group.squares) return "";
   if (place.ends_stage) {

@@ -45,6 +45,7 @@ class BlockRun {
 
   void take_over(const RawRow& row);
   bool run_process(const ProcessSpan& span, bool ends_stage, bool ends_all);
+  bool any_left(const std::vector<std::size_t>& contestants) const;
   bool is_open(std::size_t set, const ProcessSpan& span) const;
   // The worker after its untimed pass, or null where it failed that.
   std::unique_ptr<Worker> start(std::size_t contestant, int process,

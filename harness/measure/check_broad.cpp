@@ -30,6 +30,7 @@ std::span<const Aabb> boxes_before(const BlockInput& input, std::size_t frame) {
 
 std::string write_frames(const RunContext& context, const BlockInput& input,
                          const std::string& name, std::size_t frame) {
+  if (context.reproductions.empty()) return "";
   const std::filesystem::path file =
       context.reproductions /
       fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name, context.scene->size(), frame);

@@ -234,6 +234,7 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
 
 std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choice,
                                     std::size_t pair) const {
+  if (context_->reproductions.empty()) return "";
   const std::uint32_t a = group(piece).first[pair];
   const std::uint32_t b = group(piece).second[pair];
   const std::vector<Pose>& poses = input_->frames[piece.frame].poses;

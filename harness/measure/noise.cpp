@@ -17,8 +17,8 @@ constexpr double switches_a_second = 20;
 constexpr double busy_percent = 5;
 
 // The number behind "key" on the line that begins with `line`.
-std::optional<double> pressure_value(std::string_view key) {
-  std::ifstream stream("/proc/pressure/cpu");
+std::optional<double> pressure_value(const std::filesystem::path& proc, std::string_view key) {
+  std::ifstream stream(proc / "pressure/cpu");
   for (std::string line; std::getline(stream, line);) {
     const std::size_t at = line.find(key);
     if (!line.starts_with("some ") || at == std::string::npos) continue;
@@ -29,8 +29,8 @@ std::optional<double> pressure_value(std::string_view key) {
   return {};
 }
 
-std::optional<double> stolen_seconds() {
-  std::ifstream stream("/proc/stat");
+std::optional<double> stolen_seconds(const std::filesystem::path& proc) {
+  std::ifstream stream(proc / "stat");
   std::string name;
   double user = 0, nice = 0, system = 0, idle = 0, iowait = 0, irq = 0, softirq = 0, steal = 0;
   if (!(stream >> name >> user >> nice >> system >> idle >> iowait >> irq >> softirq >> steal) ||
@@ -42,10 +42,10 @@ std::optional<double> stolen_seconds() {
 
 }  // namespace
 
-NoiseReading NoiseReading::now() {
+NoiseReading NoiseReading::now(const std::filesystem::path& proc) {
   NoiseReading reading;
-  if (const auto total = pressure_value("total=")) reading.waited = *total * 1e-6;
-  reading.stolen = stolen_seconds();
+  if (const auto total = pressure_value(proc, "total=")) reading.waited = *total * 1e-6;
+  reading.stolen = stolen_seconds(proc);
   return reading;
 }
 
@@ -64,10 +64,15 @@ std::string noise_flags(const NoiseReading& before, const NoiseReading& after, d
   return flags;
 }
 
-MachineLoad MachineLoad::now() {
+NoiseJudge& noise_judge() {
+  static NoiseJudge judge = &noise_flags;
+  return judge;
+}
+
+MachineLoad MachineLoad::now(const std::filesystem::path& proc) {
   MachineLoad load;
-  load.pressure = pressure_value("avg10=");
-  std::ifstream stream("/proc/loadavg");
+  load.pressure = pressure_value(proc, "avg10=");
+  std::ifstream stream(proc / "loadavg");
   double one = 0, five = 0, fifteen = 0;
   int running = 0;
   char slash = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -12,7 +13,8 @@ struct NoiseReading {
   std::optional<double> waited;  // seconds in which some task waited for a processor
   std::optional<double> stolen;  // seconds that the hypervisor gave to others, over all processors
 
-  static NoiseReading now();
+  // `proc` is where the system tells.
+  static NoiseReading now(const std::filesystem::path& proc = "/proc");
 };
 
 // Flags of a round joined by '+', empty where it was quiet or nothing is known: "pressure" where
@@ -21,13 +23,17 @@ struct NoiseReading {
 std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
                         std::int64_t involuntary_switches);
 
+// Who flags the rounds: noise_flags, unless a test put a judge of its own in its place.
+using NoiseJudge = decltype(&noise_flags);
+NoiseJudge& noise_judge();
+
 // The share of the last ten seconds in which some task waited for a processor, in percent, and how
 // many tasks run or wait to run now; empty where the system does not tell.
 struct MachineLoad {
   std::optional<double> pressure;
   std::optional<int> running;
 
-  static MachineLoad now();
+  static MachineLoad now(const std::filesystem::path& proc = "/proc");
   // Why no measurement should begin; empty where it may, "unknown ..." where nothing is known.
   std::string objection() const;
 };

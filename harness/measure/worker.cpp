@@ -155,6 +155,7 @@ void serve(int line, const Worker::Make& make, Usage& usage) {
 }  // namespace
 
 Worker::Worker(const Make& make, const WorkerSettings& settings) {
+  expect_one_thread();
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     throw std::system_error(errno, std::generic_category(), "socketpair");

@@ -23,7 +23,7 @@ struct WorkerSettings {
 };
 
 // Forks in the constructor; dies in the destructor. The caller must be the only thread of its
-// process.
+// process (std::logic_error).
 class Worker {
  public:
   // `make` is called in the worker; it makes the executor too, and keeps it alive.

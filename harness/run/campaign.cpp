@@ -177,11 +177,15 @@ bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
          (!rule.counts_below || cell.bodies < *rule.counts_below);
 }
 
-CampaignGroup read_group(Settings settings, const std::filesystem::path& folder) {
+// Defaults alone need no scenes.
+enum class Whole : std::uint8_t { group, defaults };
+
+CampaignGroup read_group(Settings settings, const std::filesystem::path& folder, Whole whole) {
   CampaignGroup group;
   for (const std::string& scene : settings.texts("scenes", {}))
     group.scenes.push_back(folder / scene);
-  if (group.scenes.empty()) settings.of("scenes").fail("scenes", "missing; expected scene files");
+  if (group.scenes.empty() && whole == Whole::group)
+    settings.of("scenes").fail("scenes", "missing; expected scene files");
   group.counts = settings.integers("counts", 1, greatest_count, -1);
   group.seeds = settings.integers("seeds", 0, std::numeric_limits<std::int64_t>::max(), -1);
   group.frames = static_cast<int>(settings.of("frames").integer("frames", 1, 1'000'000, -1));
@@ -272,15 +276,17 @@ Campaign read_campaign(const std::filesystem::path& file) {
   campaign.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
   const std::filesystem::path folder = file.parent_path();
+  const toml::table nothing;
+  TomlTable empty(nothing, file.string(), "");
   if (table.has("group")) {
+    // A wrong default is told even where every group has a value of its own.
+    read_group(Settings(table, empty), folder, Whole::defaults);
     for (TomlTable& group : table.tables("group")) {
-      campaign.groups.push_back(read_group(Settings(table, group), folder));
+      campaign.groups.push_back(read_group(Settings(table, group), folder, Whole::group));
       group.finish();
     }
   } else {
-    const toml::table nothing;
-    TomlTable empty(nothing, file.string(), "");
-    campaign.groups.push_back(read_group(Settings(table, empty), folder));
+    campaign.groups.push_back(read_group(Settings(table, empty), folder, Whole::group));
   }
   table.finish();
   return campaign;

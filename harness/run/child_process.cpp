@@ -1,6 +1,7 @@
 #include "harness/run/child_process.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -14,10 +15,26 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 
 namespace touchstone {
+
+void expect_one_thread() {
+#if !defined(__SANITIZE_THREAD__)
+  std::error_code error;
+  const std::filesystem::directory_iterator threads("/proc/self/task", error);
+  if (error) return;
+  const auto count = std::distance(begin(threads), end(threads));
+  if (count > 1) {
+    throw std::logic_error(fmt::format(
+        "a process of {} threads is about to fork workers; expected one thread", count));
+  }
+#endif
+}
 
 void allow_memory(std::size_t bytes) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

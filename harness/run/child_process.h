@@ -9,6 +9,12 @@
 
 namespace touchstone {
 
+// std::logic_error where this process has more threads than the calling one: a child that is forked
+// then finds their locks held for ever. An Executor of more than one thread that has been used is
+// such a case, since oneTBB keeps its threads. Not looked at under ThreadSanitizer, which has a
+// thread of its own, or where the system does not tell.
+void expect_one_thread();
+
 // Lets this process add so many bytes to what it has; beyond, its allocations fail. Not kept under
 // a sanitizer, which maps terabytes.
 void allow_memory(std::size_t bytes);

@@ -75,7 +75,7 @@ std::string measurement_notes(const Findings& findings, const ReportStyle& style
   std::set<std::tuple<std::int64_t, std::string, std::string, std::string, std::string, bool,
                       std::int64_t, std::int64_t>>
       rounds, flagged;
-  int canaries = 0;
+  std::vector<std::string> suspects;
   for (const RawRow& row : findings.rows()) {
     if (row.kind != RowKind::sample) continue;
     if (!row.stop.empty()) ++stops[row.stop];
@@ -83,8 +83,13 @@ std::string measurement_notes(const Findings& findings, const ReportStyle& style
     const std::tuple key(row.block, narrow ? row.broad : "", row.task, row.pair_kind, row.scene,
                          narrow, row.square, row.round);
     rounds.insert(key);
-    const bool canary = row.noise.ends_with("canary");
-    if (canary) ++canaries;
+    if (row.noise.ends_with("canary")) {
+      suspects.push_back(
+          fmt::format("  block {}, {}\n", row.block,
+                      narrow ? fmt::format("{} {}{}{}", row.task, row.pair_kind,
+                                           row.broad.empty() ? "" : " on the pairs of ", row.broad)
+                             : "broad phases"));
+    }
     if (!row.noise.empty() && row.noise != "canary") flagged.insert(key);
   }
   if (rounds.empty()) return "";
@@ -95,11 +100,9 @@ std::string measurement_notes(const Findings& findings, const ReportStyle& style
                       : style.noisy   ? ", and count"
                                       : ", and do not count (--noisy counts them; ? has no other)");
   text += ".\n";
-  if (canaries > 0) {
-    text += fmt::format(
-        "In {} sets the baseline could be told from itself: their ratios are not to "
-        "be trusted.\n",
-        canaries);
+  if (!suspects.empty()) {
+    text += "The baseline could be told from itself: the ratios are not to be trusted in\n";
+    for (const std::string& suspect : suspects) text += suspect;
   }
   return text;
 }

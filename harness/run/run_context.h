@@ -29,7 +29,7 @@ struct RunContext {
   const Block* block = nullptr;
   const Scene* scene = nullptr;
   std::string scene_hash;
-  std::filesystem::path reproductions;  // the folder for files that show a departure
+  std::filesystem::path reproductions;  // the folder for files that show a departure; empty: none
   Findings* findings = nullptr;
 
   // A row with the columns that the block decides.

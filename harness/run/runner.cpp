@@ -12,12 +12,16 @@
 #include "harness/measure/block_run.h"
 #include "harness/measure/check_broad.h"
 #include "harness/measure/check_narrow.h"
+#include "harness/measure/check_price.h"
+#include "harness/run/child_process.h"
 #include "harness/run/clock.h"
 #include "harness/run/machine.h"
 #include "harness/run/progress.h"
 
 namespace touchstone {
 namespace {
+
+constexpr int tried_frames = 2;
 
 volatile std::sig_atomic_t interrupt = 0;
 
@@ -166,6 +170,7 @@ void run_block(const RunContext& context, bool checked, Progress& progress, Resu
 
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
                        RunStart start) {
+  expect_one_thread();
   const std::vector<Block> blocks = blocks_of(campaign);
   const Scenes scenes(blocks);
   RunResult result;
@@ -219,9 +224,25 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
       if (context.admits(*entry)) broad.push_back(entry->info.name);
     }
     add("broad phases", broad);
-    if (!has_narrow(context)) continue;
-    const BlockInput input(loaded.scene, block.boxes, false);
-    const auto sets = narrow_sets(input, "", true_pairs(input), group.tasks);
+    // Without narrow phases the first frames tell what all of them take.
+    const bool has_pairs = has_narrow(context);
+    Scene scene = loaded.scene;
+    const auto frames = static_cast<std::size_t>(
+        scene.recording.empty() ? scene.frames : static_cast<int>(scene.recording.size()));
+    if (!has_pairs) {
+      scene.frames = std::min(scene.frames, tried_frames);
+      if (!scene.recording.empty()) {
+        scene.recording.resize(std::min<std::size_t>(frames, tried_frames));
+      }
+    }
+    const Stopwatch watch;
+    const BlockInput input(scene, block.boxes, has_pairs);
+    planned.check_seconds =
+        watch.seconds() * static_cast<double>(frames) / static_cast<double>(input.frames.size());
+    std::vector<NarrowSet> sets;
+    if (has_pairs) sets = narrow_sets(input, "", true_pairs(input), group.tasks);
+    planned.check_seconds += price_of_check(context, input, frames, sets);
+    if (!has_pairs) continue;
     const bool product = group.pairing == Pairing::product;
     if (!product) broad.assign(1, "");
     for (const std::string& source : broad) {

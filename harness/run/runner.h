@@ -21,12 +21,12 @@ struct RunResult {
 // Then takes block after block: the check pass, then samples, written to DIR/raw.csv as they are
 // measured, with DIR/departures.csv, DIR/machine.csv, and a file into DIR/reproductions for each
 // departure. An interrupt (SIGINT) ends the run after the round at hand, and what was measured is
-// kept, to be resumed. The caller is the only thread of its process, which has never used a oneTBB
-// arena: workers are forked from it.
+// kept, to be resumed. The caller is the only thread of its process (std::logic_error): workers are
+// forked from it, so that no Executor of more than one thread has been used in it.
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
                        RunStart start = RunStart::fresh);
 
-// What run_campaign would do, without doing it.
+// What run_campaign would do, and for how long, by trials of a few frames and pairs.
 struct PlannedBlock {
   std::string label;  // "uniform, 1000 bodies, 64 frames, tight boxes, 2 threads"
   struct Set {
@@ -34,7 +34,8 @@ struct PlannedBlock {
     std::vector<std::string> contestants;
   };
   std::vector<Set> sets;
-  double seconds = 0;  // for its samples, at most
+  double check_seconds = 0;  // for its check, about
+  double seconds = 0;        // for its samples, about and at most
 };
 std::vector<PlannedBlock> plan_campaign(const Campaign& campaign);
 

@@ -195,6 +195,15 @@ std::vector<std::string> obstacles(const Results& a, const Results& b, bool mach
 std::vector<std::string> remarks(const Results& a, const Results& b) {
   std::vector<std::string> lines;
   if (!a.machine.empty() && !b.machine.empty()) add_differences(a, b, facts_remarked, lines);
+  const auto tell_suspects = [&](const Results& results, const char* name) {
+    for (const SampleSet& set : results.sets) {
+      if (!set.suspect) continue;
+      lines.push_back(fmt::format("in {}, {} was told from itself: its times are suspect in {}",
+                                  name, set.twin.label, set.key.words()));
+    }
+  };
+  tell_suspects(a, "A");
+  tell_suspects(b, "B");
   for (const SampleSet& set : b.sets) {
     const SampleSet* const other = a.find(set.key);
     if (other == nullptr) {

@@ -78,7 +78,7 @@ Part part_of(const Fields& row) {
   row.fail("phase", "expected build, update, find_pairs or narrow");
 }
 
-// Of a set whose baseline and twin were told apart; the tables tell it from the twin's times.
+// In a set's last row: the run told its baseline from the twin.
 constexpr std::string_view canary = "canary";
 
 bool failed(const std::string& status) {
@@ -109,6 +109,7 @@ class Reader {
     SampleSet& set = set_of(row);
     const std::int64_t frame = row.needed_count("frame");
     if (row.has("stop")) set.stop = row.text("stop");
+    if (row.text("noise").ends_with(canary)) set.suspect = true;
     Contestant& contestant = contestant_of(set, row);
     const std::string status = row.text("status");
     if (failed(status)) contestant.failure = status;

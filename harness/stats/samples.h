@@ -66,6 +66,9 @@ struct SampleSet {
   std::vector<Contestant> contestants;  // in the order of the file
   Contestant twin;                      // the baseline's second registration
   std::string stop;                     // why repetition ended
+  // The baseline was told from its twin by more than the campaign's width: something that is no
+  // algorithm is in these times, and nothing that they say is to be relied on.
+  bool suspect = false;
 
   const Contestant* find(const std::string& label) const;
   // What the others are measured by: the one with a twin, else sweep-and-prune or gjk in double,

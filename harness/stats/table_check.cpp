@@ -76,7 +76,10 @@ TableCheck check_tables(const std::filesystem::path& reference, const Results& h
       cell.ratio = exponential(
           median_interval(paired_log_ratios(*contestant, *baseline, noise), confidence));
     }
-    cell.state = holds(cell.ratio, cell.band_low, cell.band_high);
+    const SampleSet* const set_there = stated.find(cell.key);
+    const bool suspect =
+        (set != nullptr && set->suspect) || (set_there != nullptr && set_there->suspect);
+    if (!suspect) cell.state = holds(cell.ratio, cell.band_low, cell.band_high);
     check.cells.push_back(std::move(cell));
   }
   return check;

@@ -12,7 +12,7 @@
 namespace touchstone::stats {
 
 // Pass: the ratio's interval lies within the stated band. Fail: it lies wholly outside. Undecided:
-// it does neither, or there is no interval, or no band.
+// it does neither, or there is no interval, or no band, or the set is suspect here or there.
 enum class Holds : std::uint8_t { pass, fail, undecided };
 std::string_view to_string(Holds holds);
 Holds holds(const MedianInterval& ratio, double band_low, double band_high);

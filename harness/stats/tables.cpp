@@ -85,7 +85,8 @@ RatioRow ratio_row(const SampleSet& set, const Contestant& a, const Contestant& 
           canary,
           exponential(median_interval(ratios, confidence)),
           sign_test(ratios),
-          1};
+          1,
+          set.suspect};
 }
 
 // The log ratios of a contestant to the baseline: how those that were never in one square meet.
@@ -108,7 +109,7 @@ std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise) {
   std::ranges::stable_sort(entries, {}, &Entry::ratio);
   const Contestant& winner = *entries[0].contestant;
   const Contestant& runner_up = *entries[1].contestant;
-  WinnerRow row{set.key, winner.label, runner_up.label, {}, 1, 1};
+  WinnerRow row{set.key, winner.label, runner_up.label, {}, 1, 1, set.suspect};
   const std::vector<double> paired = paired_log_ratios(runner_up, winner, noise);
   if (!paired.empty()) {
     row.ratio = exponential(median_interval(paired, confidence));

@@ -31,6 +31,7 @@ struct RatioRow {
   bool canary = false;
   MedianInterval ratio;           // exp of the median of paired log ratios over the squares
   double p = 1, p_corrected = 1;  // sign test; Holm over the table, canaries apart
+  bool suspect = false;           // see SampleSet
 };
 
 // The fastest of those that answer right, against the next.
@@ -39,6 +40,7 @@ struct WinnerRow {
   std::string winner, runner_up;
   MedianInterval ratio;  // of the runner-up's time over the winner's
   double p = 1, p_corrected = 1;
+  bool suspect = false;
 };
 
 // How time grows with the number of bodies: least squares on the logarithms of the medians.

@@ -120,9 +120,13 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     body += line(cells);
     if (const RatioRow* const twin = ratio_of(row.label, true)) {
       const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
-      canary = fmt::format("The canary, {} against itself: {}, {}{}.\n", row.label,
-                           text(twin->ratio.median), interval(twin->ratio),
-                           told_apart ? " (**told apart**: trust no smaller difference)" : "");
+      canary =
+          fmt::format("The canary, {} against itself: {}, {}{}.\n", row.label,
+                      text(twin->ratio.median), interval(twin->ratio),
+                      twin->suspect ? " (**told apart** by more than the campaign's width: this "
+                                      "table is **suspect**)"
+                      : told_apart  ? " (**told apart**: trust no smaller difference)"
+                                    : "");
     }
   }
   std::string all = fmt::format("### {}\n\n", first.key.words());
@@ -161,8 +165,9 @@ std::string markdown(const Tables& tables) {
     all += header(
         {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
     for (const WinnerRow& row : tables.winners) {
-      all += line({row.key.words(), row.winner, row.runner_up, text(row.ratio.median),
-                   interval(row.ratio), probability(row.p_corrected)});
+      all +=
+          line({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner, row.runner_up,
+                text(row.ratio.median), interval(row.ratio), probability(row.p_corrected)});
     }
     all += "\n";
   }
@@ -236,20 +241,22 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
   times.close();
   TableFile ratios(folder / "ratios.csv",
                    {"algorithm", "baseline", "canary", "ratio", "ratio_low", "ratio_high",
-                    "squares", "p", "p_corrected", "band_low", "band_high"});
+                    "squares", "p", "p_corrected", "band_low", "band_high", "suspect"});
   for (const RatioRow& row : tables.ratios) {
     CsvWriter& csv = ratios.row(row.key).field(row.label).field(row.baseline);
     csv.field(int{row.canary}).field(row.ratio.median).field(row.ratio.low).field(row.ratio.high);
     csv.field(row.ratio.n).field(row.p).field(row.p_corrected);
-    csv.field(row.ratio.low / band).field(row.ratio.high * band).end_row();
+    csv.field(row.ratio.low / band).field(row.ratio.high * band);
+    csv.field(int{row.suspect}).end_row();
   }
   ratios.close();
-  TableFile winners(folder / "winners.csv", {"winner", "runner_up", "ratio", "ratio_low",
-                                             "ratio_high", "squares", "p", "p_corrected"});
+  TableFile winners(folder / "winners.csv",
+                    {"winner", "runner_up", "ratio", "ratio_low", "ratio_high", "squares", "p",
+                     "p_corrected", "suspect"});
   for (const WinnerRow& row : tables.winners) {
     CsvWriter& csv = winners.row(row.key).field(row.winner).field(row.runner_up);
     csv.field(row.ratio.median).field(row.ratio.low).field(row.ratio.high).field(row.ratio.n);
-    csv.field(row.p).field(row.p_corrected).end_row();
+    csv.field(row.p).field(row.p_corrected).field(int{row.suspect}).end_row();
   }
   winners.close();
   TableFile exponents(folder / "exponents.csv", {"algorithm", "exponent", "exponent_low",

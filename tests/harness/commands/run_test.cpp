@@ -1,4 +1,10 @@
 // touchstone run and draw, as a user runs them.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <map>
 #include <string>
 
@@ -72,6 +78,180 @@ TEST_F(RunCommand, AFileWhereTheFolderShouldBeIsTold) {
   const Ran ran = run_program("run " + path("c.toml") + " --out " + path("out"));
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr(path("out")));
+}
+
+TEST_F(RunCommand, ADryRunTellsCellsAndTimesAndLeavesNothing) {
+  folder_.write("c.toml",
+                "scenes = 's.toml'\ncounts = [20, 40]\nbroad = ['naive', 'uniform-grid']\n"
+                "narrow = ['gjk', 'sat-faces']\nscalars = 'double'\nthreads = [1, 2]\nseconds = 7\n"
+                "exclude = {narrow = 'gjk', threads = 2}\n");
+  const auto before = folder_.names();
+  const Ran ran = run_program("run " + path("c.toml") + " --dry-run --out " + path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_EQ(folder_.names(), before);
+  EXPECT_THAT(ran.text, testing::HasSubstr("block 3: s, 40 bodies"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("broad phases: naive, uniform-grid"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("box-sphere: gjk double, sat-faces double"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("box-sphere: sat-faces double"));
+  EXPECT_THAT(ran.text, testing::ContainsRegex("4 blocks, [0-9]+ cells; about [0-9.e+-]+ s for the "
+                                               "check of every frame"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("about 28 s for the samples"));
+}
+
+// A processor is asked for by somebody else all the time.
+class Spinner {
+ public:
+  Spinner() : pid_(fork()) {
+    if (pid_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      for (volatile int turns = 0;;) turns = turns + 1;
+    }
+  }
+  ~Spinner() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Spinner(const Spinner&) = delete;
+  Spinner& operator=(const Spinner&) = delete;
+
+ private:
+  pid_t pid_;
+};
+
+TEST_F(RunCommand, StrictRefusesABusyMachine) {
+  const Spinner spinner;
+  expect_refusal("run " + path("c.toml") + " --strict --out " + path("out"),
+                 "the machine is not quiet, and --strict was given: ", folder_);
+}
+
+class StoppedRun : public RunCommand {
+ protected:
+  // A run of which half is gone, as after a kill.
+  StoppedRun() {
+    write_campaign("");
+    const Ran ran = run_program(command(""));
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    rows_ = read_rows(file("raw.csv"), {"kind"}).size();
+    replace("machine.csv", "finished,yes", "finished,no");
+    const std::string raw = folder_.read("out/raw.csv");
+    folder_.write("out/raw.csv", raw.substr(0, raw.size() / 2));
+  }
+  void write_campaign(const std::string& more) {
+    folder_.write("c.toml",
+                  "scenes = 's.toml'\nbroad = ['naive', 'uniform-grid']\nnarrow = 'gjk'\n"
+                  "scalars = 'double'\nthreads = 1\nsquares = 6\nseconds = 0.05\n" +
+                      more);
+  }
+  std::string command(const std::string& flags) const {
+    return "run " + path("c.toml") + " --out " + path("out") + " " + flags;
+  }
+  std::filesystem::path file(const std::string& name) const {
+    return folder_.path() / "out" / name;
+  }
+  void replace(const std::string& name, const std::string& old, const std::string& text) {
+    std::string all = folder_.read("out/" + name);
+    const auto at = all.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    folder_.write("out/" + name, all.replace(at, old.size(), text));
+  }
+  // Of --resume, with no byte of the files changed.
+  void expect_refused(const std::string& text, const std::string& flags = "--resume") {
+    const std::string raw = folder_.read("out/raw.csv");
+    const std::string machine = folder_.read("out/machine.csv");
+    const Ran ran = run_program(command(flags));
+    EXPECT_EQ(ran.status, 2) << ran.text;
+    EXPECT_THAT(ran.text, testing::HasSubstr(text));
+    EXPECT_EQ(folder_.read("out/raw.csv"), raw);
+    EXPECT_EQ(folder_.read("out/machine.csv"), machine);
+  }
+  void expect_whole(const std::string& flags) {
+    const Ran ran = run_program(command(flags));
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    EXPECT_EQ(read_rows(file("raw.csv"), {"kind"}).size(), rows_);
+    EXPECT_THAT(folder_.read("out/machine.csv"), testing::HasSubstr("finished,yes"));
+  }
+  std::size_t rows_ = 0;
+};
+
+TEST_F(StoppedRun, GoesOn) { expect_whole("--resume"); }
+
+TEST_F(StoppedRun, GoesOnWhereNoRowWasWrittenYet) {
+  folder_.write("out/raw.csv", "campaign,ki");
+  std::filesystem::remove(file("departures.csv"));
+  expect_whole("--resume");
+}
+
+TEST_F(StoppedRun, IsOverwrittenOnRequestOnly) {
+  expect_refused("--overwrite", "");
+  expect_whole("--overwrite");
+  expect_whole("");  // it was finished
+}
+
+TEST_F(StoppedRun, ResumeAndOverwriteExcludeEachOther) {
+  expect_refused("--overwrite", "--resume --overwrite");
+}
+
+TEST_F(StoppedRun, AFinishedOneIsLeftAsItIs) {
+  expect_whole("--resume");
+  const std::string raw = folder_.read("out/raw.csv");
+  expect_whole("--resume");
+  EXPECT_EQ(folder_.read("out/raw.csv"), raw);
+}
+
+TEST_F(StoppedRun, AnotherFolderIsRefused) {
+  expect_refusal("run " + path("c.toml") + " --resume --out " + path("elsewhere"),
+                 path("elsewhere/machine.csv") + ": is not there", folder_);
+}
+
+TEST_F(StoppedRun, AnotherMachineIsRefused) {
+  replace("machine.csv", "memory,", "memory,1 kB or ");
+  expect_refused("memory was '1 kB or ");
+}
+
+TEST_F(StoppedRun, AnotherBuildIsRefused) {
+  replace("machine.csv", "program,", "program,0");
+  expect_refused("program was '0");
+}
+
+TEST_F(StoppedRun, AnotherIsaIsRefused) {
+  replace("machine.csv", "instructions_in_use,", "instructions_in_use,no ");
+  expect_refused("instructions_in_use was 'no ");
+}
+
+TEST_F(StoppedRun, AnotherSceneIsRefused) {
+  const std::string scene = folder_.read("s.toml");
+  folder_.write("s.toml", scene + "seed = 77\n");
+  expect_refused("scene s, 40 bodies was '");
+  folder_.write("s.toml", scene);
+  expect_whole("--resume");
+}
+
+TEST_F(StoppedRun, AnotherCampaignIsRefused) {
+  write_campaign("name = 'd'\n");
+  expect_refused("campaign was 'c' and is 'd'");
+  write_campaign("width = 0.3\n");
+  expect_refused("campaign_hash was '");
+  write_campaign("");
+  expect_whole("--resume");
+}
+
+TEST_F(StoppedRun, RowsOfAnotherVersionAreRefused) {
+  replace("raw.csv", ",noise,words,", ",noise,");
+  expect_refused("raw.csv:1: other columns than this program writes");
+}
+
+TEST_F(StoppedRun, ARowThatIsNoneIsRefused) {
+  replace("raw.csv", ",check,", ",chekc,");
+  expect_refused("raw.csv:2: found 'chekc'");
+}
+
+TEST_F(StoppedRun, TwoAtOnceAreRefused) {
+  const int folder = open((folder_.path() / "out").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(folder, 0);
+  ASSERT_EQ(flock(folder, LOCK_EX), 0);
+  expect_refused("another run is at work");
+  close(folder);
+  expect_whole("--resume");
 }
 
 TEST_F(RunCommand, DrawsAPicture) {

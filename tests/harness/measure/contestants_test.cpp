@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -10,9 +11,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "harness/measure/schedule.h"
 #include "harness/measure/set_times.h"
 #include "harness/run/report.h"
 #include "harness/run/runner.h"
+#include "harness/stats/samples.h"
 #include "tests/harness/measure/fakes.h"
 
 namespace touchstone {
@@ -32,7 +35,9 @@ struct Harm {
   std::vector<RawRow> lost;            // rows of the bad one without a good status
   std::map<std::string, int> samples;  // rows of find_pairs
 
-  Harm(int when, const FakeBroadPhase::Hook& harm, std::string_view status) {
+  Harm(int when, const FakeBroadPhase::Hook& harm, std::string_view status,
+       double time_limit = 60) {
+    fakes.time_limit = time_limit;
     const auto good = [](int, PairSink&) {};
     fakes.fakes = {fake("good", good),
                    fake("bad",
@@ -83,7 +88,7 @@ TEST(Contestants, ACrashCostsItsOwnRowsOnly) {
 TEST(Contestants, AHangIsOver) {
   for (const int when : {in_check, in_samples}) {
     const Harm harm(
-        when, [](int, PairSink&) { pause(); }, "timed_out");
+        when, [](int, PairSink&) { pause(); }, "timed_out", 2);
   }
 }
 
@@ -151,41 +156,149 @@ TEST(Contestants, AnotherAnswerInAWorkerThanInTheCheckIsWrong) {
   EXPECT_EQ(wrong, 1);
 }
 
-// log(second / first) as the tables have it.
-stats::MedianInterval ratio(const std::vector<FakeBroadPhase::Hook>& work, int squares) {
-  FakeCampaign fakes;
-  fakes.fakes = {fake("first", work[0]), fake("second", work[1])};
-  const RunResult result = run_campaign(fakes.campaign(squares), fakes.out());
+SetTimes times_of(const RunResult& result) {
   SetTimes times;
   for (const RawRow& row : result.findings.rows()) times.add(row);
+  return times;
+}
+
+TEST(Contestants, OneThatSleepsLongerIsSlower) {
+  FakeCampaign fakes;
+  fakes.fakes = {fake("first", [](int, PairSink&) { wait_a_little(1000); }),
+                 fake("second", [](int, PairSink&) { wait_a_little(4000); })};
+  const SetTimes times = times_of(run_campaign(fakes.campaign(12), fakes.out()));
   EXPECT_EQ(times.baseline(), "first");
-  return stats::median_interval(times.log_ratios("second", "first", true), confidence);
+  const auto ratio = stats::median_interval(times.log_ratios("second", "first", true), confidence);
+  EXPECT_EQ(ratio.n, 12u);
+  EXPECT_GT(ratio.low, 0);
+  for (const double seconds : times.times("second", true)) EXPECT_GE(seconds, 4000e-6);
 }
 
-TEST(Contestants, OneThatSleepsTwiceAsLongIsSlower) {
-  const auto ratio_of_sleeps = ratio(
-      {[](int, PairSink&) { wait_a_little(1000); }, [](int, PairSink&) { wait_a_little(2000); }},
-      12);
-  EXPECT_GT(ratio_of_sleeps.low, 0);
+// From here on times are exact: those of fakes on a clock of their own.
+double jittered(double seconds, Random& random) {
+  return seconds * std::exp(random.uniform(-0.2, 0.2));
 }
 
-void spin(int turns) {
-  volatile int sum = 0;
-  for (int i = 0; i < turns; ++i) sum = sum + i;
+class ExactTimes : public testing::Test {
+ protected:
+  // Three contestants whose times are spread by a tenth: one, its like, and one that has 5 % more
+  // to do.
+  void fill() {
+    const auto like = [](int, Random& random) { return jittered(100e-6, random); };
+    fakes_.fakes = {
+        timed_fake("first", 1, like), timed_fake("like", 2, like),
+        timed_fake("slower", 3, [](int, Random& random) { return jittered(105e-6, random); })};
+  }
+  QuietMachine quiet_;
+  FakeCampaign fakes_;
+};
+
+TEST_F(ExactTimes, TheClockTellsWhatTheWorkTook) {
+  fakes_.fakes = {timed_fake("first", 1, [](int, Random&) { return 100e-6; }),
+                  timed_fake("second", 2, [](int, Random&) { return 150e-6; })};
+  const SetTimes times = times_of(run_campaign(fakes_.campaign(6), fakes_.out()));
+  for (const double seconds : times.times("first", false)) EXPECT_NEAR(seconds, 100e-6, 1e-12);
+  for (const double seconds : times.times("second", false)) EXPECT_NEAR(seconds, 150e-6, 1e-12);
+  for (const double ratio : times.log_ratios("second", "first", false)) {
+    EXPECT_NEAR(ratio, std::log(1.5), 1e-9);
+  }
 }
 
-TEST(Contestants, OneWithAFewPercentMoreToDoIsSlower) {
-  const auto spins =
-      ratio({[](int, PairSink&) { spin(100'000); }, [](int, PairSink&) { spin(105'000); }}, 48);
-  EXPECT_EQ(spins.n, 48u);
-  EXPECT_GT(spins.low, 0);
+TEST_F(ExactTimes, AFewPercentMoreToDoAreFoundAndTwinsAreNotToldApart) {
+  fill();
+  const SetTimes times = times_of(run_campaign(fakes_.campaign(48), fakes_.out()));
+  const auto ratio = [&](const std::string& label) {
+    return stats::median_interval(times.log_ratios(label, "first", false), confidence);
+  };
+  const auto slower = ratio("slower");
+  EXPECT_EQ(slower.n, 48u);
+  EXPECT_GT(slower.low, 0);
+  EXPECT_LT(slower.low, std::log(1.05));
+  EXPECT_GT(slower.high, std::log(1.05));
+  for (const auto& same : {ratio("like"), ratio(SetTimes::twin_of("first"))}) {
+    EXPECT_EQ(same.n, 48u);
+    EXPECT_LT(same.low, 0);
+    EXPECT_GT(same.high, 0);
+  }
 }
 
-TEST(Contestants, TheSameTwiceIsNotToldApart) {
-  const auto same = [](int, PairSink&) { spin(100'000); };
-  const auto twins = ratio({same, same}, 24);
-  EXPECT_LT(twins.low, 0.02);
-  EXPECT_GT(twins.high, -0.02);
+// The last row of the only set.
+RawRow last_row(const RunResult& result) { return result.findings.rows().back(); }
+
+TEST_F(ExactTimes, RepetitionEndsWhereTheIntervalIsNarrow) {
+  fill();
+  Campaign campaign = fakes_.campaign({});
+  campaign.groups[0].seconds = 1e9;
+  campaign.groups[0].width = 0.5;
+  const RunResult wide = run_campaign(campaign, fakes_.folder.path() / "wide");
+  EXPECT_EQ(last_row(wide).stop, "width");
+  EXPECT_EQ(last_row(wide).square, first_look - 1);
+}
+
+TEST_F(ExactTimes, RepetitionEndsWithTheLastLook) {
+  fill();
+  Campaign campaign = fakes_.campaign({});
+  campaign.groups[0].seconds = 1e9;
+  campaign.groups[0].width = 1e-4;
+  const RunResult result = run_campaign(campaign, fakes_.out());
+  EXPECT_EQ(last_row(result).stop, "rounds");
+  EXPECT_EQ(last_row(result).square, 47);
+}
+
+TEST_F(ExactTimes, RepetitionEndsWithTheBudget) {
+  fill();
+  Campaign campaign = fakes_.campaign({});
+  campaign.groups[0].seconds = 1e-9;  // four times as much before there is an interval
+  const RunResult result = run_campaign(campaign, fakes_.out());
+  EXPECT_EQ(last_row(result).stop, "budget");
+  EXPECT_EQ(last_row(result).square, 0);
+}
+
+TEST_F(ExactTimes, ATwinThatTakesLongerMakesTheSetSuspect) {
+  // The instances after the check's are the baseline and its twin in turn.
+  fakes_.fakes = {
+      timed_fake("first", 1,
+                 [](int instance, Random& random) {
+                   const bool twin = instance > 0 && instance % 2 == 0;
+                   return jittered(twin ? 130e-6 : 100e-6, random);
+                 }),
+      timed_fake("second", 2, [](int, Random& random) { return jittered(100e-6, random); })};
+  const RunResult result = run_campaign(fakes_.campaign(12), fakes_.out());
+  EXPECT_EQ(last_row(result).noise, "canary");
+  int flagged = 0;
+  for (const RawRow& row : result.findings.rows()) flagged += !row.noise.empty();
+  EXPECT_EQ(flagged, 1);
+  EXPECT_THAT(measurement_notes(result.findings, {}),
+              testing::HasSubstr("not to be trusted in\n  block 0, broad phases"));
+  const stats::Results read = stats::read_results(fakes_.out());
+  ASSERT_EQ(read.sets.size(), 1u);
+  EXPECT_TRUE(read.sets[0].suspect);
+}
+
+TEST_F(ExactTimes, ATwinThatIsOneMakesNoneSuspect) {
+  fill();
+  const RunResult result = run_campaign(fakes_.campaign(12), fakes_.out());
+  for (const RawRow& row : result.findings.rows()) EXPECT_EQ(row.noise, "");
+  EXPECT_FALSE(stats::read_results(fakes_.out()).sets.at(0).suspect);
+}
+
+TEST_F(ExactTimes, ARoundThatWasDisturbedDoesNotCount) {
+  // Every round: there is then no interval to end by, and none to make a set suspect.
+  noise_judge() = [](const NoiseReading&, const NoiseReading&, double, std::int64_t) {
+    return std::string("steal");
+  };
+  fill();
+  Campaign campaign = fakes_.campaign({});
+  campaign.groups[0].seconds = 1e9;
+  campaign.groups[0].width = 10;
+  const RunResult result = run_campaign(campaign, fakes_.out());
+  EXPECT_EQ(last_row(result).stop, "rounds");
+  for (const RawRow& row : result.findings.rows()) {
+    EXPECT_EQ(row.noise, row.kind == RowKind::sample ? "steal" : "");
+  }
+  const SetTimes times = times_of(result);
+  EXPECT_TRUE(times.log_ratios("slower", "first", false).empty());
+  EXPECT_EQ(times.log_ratios("slower", "first", true).size(), 48u);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 namespace touchstone {
 namespace {
@@ -32,15 +34,15 @@ class Fake final : public Sampler {
   std::function<void()> harm_;
 };
 
-IsolationFailure failure_of(const std::function<void()>& harm) {
+IsolationFailure failure_of(const std::function<void()>& harm, double seconds = 60) {
   Worker worker([&] { return std::make_unique<Fake>(harm); },
                 {.memory = std::size_t{256} << 20, .layout = 1});
-  EXPECT_FALSE(worker.wait_until_made(10));
+  EXPECT_FALSE(worker.wait_until_made(60));
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
-    const auto reply = worker.ask({.frame = frame}, 10);
+    const auto reply = worker.ask({.frame = frame}, 60);
     EXPECT_TRUE(reply && reply->pairs == frame);
   }
-  EXPECT_FALSE(worker.ask({.frame = 3}, 0.3));
+  EXPECT_FALSE(worker.ask({.frame = 3}, seconds));
   EXPECT_FALSE(worker.alive());
   EXPECT_FALSE(worker.ask({.frame = 4}, 10)) << "dead is dead";
   return worker.failure();
@@ -63,7 +65,7 @@ TEST(Worker, ACrashIsTold) {
 }
 
 TEST(Worker, AHangIsEnded) {
-  EXPECT_EQ(failure_of([] { pause(); }).state, ItemState::timed_out);
+  EXPECT_EQ(failure_of([] { pause(); }, 0.3).state, ItemState::timed_out);
   expect_no_child_is_left();
 }
 
@@ -103,10 +105,45 @@ TEST(Worker, ALeakEndsAtTheLimit) {
 
 TEST(Worker, AFailureBeforeTheFirstSampleIsTold) {
   Worker worker([]() -> std::unique_ptr<Sampler> { throw std::runtime_error("not today"); }, {});
-  const auto failure = worker.wait_until_made(10);
+  const auto failure = worker.wait_until_made(60);
   ASSERT_TRUE(failure);
   EXPECT_TRUE(failure->in_setup);
   EXPECT_EQ(failure->words, "not today");
+}
+
+// In a process of its own, since oneTBB keeps its threads: whether `use` makes forking refused.
+bool refuses_to_fork_after(const std::function<void()>& use) {
+  const pid_t child = fork();
+  if (child == 0) {
+    use();
+    try {
+      Worker worker([] { return std::make_unique<Fake>([] {}); }, {});
+      _exit(worker.wait_until_made(60) ? 2 : 0);
+    } catch (const std::logic_error&) {
+      _exit(1);
+    }
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) < 2);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 1;
+}
+
+TEST(Worker, IsNotForkedByAProcessOfSeveralThreads) {
+  const auto use = [](int width) {
+    Executor executor(width);
+    std::atomic<int> sum = 0;
+    executor.run(1000, [&](std::size_t, int) { ++sum; });
+    EXPECT_EQ(sum, 1000);
+  };
+  EXPECT_FALSE(refuses_to_fork_after([] {}));
+  EXPECT_FALSE(refuses_to_fork_after([&] { use(1); }));
+#if !defined(__SANITIZE_THREAD__)
+  if (std::thread::hardware_concurrency() > 1) {
+    EXPECT_TRUE(refuses_to_fork_after([&] { use(2); }));
+  }
+  EXPECT_TRUE(refuses_to_fork_after([] { std::thread([] { pause(); }).detach(); }));
+#endif
 }
 
 TEST(Worker, LayoutsDiffer) {
@@ -124,8 +161,8 @@ TEST(Worker, LayoutsDiffer) {
   std::set<std::int64_t> heaps, stacks;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     Worker worker([] { return std::make_unique<Where>(); }, {.layout = seed});
-    EXPECT_FALSE(worker.wait_until_made(10));
-    const auto reply = worker.ask({}, 10);
+    EXPECT_FALSE(worker.wait_until_made(60));
+    const auto reply = worker.ask({}, 60);
     ASSERT_TRUE(reply);
     heaps.insert(reply->pairs);
     stacks.insert(reply->contacts);

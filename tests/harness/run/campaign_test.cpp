@@ -101,4 +101,84 @@ TEST_F(CampaignFile, TellsFaultsWithTheirLine) {
   EXPECT_THAT(fault("scenes = 'a.toml"), HasSubstr("c.toml:1:"));
 }
 
+TEST_F(CampaignFile, EveryKeyRefusesWhatIsNoneOfItsValues) {
+  using testing::AllOf;
+  using testing::HasSubstr;
+  const struct {
+    const char* key;
+    std::vector<const char*> wrong;
+  } cases[] = {
+      {"name", {"7", "['a']"}},
+      {"seed", {"-1", "1.5", "'one'", "99999999999999999999"}},
+      {"scenes", {"7", "['a.toml', 3]", "[]", "{a = 1}"}},
+      {"counts", {"0", "-3", "1.5", "'many'", "[]", "[10, 'x']", "100_000_001"}},
+      {"seeds", {"-1", "'x'", "[1, 2.5]", "[]"}},
+      {"frames", {"0", "-1", "'all'", "[3]", "1_000_001"}},
+      {"boxes", {"'round'", "1", "['tight', 'round']", "[]"}},
+      {"threads", {"0", "-2", "1025", "'two'", "1.0", "[]"}},
+      {"rebuild", {"1", "'yes'"}},
+      {"broad", {"'nobody'", "3", "['naive', 4]", "'gjk'", "[]"}},
+      {"narrow", {"'nobody'", "3", "['gjk', true]", "'naive'", "[]"}},
+      {"scalars", {"'half'", "64", "[]"}},
+      {"tolerances", {"0", "-1e-3", "1", "nan", "inf", "'small'", "[1e-3, 0]", "[]"}},
+      {"max_iterations", {"0", "-1", "2.5", "'ten'", "1_000_001"}},
+      {"tasks", {"'touch'", "1", "['distance', 'touch']", "[]"}},
+      {"pairing", {"'both'", "1", "true"}},
+      {"time_limit", {"0", "-1", "nan", "inf", "'long'", "[1]"}},
+      {"memory_limit", {"0", "-1", "1.5", "'much'", "16_777_217"}},
+      {"width", {"0", "-0.1", "11", "nan", "'narrow'"}},
+      {"seconds", {"0", "-1", "nan", "inf", "'ten'"}},
+      {"squares", {"0", "5", "-6", "6.0", "'six'", "10_001"}},
+      {"include", {"7", "'naive'", "[]", "[7]", "{broad = 'nobody'}", "{brod = 'naive'}"}},
+      {"exclude",
+       {"{broad = 7}", "{narrow = 'naive'}", "{broad = 'naive', narrow = 'gjk'}", "{scene = 1}",
+        "{scalar = 'half'}", "{task = 'touch'}", "{pair_kind = 3}", "{boxes = 'round'}",
+        "{threads = 0}", "{threads = 'x'}", "{counts_above = -1}", "{counts_below = 1.5}",
+        "[{broad = 'naive'}, {thread = 1}]"}},
+      {"group", {"7", "[]", "[7]"}},
+  };
+  for (const auto& [key, wrong] : cases) {
+    for (const std::string value : wrong) {
+      const std::string line = std::string(key) + " = " + value;
+      const bool own_scenes = std::string(key) == "scenes";
+      const std::string first = own_scenes ? "name = 'n'\n" : "scenes = 'a.toml'\n";
+      EXPECT_THAT(fault(first + line), HasSubstr("c.toml:2:")) << line;
+      const std::string top_only = std::string(key);
+      if (top_only == "name" || top_only == "seed" || top_only == "group") continue;
+      EXPECT_THAT(fault(first + "\n[[group]]\n" + line), HasSubstr("c.toml:4:")) << line;
+    }
+  }
+}
+
+TEST_F(CampaignFile, AKeyThatIsNoneIsRefusedWhereverItStands) {
+  using testing::HasSubstr;
+  EXPECT_THAT(fault("scenes = 'a.toml'\nsecond = 1"), HasSubstr("c.toml:2: unknown key second"));
+  EXPECT_THAT(fault("scenes = 'a.toml'\n[[group]]\nseed = 3"), HasSubstr("c.toml:3:"));
+  EXPECT_THAT(fault("scenes = 'a.toml'\n[[groups]]\nseconds = 3"), HasSubstr("c.toml:2:"));
+}
+
+TEST_F(CampaignFile, ADefaultThatIsWrongIsToldThoughEachGroupHasItsOwn) {
+  EXPECT_THAT(fault("scenes = 'a.toml'\nseconds = -1\n[[group]]\nseconds = 2"),
+              testing::HasSubstr("c.toml:2:"));
+}
+
+TEST_F(CampaignFile, TheMeasuringIsAsTheFileSays) {
+  const CampaignGroup group =
+      read(
+          "scenes = 'a.toml'\nwidth = 0.5\nseconds = 3\nsquares = 6\nmemory_limit = 8\n"
+          "time_limit = 0.25\ninclude = {task = 'distance'}\n"
+          "exclude = [{broad = 'naive', counts_above = 9}, {threads = 2}]")
+          .groups.at(0);
+  EXPECT_EQ(group.width, 0.5);
+  EXPECT_EQ(group.seconds, 3);
+  EXPECT_EQ(group.squares, 6);
+  EXPECT_EQ(group.memory_limit, std::size_t{8} << 20);
+  EXPECT_EQ(group.time_limit, 0.25);
+  ASSERT_EQ(group.include.size(), 1u);
+  EXPECT_EQ(group.include[0].task, Task::distance);
+  ASSERT_EQ(group.exclude.size(), 2u);
+  EXPECT_EQ(group.exclude[0].counts_above, 9);
+  EXPECT_EQ(group.exclude[1].threads, 2);
+}
+
 }  // namespace

@@ -30,6 +30,7 @@ struct FakeBlock {
   std::vector<FakeContestant> contestants;
   bool twin = true;  // of the first contestant
   double twin_factor = 1;
+  bool suspect = false;  // the last row says so
 };
 
 struct FakeRun {
@@ -82,7 +83,10 @@ struct FakeRun {
                                      std::exp(spread * draw(random)) * frames * (narrow ? 50 : 1);
               const std::string place = fmt::format(
                   "{},,,,,,{},sample,{},{},{},{},{},{},{},{},", frames * 50, c.status, b, process,
-                  square, round, i, frames, twin ? "1" : "", noisy ? "pressure" : "");
+                  square, round, i, frames, twin ? "1" : "",
+                  noisy                                                                ? "pressure"
+                  : block.suspect && process + 1 == processes && square + 1 == squares ? "canary"
+                                                                                       : "");
               if (narrow) {
                 row(c, 0, "narrow", seconds, place);
               } else {

@@ -143,6 +143,28 @@ TEST_F(TablesOf, ACanaryThatIsToldApartIsTold) {
   EXPECT_THAT(text(), HasSubstr("told apart"));
 }
 
+TEST_F(TablesOf, ASuspectSetIsMarkedAndProvesNothing) {
+  FakeRun run = fake_run();
+  const auto reference = write(run, "reference");
+  write_tables(make(run), 1.2, reference);
+  run.blocks[0].suspect = true;
+  const Tables tables = make(run);
+  for (const RatioRow& row : tables.ratios) EXPECT_EQ(row.suspect, !row.key.narrow()) << row.label;
+  for (const WinnerRow& row : tables.winners) EXPECT_EQ(row.suspect, !row.key.narrow());
+  EXPECT_EQ(tables.times[0].noisy, 0) << "the round of the word is as good as the others";
+  const auto folder = write(run, "suspect");
+  write_tables(tables, 1.2, folder);
+  const std::string text = folder_.read("suspect/tables.md");
+  EXPECT_THAT(text, HasSubstr("broad phases (**suspect**) | sweep-and-prune"));
+  EXPECT_THAT(text, HasSubstr("this table is **suspect**"));
+  const auto undecided = [](const TableCheck& check) {
+    return std::ranges::count(check.cells, Holds::undecided, &CheckedCell::state);
+  };
+  EXPECT_EQ(undecided(check_tables(reference, read_results(reference), Noise::left_out)), 0);
+  EXPECT_EQ(undecided(check_tables(reference, read_results(folder), Noise::left_out)), 2);
+  EXPECT_EQ(undecided(check_tables(folder, read_results(reference), Noise::left_out)), 2);
+}
+
 TEST(HoldsIn, IntervalAgainstTheBand) {
   const auto state = [](double low, double high) {
     return holds({(low + high) / 2, low, high, 12}, 1.5, 3);
