@@ -78,12 +78,12 @@ void print_plan(const Campaign& campaign) {
       fmt::print("  {}: {}\n", set.name, fmt::join(set.contestants, ", "));
       cells += set.contestants.size();
     }
-    fmt::print("  check: about {:.2g} s\n", blocks[i].check_seconds);
+    fmt::print("  check: about {:.1f} s\n", blocks[i].check_seconds);
     check_seconds += blocks[i].check_seconds;
     if (!blocks[i].sets.empty()) seconds += blocks[i].seconds;
   }
   fmt::print(
-      "{} blocks, {} cells; about {:.2g} s for the check of every frame, by a trial of some, and "
+      "{} blocks, {} cells; about {:.1f} s for the check of every frame, by a trial of some, and "
       "at "
       "most\nabout {:.0f} s for the samples\n",
       blocks.size(), cells, check_seconds, seconds);

@@ -50,7 +50,8 @@ class Layout {
     }
     for (std::size_t i = 0; i < kept_.size(); i += 2) kept_[i] = {};  // holes
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    mmap(nullptr, page * (1 + random.below(256)), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    static_cast<void>(mmap(nullptr, page * (1 + random.below(256)), PROT_NONE,
+                           MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
   }
 
  private:

@@ -19,7 +19,8 @@ class RunCommand : public testing::Test {
     folder_.write("s.toml",
                   "generator = 'uniform'\ncount = 40\nframes = 2\nshapes = ['box', 'sphere']\n");
     folder_.write("c.toml",
-                  "scenes = 's.toml'\nbroad = ['naive', 'uniform-grid']\nnarrow = 'gjk'\n");
+                  "scenes = 's.toml'\nbroad = ['naive', 'uniform-grid']\nnarrow = 'gjk'\n"
+                  "seconds = 0.3\n");
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   TemporaryFolder folder_;
@@ -91,8 +92,8 @@ TEST_F(RunCommand, ADryRunTellsCellsAndTimesAndLeavesNothing) {
   EXPECT_EQ(folder_.names(), before);
   EXPECT_THAT(ran.text, testing::HasSubstr("block 3: s, 40 bodies"));
   EXPECT_THAT(ran.text, testing::HasSubstr("broad phases: naive, uniform-grid"));
-  EXPECT_THAT(ran.text, testing::HasSubstr("box-sphere: gjk double, sat-faces double"));
-  EXPECT_THAT(ran.text, testing::HasSubstr("box-sphere: sat-faces double"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("box-box: gjk double, sat-faces double"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("box-box: sat-faces double"));
   EXPECT_THAT(ran.text, testing::ContainsRegex("4 blocks, [0-9]+ cells; about [0-9.e+-]+ s for the "
                                                "check of every frame"));
   EXPECT_THAT(ran.text, testing::HasSubstr("about 28 s for the samples"));
@@ -154,14 +155,15 @@ class StoppedRun : public RunCommand {
     ASSERT_NE(at, std::string::npos) << old;
     folder_.write("out/" + name, all.replace(at, old.size(), text));
   }
-  // Of --resume, with no byte of the files changed.
+  // Of --resume, with no line of the files changed; one that was cut off may go.
   void expect_refused(const std::string& text, const std::string& flags = "--resume") {
     const std::string raw = folder_.read("out/raw.csv");
     const std::string machine = folder_.read("out/machine.csv");
     const Ran ran = run_program(command(flags));
     EXPECT_EQ(ran.status, 2) << ran.text;
     EXPECT_THAT(ran.text, testing::HasSubstr(text));
-    EXPECT_EQ(folder_.read("out/raw.csv"), raw);
+    const std::string after = folder_.read("out/raw.csv");
+    EXPECT_TRUE(raw.starts_with(after) && after.size() > raw.rfind('\n')) << "rows are lost";
     EXPECT_EQ(folder_.read("out/machine.csv"), machine);
   }
   void expect_whole(const std::string& flags) {
@@ -195,7 +197,7 @@ TEST_F(StoppedRun, AFinishedOneIsLeftAsItIs) {
   expect_whole("--resume");
   const std::string raw = folder_.read("out/raw.csv");
   expect_whole("--resume");
-  EXPECT_EQ(folder_.read("out/raw.csv"), raw);
+  EXPECT_TRUE(folder_.read("out/raw.csv") == raw) << "rows changed";
 }
 
 TEST_F(StoppedRun, AnotherFolderIsRefused) {
