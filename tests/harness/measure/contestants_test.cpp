@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -154,6 +155,47 @@ TEST(Contestants, AnotherAnswerInAWorkerThanInTheCheckIsWrong) {
     EXPECT_EQ(row.kind, RowKind::check);
   }
   EXPECT_EQ(wrong, 1);
+}
+
+TEST(Contestants, WhatARoundToldGoesWithItWhenItIsMeasuredAgain) {
+  // Crashes once, whoever asks.
+  const auto crashes = std::make_shared<SharedArray<std::atomic<int>>>(1);
+  FakeCampaign fakes;
+  fakes.fakes = {fake("good", [](int, PairSink&) {}), fake("bad", [=](int call, PairSink&) {
+                   if (call == in_samples && (*crashes)[0]++ == 0) std::raise(SIGSEGV);
+                 })};
+  const RunResult first = run_campaign(fakes.campaign(6), fakes.out());
+  ASSERT_EQ(first.findings.departures().size(), 1u);
+  const auto row = static_cast<std::size_t>(first.findings.departures()[0].row);
+  ASSERT_LT(row, first.findings.rows().size());
+  EXPECT_EQ(first.findings.rows()[row].status, "crashed");
+  EXPECT_EQ(read_departures(fakes.out() / "departures.csv").size(), 1u);
+
+  // As if it had been stopped in that round.
+  const std::string raw = fakes.folder.read("out/raw.csv");
+  fakes.folder.write("out/raw.csv", raw.substr(0, raw.find('\n', raw.find(",crashed,")) + 1));
+  std::string machine = fakes.folder.read("out/machine.csv");
+  machine.replace(machine.find("finished,yes"), 12, "finished,no");
+  fakes.folder.write("out/machine.csv", machine);
+  const RunResult again = run_campaign(fakes.campaign(6), fakes.out(), RunStart::resume);
+  for (const RawRow& one : again.findings.rows()) EXPECT_EQ(one.status, "ok");
+  EXPECT_TRUE(again.findings.departures().empty()) << departures(again.findings);
+  EXPECT_TRUE(read_departures(fakes.out() / "departures.csv").empty());
+}
+
+TEST(Contestants, WhereAWholeGroupIsGoneTheOthersStopAllTheSame) {
+  // Two groups of one set; the second, with the baseline, is gone from its first sample on.
+  const auto crash = [](int call, PairSink&) {
+    if (call >= in_samples) std::raise(SIGSEGV);
+  };
+  const auto good = [](int, PairSink&) {};
+  FakeCampaign fakes;
+  fakes.fakes = {fake("baseline", crash), fake("a", good), fake("b", good), fake("c", crash),
+                 fake("d", crash)};
+  const RunResult result = run_campaign(fakes.campaign(6), fakes.out());
+  int stops = 0;
+  for (const RawRow& row : result.findings.rows()) stops += row.stop == "rounds";
+  EXPECT_EQ(stops, 1);
 }
 
 SetTimes times_of(const RunResult& result) {
