@@ -103,9 +103,6 @@ class Resume : public testing::Test {
 
 TEST_F(Resume, AfterEveryKillAllRowsAreThereOnce) { kill_and_resume(10); }
 
-// The same at length: --gtest_also_run_disabled_tests.
-TEST_F(Resume, DISABLED_AfterFiftyKillsAllRowsAreThereOnce) { kill_and_resume(50); }
-
 TEST_F(Resume, AfterAFullDiskAllRowsAreThereOnce) {
   ASSERT_EQ(run_apart("whole", RunStart::fresh, -1), 0);
   const auto size = std::filesystem::file_size(out("whole") / "raw.csv");

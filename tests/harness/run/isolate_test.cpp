@@ -21,14 +21,16 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr IsolationLimits quick = {.item_seconds = 0.3, .setup_seconds = 0.3};
+// For what ends by itself, on the busiest machine too, and for what does not.
+constexpr IsolationLimits patient = {.item_seconds = 60, .setup_seconds = 60};
+constexpr IsolationLimits quick = {.item_seconds = 1, .setup_seconds = 1};
 
 // Seven items that write their squares, but for item 3, which does `harm`.
 struct SevenItems {
   SharedArray<int> squares{7};
   IsolationReport report;
 
-  explicit SevenItems(const std::function<void()>& harm, const IsolationLimits& limits = quick) {
+  explicit SevenItems(const std::function<void()>& harm, const IsolationLimits& limits = patient) {
     report = isolate(squares.size(), limits, [&] {
       return [&](std::size_t item) {
         if (item == 3) harm();
@@ -57,7 +59,7 @@ void expect_no_child_is_left() {
 TEST(Isolate, DoesTheWorkInAnotherProcess) {
   SharedArray<pid_t> pids(100);
   int here = 0;
-  const IsolationReport report = isolate(pids.size(), quick, [&] {
+  const IsolationReport report = isolate(pids.size(), patient, [&] {
     return [&](std::size_t item) {
       pids[item] = getpid();
       ++here;
@@ -72,7 +74,7 @@ TEST(Isolate, DoesTheWorkInAnotherProcess) {
 }
 
 TEST(Isolate, NothingToDo) {
-  const IsolationReport report = isolate(0, quick, []() -> ItemWork { std::abort(); });
+  const IsolationReport report = isolate(0, patient, []() -> ItemWork { std::abort(); });
   EXPECT_TRUE(report.states.empty());
   EXPECT_TRUE(report.failures.empty());
 }
@@ -96,25 +98,31 @@ TEST(Isolate, AbortAsOfAnAssertion) {
 }
 
 TEST(Isolate, HangAsleepAndBusy) {
-  const SevenItems asleep([] {
-    for (;;) pause();
-  });
+  const SevenItems asleep(
+      [] {
+        for (;;) pause();
+      },
+      quick);
   asleep.expect_only_item_3_lost(ItemState::timed_out);
   EXPECT_EQ(asleep.report.failures[0].reason(), "no answer in time");
   volatile bool forever = true;
-  const SevenItems busy([&] {
-    while (forever) {
-    }
-  });
+  const SevenItems busy(
+      [&] {
+        while (forever) {
+        }
+      },
+      quick);
   busy.expect_only_item_3_lost(ItemState::timed_out);
   expect_no_child_is_left();
 }
 
 TEST(Isolate, HangWithEveryFileClosed) {
-  const SevenItems run([] {
-    for (int i = 0; i < 100; ++i) close(i);
-    for (;;) pause();
-  });
+  const SevenItems run(
+      [] {
+        for (int i = 0; i < 100; ++i) close(i);
+        for (;;) pause();
+      },
+      quick);
   run.expect_only_item_3_lost(ItemState::timed_out);
 }
 
@@ -141,7 +149,7 @@ TEST(Isolate, AllocatesWithoutEnd) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the limit is not kept under a sanitizer";
 #else
-  IsolationLimits limits = quick;
+  IsolationLimits limits = patient;
   limits.memory = std::size_t{64} << 20;
   const SevenItems run(
       [] {
@@ -166,22 +174,24 @@ TEST(Isolate, RecursesWithoutEnd) {
 }
 
 TEST(Isolate, PrintsWithoutEnd) {
-  const SevenItems run([] {
-    for (;;) std::fputs("noise\n", stderr);
-  });
+  const SevenItems run(
+      [] {
+        for (;;) std::fputs("noise\n", stderr);
+      },
+      quick);
   run.expect_only_item_3_lost(ItemState::timed_out);
   EXPECT_LE(run.report.failures[0].words.size(), 400u);
 }
 
 TEST(Isolate, EveryItemCrashes) {
   const IsolationReport report =
-      isolate(20, quick, [] { return [](std::size_t) { std::abort(); }; });
+      isolate(20, patient, [] { return [](std::size_t) { std::abort(); }; });
   EXPECT_EQ(report.failures.size(), 20u);
   EXPECT_EQ(std::ranges::count(report.states, ItemState::crashed), 20);
 }
 
 TEST(Isolate, GivesUpAfterTooManyFailures) {
-  IsolationLimits limits = quick;
+  IsolationLimits limits = patient;
   limits.failures = 2;
   const IsolationReport report = isolate(9, limits, [] {
     return [](std::size_t item) {
@@ -196,8 +206,9 @@ TEST(Isolate, GivesUpAfterTooManyFailures) {
 }
 
 TEST(Isolate, FailureOfTheSetupEndsIt) {
-  const auto states = [](const std::function<ItemWork()>& setup) {
-    const IsolationReport report = isolate(3, quick, setup);
+  const auto states = [](const std::function<ItemWork()>& setup,
+                         const IsolationLimits& limits = patient) {
+    const IsolationReport report = isolate(3, limits, setup);
     EXPECT_EQ(report.failures.size(), 1u);
     EXPECT_TRUE(report.failures.at(0).in_setup);
     EXPECT_EQ(std::ranges::count(report.states, report.states[0]), 3);
@@ -205,15 +216,17 @@ TEST(Isolate, FailureOfTheSetupEndsIt) {
   };
   EXPECT_EQ(states([]() -> ItemWork { std::abort(); }), ItemState::crashed);
   EXPECT_EQ(states([]() -> ItemWork { throw std::runtime_error("no"); }), ItemState::threw);
-  EXPECT_EQ(states([]() -> ItemWork {
-              for (;;) pause();
-            }),
+  EXPECT_EQ(states(
+                []() -> ItemWork {
+                  for (;;) pause();
+                },
+                quick),
             ItemState::timed_out);
 }
 
 TEST(Isolate, ManySlowItemsAreNotOneHang) {
-  const IsolationReport report = isolate(8, quick, [] {
-    return [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(80)); };
+  const IsolationReport report = isolate(12, quick, [] {
+    return [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(120)); };
   });
   EXPECT_TRUE(report.failures.empty());
 }
@@ -223,7 +236,7 @@ TEST(Isolate, WhatIsBufferedIsWrittenOnce) {
   std::FILE* const file = std::fopen(name.c_str(), "w");
   ASSERT_NE(file, nullptr);
   std::fputs("before ", file);
-  isolate(3, quick, [] {
+  isolate(3, patient, [] {
     return [](std::size_t item) {
       if (item == 1) std::exit(1);
     };
@@ -239,7 +252,7 @@ TEST(Isolate, WhatIsBufferedIsWrittenOnce) {
 TEST(Isolate, ManyItemsCostLittle) {
   constexpr std::size_t count = 200000;
   SharedArray<std::uint32_t> out(count);
-  const IsolationReport report = isolate(count, quick, [&] {
+  const IsolationReport report = isolate(count, patient, [&] {
     return [&](std::size_t item) { out[item] = static_cast<std::uint32_t>(item) + 1; };
   });
   EXPECT_TRUE(report.failures.empty());
