@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <tuple>
@@ -23,6 +25,10 @@ namespace {
 
 constexpr const char* finished_key = "finished";
 constexpr double seconds_for_others = 2;
+
+// Facts of the source folder, which may change beside a program that stays the same: what they were
+// at the run's start is kept.
+constexpr std::array<std::string_view, 2> source_facts = {"commit", "tree"};
 
 bool is_sample(const RawRow& row) { return row.kind == RowKind::sample; }
 bool is_check_pass(const RawRow& row) { return !is_sample(row) && row.process < 0; }
@@ -172,8 +178,11 @@ void ResultFiles::compare_facts() {
   std::map<std::string, std::string> old = read_facts(machine());
   was_finished_ = old[finished_key] == "yes";
   old.erase(finished_key);
-  for (const auto& [name, value] : facts_) {
+  for (auto& [name, value] : facts_) {
     const auto at = old.find(name);
+    if (at != old.end() && std::ranges::find(source_facts, name) != source_facts.end()) {
+      value = at->second;
+    }
     if (at == old.end() || at->second != value) {
       throw InputError(machine().string(), 0,
                        fmt::format("{} was '{}' and is '{}' now; expected the same to resume", name,

@@ -215,6 +215,12 @@ TEST_F(StoppedRun, AnotherBuildIsRefused) {
   expect_refused("program was '0");
 }
 
+TEST_F(StoppedRun, AnotherCommitBesideTheSameProgramIsNot) {
+  replace("machine.csv", "\ncommit,", "\ncommit,0");
+  expect_whole("--resume");
+  EXPECT_THAT(folder_.read("out/machine.csv"), testing::HasSubstr("\ncommit,0"));
+}
+
 TEST_F(StoppedRun, AnotherIsaIsRefused) {
   replace("machine.csv", "instructions_in_use,", "instructions_in_use,no ");
   expect_refused("instructions_in_use was 'no ");
