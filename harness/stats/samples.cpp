@@ -21,14 +21,13 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<std::string> required = {
-    "campaign",     "scene",         "scene_hash", "bodies", "boxes",     "frame",
-    "broad",        "narrow",        "scalar",     "task",   "tolerance", "duality_gap",
-    "threads",      "isa",           "pair_kind",  "phase",  "seconds",   "pair_count",
-    "pair_hash",    "status",        "kind",       "block",  "process",   "square",
-    "round",        "position",      "frames",     "twin",   "noise",     "contact_count",
-    "outcome_hash", "disagreements", "failures"};
+    "campaign",      "scene",        "scene_hash",    "bodies",    "boxes",   "frame", "broad",
+    "narrow",        "scalar",       "task",          "tolerance", "threads", "isa",   "pair_kind",
+    "phase",         "seconds",      "pair_count",    "pair_hash", "status",  "kind",  "block",
+    "process",       "square",       "round",         "position",  "frames",  "twin",  "noise",
+    "contact_count", "outcome_hash", "disagreements", "failures"};
 const std::vector<std::string> optional = {
-    "seed", "stop", "compared", "iterations", "iterations_squared", "support_calls"};
+    "seed", "stop", "duality_gap", "compared", "iterations", "iterations_squared", "support_calls"};
 
 // A row's fields by the columns' names.
 class Fields {
