@@ -21,6 +21,12 @@ struct NarrowPhaseSettings {
   // The error in a distance or depth at which the algorithm may stop, as a part of the size of the
   // pair. Without it: the algorithm's own default for the scalar.
   std::optional<double> tolerance = {};
+  // Instead, for those that know it (NarrowPhaseEntry::stops_by_duality_gap): the Frank-Wolfe duality
+  // gap 2 x . (x - s) of |x|^2 (square metres) at which a distance is found, x being the nearest
+  // point of the difference so far and s the newest support point (Montaut et al., RSS 2022, sec.
+  // III). It is absolute, so that it allows a greater error in the distance the nearer the bodies
+  // are; published counts of iterations are for such a stop.
+  std::optional<double> duality_gap = {};
   // Greatest number of iterations of each loop of a query (GJK's, EPA's, the portal's); without it
   // the algorithm's own. A query that needs more says not_converged.
   std::optional<int> max_iterations = {};
@@ -66,6 +72,7 @@ struct NarrowPhaseEntry {
   bool approximate = false;
   // The depth is that of one separating translation, an upper bound, and not in general the least.
   bool depth_is_bound = false;
+  bool stops_by_duality_gap = false;  // honours NarrowPhaseSettings::duality_gap
   // What it is given of a pair of these kinds, kind_a <= kind_b; null: the pair as it stands, in
   // both scalars. Its errors are stated against the exact answer for that, and for the pair.
   Encoding (*encoding)(ShapeKind kind_a, ShapeKind kind_b, Task task, Precision scalar) = nullptr;

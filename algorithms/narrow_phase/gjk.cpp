@@ -58,6 +58,7 @@ class Gjk final : public NarrowPhase {
   Gjk(const NarrowPhaseSettings& settings, Momentum momentum)
       : momentum_(momentum),
         tolerance_(settings.tolerance),
+        duality_gap_(settings.duality_gap),
         gjk_cap_(std::max(1, settings.max_iterations.value_or(default_gjk_cap))),
         polytope_(std::max(1, settings.max_iterations.value_or(default_epa_cap))) {}
 
@@ -87,6 +88,15 @@ class Gjk final : public NarrowPhase {
 
   void solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
   Approach<Scalar> approach(SupportPair<Scalar>& pair, Task task, Scalar tolerance) const;
+  // Whether a lower bound is too far below the nearest point's distance to stop, both of the cores.
+  bool is_open(const SupportPair<Scalar>& pair, Scalar nearest, Scalar lower,
+               Scalar tolerance) const {
+    const Scalar difference = nearest - lower;
+    if (!duality_gap_) return difference > tolerance;
+    const double area = pair.unit() * pair.unit();
+    return difference > rounding &&
+           2 * area * static_cast<double>(nearest * difference) > *duality_gap_;
+  }
   void solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
                      Scalar tolerance, Outcome& outcome);
   Scalar tolerance_for(const SupportPair<Scalar>& pair) const {
@@ -97,7 +107,7 @@ class Gjk final : public NarrowPhase {
   }
 
   Momentum momentum_;
-  std::optional<double> tolerance_;
+  std::optional<double> tolerance_, duality_gap_;
   int gjk_cap_;
   ExpandingPolytope<Scalar> polytope_;
   std::vector<SupportShape<Scalar>> shapes_;
@@ -143,7 +153,8 @@ Approach<Scalar> Gjk<Scalar>::approach(SupportPair<Scalar>& pair, Task task,
     found.lower = of_normal ? lower : std::max(found.lower, lower);
     const bool apart = found.lower - radius > rounding;
     // Comparisons are written so that NaN ends the loop.
-    const bool open = found.nearest.distance - found.lower > tolerance || simplex.size == 0;
+    const bool open =
+        is_open(pair, found.nearest.distance, found.lower, tolerance) || simplex.size == 0;
     switch (task) {
       case Task::intersect:
         if (apart) found.end = End::decided;
@@ -160,9 +171,9 @@ Approach<Scalar> Gjk<Scalar>::approach(SupportPair<Scalar>& pair, Task task,
       known = known || simplex.points[i].difference == point.difference;
     }
     // The paper's stop: the support point is no nearer to the origin along the nearest point.
-    const bool spent =
-        accelerated && simplex.size > 0 &&
-        !(found.nearest.distance - found.nearest.direction.dot(point.difference) > tolerance);
+    const bool spent = accelerated && simplex.size > 0 &&
+                       !is_open(pair, found.nearest.distance,
+                                found.nearest.direction.dot(point.difference), tolerance);
     // A shallow overlap of round shapes: the bound is to hold along the normal that is reported.
     const bool oblique = accelerated && task == Task::penetration && !apart && !open;
     if (accelerated && (found.end != End::decided || oblique) && (known || spent || oblique)) {
@@ -221,7 +232,7 @@ void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outc
                        (task == Task::penetration && outcome.answer != Answer::separated);
     // A bound that the answer did not need may be open.
     const bool known = outcome.answer != Answer::unknown &&
-                       (!asked || !(found.nearest.distance - found.lower > tolerance));
+                       (!asked || !is_open(pair, found.nearest.distance, found.lower, tolerance));
     outcome.status = known ? Status::ok : Status::not_converged;
     if (asked) {
       Vec3<Scalar> a = Vec3<Scalar>::Zero();
@@ -293,6 +304,7 @@ NarrowPhaseEntry entry(AlgorithmInfo info,
   return {.info = std::move(info),
           .tasks = {Task::intersect, Task::distance, Task::penetration},
           .scalars = {Precision::float32, Precision::float64},
+          .stops_by_duality_gap = true,
           .make = make};
 }
 

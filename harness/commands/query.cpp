@@ -12,6 +12,7 @@
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/failures.h"
+#include "harness/error.h"
 #include "harness/io/cases.h"
 #include "harness/io/csv.h"
 #include "harness/run/isolate.h"
@@ -106,6 +107,13 @@ void print_summary(const std::vector<Answers>& all) {
 
 void query(const QueryOptions& options) {
   const auto entries = select(narrow_phases(), split_names(options.narrow), "narrow phase");
+  for (const NarrowPhaseEntry* entry : entries) {
+    if (!options.settings.duality_gap || entry->stops_by_duality_gap) continue;
+    throw InputError(
+        fmt::format("--duality-gap was given for '{}', which does not stop by it; "
+                    "expected only {}",
+                    entry->info.name, names_stopping_by_duality_gap()));
+  }
   const std::vector<Case> cases = read_cases(options.cases);
   check_output(options.out);
   std::vector<Answers> all;
@@ -155,6 +163,11 @@ void add_query(CLI::App& app, int& status) {
   command
       .add_option("--tolerance", options->settings.tolerance,
                   "Error of a distance at which to stop, as a part of the pair's size")
+      ->check(positive_number);
+  command
+      .add_option(
+          "--duality-gap", options->settings.duality_gap,
+          "Stop a distance by the absolute duality gap of its square instead (square metres)")
       ->check(positive_number);
   command
       .add_option("--max-iterations", options->settings.max_iterations,

@@ -11,6 +11,7 @@
 #include "harness/run/runner.h"
 #include "harness/run/selection.h"
 #include "harness/run/text_table.h"
+#include "harness/stats/published_check.h"
 
 namespace touchstone {
 namespace {
@@ -115,6 +116,13 @@ int run(const Options& options) {
        {broad_table(result.findings, style), narrow_tables(result.findings, style),
         measurement_notes(result.findings, style), departures(result.findings)}) {
     if (!text.empty()) fmt::print("{}\n", text);
+  }
+  if (!campaign.published.source.empty() && !result.interrupted) {
+    const auto rows =
+        stats::check_published(campaign.published, stats::read_results(folder),
+                               options.noisy ? stats::Noise::kept : stats::Noise::left_out);
+    stats::write_published(campaign.published, rows, folder);
+    fmt::print("{}\n", stats::published_text(campaign.published, rows));
   }
   fmt::print("{} rows in {}\n", result.findings.rows().size(), (folder / "raw.csv").string());
   if (result.interrupted) {

@@ -22,11 +22,6 @@ namespace {
 constexpr double setup_seconds = 60;
 constexpr std::size_t outcomes_at_once = 250'000;  // about 50 MB
 
-std::string label(const NarrowChoice& choice) {
-  return narrow_label(choice.entry->info.name, to_string(choice.settings.scalar),
-                      choice.settings.tolerance.value_or(Outcome::none));
-}
-
 // What the child tells of one piece; the outcomes themselves are elsewhere.
 struct ChildAnswer {
   double seconds = 0;
@@ -158,6 +153,13 @@ void NarrowCheck::take(const Piece& piece, const NarrowChoice& choice,
       check_outcomes(outcomes, reference, sets_[piece.set].task, choice.settings.scalar);
   result.pair_count = static_cast<std::int64_t>(outcomes.size());
   result.pair_hash = to_hex(group_hash(group(piece)));
+  if (result.iterations >= 0) {
+    result.iterations_squared = 0;
+    for (const Outcome& outcome : outcomes) {
+      const std::int64_t n = std::max(outcome.iterations, 0);
+      result.iterations_squared += n * n;
+    }
+  }
   result.compared = faults.compared;
   result.disagreements = faults.disagree;
   result.worst_disagreement = faults.worst;
@@ -209,7 +211,7 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
   if (!reported_.insert({&choice, piece.set}).second) return;
   const AlgorithmInfo& info = choice.entry->info;
   const NarrowSet& set = sets_[piece.set];
-  Departure departure = context_->departure(info, label(choice),
+  Departure departure = context_->departure(info, choice.label(),
                                             fmt::format("{}, {}, {}", context_->place(piece.frame),
                                                         set.kind_name(), to_string(set.task)));
   departure.known = departure.known || choice.entry->approximate;

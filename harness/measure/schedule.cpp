@@ -64,10 +64,7 @@ void add_set(Schedule& schedule, MeasuredSet set, std::vector<Contestant> candid
 }  // namespace
 
 std::string Contestant::label() const {
-  return broad != nullptr
-             ? broad->info.name
-             : narrow_label(narrow->entry->info.name, to_string(narrow->settings.scalar),
-                            narrow->settings.tolerance.value_or(Outcome::none));
+  return broad != nullptr ? broad->info.name : narrow->label();
 }
 
 std::uint32_t MeasuredSet::first_frame(std::size_t frames, std::size_t round_of_group) const {

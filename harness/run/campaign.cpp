@@ -8,6 +8,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "harness/run/raw_row.h"
 #include "harness/run/selection.h"
 #include "harness/scene/toml_table.h"
 
@@ -110,12 +111,25 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
     max_iterations =
         static_cast<int>(settings.of("max_iterations").integer("max_iterations", 1, 1'000'000));
   }
+  std::optional<double> duality_gap;
+  TomlTable& gap_holder = settings.of("duality_gap");
+  if (gap_holder.has("duality_gap")) duality_gap = gap_holder.number("duality_gap", positive);
   std::vector<NarrowChoice> choices;
   for (const NarrowPhaseEntry* entry : algorithms(settings, "narrow", narrow_phases())) {
+    if (duality_gap && !entry->stops_by_duality_gap) {
+      gap_holder.fail("duality_gap",
+                      fmt::format("given with '{}', which does not stop by it; "
+                                  "expected only {}",
+                                  entry->info.name, names_stopping_by_duality_gap()));
+    }
     for (const Precision scalar : scalars) {
       if (!offers(*entry, scalar)) continue;
       for (const std::optional<double> tolerance : tolerances) {
-        choices.push_back({entry, {scalar, tolerance, max_iterations}});
+        choices.push_back({entry,
+                           {.scalar = scalar,
+                            .tolerance = tolerance,
+                            .duality_gap = duality_gap,
+                            .max_iterations = max_iterations}});
       }
     }
   }
@@ -236,6 +250,12 @@ std::string describe(const CampaignRule& rule) {
 
 }  // namespace
 
+std::string NarrowChoice::label() const {
+  return narrow_label(entry->info.name, to_string(settings.scalar),
+                      settings.tolerance.value_or(Outcome::none),
+                      settings.duality_gap.value_or(Outcome::none));
+}
+
 bool CampaignGroup::admits(const CampaignCell& cell) const {
   const auto about = [&](const CampaignRule& rule) { return is_about(rule, cell); };
   return (include.empty() || std::ranges::any_of(include, about)) &&
@@ -254,8 +274,9 @@ std::string description(const Campaign& campaign) {
     for (const BoxKind boxes : group.boxes) text += fmt::format(" boxes {}", to_string(boxes));
     for (const auto* entry : group.broad) text += " broad " + entry->info.name;
     for (const NarrowChoice& choice : group.narrow) {
-      text += fmt::format(" narrow {} {} {} {}", choice.entry->info.name,
+      text += fmt::format(" narrow {} {} {} {} {}", choice.entry->info.name,
                           to_string(choice.settings.scalar), choice.settings.tolerance.value_or(0),
+                          choice.settings.duality_gap.value_or(0),
                           choice.settings.max_iterations.value_or(0));
     }
     for (const Task task : group.tasks) text += fmt::format(" task {}", to_string(task));
@@ -275,6 +296,7 @@ Campaign read_campaign(const std::filesystem::path& file) {
   campaign.name = table.text("name", file.stem().string());
   campaign.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
+  campaign.published = read_published(table);
   const std::filesystem::path folder = file.parent_path();
   const toml::table nothing;
   TomlTable empty(nothing, file.string(), "");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/run/published.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone {
@@ -16,6 +17,8 @@ namespace touchstone {
 struct NarrowChoice {
   const NarrowPhaseEntry* entry = nullptr;
   NarrowPhaseSettings settings;
+
+  std::string label() const;  // as narrow_label gives it
 };
 
 // How broad and narrow phases are put together.
@@ -80,6 +83,7 @@ struct Campaign {
   std::string name;
   std::uint64_t seed = 1;  // of the order in which algorithms run
   std::vector<CampaignGroup> groups;
+  Published published;
 };
 
 // Reads a campaign file: the keys are documented in datasets/README.md. Keys at the top level are

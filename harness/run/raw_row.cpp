@@ -30,6 +30,7 @@ void columns(Row& row, Visit visit) {
   visit("scalar", row.scalar);
   visit("task", row.task);
   visit("tolerance", row.tolerance);
+  visit("duality_gap", row.duality_gap);
   visit("twin", row.twin);
   visit("threads", row.threads);
   visit("isa", row.isa);
@@ -50,6 +51,7 @@ void columns(Row& row, Visit visit) {
   visit("worst_error", row.worst_error);
   visit("failures", row.failures);
   visit("iterations", row.iterations);
+  visit("iterations_squared", row.iterations_squared);
   visit("support_calls", row.support_calls);
   visit("peak_kb", row.peak_kb);
   visit("minor_faults", row.minor_faults);
@@ -125,14 +127,17 @@ std::string_view to_string(Phase phase) {
 
 std::string_view to_string(RowKind kind) { return kind == RowKind::check ? "check" : "sample"; }
 
-std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance) {
+std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
+                         double duality_gap) {
   std::string label = fmt::format("{} {}", name, scalar);
   if (!std::isnan(tolerance)) label += fmt::format(" {:g}", tolerance);
+  if (!std::isnan(duality_gap)) label += fmt::format(" gap {:g}", duality_gap);
   return label;
 }
 
 std::string label_of(const RawRow& row) {
-  return row.narrow.empty() ? row.broad : narrow_label(row.narrow, row.scalar, row.tolerance);
+  if (row.narrow.empty()) return row.broad;
+  return narrow_label(row.narrow, row.scalar, row.tolerance, row.duality_gap);
 }
 
 std::vector<std::string> raw_header() {

@@ -33,7 +33,7 @@ struct RawRow {
   std::int64_t frame = 0;
   std::int64_t frames = -1;
   std::string broad, narrow, scalar, task;
-  double tolerance = Outcome::none;
+  double tolerance = Outcome::none, duality_gap = Outcome::none;
   std::int64_t twin = -1;
   std::int64_t threads = 0;
   std::string isa;
@@ -50,7 +50,7 @@ struct RawRow {
   double worst_disagreement = Outcome::none;
   double worst_error = Outcome::none;
   std::int64_t failures = -1;
-  std::int64_t iterations = -1, support_calls = -1;
+  std::int64_t iterations = -1, iterations_squared = -1, support_calls = -1;
   std::int64_t peak_kb = -1, minor_faults = -1;
   std::int64_t voluntary_switches = -1, involuntary_switches = -1;
   std::string status;
@@ -65,9 +65,10 @@ struct RawRow {
 // The status, of a row only, of an algorithm whose answers at work were not those of its check.
 inline constexpr std::string_view status_wrong = "wrong";
 
-// A narrow phase with its settings, as the tables name it: "gjk double", "gjk double 1e-06". A NaN
-// is the algorithm's own tolerance.
-std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance);
+// A narrow phase with its settings, as the tables name it: "gjk double", "gjk double 1e-06", "gjk
+// double gap 1e-08". NaN for both is the algorithm's own tolerance.
+std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
+                         double duality_gap);
 // Of the row's algorithm: a broad phase's name, or a narrow phase's label.
 std::string label_of(const RawRow& row);
 

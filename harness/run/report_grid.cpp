@@ -75,6 +75,9 @@ stats::MedianInterval TimeGrid::log_ratio(const Cell& a, const Cell& b) const {
   return stats::shift(logarithms(times(b, noisy_)), logarithms(times(a, noisy_)), confidence);
 }
 
+double TimeGrid::least(const Cell& cell) const { return std::ranges::min(times(cell, noisy_)); }
+double TimeGrid::greatest(const Cell& cell) const { return std::ranges::max(times(cell, noisy_)); }
+
 TimeGrid::Ranking TimeGrid::rank(const std::string& column) const {
   std::vector<std::pair<double, std::string>> order;
   for (const std::string& row : rows_) {
@@ -95,8 +98,11 @@ TimeGrid::Ranking TimeGrid::rank(const std::string& column) const {
       ranking.second = order[i].second;
       ranking.log_ratio = ratio;
     }
-    // Written so that an interval that is not known tells nothing.
-    if (!(ratio.low > 0)) ranking.leaders.push_back(order[i].second);
+    // Without an interval, samples that do not overlap tell enough.
+    const bool slower = std::isfinite(ratio.low)
+                            ? ratio.low > 0
+                            : least(*find(order[i].second, column)) > greatest(first);
+    if (!slower) ranking.leaders.push_back(order[i].second);
   }
   ranking.alone = ranking.leaders.size() == 1;
   return ranking;
@@ -146,10 +152,11 @@ std::string TimeGrid::winners() const {
     const Ranking ranking = rank(column);
     if (ranking.second.empty()) continue;
     const stats::MedianInterval& ratio = ranking.log_ratio;
-    const std::string times = std::isfinite(ratio.low)
-                                  ? fmt::format("{:.3f} ({:.3f} to {:.3f})", std::exp(ratio.median),
-                                                std::exp(ratio.low), std::exp(ratio.high))
-                                  : "too few squares to tell";
+    const std::string interval =
+        std::isfinite(ratio.low)
+            ? fmt::format("{:.3f} to {:.3f}", std::exp(ratio.low), std::exp(ratio.high))
+            : fmt::format("no interval, {} squares", ratio.n);
+    const std::string times = fmt::format("{:.3f} ({})", std::exp(ratio.median), interval);
     text += fmt::format(
         "  {}: {} takes {} times the time of {}{}\n", column, ranking.second, times, ranking.first,
         ranking.alone ? "" : fmt::format("; {} cannot be told apart", ranking.leaders.size()));

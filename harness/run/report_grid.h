@@ -48,6 +48,8 @@ class TimeGrid {
   };
   const Cell* find(const std::string& row, const std::string& column) const;
   std::vector<double> times(const Cell& cell, bool noisy) const;
+  double least(const Cell& cell) const;  // of the times, of which there is at least one
+  double greatest(const Cell& cell) const;
   stats::MedianInterval log_ratio(const Cell& a, const Cell& b) const;
   Ranking rank(const std::string& column) const;
   std::string cell_text(const Cell& cell, const std::string& row, const Ranking& ranking) const;

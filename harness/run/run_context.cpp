@@ -33,12 +33,14 @@ RawRow RunContext::row(std::size_t frame, const NarrowChoice& choice) const {
   RawRow result = row(frame);
   result.narrow = choice.entry->info.name;
   result.scalar = to_string(choice.settings.scalar);
-  if (choice.settings.tolerance) result.tolerance = *choice.settings.tolerance;
+  result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
+  result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
   result.phase = Phase::narrow;
   return result;
 }
 
 bool RunContext::admits(const BroadPhaseEntry& entry) const {
+  if (!scene->pairs.empty()) return false;  // nothing is left to find
   return block->group->admits({.scene = scene->name,
                                .bodies = static_cast<std::int64_t>(scene->size()),
                                .boxes = block->boxes,

@@ -107,6 +107,11 @@ bool has_narrow(const RunContext& context) {
   return !context.block->group->narrow.empty() && context.scene->recording.empty();
 }
 
+// Whether narrow phases are asked about what each broad phase finds.
+bool finds_pairs(const RunContext& context) {
+  return context.block->group->pairing == Pairing::product && context.scene->pairs.empty();
+}
+
 // The sets of true pairs, and those of what broad phases found.
 struct NarrowInput {
   std::vector<NarrowSet> checked, measured;
@@ -123,7 +128,7 @@ std::vector<std::vector<IndexPair>> true_pairs(const BlockInput& input) {
 NarrowInput check_broad_phases(const RunContext& context, const BlockInput& input, bool again) {
   const CampaignGroup& group = *context.block->group;
   const bool narrow = has_narrow(context);
-  const bool product = narrow && group.pairing == Pairing::product;
+  const bool product = narrow && finds_pairs(context);
   NarrowInput sets;
   if (narrow) sets.checked = narrow_sets(input, "", true_pairs(input), group.tasks);
   if (!product) sets.measured = sets.checked;
@@ -243,8 +248,7 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     if (has_pairs) sets = narrow_sets(input, "", true_pairs(input), group.tasks);
     planned.check_seconds += price_of_check(context, input, frames, sets);
     if (!has_pairs) continue;
-    const bool product = group.pairing == Pairing::product;
-    if (!product) broad.assign(1, "");
+    if (!finds_pairs(context)) broad.assign(1, "");
     for (const std::string& source : broad) {
       for (const NarrowSet& set : sets) {
         std::vector<std::string> narrow;

@@ -66,4 +66,13 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
   return chosen;
 }
 
+// For a message to who asked others to.
+inline std::string names_stopping_by_duality_gap() {
+  std::string names;
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    if (entry.stops_by_duality_gap) names += (names.empty() ? "" : ", ") + entry.info.name;
+  }
+  return names;
+}
+
 }  // namespace touchstone

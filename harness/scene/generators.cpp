@@ -15,6 +15,7 @@ std::span<const Generator> generators() {
       {"brownian", make_brownian},
       {"free_fall", make_free_fall},
       {"rotating_gravity", make_rotating_gravity},
+      {"pairs", make_pairs},
   };
   return all;
 }

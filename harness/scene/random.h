@@ -46,6 +46,21 @@ class Random {
       if (low == high) return low;
     }
   }
+  // From the normal distribution of mean 0 and deviation 1, exactly, by comparing uniform numbers
+  // (Karney, "Sampling exactly from the normal distribution", ACM TOMS 42(1), 2016, algorithm N):
+  // logarithms are not the same everywhere.
+  double normal() {
+    for (;;) {
+      int k = 0;
+      while (exponential_coin(0.5)) ++k;
+      bool kept = true;  // with probability exp(-k (k - 1) / 2)
+      for (int i = 0; kept && i < k * (k - 1); ++i) kept = exponential_coin(0.5);
+      const double x = unit();
+      // exp(-x (2 k + x) / 2), in k + 1 parts whose exponents are at most 1
+      for (int i = 0; kept && i <= k; ++i) kept = exponential_coin(x * (2 * k + x) / (2 * k + 2));
+      if (kept) return below(2) == 0 ? k + x : -(k + x);
+    }
+  }
   // Evenly in the unit ball.
   Vec3d in_ball() {
     for (;;) {
@@ -71,6 +86,16 @@ class Random {
   }
 
  private:
+  // True with probability exp(-t), 0 <= t <= 1 (von Neumann 1951): the length of a falling run.
+  bool exponential_coin(double t) {
+    bool even = true;
+    for (double last = t;; even = !even) {
+      const double next = unit();
+      if (!(next < last)) return even;
+      last = next;
+    }
+  }
+
   std::uint64_t state_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algorithms/core/aabb.h"
+#include "algorithms/core/pair_sink.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 
@@ -55,6 +56,9 @@ struct Scene {
   // A recording of boxes alone, one array a frame, as Broadmark's files hold; such a scene has no
   // bodies and no narrow phase. Empty otherwise.
   std::vector<std::vector<Aabb>> recording;
+  // The pairs that narrow phases are asked about, sorted, a < b, where the scene lists them instead
+  // of leaving it to a broad phase; the same in every frame. Empty otherwise.
+  std::vector<IndexPair> pairs;
 
   std::size_t size() const { return recording.empty() ? bodies.size() : recording.front().size(); }
 };

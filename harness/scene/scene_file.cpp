@@ -295,7 +295,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   int frames = 1;
   if (table.contains("generator")) {
     scene = generate(table, shapes, overrides);
-    frames = generated_frames;
+    frames = scene.pairs.empty() ? generated_frames : 1;  // pairs stand still
   } else {
     if (table.contains("body")) {
       lines = BodyReader(table, shapes, scene).read();

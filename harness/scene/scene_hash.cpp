@@ -90,6 +90,7 @@ std::string scene_hash(const Scene& scene) {
     hash.add(body.velocity);
     hash.add(body.angular_velocity);
   }
+  for (const IndexPair& pair : scene.pairs) hash.add((std::uint64_t{pair.a} << 32) | pair.b);
   Kinematics kinematics(scene);
   while (kinematics.frame() + 1 < scene.frames) {
     kinematics.next();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "harness/scene/convex_hull.h"
 
@@ -12,13 +13,28 @@ namespace {
 
 constexpr std::int64_t default_hull_points = 12;
 
+struct NormalLaw {
+  double mean, deviation;  // metres
+};
+
 struct Ingredient {
   double weight = 1;
   bool fixed = false;
   TurnedShape shape;                // where fixed
   ShapeKind kind = ShapeKind::box;  // where not
   std::int64_t hull_points = default_hull_points;
+  std::optional<NormalLaw> radii;  // of an ellipsoid, instead of `size` and `aspect`
 };
+
+// Least part of the mean that a drawn length may have: a normal distribution has no end.
+constexpr double least_part = 0.05;
+
+NormalLaw read_normal(TomlTable& table, const std::string& key) {
+  TomlTable law = table.inside(key, table.where() + ": " + key);
+  const NormalLaw result{law.number("mean", positive), law.number("deviation", not_negative)};
+  law.finish();
+  return result;
+}
 
 // Random shapes are bounded: every kind but the half-space, which is the last of the list.
 std::span<const std::string_view> bounded_names() {
@@ -44,6 +60,8 @@ Ingredient read_ingredient(TomlTable table, ShapeReader& reader) {
     ingredient.shape = reader.read(table);
   } else if (ingredient.kind == ShapeKind::hull) {
     ingredient.hull_points = table.integer("points", 4, 10'000, default_hull_points);
+  } else if (ingredient.kind == ShapeKind::ellipsoid && table.contains("radii_normal")) {
+    ingredient.radii = read_normal(table, "radii_normal");
   }
   table.finish();
   return ingredient;
@@ -88,7 +106,15 @@ Shape random_shape(const Ingredient& ingredient, double size, double aspect, Ran
       shape.half_length = half;
       break;
     case ShapeKind::box: shape.half_extents = half * Vec3d(1, first, second); break;
-    case ShapeKind::ellipsoid: shape.radii = half * Vec3d(1, first, second); break;
+    case ShapeKind::ellipsoid:
+      shape.radii = half * Vec3d(1, first, second);
+      if (ingredient.radii) {
+        const auto [mean, deviation] = *ingredient.radii;
+        for (double& radius : shape.radii) {
+          radius = std::max(least_part * mean, mean + deviation * random.normal());
+        }
+      }
+      break;
     case ShapeKind::hull: {
       std::vector<Vec3d> points;
       for (std::int64_t i = 0; i < ingredient.hull_points; ++i) {

@@ -26,8 +26,8 @@ const std::vector<std::string> required = {
     "phase",         "seconds",      "pair_count",    "pair_hash", "status",  "kind",  "block",
     "process",       "square",       "round",         "position",  "frames",  "twin",  "noise",
     "contact_count", "outcome_hash", "disagreements", "failures"};
-const std::vector<std::string> optional = {"seed", "stop", "compared", "iterations",
-                                           "support_calls"};
+const std::vector<std::string> optional = {
+    "seed", "stop", "duality_gap", "compared", "iterations", "iterations_squared", "support_calls"};
 
 // A row's fields by the columns' names.
 class Fields {
@@ -57,8 +57,8 @@ class Fields {
     if (!(value >= 0) || std::isinf(value)) fail("seconds", "expected seconds of at least 0");
     return value;
   }
-  double tolerance() const {
-    return has("tolerance") ? row_->number(place("tolerance")) : Outcome::none;
+  double number(const char* name) const {
+    return has(name) ? row_->number(place(name)) : Outcome::none;
   }
   [[noreturn]] void fail(const char* name, const std::string& expected) const {
     row_->fail(fmt::format("column {}: found '{}'; {}", name, text(name), expected));
@@ -114,11 +114,11 @@ class Reader {
     const std::string status = row.text("status");
     if (failed(status)) contestant.failure = status;
     if (kind == "check") {
-      contestant.checks.push_back({frame, part_of(row), status, row.text("pair_hash"),
-                                   row.text("outcome_hash"), row.count("pair_count"),
-                                   row.count("contact_count"), row.count("disagreements"),
-                                   row.count("failures"), row.count("compared"),
-                                   row.count("iterations"), row.count("support_calls")});
+      contestant.checks.push_back(
+          {frame, part_of(row), status, row.text("pair_hash"), row.text("outcome_hash"),
+           row.count("pair_count"), row.count("contact_count"), row.count("disagreements"),
+           row.count("failures"), row.count("compared"), row.count("iterations"),
+           row.count("iterations_squared"), row.count("support_calls")});
     } else {
       take_sample(contestant, row, set.key.narrow());
     }
@@ -176,7 +176,8 @@ class Reader {
   static Contestant& contestant_of(SampleSet& set, const Fields& row) {
     std::string label = row.text("broad");
     if (set.key.narrow()) {
-      label = narrow_label(row.text("narrow"), row.text("scalar"), row.tolerance());
+      label = narrow_label(row.text("narrow"), row.text("scalar"), row.number("tolerance"),
+                           row.number("duality_gap"));
     }
     if (label.empty()) row.fail("broad", "expected an algorithm here or in column narrow");
     const std::string twin = row.text("twin");

@@ -51,7 +51,7 @@ struct Check {
   Part part = Part::build;
   std::string status, pair_hash, outcome_hash;
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
-               compared = -1, iterations = -1, support_calls = -1;
+               compared = -1, iterations = -1, iterations_squared = -1, support_calls = -1;
 };
 
 struct Contestant {

@@ -109,18 +109,8 @@ std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise) {
   std::ranges::stable_sort(entries, {}, &Entry::ratio);
   const Contestant& winner = *entries[0].contestant;
   const Contestant& runner_up = *entries[1].contestant;
-  WinnerRow row{set.key, winner.label, runner_up.label, {}, 1, 1, set.suspect};
-  const std::vector<double> paired = paired_log_ratios(runner_up, winner, noise);
-  if (!paired.empty()) {
-    row.ratio = exponential(median_interval(paired, confidence));
-    row.p = sign_test(paired);
-  } else {
-    const std::vector<double> of_winner = to_baseline(set, winner, noise);
-    const std::vector<double> of_runner_up = to_baseline(set, runner_up, noise);
-    row.ratio = exponential(shift(of_winner, of_runner_up, confidence));
-    row.p = mann_whitney(of_winner, of_runner_up);
-  }
-  return row;
+  const TestedRatio tested = ratio_between(set, runner_up, winner, noise);
+  return WinnerRow{set.key, winner.label, runner_up.label, tested.ratio, tested.p, 1, set.suspect};
 }
 
 std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times) {
@@ -220,6 +210,17 @@ bool is_wrong(const SampleSet& set, const Contestant& contestant) {
         std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; });
     return most != votes.end() && votes[check.pair_hash] < most->second;
   });
+}
+
+TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
+                          Noise noise) {
+  const std::vector<double> paired = paired_log_ratios(a, b, noise);
+  if (!paired.empty()) {
+    return {exponential(median_interval(paired, confidence)), sign_test(paired)};
+  }
+  const std::vector<double> of_a = to_baseline(set, a, noise);
+  const std::vector<double> of_b = to_baseline(set, b, noise);
+  return {exponential(shift(of_b, of_a, confidence)), mann_whitney(of_b, of_a)};
 }
 
 Tables make_tables(const Results& results, Noise noise) {

@@ -77,6 +77,15 @@ struct Tables {
   std::vector<AgreementRow> agreement;
 };
 
+// The time of a over that of b, both of the set, with the p of its being 1: paired over the squares
+// that both were in, else by what each has to the baseline in its own squares.
+struct TestedRatio {
+  MedianInterval ratio;
+  double p = 1;
+};
+TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
+                          Noise noise);
+
 Tables make_tables(const Results& results, Noise noise);
 
 // Whether a contestant found other pairs than the rest, or gave an answer that the exact one

@@ -8,6 +8,7 @@
 
 #include "harness/error.h"
 #include "harness/io/csv.h"
+#include "harness/stats/markdown.h"
 #include "harness/stats/tables.h"
 
 namespace touchstone::stats {
@@ -54,24 +55,6 @@ std::string interval(const MedianInterval& values, double scale = 1) {
 
 std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
 
-// The bars of a table's row, with what would end a cell made harmless.
-std::string line(const std::vector<std::string>& cells) {
-  std::string all = "|";
-  for (std::string cell : cells) {
-    for (auto at = cell.find('|'); at != std::string::npos; at = cell.find('|', at + 2)) {
-      cell.insert(at, "\\");
-    }
-    all += " " + cell + " |";
-  }
-  return all + "\n";
-}
-
-std::string header(const std::vector<std::string>& names, std::size_t words = 1) {
-  std::string rule = "|";
-  for (std::size_t i = 0; i < names.size(); ++i) rule += i < words ? "---|" : "---:|";
-  return line(names) + rule + "\n";
-}
-
 std::string remark(const TimeRow& row) {
   std::vector<std::string> words;
   if (row.wrong) words.emplace_back("**wrong on some**");
@@ -117,7 +100,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     }
     cells.push_back(std::to_string(row.seconds.n));
     cells.push_back(remark(row));
-    body += line(cells);
+    body += markdown_row(cells);
     if (const RatioRow* const twin = ratio_of(row.label, true)) {
       const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
       canary =
@@ -132,7 +115,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   std::string all = fmt::format("### {}\n\n", first.key.words());
   if (!baseline.empty()) all += fmt::format("Ratios are to {}. ", baseline);
   if (!baseline.empty() || !canary.empty()) all += canary + "\n";
-  return all + header(names) + body + "\n";
+  return all + markdown_header(names) + body + "\n";
 }
 
 // Sums over the inputs and kinds of pairs, which are in agreement.csv.
@@ -162,45 +145,46 @@ std::string markdown(const Tables& tables) {
       "`-`: too few samples to tell.\n\n";
   if (!tables.winners.empty()) {
     all += "## Winner against runner-up\n\n";
-    all += header(
+    all += markdown_header(
         {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
     for (const WinnerRow& row : tables.winners) {
-      all +=
-          line({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner, row.runner_up,
-                text(row.ratio.median), interval(row.ratio), probability(row.p_corrected)});
+      all += markdown_row({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner,
+                           row.runner_up, text(row.ratio.median), interval(row.ratio),
+                           probability(row.p_corrected)});
     }
     all += "\n";
   }
   if (!tables.exponents.empty()) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
-    all += header({"input", "algorithm", "exponent", "95 % interval", "counts"}, 2);
+    all += markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts"}, 2);
     for (const ExponentRow& row : tables.exponents) {
-      all += line({fmt::format("{}, {} boxes, {} thread{}", row.key.scene, row.key.boxes,
-                               row.key.threads, row.key.threads == 1 ? "" : "s"),
-                   row.label, fmt::format("{:.2f}", row.law.exponent),
-                   std::isnan(row.law.low)
-                       ? std::string("-")
-                       : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
-                   fmt::format("{}", fmt::join(row.counts, ", "))});
+      all += markdown_row({fmt::format("{}, {} boxes, {} thread{}", row.key.scene, row.key.boxes,
+                                       row.key.threads, row.key.threads == 1 ? "" : "s"),
+                           row.label, fmt::format("{:.2f}", row.law.exponent),
+                           std::isnan(row.law.low)
+                               ? std::string("-")
+                               : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
+                           fmt::format("{}", fmt::join(row.counts, ", "))});
     }
     all += "\n";
   }
   if (!tables.speed_ups.empty()) {
     all += "## Speed-up by threads\n\n";
-    all += header({"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
+    all += markdown_header({"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
     for (const SpeedUpRow& row : tables.speed_ups) {
-      all += line({row.key.words(), row.label, std::to_string(row.base_threads),
-                   text(row.speed_up.median), interval(row.speed_up)});
+      all += markdown_row({row.key.words(), row.label, std::to_string(row.base_threads),
+                           text(row.speed_up.median), interval(row.speed_up)});
     }
     all += "\n";
   }
   if (!tables.agreement.empty()) {
     all += "## Agreement with the exact answers\n\n";
-    all += header({"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered"}, 2);
+    all += markdown_header(
+        {"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered"}, 2);
     for (const AgreementRow& row : by_task(tables.agreement)) {
-      all += line({row.key.task, row.label, std::to_string(row.queries), std::to_string(row.right),
-                   std::to_string(row.wrong), std::to_string(row.failed),
-                   std::to_string(row.unanswered)});
+      all += markdown_row({row.key.task, row.label, std::to_string(row.queries),
+                           std::to_string(row.right), std::to_string(row.wrong),
+                           std::to_string(row.failed), std::to_string(row.unanswered)});
     }
     all += "\n";
   }
@@ -213,16 +197,6 @@ std::string markdown(const Tables& tables) {
   }
   return all;
 }
-
-void write_text(const std::filesystem::path& file, const std::string& content) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << content;
-  stream.close();
-  if (!stream) {
-    throw InputError(file.string(), 0, fmt::format("cannot be written: {}", std::strerror(errno)));
-  }
-}
-
 }  // namespace
 
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder) {

@@ -34,6 +34,29 @@ TEST(PortableMath, CubeRootsAreRight) {
   }
 }
 
+TEST(Random, NormalNumbersAreNormal) {
+  Random random(7);
+  constexpr int count = 1'000'000;
+  double sum = 0, squares = 0, fourths = 0;
+  int beyond[4] = {};  // 0.5, 1, 2, 3 deviations
+  const double limits[4] = {0.5, 1, 2, 3};
+  for (int i = 0; i < count; ++i) {
+    const double x = random.normal();
+    sum += x;
+    squares += x * x;
+    fourths += x * x * x * x;
+    for (int k = 0; k < 4; ++k) beyond[k] += x > limits[k];
+  }
+  // Six deviations of each estimate.
+  EXPECT_NEAR(sum / count, 0, 6e-3);
+  EXPECT_NEAR(squares / count, 1, 6 * std::sqrt(2.0 / count));
+  EXPECT_NEAR(fourths / count, 3, 6 * std::sqrt(96.0 / count));
+  for (int k = 0; k < 4; ++k) {
+    const double p = std::erfc(limits[k] / std::sqrt(2.0)) / 2;
+    EXPECT_NEAR(static_cast<double>(beyond[k]) / count, p, 6 * std::sqrt(p * (1 - p) / count));
+  }
+}
+
 TEST(Random, IsWhatItWas) {
   Random random(42);
   EXPECT_EQ(random.next(), 11206042627743653740u);

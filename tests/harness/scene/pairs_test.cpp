@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "algorithms/oracle/oracle.h"
+#include "harness/scene/scene.h"
+#include "tests/harness/input_fault.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+Scene load(const std::string& content, const SceneOverrides& overrides = {}) {
+  const TemporaryFolder folder;
+  return load_scene(folder.write("scene.toml", "generator = \"pairs\"\n" + content), overrides);
+}
+
+oracle::Enclosure exact_distance(const Scene& scene, const IndexPair& pair) {
+  const Body& a = scene.bodies[pair.a];
+  const Body& b = scene.bodies[pair.b];
+  const oracle::Solid solid_a(scene.shapes[a.shape]), solid_b(scene.shapes[b.shape]);
+  oracle::Oracle oracle;
+  const auto found = oracle.measure({solid_a, a.pose}, {solid_b, b.pose});
+  return {found.lower, found.upper};
+}
+
+TEST(Pairs, GapsAreExactForEveryKind) {
+  const double gaps[] = {1e-4, 0.01, 0.5, 20};
+  for (const char* kind : {"sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "hull"}) {
+    const Scene scene = load(std::string("count = 48\ngaps = [1e-4, 0.01, 0.5, 20]\nshapes = [\"") +
+                             kind + "\", \"box\"]\n");
+    ASSERT_EQ(scene.pairs.size(), 24u) << kind;
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      EXPECT_EQ(scene.pairs[i], (IndexPair{static_cast<std::uint32_t>(2 * i),
+                                           static_cast<std::uint32_t>(2 * i + 1)}));
+      const oracle::Enclosure distance = exact_distance(scene, scene.pairs[i]);
+      // What is left is the rounding of coordinates of some hundred metres.
+      EXPECT_NEAR(distance.lower, gaps[i % 4], 1e-12) << kind << " " << i;
+      EXPECT_NEAR(distance.upper, gaps[i % 4], 1e-12) << kind << " " << i;
+    }
+  }
+}
+
+TEST(Pairs, DepthsAreAtMostWhatIsAsked) {
+  const Scene scene = load("count = 200\ngaps = [-0.001, -0.05]\nshapes = [\"ellipsoid\"]\n");
+  int overlapping = 0;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const double depth = i % 2 == 0 ? 0.001 : 0.05;
+    const oracle::Enclosure distance = exact_distance(scene, scene.pairs[i]);
+    EXPECT_GE(distance.upper, -depth * (1 + 1e-9)) << i;
+    overlapping += distance.upper < 0;
+  }
+  EXPECT_EQ(overlapping, 100);
+}
+
+TEST(Pairs, ListedPairsAreOfTheSceneAndItsHash) {
+  const Scene scene = load("count = 20\n");
+  EXPECT_EQ(scene.frames, 1);
+  Scene other = scene;
+  other.pairs.pop_back();
+  EXPECT_NE(scene_hash(scene), scene_hash(other));
+  EXPECT_EQ(scene_hash(scene), scene_hash(load("count = 20\n")));
+  EXPECT_NE(scene_hash(scene), scene_hash(load("count = 20\n", {.seed = 9})));
+}
+
+TEST(Pairs, RadiiAreDrawnFromANormalDistribution) {
+  const Scene scene = load(
+      "count = 4000\ndistinct = 4000\n"
+      "shapes = [{type = \"ellipsoid\", radii_normal = {mean = 0.1, deviation = 0.025}}]\n");
+  double sum = 0, squares = 0;
+  for (const Shape& shape : scene.shapes) {
+    for (const double radius : shape.radii) {
+      EXPECT_GE(radius, 0.005);
+      sum += radius;
+      squares += (radius - 0.1) * (radius - 0.1);
+    }
+  }
+  EXPECT_NEAR(sum / 12'000, 0.1, 6 * 0.025 / std::sqrt(12'000));
+  EXPECT_NEAR(std::sqrt(squares / 12'000), 0.025, 0.001);
+}
+
+TEST(Pairs, BadRequestsAreRefused) {
+  using testing::HasSubstr;
+  const auto refusal = [](const std::string& content) {
+    return input_fault([&] { load(content); });
+  };
+  EXPECT_THAT(refusal("count = 7\n"), HasSubstr("expected an even one"));
+  EXPECT_THAT(refusal("gaps = []\n"), HasSubstr("expected an array of signed distances"));
+  EXPECT_THAT(refusal("gaps = [0.1, \"x\"]\n"), HasSubstr("expected an array of signed distances"));
+  EXPECT_THAT(refusal("gaps = [nan]\n"), HasSubstr("expected an array of signed distances"));
+  EXPECT_THAT(
+      refusal("shapes = [{type = \"ellipsoid\", radii_normal = {mean = -1, deviation = 0}}]\n"),
+      HasSubstr("mean"));
+  EXPECT_THAT(refusal("shapes = [{type = \"box\", radii_normal = {mean = 1, deviation = 0}}]\n"),
+              HasSubstr("radii_normal"));
+}
+
+}  // namespace
+}  // namespace touchstone
