@@ -19,15 +19,15 @@
 
 namespace touchstone::bullet {
 
-// TOUCHSTONE_BULLET_MODULE is where the build puts the module. Where there is none,
+// TOUCHSTONE_BULLET_MODULE is the module's file name. Where there is none,
 // TOUCHSTONE_BULLET_NO_DOUBLE says why.
 #ifdef TOUCHSTONE_BULLET_MODULE
+inline constexpr const char* module_name = TOUCHSTONE_BULLET_MODULE;
 inline constexpr bool has_double = true;
-inline constexpr const char* module_path = TOUCHSTONE_BULLET_MODULE;
 inline std::string lacking() { return {}; }
 #else
+inline constexpr const char* module_name = "";
 inline constexpr bool has_double = false;
-inline constexpr const char* module_path = "";
 inline std::string lacking() { return "double is not built, because " TOUCHSTONE_BULLET_NO_DOUBLE; }
 #endif
 
@@ -41,19 +41,20 @@ inline std::vector<Precision> scalars() {
 using MakeDouble = NarrowPhase*(const char* name, const NarrowPhaseSettings& settings);
 inline constexpr const char* make_double_symbol = "touchstone_bullet_double";
 
-// Throws std::runtime_error where the module is not found or cannot be loaded.
+// The module of the program's own build: it lies beside the program or, seen from a test program,
+// in the folder of the program. Throws std::runtime_error where it is not found or not loaded.
 inline MakeDouble* load_double() {
-  const std::filesystem::path built = module_path;
-  std::error_code none;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-  const std::filesystem::path beside = program.parent_path() / built.filename();
-  const std::filesystem::path& file = std::filesystem::exists(beside, none) ? beside : built;
+  const auto fail = [](const std::string& why) {
+    throw std::runtime_error("Bullet's double build: " + why);
+  };
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  std::filesystem::path file = folder / module_name;
+  if (!std::filesystem::exists(file)) file = folder.parent_path() / "harness" / module_name;
+  if (!std::filesystem::exists(file)) fail((folder / module_name).string() + " is missing");
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
-  if (module == nullptr)
-    throw std::runtime_error(std::string("Bullet's double build: ") + dlerror());
+  if (module == nullptr) fail(dlerror());
   void* const symbol = dlsym(module, make_double_symbol);
-  if (symbol == nullptr)
-    throw std::runtime_error(std::string("Bullet's double build: ") + dlerror());
+  if (symbol == nullptr) fail(dlerror());
   return reinterpret_cast<MakeDouble*>(symbol);
 }
 
