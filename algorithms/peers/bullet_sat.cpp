@@ -4,7 +4,9 @@
 //          btConvexPolyhedron::project along the axis found, since findSeparatingAxis keeps it to
 //          itself.
 // Fails:   works on vertices that Bullet's hull computer has put on a grid: errors of 3e-4 of the
-//          size, in either build. All thresholds are absolute lengths.
+//          size, in either build. All thresholds are absolute lengths. Where faces meet squarely,
+//          two of their edges may win by a rounding, and the witness point is then on those, off
+//          the surfaces.
 // Cost:    O(E^2 V).
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"

@@ -128,7 +128,9 @@ TEST_F(BulletDouble, NeitherBuildDisturbsTheOther) {
         solve_guarded([&] { return pairs.make(*entry, scalar); }, pairs.batch(task), outcomes, 60,
                       std::size_t{4} << 30);
       }
-      EXPECT_GT(differing(alone[0], alone[1]), task == Task::intersect ? 0 : Pairs::count / 4);
+      if (task != Task::intersect) {
+        EXPECT_GT(differing(alone[0], alone[1]), Pairs::count / 4);
+      }
       const auto single = pairs.make(*entry, Precision::float32);
       const auto twice = pairs.make(*entry, Precision::float64);
       std::array<std::vector<Outcome>, 2> mixed;

@@ -113,7 +113,7 @@ TEST(Bench, ListsEveryRegisteredAlgorithm) {
        {"kernels/support/float/hull-128/coherent", "kernels/support/double/ellipsoid/random",
         "kernels/radix-sort/100000", "kernels/insertion-sort/1000", "kernels/box-scan/avx2/1000",
         "kernels/box-sweep/baseline/10000", "kernels/box-axes/float/gap-0.1",
-        "oracle/verdict/box/1e-9", "oracle/depth/hull-128/-1e-3"}) {
+        "oracle/verdict/box-box/1e-9", "oracle/depth/hull-128/-1e-3"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }
@@ -125,7 +125,7 @@ TEST(Bench, RunsWhatTheFilterTakesAndWritesJson) {
       "'^(broad/(naive|sweep-and-prune)/(uniform|city)/1000/|"
       "narrow/(gjk|sat|closed-form)/double/(box-box|sphere-box|capsule-capsule)/|"
       "kernels/(support/float/(box|hull-32)|radix-sort/1000$|insertion-sort/1000$|"
-      "box-(scan|sweep)/baseline/1000|box-axes)|oracle/verdict/box/)'";
+      "box-(scan|sweep)/baseline/1000|box-axes)|oracle/verdict/box-box/)'";
   bench("--benchmark_min_time=1e-6 --benchmark_filter=" + filter +
         " --benchmark_out_format=json --benchmark_out=" + out.string());
   std::ifstream file(out);
