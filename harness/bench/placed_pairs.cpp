@@ -78,7 +78,7 @@ Shape draw_halfspace(Random& random) {
 }
 
 // In the order of the kinds.
-constexpr std::array<ShapeFamily, 13> families = {{
+constexpr std::array<ShapeFamily, 13> all_families = {{
     {"sphere", ShapeKind::sphere, draw_sphere},
     {"capsule", ShapeKind::capsule, draw_capsule},
     {"box", ShapeKind::box, draw_box},
@@ -94,7 +94,7 @@ constexpr std::array<ShapeFamily, 13> families = {{
     {"halfspace", ShapeKind::halfspace, draw_halfspace},
 }};
 
-constexpr std::array<PairRegime, 5> regimes = {{
+constexpr std::array<PairRegime, 5> all_pair_regimes = {{
     {"far", 10},
     {"gap-0.1", 0.1},
     {"gap-1e-3", 1e-3},
@@ -123,12 +123,12 @@ bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
 
 }  // namespace
 
-std::span<const ShapeFamily> shape_families() { return families; }
-std::span<const PairRegime> pair_regimes() { return regimes; }
+std::span<const ShapeFamily> shape_families() { return all_families; }
+std::span<const PairRegime> pair_regimes() { return all_pair_regimes; }
 
 const ShapeFamily* find_family(std::string_view name) {
-  const auto at = std::ranges::find(families, name, &ShapeFamily::name);
-  return at == families.end() ? nullptr : &*at;
+  const auto at = std::ranges::find(all_families, name, &ShapeFamily::name);
+  return at == all_families.end() ? nullptr : &*at;
 }
 
 std::string FamilyPair::name() const {
@@ -141,8 +141,8 @@ std::vector<FamilyPair> family_pairs() {
   const auto stands_for_its_kind = [](const ShapeFamily& family) {
     return family.kind != ShapeKind::hull || family.name == "hull-32";
   };
-  for (const ShapeFamily& a : families) {
-    for (const ShapeFamily& b : families) {
+  for (const ShapeFamily& a : all_families) {
+    for (const ShapeFamily& b : all_families) {
       const bool planes = a.kind == ShapeKind::halfspace;
       if (a.kind > b.kind || planes) continue;
       if (&a == &b || (stands_for_its_kind(a) && stands_for_its_kind(b))) pairs.push_back({&a, &b});
