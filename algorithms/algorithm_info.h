@@ -20,6 +20,8 @@ struct AlgorithmInfo {
   // it as such. Empty: any departure is a fault.
   std::string known_defect = {};
   std::string reason = {};  // why it is not built; empty where it is. Filled in by the registry.
+  // What of a built algorithm is not built, and why, in one line; empty where all of it is.
+  std::string lacking = {};
 };
 
 }  // namespace touchstone

@@ -15,14 +15,15 @@ enum class Encoding : std::uint8_t {
   as_given,  // doubles as they stand; whatever is rounded after that is the algorithm's own error
   float32,   // each number of the shapes and of the poses rounded to float; the normal of a
              // half-space has been made unit in double
-  float32_relative,    // float32 after a subtraction in double: hulls are about the mean of their
-                       // vertices, and the pair is about the first body's centre (offset_between)
+  relative,  // doubles after a subtraction: hulls are about the mean of their vertices, and
+             // the pair is about the first body's centre (offset_between)
+  float32_relative,    // relative, and then each number rounded to float
   quaternion,          // the rotation turned into a quaternion in double (to_quaternion)
   quaternion_float32,  // float32, and then the rotation turned into a quaternion in float
 };
-inline constexpr std::array<Encoding, 5> all_encodings = {
-    Encoding::as_given, Encoding::float32, Encoding::float32_relative, Encoding::quaternion,
-    Encoding::quaternion_float32};
+inline constexpr std::array<Encoding, 6> all_encodings = {
+    Encoding::as_given,         Encoding::float32,    Encoding::relative,
+    Encoding::float32_relative, Encoding::quaternion, Encoding::quaternion_float32};
 
 std::string_view to_string(Encoding encoding);
 

@@ -56,6 +56,7 @@ std::string_view to_string(Encoding encoding) {
   switch (encoding) {
     case Encoding::as_given: return "as_given";
     case Encoding::float32: return "float32";
+    case Encoding::relative: return "relative";
     case Encoding::float32_relative: return "float32_relative";
     case Encoding::quaternion: return "quaternion";
     case Encoding::quaternion_float32: return "quaternion_float32";

@@ -5,11 +5,14 @@
 // 0.04 rounds them); a sphere's and a capsule's margin is their radius, by Bullet's design.
 // Ellipsoids, which Bullet does not have, are a btConvexInternalShape with a support function of
 // its own. The two poses are given relative to the first body's centre, subtracted in double before
-// they become floats, and hulls are centred on the mean of their vertices, as MPR needs an interior
-// point at the origin.
+// they become Bullet's scalars, and hulls are centred on the mean of their vertices, as MPR needs
+// an interior point at the origin.
 // Half-spaces are not offered: Bullet's plane has no support function, and its own algorithm for it
 // is one support call of the other body, none of GJK, SAT and MPR. Tolerances, and iteration caps
-// but MPR's, are compiled into Bullet and stay its own.
+// but MPR's, are compiled into Bullet and stay its own; each algorithm says what they are.
+//
+// Bullet's scalar is a matter of how it was built, and so of how this file is compiled: for double
+// once more, into a module (bullet_double.h).
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
@@ -25,17 +28,17 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "algorithms/narrow_phase.h"
+#include "algorithms/peers/bullet_double.h"
 
 namespace touchstone::bullet {
 
-static_assert(sizeof(btScalar) == sizeof(float), "the scalars offered are Bullet's");
-
 // What Bullet is given, for NarrowPhaseEntry::encoding.
-inline Encoding encoding(ShapeKind, ShapeKind, Task, Precision) {
-  return Encoding::float32_relative;
+inline Encoding encoding(ShapeKind, ShapeKind, Task, Precision scalar) {
+  return scalar == Precision::float32 ? Encoding::float32_relative : Encoding::relative;
 }
 
 inline btVector3 to_bullet(const Vec3d& v) {
@@ -179,8 +182,8 @@ inline void report(const Contact& contact, const Query& query, Outcome& outcome)
 template <class Algorithm>
 class BulletNarrowPhase final : public NarrowPhase {
  public:
-  template <class... Settings>
-  explicit BulletNarrowPhase(const Settings&... settings) : algorithm_(settings...) {}
+  explicit BulletNarrowPhase(const NarrowPhaseSettings& settings)
+      : algorithm_(make_algorithm(settings)) {}
 
   void bind(std::span<const Shape> shapes) override {
     bodies_.clear();
@@ -209,8 +212,25 @@ class BulletNarrowPhase final : public NarrowPhase {
   }
 
  private:
+  static Algorithm make_algorithm(const NarrowPhaseSettings& settings) {
+    if constexpr (std::is_constructible_v<Algorithm, const NarrowPhaseSettings&>) {
+      return Algorithm(settings);
+    } else {
+      return Algorithm();
+    }
+  }
+
   Algorithm algorithm_;
   std::vector<Body> bodies_;
 };
+
+// For NarrowPhaseEntry::make, of the algorithm with that name.
+template <class Algorithm>
+std::unique_ptr<NarrowPhase> make(const char* name, const NarrowPhaseSettings& settings) {
+  if constexpr (std::is_same_v<btScalar, float>) {
+    if (settings.scalar == Precision::float64 && has_double) return make_double(name, settings);
+  }
+  return std::make_unique<BulletNarrowPhase<Algorithm>>(settings);
+}
 
 }  // namespace touchstone::bullet

@@ -1,9 +1,11 @@
 // Bullet's box-box test: separating axes, then the faces clipped against each other.
 // Paper:   none; Bullet 3.24, btBoxBoxDetector: dBoxBox of R. Smith's ODE.
 // Departs: bodies and poses as bullet_bodies.h says.
-// Fails:   takes the depth at its deepest contact. All thresholds are absolute lengths.
+// Fails:   takes the depth at its deepest contact. All thresholds are absolute lengths, up
+//          to 1e-5 in either build, so gaps below that are overlaps in double too.
 // Cost:    O(1).
 #include "algorithms/narrow_phase.h"
+#include "algorithms/peers/bullet_double.h"
 #if TOUCHSTONE_BUILT
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 
@@ -41,13 +43,14 @@ TOUCHSTONE_NARROW_PHASE {
                     .citation = "Bullet 3.24, btBoxBoxDetector",
                     .origin = Origin::peer,
                     .known_defect =
-                        "depth of the deepest contact point, which may be less than the boxes'"},
+                        "depth of the deepest contact point, which may be less than the boxes'",
+                    .lacking = bullet::lacking()},
            .tasks = {Task::intersect, Task::penetration},
-           .scalars = {Precision::float32},
+           .scalars = bullet::scalars(),
            .supports = [](ShapeKind a, ShapeKind b,
                           Task) { return a == ShapeKind::box && b == ShapeKind::box; },
            .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
-           .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
-             return std::make_unique<bullet::BulletNarrowPhase<bullet::BoxBox>>();
+           .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
+             return bullet::make<bullet::BoxBox>("bullet-box-box", settings);
            })}};
 }

@@ -4,10 +4,12 @@
 // Departs: bodies and poses as bullet_bodies.h says. Bullet has no boolean GJK: intersect asks for
 //          the distance with a cut-off at touch.
 // Fails:   all thresholds are absolute lengths, 1e-2 to 1e-6: bodies of millimetres that overlap
-//          are told apart, and gaps of 1e-5 between larger ones are taken for overlaps. EPA takes
-//          its first tetrahedron for the answer where the horizon degenerates.
+//          are told apart, and gaps of 1e-5 between larger ones are taken for overlaps. In double
+//          they are 1e-6 to 1e-14. EPA takes its first tetrahedron for the answer where the horizon
+//          degenerates, in either.
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
+#include "algorithms/peers/bullet_double.h"
 #if TOUCHSTONE_BUILT
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -70,12 +72,13 @@ TOUCHSTONE_NARROW_PHASE {
                 .citation = "Bullet 3.24, btGjkPairDetector with btGjkEpaPenetrationDepthSolver",
                 .origin = Origin::peer,
                 .known_defect = "EPA stops at its first tetrahedron where flat faces meet "
-                                "squarely: depth down to 58 %"},
+                                "squarely: depth down to 58 %",
+                .lacking = bullet::lacking()},
        .tasks = {Task::intersect, Task::distance, Task::penetration},
-       .scalars = {Precision::float32},
+       .scalars = bullet::scalars(),
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
        .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
-       .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings&) {
-         return std::make_unique<bullet::BulletNarrowPhase<bullet::GjkEpa>>();
+       .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
+         return bullet::make<bullet::GjkEpa>("bullet-gjk-epa", settings);
        })}};
 }

@@ -3,11 +3,12 @@
 //          libccd.
 // Departs: bodies and poses as bullet_bodies.h says. The boolean stops after the refined portal.
 //          The cap on iterations is ours, as the search for a portal has none.
-// Fails:   all thresholds are absolute. The depth is along the portal, an upper bound, and the
-//          witness points are one in the overlap and that point moved, so they are not on the
-//          surfaces.
+// Fails:   all thresholds are absolute, 1e-6 and a float's epsilon in either build. The depth is
+//          along the portal, an upper bound, and the witness points are one in the overlap and that
+//          point moved, so they are not on the surfaces.
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
+#include "algorithms/peers/bullet_double.h"
 #if TOUCHSTONE_BUILT
 #include <BulletCollision/NarrowPhaseCollision/btMprPenetration.h>
 
@@ -87,13 +88,14 @@ TOUCHSTONE_NARROW_PHASE {
             .citation = "Bullet 3.24, btComputeMprPenetration",
             .origin = Origin::peer,
             .known_defect =
-                "depth along the portal, an upper bound; witness points are not on the surfaces"},
+                "depth along the portal, an upper bound; witness points are not on the surfaces",
+            .lacking = bullet::lacking()},
        .tasks = {Task::intersect, Task::penetration},
-       .scalars = {Precision::float32},
+       .scalars = bullet::scalars(),
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
        .depth_is_bound = true,
        .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
        .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
-         return std::make_unique<bullet::BulletNarrowPhase<bullet::Mpr>>(settings);
+         return bullet::make<bullet::Mpr>("bullet-mpr", settings);
        })}};
 }

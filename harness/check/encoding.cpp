@@ -12,7 +12,18 @@ double rounded(double x) { return static_cast<double>(static_cast<float>(x)); }
 
 Vec3d rounded(const Vec3d& v) { return v.cast<float>().cast<double>(); }
 
-Shape rounded(const Shape& shape, const Vec3d& centre) {
+// Of a hull the vertices relative to the centre.
+Shape centred(const Shape& shape, const Vec3d& centre) {
+  Shape out = shape;
+  if (shape.kind == ShapeKind::hull) {
+    auto hull = std::make_shared<Hull>();
+    for (const Vec3d& v : shape.hull->vertices) hull->vertices.push_back(v - centre);
+    out.hull = std::move(hull);
+  }
+  return out;
+}
+
+Shape rounded(const Shape& shape) {
   Shape out = shape;
   out.radius = rounded(shape.radius);
   out.half_length = rounded(shape.half_length);
@@ -25,7 +36,7 @@ Shape rounded(const Shape& shape, const Vec3d& centre) {
   }
   if (shape.kind == ShapeKind::hull) {
     auto hull = std::make_shared<Hull>();
-    for (const Vec3d& v : shape.hull->vertices) hull->vertices.push_back(rounded(v - centre));
+    for (const Vec3d& v : shape.hull->vertices) hull->vertices.push_back(rounded(v));
     out.hull = std::move(hull);
   }
   return out;
@@ -70,19 +81,23 @@ struct EncodedPair::Parts {
       case Encoding::as_given: break;
       case Encoding::float32:
       case Encoding::quaternion_float32:
-        shape_a = rounded(shape_a, Vec3d::Zero());
-        shape_b = rounded(shape_b, Vec3d::Zero());
+        shape_a = rounded(shape_a);
+        shape_b = rounded(shape_b);
         pose_a = rounded(pose_a);
         pose_b = rounded(pose_b);
         break;
+      case Encoding::relative:
       case Encoding::float32_relative: {
         const Vec3d centre_a = encoding_centre(shape_a);
         const Vec3d centre_b = encoding_centre(shape_b);
         Vec3d origin;
         pose_b.translation = offset_between(c.pose_a, centre_a, c.pose_b, centre_b, origin);
         pose_a.translation.setZero();
-        shape_a = rounded(shape_a, centre_a);
-        shape_b = rounded(shape_b, centre_b);
+        shape_a = centred(shape_a, centre_a);
+        shape_b = centred(shape_b, centre_b);
+        if (encoding == Encoding::relative) break;
+        shape_a = rounded(shape_a);
+        shape_b = rounded(shape_b);
         pose_a = rounded(pose_a);
         pose_b = rounded(pose_b);
         break;

@@ -8,7 +8,7 @@
 namespace touchstone {
 
 // The pair's signed distance is that of what an algorithm of this encoding is given; its place in
-// the world is the case's but for float32_relative, which has the first body's centre at the
+// the world is the case's but for the relative ones, which have the first body's centre at the
 // origin.
 class EncodedPair {
  public:

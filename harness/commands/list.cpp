@@ -49,14 +49,15 @@ std::vector<Listed> all_algorithms() {
 std::string as_csv(const std::vector<Listed>& all) {
   std::string text = "name,kind,origin,built,reason,tasks,scalars,citation\n";
   for (const Listed& row : all) {
-    const std::array<std::string_view, 8> fields = {row.info->name,
-                                                    row.kind,
-                                                    to_string(row.info->origin),
-                                                    is_built(*row.info) ? "true" : "false",
-                                                    row.info->reason,
-                                                    row.tasks,
-                                                    row.scalars,
-                                                    row.info->citation};
+    const std::array<std::string_view, 8> fields = {
+        row.info->name,
+        row.kind,
+        to_string(row.info->origin),
+        is_built(*row.info) ? "true" : "false",
+        is_built(*row.info) ? row.info->lacking : row.info->reason,
+        row.tasks,
+        row.scalars,
+        row.info->citation};
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (i > 0) text += ',';
       append_csv_field(text, fields[i]);
@@ -85,6 +86,7 @@ std::string as_table(const std::vector<Listed>& all) {
   for (const Listed& row : all) {
     std::string about =
         is_built(*row.info) ? row.info->citation : "not built, because " + row.info->reason;
+    if (is_built(*row.info) && !row.info->lacking.empty()) about += "; " + row.info->lacking;
     if (!row.info->known_defect.empty()) about += " (known defect: " + row.info->known_defect + ")";
     line(row.info->name, row.kind, to_string(row.info->origin), row.tasks, row.scalars, about);
   }

@@ -73,6 +73,8 @@ bool may_include(const std::string& from, const std::string& to) {
   }
   if (in(from, "algorithms/peers")) return in(to, "algorithms/peers") && to.ends_with(".h");
   if (from == "algorithms/registry.h") return false;
+  // The benchmarks of the kernels themselves.
+  if (from == "harness/bench/kernels.cpp" && in(to, "algorithms/kernels")) return true;
   if (in(from, "harness")) {
     return to == "algorithms/registry.h" || in(to, "algorithms/oracle") || in(to, "harness");
   }

@@ -105,6 +105,25 @@ TEST(Encoding, BeyondTheRangeOfFloatsThereIsNoPair) {
   EXPECT_FALSE(EncodedPair(c, Encoding::float32_relative).is_finite());
 }
 
+TEST(Encoding, RelativeKeepsDoubles) {
+  Case c = turned_pair();
+  auto hull = std::make_shared<Hull>();
+  hull->vertices = {{10, 0, 0}, {11, 0, 0}, {10, 1, 0}, {10.1, 0.2, 0.7}};
+  c.shape_b = Shape();
+  c.shape_b.kind = ShapeKind::hull;
+  c.shape_b.hull = hull;
+  const EncodedPair pair(c, Encoding::relative);
+  const Vec3d centre = encoding_centre(c.shape_b);
+  EXPECT_EQ(pair.a().translation, Vec3d::Zero());
+  EXPECT_EQ(pair.a().matrix, c.pose_a.rotation);
+  EXPECT_EQ(pair.b().translation, c.pose_b(centre) - c.pose_a.translation);
+  EXPECT_EQ(pair.b().solid->vertices[3], hull->vertices[3] - centre);
+  oracle::Oracle oracle;
+  const EncodedPair exact(c, Encoding::as_given);
+  EXPECT_NEAR(oracle.measure(pair.a(), pair.b()).middle(),
+              oracle.measure(exact.a(), exact.b()).middle(), 1e-12);
+}
+
 // Each library's own answer is near the exact one for what the entry says that it is given, even
 // where the conversion has moved the bodies by much more.
 TEST(Encoding, WhatTheEntriesSayIsWhatTheLibrariesGet) {

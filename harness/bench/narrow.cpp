@@ -1,0 +1,77 @@
+// Every narrow phase on every two kinds of shapes, near and far.
+#include <benchmark/benchmark.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/bench/benchmarks.h"
+#include "harness/bench/placed_pairs.h"
+
+namespace touchstone {
+namespace {
+
+struct Subject {
+  const NarrowPhaseEntry* entry;
+  Precision scalar;
+  Task task;
+  FamilyPair families;
+  PairRegime regime;
+
+  std::string name() const {
+    return fmt::format("narrow/{}/{}/{}/{}/{}", entry->info.name, to_string(scalar),
+                       families.name(), to_string(task), regime.name);
+  }
+};
+
+// One query an iteration; batches that are short enough for the slowest to end.
+void solve(benchmark::State& state, const Subject& subject) {
+  constexpr std::size_t batch_size = 32;
+  static_assert(PlacedPairs::count % batch_size == 0);
+  const PlacedPairs& pairs = placed_pairs(subject.families, subject.regime);
+  const auto algorithm = subject.entry->make({.scalar = subject.scalar});
+  algorithm->bind(pairs.shapes);
+  std::vector<Outcome> outcomes(PlacedPairs::count);
+  std::size_t begin = 0, asked = 0;
+  while (state.KeepRunningBatch(batch_size)) {
+    algorithm->solve(pairs.batch(subject.task, begin, batch_size),
+                     std::span(outcomes).subspan(begin, batch_size));
+    begin = (begin + batch_size) % PlacedPairs::count;
+    asked = std::max(asked, begin == 0 ? PlacedPairs::count : begin);
+  }
+  const Answer right = subject.regime.distance > 0 ? Answer::separated : Answer::overlapping;
+  const auto wrong =
+      std::count_if(outcomes.begin(), outcomes.begin() + static_cast<std::ptrdiff_t>(asked),
+                    [&](const Outcome& o) { return o.answer != right; });
+  state.counters["wrong"] = static_cast<double>(wrong);  // of the distinct pairs that were asked
+  state.SetItemsProcessed(state.iterations());
+}
+
+}  // namespace
+
+void register_narrow_benchmarks() {
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    if (!is_built(entry.info)) continue;
+    for (const Precision scalar : entry.scalars) {
+      for (const FamilyPair& families : family_pairs()) {
+        for (const Task task : entry.tasks) {
+          if (!offers(entry, families.a->kind, families.b->kind, task)) continue;
+          for (const PairRegime& regime : pair_regimes()) {
+            if (!regime.fits(task)) continue;
+            const Subject subject{&entry, scalar, task, families, regime};
+            benchmark::RegisterBenchmark(
+                subject.name().c_str(),
+                [subject](benchmark::State& state) { solve(state, subject); });
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace touchstone

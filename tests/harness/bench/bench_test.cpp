@@ -1,0 +1,157 @@
+// The benchmarks: what they are given, and that all are there and run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "algorithms/oracle/oracle.h"
+#include "algorithms/registry.h"
+#include "harness/bench/placed_pairs.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+// What the program prints to its standard output; empty where it fails.
+std::string bench(const std::string& arguments) {
+  std::FILE* const pipe = popen((TOUCHSTONE_BENCH " " + arguments + " 2>/dev/null").c_str(), "r");
+  if (pipe == nullptr) return {};
+  std::string text;
+  std::array<char, 4096> bytes;
+  for (std::size_t got; (got = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
+    text.append(bytes.data(), got);
+  }
+  const int status = pclose(pipe);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? text : std::string();
+}
+
+std::set<std::string> listed() {
+  std::istringstream lines(bench("--benchmark_list_tests"));
+  std::set<std::string> names;
+  for (std::string line; std::getline(lines, line);) {
+    // Google Benchmark adds how the time was taken.
+    names.insert(line.substr(0, line.find("/manual_time")));
+  }
+  return names;
+}
+
+TEST(PlacedPairs, StandAtTheDistanceOfTheirRegime) {
+  oracle::Oracle oracle;
+  for (const char* name : {"sphere", "box", "cone", "hull-32", "icosphere-42"}) {
+    for (const PairRegime& regime : pair_regimes()) {
+      SCOPED_TRACE(std::string(name) + " " + std::string(regime.name));
+      const PlacedPairs pairs({find_family(name), find_family(name)}, regime);
+      ASSERT_EQ(pairs.first.size(), PlacedPairs::count);
+      std::set<std::array<double, 3>> places;
+      for (std::size_t i = 0; i < PlacedPairs::count; ++i) {
+        const std::uint32_t a = pairs.first[i], b = pairs.second[i];
+        const oracle::Solid solid_a(pairs.shapes[pairs.shape_of[a]]);
+        const oracle::Solid solid_b(pairs.shapes[pairs.shape_of[b]]);
+        const double is =
+            oracle.measure({solid_a, pairs.poses[a]}, {solid_b, pairs.poses[b]}).middle();
+        EXPECT_NEAR(is, regime.distance, 2e-6 * std::abs(regime.distance));
+        const Vec3d& at = pairs.poses[b].translation;
+        places.insert({at.x(), at.y(), at.z()});
+      }
+      EXPECT_EQ(places.size(), PlacedPairs::count);
+    }
+  }
+}
+
+TEST(PlacedPairs, HoldEveryTwoKindsAndEachFamilyOfHulls) {
+  std::set<std::pair<ShapeKind, ShapeKind>> kinds;
+  std::set<std::string> names;
+  for (const FamilyPair& pair : family_pairs()) {
+    EXPECT_LE(pair.a->kind, pair.b->kind);
+    kinds.insert({pair.a->kind, pair.b->kind});
+    EXPECT_TRUE(names.insert(pair.name()).second) << pair.name();
+  }
+  EXPECT_EQ(kinds.size(), all_shape_kinds.size() * (all_shape_kinds.size() + 1) / 2 - 1);
+  for (const char* name : {"box-box", "sphere-box", "box-hull-32", "hull-8", "hull-32", "hull-128",
+                           "hull-512", "icosphere-42", "icosphere-162", "hull-32-halfspace"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+}
+
+TEST(Bench, ListsEveryRegisteredAlgorithm) {
+  const std::set<std::string> names = listed();
+  for (const BroadPhaseEntry& entry : broad_phases()) {
+    for (const char* rest : {"/uniform/1000/build", "/clustered/10000/find-pairs",
+                             "/mixed/1000/update", "/city/10000/find-pairs-updated"}) {
+      EXPECT_EQ(names.contains("broad/" + entry.info.name + rest), is_built(entry.info))
+          << entry.info.name << rest;
+    }
+  }
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    for (const Precision scalar : entry.scalars) {
+      for (const Task task : entry.tasks) {
+        for (const FamilyPair& pair : family_pairs()) {
+          const bool offered =
+              is_built(entry.info) && offers(entry, pair.a->kind, pair.b->kind, task);
+          for (const PairRegime& regime : pair_regimes()) {
+            const std::string name = "narrow/" + entry.info.name + "/" +
+                                     std::string(to_string(scalar)) + "/" + pair.name() + "/" +
+                                     std::string(to_string(task)) + "/" + std::string(regime.name);
+            EXPECT_EQ(names.contains(name), offered && regime.fits(task)) << name;
+          }
+        }
+      }
+    }
+  }
+  for (const char* name :
+       {"kernels/support/float/hull-128/coherent", "kernels/support/double/ellipsoid/random",
+        "kernels/radix-sort/100000", "kernels/insertion-sort/1000", "kernels/box-scan/avx2/1000",
+        "kernels/box-sweep/baseline/10000", "kernels/box-axes/float/gap-0.1",
+        "oracle/verdict/box-box/1e-9", "oracle/depth/hull-128/-1e-3"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+}
+
+TEST(Bench, RunsWhatTheFilterTakesAndWritesJson) {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path() / "out.json";
+  const std::string filter =
+      "'^(broad/(naive|sweep-and-prune)/(uniform|city)/1000/|"
+      "narrow/(gjk|sat|closed-form)/double/(box-box|sphere-box|capsule-capsule)/|"
+      "kernels/(support/float/(box|hull-32)|radix-sort/1000$|insertion-sort/1000$|"
+      "box-(scan|sweep)/baseline/1000|box-axes)|oracle/verdict/box-box/)'";
+  bench("--benchmark_min_time=1e-6 --benchmark_filter=" + filter +
+        " --benchmark_out_format=json --benchmark_out=" + out.string());
+  std::ifstream file(out);
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  ASSERT_FALSE(json.is_discarded());
+  int narrow = 0, broad = 0, kernels = 0;
+  for (const auto& run : json.at("benchmarks")) {
+    const auto name = run.at("name").get<std::string>();
+    EXPECT_FALSE(run.contains("error_message")) << name;
+    EXPECT_GT(run.at("real_time").get<double>(), 0) << name;
+    narrow += name.starts_with("narrow/");
+    broad += name.starts_with("broad/");
+    kernels += name.starts_with("kernels/");
+    if (name.starts_with("narrow/")) {
+      EXPECT_EQ(run.at("wrong").get<double>(), 0) << name;
+    }
+    if (name.starts_with("broad/")) {
+      EXPECT_GT(run.at("pairs").get<double>(), 100) << name;
+    }
+  }
+  EXPECT_EQ(broad, 2 * 2 * 4);
+  EXPECT_GT(narrow, 30);
+  EXPECT_GT(kernels, 12);
+}
+
+TEST(Bench, RefusesWhatItDoesNotKnow) { EXPECT_EQ(bench("--no-such-option"), ""); }
+
+}  // namespace
+}  // namespace touchstone
