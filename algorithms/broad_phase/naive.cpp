@@ -22,17 +22,22 @@ class Naive final : public BroadPhase {
   void update(const FrameChange& change) override { build(change.boxes); }
 
   Status find_pairs(PairSink& sink) override {
-    sink.start(block_count(arrays_.size(), rows_a_task));
-    for_each_block(executor_, arrays_.size(), rows_a_task,
-                   [&](std::size_t task, std::size_t first, std::size_t last) {
-                     // The first tile holds all of the rows; the others lie behind them.
-                     for (std::size_t tile = first; tile < arrays_.size(); tile += tile_size) {
-                       const IndexRange columns{tile, std::min(tile + tile_size, arrays_.size())};
-                       scan_boxes(arrays_, {first, last}, {&columns, 1}, sink.chunk(task));
-                     }
-                   });
+    const std::size_t tasks = block_count(arrays_.size(), rows_a_task);
+    sink.start(tasks);
+    work_.start(tasks);
+    for_each_block(
+        executor_, arrays_.size(), rows_a_task,
+        [&](std::size_t task, std::size_t first, std::size_t last) {
+          // The first tile holds all of the rows; the others lie behind them.
+          for (std::size_t tile = first; tile < arrays_.size(); tile += tile_size) {
+            const IndexRange columns{tile, std::min(tile + tile_size, arrays_.size())};
+            scan_boxes(arrays_, {first, last}, {&columns, 1}, sink.chunk(task), work_.task(task));
+          }
+        });
     return Status::ok;
   }
+
+  BroadPhaseWork work() const override { return work_.sum(held_bytes(ids_, arrays_)); }
 
  private:
   static constexpr std::size_t rows_a_task = 256;
@@ -41,6 +46,7 @@ class Naive final : public BroadPhase {
   Executor& executor_;
   std::vector<std::uint32_t> ids_;
   BoxArrays arrays_;
+  WorkCount work_;
 };
 
 }  // namespace

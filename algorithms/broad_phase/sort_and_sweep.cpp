@@ -52,14 +52,24 @@ class SortAndSweep final : public BroadPhase {
   Status find_pairs(PairSink& sink) override {
     if (ids_.size() > most_boxes) {
       sink.start(0);
+      work_.start(0);
       return Status::capacity;
     }
-    sink.start(block_count(runs_.size(), rows_a_task));
-    for_each_block(executor_, runs_.size(), rows_a_task,
-                   [&](std::size_t task, std::size_t first, std::size_t last) {
-                     sweep_boxes(runs_, shortest_, {first, last}, sink.chunk(task));
-                   });
+    const std::size_t tasks = block_count(runs_.size(), rows_a_task);
+    sink.start(tasks);
+    work_.start(tasks);
+    for_each_block(
+        executor_, runs_.size(), rows_a_task,
+        [&](std::size_t task, std::size_t first, std::size_t last) {
+          sweep_boxes(runs_, shortest_, {first, last}, sink.chunk(task), work_.task(task));
+        });
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    std::size_t bytes = held_bytes(ids_, radix_sort_, runs_);
+    for (const Axis& axis : axes_) bytes += held_bytes(axis.ends, axis.rank, axis.end);
+    return work_.sum(bytes);
   }
 
  private:
@@ -144,6 +154,7 @@ class SortAndSweep final : public BroadPhase {
   RadixSort<std::uint64_t> radix_sort_;
   int shortest_ = 0;
   BoxArrays runs_;  // [rank, end] on each axis, as boxes
+  WorkCount work_;
 };
 
 }  // namespace

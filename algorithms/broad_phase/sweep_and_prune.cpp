@@ -47,12 +47,19 @@ class SweepAndPrune final : public BroadPhase {
   }
 
   Status find_pairs(PairSink& sink) override {
-    sink.start(block_count(arrays_.size(), rows_a_task));
+    const std::size_t tasks = block_count(arrays_.size(), rows_a_task);
+    sink.start(tasks);
+    work_.start(tasks);
     for_each_block(executor_, arrays_.size(), rows_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
-                     sweep_boxes(arrays_, static_cast<int>(axis_), {first, last}, sink.chunk(task));
+                     sweep_boxes(arrays_, static_cast<int>(axis_), {first, last}, sink.chunk(task),
+                                 work_.task(task));
                    });
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    return work_.sum(held_bytes(ids_, sums_, order_, radix_sort_, arrays_));
   }
 
  private:
@@ -124,6 +131,7 @@ class SweepAndPrune final : public BroadPhase {
   std::vector<std::uint64_t> order_;  // (key of the minimum, id), ascending
   RadixSort<std::uint64_t> radix_sort_;
   BoxArrays arrays_;  // in that order
+  WorkCount work_;
 };
 
 }  // namespace

@@ -45,17 +45,24 @@ class UniformGrid final : public BroadPhase {
     const std::size_t large_tasks =
         large_.empty() ? 0 : block_count(arrays_.size(), columns_a_task);
     sink.start(cell_tasks + large_tasks);
+    work_.start(cell_tasks + large_tasks);
     for_each_block(executor_, entries_.size(), rows_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
-                     scan_cells(first, last, sink.chunk(task));
+                     scan_cells(first, last, sink.chunk(task), work_.task(task));
                    });
     if (large_.empty()) return Status::ok;
     for_each_block(executor_, arrays_.size(), columns_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
                      scan_marked_boxes(arrays_, marks_, wants_, {0, std::min(large_.size(), last)},
-                                       {first, last}, sink.chunk(cell_tasks + task));
+                                       {first, last}, sink.chunk(cell_tasks + task),
+                                       work_.task(cell_tasks + task));
                    });
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    return work_.sum(
+        held_bytes(ids_, begins_, entries_, large_, radix_sort_, arrays_, marks_, wants_));
   }
 
  private:
@@ -177,13 +184,14 @@ class UniformGrid final : public BroadPhase {
   }
 
   // Tests the entries of [first, last) against those behind them in their cell.
-  void scan_cells(std::size_t first, std::size_t last, PairBuffer& out) const {
+  void scan_cells(std::size_t first, std::size_t last, PairBuffer& out, TaskWork& work) const {
     const std::size_t offset = large_.size();
     while (first < last) {
       std::size_t end = first + 1;
       while (end < entries_.size() && entries_[end].cell == entries_[first].cell) ++end;
       scan_marked_boxes(arrays_, marks_, wants_, {offset + first, offset + std::min(end, last)},
-                        {offset + first, offset + end}, out);
+                        {offset + first, offset + end}, out, work);
+      ++work.node_visits;
       first = end;
     }
   }
@@ -202,6 +210,7 @@ class UniformGrid final : public BroadPhase {
   RadixSort<Entry> radix_sort_;
   BoxArrays arrays_;
   std::vector<std::uint32_t> marks_, wants_;
+  WorkCount work_;
 };
 
 }  // namespace

@@ -7,23 +7,26 @@
 
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/box_arrays.h"
+#include "algorithms/kernels/work_count.h"
 
 namespace touchstone {
 
 // Tests each box of `rows` against each of each range of `columns`, and writes the ids of those
 // that overlap. A range that holds the row itself is entered just behind it, so scan(b, r, {r})
-// tests each pair of r once.
+// tests each pair of r once. Adds the tests to `work`; visits are the caller's to count.
 void scan_boxes(const BoxArrays& boxes, IndexRange rows, std::span<const IndexRange> columns,
-                PairBuffer& out);
+                PairBuffer& out, TaskWork& work);
 
 // The same with a mark on each box: a pair counts only where marks[column] has every bit that
 // wants[row] has. Both are indexed like the boxes and padded like them.
 void scan_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> marks,
                        std::span<const std::uint32_t> wants, IndexRange rows, IndexRange columns,
-                       PairBuffer& out);
+                       PairBuffer& out, TaskWork& work);
 
 // The boxes are in ascending order of their minimum on `axis`. Tests each box of `rows` against
-// those behind it that start before it ends, and writes the ids of those that overlap.
-void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out);
+// those behind it that start before it ends, and writes the ids of those that overlap. Candidates
+// are the pairs that overlap on the axis.
+void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out,
+                 TaskWork& work);
 
 }  // namespace touchstone

@@ -10,6 +10,7 @@
 
 #include "algorithms/core/executor.h"
 #include "algorithms/registry.h"
+#include "harness/bench/harness_overhead.h"
 #include "harness/bench/oracle.h"
 #include "harness/run/build_info.h"
 #include "harness/run/pair_groups.h"
@@ -102,6 +103,7 @@ int main(int argc, char** argv) {
   const Stage bodies("primitives.toml", 2000, 1);
   register_all(boxes, bodies);
   register_oracle_benchmarks();
+  register_harness_overhead_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -149,6 +149,44 @@ std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
   return sums;
 }
 
+// Work is counted at one thread, whatever the set is timed at: a table for each input, once.
+std::string work_tables(const std::vector<WorkRow>& rows) {
+  std::string all;
+  std::vector<SetKey> told;
+  for (const WorkRow& first : rows) {
+    SetKey input = first.key;
+    input.threads = 1;
+    if (std::ranges::find(told, input) != told.end()) continue;
+    told.push_back(input);
+    const bool broad = !input.narrow();
+    all += fmt::format("### {}\n\n", input.words());
+    all +=
+        header(broad ? std::vector<std::string>{"", "box tests / body", "node visits / body",
+                                                "candidates / pair", "bytes / body",
+                                                "allocations / frame", "bytes allocated / frame"}
+                     : std::vector<std::string>{"", "iterations / query", "support calls / query",
+                                                "allocations / query", "bytes allocated / query"});
+    for (const WorkRow& row : rows) {
+      if (row.key != first.key) continue;
+      std::vector<std::string> cells = {row.label};
+      if (broad) {
+        for (const double value : {row.box_tests, row.node_visits, row.candidates, row.bytes}) {
+          cells.push_back(text(value));
+        }
+      } else {
+        cells.insert(cells.end(), {text(row.iterations), text(row.support_calls)});
+      }
+      cells.insert(cells.end(), {text(row.allocations), text(row.allocated_bytes)});
+      all += line(cells);
+    }
+    all += "\n";
+  }
+  if (all.empty()) return all;
+  return "## Work\n\nCounted over the verified frames; it does not depend on the machine. "
+         "Allocations are those of\nthe second playing, when what is kept is there.\n\n" +
+         all;
+}
+
 std::string markdown(const Tables& tables) {
   std::string all = fmt::format("# Tables of the campaign {}\n\n", tables.campaign);
   for (const std::string& fact : tables.machine) all += fmt::format("- {}\n", fact);
@@ -199,6 +237,7 @@ std::string markdown(const Tables& tables) {
     }
     all += "\n";
   }
+  all += work_tables(tables.work);
   all += "## Times\n\n";
   for (std::size_t begin = 0; begin < tables.times.size();) {
     std::size_t end = begin;
@@ -274,6 +313,18 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
     csv.field(row.right).field(row.wrong).field(row.failed).field(row.unanswered).end_row();
   }
   agreement.close();
+  TableFile work(folder / "work.csv",
+                 {"algorithm", "origin", "frames", "queries", "box_tests_a_body",
+                  "node_visits_a_body", "candidates_a_pair", "bytes_a_body", "iterations_a_query",
+                  "support_calls_a_query", "unit", "allocations", "allocated_bytes"});
+  for (const WorkRow& row : tables.work) {
+    CsvWriter& csv = work.row(row.key).field(row.label).field(row.origin);
+    csv.field(row.frames).field(row.queries).field(row.box_tests).field(row.node_visits);
+    csv.field(row.candidates).field(row.bytes).field(row.iterations).field(row.support_calls);
+    csv.field(row.key.narrow() ? "query" : "frame").field(row.allocations);
+    csv.field(row.allocated_bytes).end_row();
+  }
+  work.close();
   write_text(folder / "tables.md", markdown(tables));
 }
 
