@@ -44,7 +44,9 @@ class BroadPhase {
   // Status::capacity. Status::ok otherwise.
   virtual Status find_pairs(PairSink& sink) = 0;
 
-  // What the last find_pairs did; asked for outside the clock.
+  // What find_pairs does, on what was last built or updated. Counted when it is asked for, by going
+  // over the structure again, so that find_pairs itself does not have to; not to be asked for
+  // inside the clock.
   virtual BroadPhaseWork work() const { return {}; }
 };
 

@@ -17,6 +17,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
 #include "algorithms/kernels/cell_space.h"
+#include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/morton.h"
 #include "algorithms/kernels/radix_sort.h"
 
@@ -49,18 +50,34 @@ class LooseOctree final : public BroadPhase {
   Status find_pairs(PairSink& sink) override {
     const std::size_t tasks = block_count(items_.size(), rows_a_task);
     sink.start(tasks);
-    work_.start(tasks);
     const auto scan = [&](std::size_t task, int worker) {
-      const std::size_t first = task * rows_a_task;
-      scan_rows({first, std::min(first + rows_a_task, items_.size())},
-                scratch_[static_cast<std::size_t>(worker)], sink.chunk(task), work_.task(task));
+      Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
+      const auto nothing = [](const Window&, const CellNumbers*) {};
+      visit_groups(rows_of(task), scratch, nothing, [&](IndexRange group) {
+        scan_boxes(arrays_, group, scratch.columns, sink.chunk(task));
+      });
     };
     executor_.run(tasks, std::cref(scan));
     return Status::ok;
   }
 
   BroadPhaseWork work() const override {
-    return work_.sum(held_bytes(ids_, items_, radix_sort_, arrays_, cells_, table_, filter_));
+    Scratch scratch;
+    std::size_t tests = 0;
+    std::size_t visits = 0;
+    const auto count_cells = [&](const Window& window, const CellNumbers* own) {
+      visits += cells_of_runs(window, own);
+    };
+    for (std::size_t task = 0; task < block_count(items_.size(), rows_a_task); ++task) {
+      visit_groups(rows_of(task), scratch, count_cells, [&](IndexRange group) {
+        ++visits;
+        for (const IndexRange columns : scratch.columns) tests += pairs_of_scan(group, columns);
+      });
+    }
+    return {.box_tests = static_cast<std::int64_t>(tests),
+            .node_visits = static_cast<std::int64_t>(visits),
+            .candidates = static_cast<std::int64_t>(tests),
+            .bytes = sum_held_bytes(ids_, items_, radix_sort_, arrays_, cells_, table_, filter_)};
   }
 
  private:
@@ -172,24 +189,31 @@ class LooseOctree final : public BroadPhase {
     return hash(cell) >> (64 - table_bits_ - std::countr_zero(filter_share));
   }
 
-  // Finds the pairs of these boxes with those behind them in their cell, in half of the cells
-  // around it and at the coarser levels.
-  void scan_rows(IndexRange rows, Scratch& scratch, PairBuffer& out, TaskWork& work) const {
+  IndexRange rows_of(std::size_t task) const {
+    const std::size_t first = task * rows_a_task;
+    return {first, std::min(first + rows_a_task, items_.size())};
+  }
+
+  // Calls visit(group) for the boxes of each cell: they are to meet those of scratch.columns, which
+  // are those behind them in their cell, in half of the cells around it and at the coarser levels.
+  // Calls look(window, own) for each window whose cells are looked up for that, as find_runs does.
+  template <class Look, class Visit>
+  void visit_groups(IndexRange rows, Scratch& scratch, const Look& look, const Visit& visit) const {
     for (auto& runs : scratch.runs) runs.clear();
     scratch.windows.fill({{1, 1, 1}, {0, 0, 0}});
     auto cell = std::ranges::upper_bound(cells_, rows.first, {}, &Cell::first) - 1;
     for (std::size_t first = rows.first; first < rows.last; ++cell) {
       const IndexRange group{first, std::min<std::size_t>(cell->last, rows.last)};
       scratch.columns.assign(1, {cell->first, cell->last});
-      work.node_visits += 1 + add_partners(group, cell->cell, scratch);
-      scan_boxes(arrays_, group, scratch.columns, out, work);
+      add_partners(group, cell->cell, scratch, look);
+      visit(group);
       first = cell->last;
     }
   }
 
-  // How many cells were looked up.
-  std::size_t add_partners(IndexRange group, std::uint64_t cell, Scratch& scratch) const {
-    std::size_t visits = 0;
+  template <class Look>
+  void add_partners(IndexRange group, std::uint64_t cell, Scratch& scratch,
+                    const Look& look) const {
     std::array<double, 3> low, high;
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
@@ -213,24 +237,24 @@ class LooseOctree final : public BroadPhase {
       if (level == own_level) {
         const std::uint64_t code = cell & ((std::uint64_t{1} << (3 * top_)) - 1);
         const CellNumbers own = morton_cell(code);
-        visits += find_runs(window, level, &own, scratch.columns);
+        look(window, &own);
+        find_runs(window, level, &own, scratch.columns);
         continue;
       }
       if (window != scratch.windows[l]) {
         scratch.windows[l] = window;
         scratch.runs[l].clear();
-        visits += find_runs(window, level, nullptr, scratch.runs[l]);
+        look(window, nullptr);
+        find_runs(window, level, nullptr, scratch.runs[l]);
       }
       scratch.columns.insert(scratch.columns.end(), scratch.runs[l].begin(), scratch.runs[l].end());
     }
-    return visits;
   }
 
   // Adds the runs of boxes of the window's cells, and of those only that come behind `own` (by z,
-  // y, x) where the level is the boxes' own. How many cells were looked up.
-  std::size_t find_runs(const Window& window, int level, const CellNumbers* own,
-                        std::vector<IndexRange>& runs) const {
-    std::size_t visits = 0;
+  // y, x) where the level is the boxes' own.
+  void find_runs(const Window& window, int level, const CellNumbers* own,
+                 std::vector<IndexRange>& runs) const {
     const std::uint64_t prefix = static_cast<std::uint64_t>(level) << (3 * top_);
     const std::uint64_t first_x = spread_bits(window.low[0]);
     for (std::uint32_t z = own != nullptr ? (*own)[2] : window.low[2]; z <= window.high[2]; ++z) {
@@ -239,15 +263,21 @@ class LooseOctree final : public BroadPhase {
         const bool own_row = own_slab && y == (*own)[1];
         const std::uint64_t row = prefix | spread_bits(y) << 1 | spread_bits(z) << 2;
         std::uint64_t x_bits = own_row ? next_spread(spread_bits((*own)[0])) : first_x;
-        const std::uint32_t first = own_row ? (*own)[0] + 1 : window.low[0];
-        visits += window.high[0] + 1 - first;
-        for (std::uint32_t x = first; x <= window.high[0]; ++x) {
+        for (std::uint32_t x = own_row ? (*own)[0] + 1 : window.low[0]; x <= window.high[0]; ++x) {
           add_run(row | x_bits, runs);
           x_bits = next_spread(x_bits);
         }
       }
     }
-    return visits;
+  }
+
+  // How many cells that looks up.
+  static std::size_t cells_of_runs(const Window& window, const CellNumbers* own) {
+    const std::size_t row = window.high[0] + 1 - window.low[0];
+    const std::size_t slab = row * (window.high[1] + 1 - window.low[1]);
+    if (own == nullptr) return slab * (window.high[2] + 1 - window.low[2]);
+    return (window.high[0] - (*own)[0]) + row * (window.high[1] - (*own)[1]) +
+           slab * (window.high[2] - (*own)[2]);
   }
 
   void add_run(std::uint64_t cell, std::vector<IndexRange>& runs) const {
@@ -276,7 +306,6 @@ class LooseOctree final : public BroadPhase {
   int table_bits_ = 0;
   std::vector<std::uint64_t> filter_;
   std::vector<Scratch> scratch_;  // of each worker
-  WorkCount work_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 // Cost:    O(n^2) time, O(n) memory beside the output.
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
+#include "algorithms/kernels/held_bytes.h"
 
 namespace touchstone {
 namespace {
@@ -22,22 +23,26 @@ class Naive final : public BroadPhase {
   void update(const FrameChange& change) override { build(change.boxes); }
 
   Status find_pairs(PairSink& sink) override {
-    const std::size_t tasks = block_count(arrays_.size(), rows_a_task);
-    sink.start(tasks);
-    work_.start(tasks);
-    for_each_block(
-        executor_, arrays_.size(), rows_a_task,
-        [&](std::size_t task, std::size_t first, std::size_t last) {
-          // The first tile holds all of the rows; the others lie behind them.
-          for (std::size_t tile = first; tile < arrays_.size(); tile += tile_size) {
-            const IndexRange columns{tile, std::min(tile + tile_size, arrays_.size())};
-            scan_boxes(arrays_, {first, last}, {&columns, 1}, sink.chunk(task), work_.task(task));
-          }
-        });
+    sink.start(block_count(arrays_.size(), rows_a_task));
+    for_each_block(executor_, arrays_.size(), rows_a_task,
+                   [&](std::size_t task, std::size_t first, std::size_t last) {
+                     // The first tile holds all of the rows; the others lie behind them.
+                     for (std::size_t tile = first; tile < arrays_.size(); tile += tile_size) {
+                       const IndexRange columns{tile, std::min(tile + tile_size, arrays_.size())};
+                       scan_boxes(arrays_, {first, last}, {&columns, 1}, sink.chunk(task));
+                     }
+                   });
     return Status::ok;
   }
 
-  BroadPhaseWork work() const override { return work_.sum(held_bytes(ids_, arrays_)); }
+  BroadPhaseWork work() const override {
+    const auto pairs =
+        static_cast<std::int64_t>(pairs_of_scan({0, arrays_.size()}, {0, arrays_.size()}));
+    return {.box_tests = pairs,
+            .node_visits = 0,
+            .candidates = pairs,
+            .bytes = sum_held_bytes(ids_, arrays_)};
+  }
 
  private:
   static constexpr std::size_t rows_a_task = 256;
@@ -46,7 +51,6 @@ class Naive final : public BroadPhase {
   Executor& executor_;
   std::vector<std::uint32_t> ids_;
   BoxArrays arrays_;
-  WorkCount work_;
 };
 
 }  // namespace

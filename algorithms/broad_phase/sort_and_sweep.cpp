@@ -16,6 +16,7 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
+#include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/insertion_sort.h"
 #include "algorithms/kernels/ordered_key.h"
 #include "algorithms/kernels/radix_sort.h"
@@ -52,24 +53,22 @@ class SortAndSweep final : public BroadPhase {
   Status find_pairs(PairSink& sink) override {
     if (ids_.size() > most_boxes) {
       sink.start(0);
-      work_.start(0);
       return Status::capacity;
     }
-    const std::size_t tasks = block_count(runs_.size(), rows_a_task);
-    sink.start(tasks);
-    work_.start(tasks);
-    for_each_block(
-        executor_, runs_.size(), rows_a_task,
-        [&](std::size_t task, std::size_t first, std::size_t last) {
-          sweep_boxes(runs_, shortest_, {first, last}, sink.chunk(task), work_.task(task));
-        });
+    sink.start(block_count(runs_.size(), rows_a_task));
+    for_each_block(executor_, runs_.size(), rows_a_task,
+                   [&](std::size_t task, std::size_t first, std::size_t last) {
+                     sweep_boxes(runs_, shortest_, {first, last}, sink.chunk(task));
+                   });
     return Status::ok;
   }
 
   BroadPhaseWork work() const override {
-    std::size_t bytes = held_bytes(ids_, radix_sort_, runs_);
-    for (const Axis& axis : axes_) bytes += held_bytes(axis.ends, axis.rank, axis.end);
-    return work_.sum(bytes);
+    if (ids_.size() > most_boxes) return {};
+    BroadPhaseWork work = work_of_sweep(runs_, shortest_);
+    work.bytes = sum_held_bytes(ids_, radix_sort_, runs_);
+    for (const Axis& axis : axes_) work.bytes += sum_held_bytes(axis.ends, axis.rank, axis.end);
+    return work;
   }
 
  private:
@@ -154,7 +153,6 @@ class SortAndSweep final : public BroadPhase {
   RadixSort<std::uint64_t> radix_sort_;
   int shortest_ = 0;
   BoxArrays runs_;  // [rank, end] on each axis, as boxes
-  WorkCount work_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
+#include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/insertion_sort.h"
 #include "algorithms/kernels/ordered_key.h"
 #include "algorithms/kernels/radix_sort.h"
@@ -47,19 +48,18 @@ class SweepAndPrune final : public BroadPhase {
   }
 
   Status find_pairs(PairSink& sink) override {
-    const std::size_t tasks = block_count(arrays_.size(), rows_a_task);
-    sink.start(tasks);
-    work_.start(tasks);
+    sink.start(block_count(arrays_.size(), rows_a_task));
     for_each_block(executor_, arrays_.size(), rows_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
-                     sweep_boxes(arrays_, static_cast<int>(axis_), {first, last}, sink.chunk(task),
-                                 work_.task(task));
+                     sweep_boxes(arrays_, static_cast<int>(axis_), {first, last}, sink.chunk(task));
                    });
     return Status::ok;
   }
 
   BroadPhaseWork work() const override {
-    return work_.sum(held_bytes(ids_, sums_, order_, radix_sort_, arrays_));
+    BroadPhaseWork work = work_of_sweep(arrays_, static_cast<int>(axis_));
+    work.bytes = sum_held_bytes(ids_, sums_, order_, radix_sort_, arrays_);
+    return work;
   }
 
  private:
@@ -131,7 +131,6 @@ class SweepAndPrune final : public BroadPhase {
   std::vector<std::uint64_t> order_;  // (key of the minimum, id), ascending
   RadixSort<std::uint64_t> radix_sort_;
   BoxArrays arrays_;  // in that order
-  WorkCount work_;
 };
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 namespace touchstone {
 
-// Of the last find_pairs; -1 where it is not counted. Ours count the same things, and their numbers
-// are the same at every width of the executor and at every level of vector instructions: a pair
-// that only fills a vector up is no test.
+// Of one find_pairs; -1 where it is not counted. Ours count the same things, and their numbers are
+// the same at every width of the executor and at every level of vector instructions: a pair that
+// only fills a vector up is no test.
 struct BroadPhaseWork {
   // Pairs of boxes, or of a box and a node's box, that were compared on at least one axis to learn
   // whether they overlap; by coordinates, or by what stands for them (places in a sorted order). A
@@ -23,7 +23,7 @@ struct BroadPhaseWork {
   // twice. candidates / pairs reported - 1 is how many it let through in vain, a pair. Of a peer:
   // the pairs that the library gave, which its adapter tests against the boxes.
   std::int64_t candidates = -1;
-  // Memory held after it for the next call, beside the boxes given and the pairs reported: all that
+  // Memory held between the calls, beside the boxes given and the pairs reported: all that
   // is reserved. Scratch that each thread has for itself is left out, since it depends on the
   // width.
   std::int64_t bytes = -1;

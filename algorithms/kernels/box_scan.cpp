@@ -171,22 +171,10 @@ namespace avx2 = baseline;
 namespace avx512 = baseline;
 #endif
 
-// How many pairs a scan tests, whatever part of the rows the range holds: no loop has to count.
-std::size_t pairs_of(IndexRange rows, IndexRange columns) {
-  const std::size_t first = std::max(rows.first, columns.first);
-  const std::size_t last = std::max(first, std::min(rows.last, columns.last));
-  const std::size_t within = last - first;  // rows that the range holds
-  const std::size_t outside = rows.last - rows.first - within;
-  // Row i within is tested against columns.last - 1 - i.
-  const std::size_t behind = within * (columns.last - 1 - first) - within * (within - 1) / 2;
-  return outside * (columns.last - columns.first) + behind;
-}
-
 }  // namespace
 
 void scan_boxes(const BoxArrays& boxes, IndexRange rows, std::span<const IndexRange> columns,
-                PairBuffer& out, TaskWork& work) {
-  for (const IndexRange range : columns) work.test_in_full(pairs_of(rows, range));
+                PairBuffer& out) {
   switch (isa()) {
     case Isa::avx512: return avx512::scan(columns_of(boxes), rows, columns, out);
     case Isa::avx2: return avx2::scan(columns_of(boxes), rows, columns, out);
@@ -196,8 +184,7 @@ void scan_boxes(const BoxArrays& boxes, IndexRange rows, std::span<const IndexRa
 
 void scan_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> marks,
                        std::span<const std::uint32_t> wants, IndexRange rows, IndexRange columns,
-                       PairBuffer& out, TaskWork& work) {
-  work.test_in_full(pairs_of(rows, columns));
+                       PairBuffer& out) {
   const Marks m{marks.data(), wants.data()};
   switch (isa()) {
     case Isa::avx512: return avx512::scan_marked(columns_of(boxes), m, rows, columns, out);
@@ -206,14 +193,37 @@ void scan_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> ma
   }
 }
 
-void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out,
-                 TaskWork& work) {
-  const std::size_t size = boxes.size();
+void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out) {
   switch (isa()) {
-    case Isa::avx512: return avx512::sweep(columns_of(boxes), size, axis, rows, out, work);
-    case Isa::avx2: return avx2::sweep(columns_of(boxes), size, axis, rows, out, work);
-    case Isa::baseline: return baseline::sweep(columns_of(boxes), size, axis, rows, out, work);
+    case Isa::avx512: return avx512::sweep(columns_of(boxes), axis, rows, out);
+    case Isa::avx2: return avx2::sweep(columns_of(boxes), axis, rows, out);
+    case Isa::baseline: return baseline::sweep(columns_of(boxes), axis, rows, out);
   }
+}
+
+std::size_t pairs_of_scan(IndexRange rows, IndexRange columns) {
+  const std::size_t first = std::max(rows.first, columns.first);
+  const std::size_t last = std::max(first, std::min(rows.last, columns.last));
+  const std::size_t within = last - first;  // rows that the range holds
+  const std::size_t outside = rows.last - rows.first - within;
+  // Row i within is tested against columns.last - 1 - i.
+  const std::size_t behind = within * (columns.last - 1 - first) - within * (within - 1) / 2;
+  return outside * (columns.last - columns.first) + behind;
+}
+
+BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis) {
+  const std::span min(boxes.min(axis), boxes.size());
+  std::size_t candidates = 0;
+  std::size_t ended = 0;
+  for (std::size_t row = 0; row < boxes.size(); ++row) {
+    const auto behind = min.subspan(row + 1);
+    const auto end = std::ranges::upper_bound(behind, boxes.max(axis)[row]);
+    candidates += static_cast<std::size_t>(end - behind.begin());
+    ended += end != behind.end() ? 1 : 0;
+  }
+  return {.box_tests = static_cast<std::int64_t>(candidates + ended),
+          .node_visits = 0,
+          .candidates = static_cast<std::int64_t>(candidates)};
 }
 
 }  // namespace touchstone

@@ -5,28 +5,33 @@
 #include <cstdint>
 #include <span>
 
+#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/box_arrays.h"
-#include "algorithms/kernels/work_count.h"
 
 namespace touchstone {
 
 // Tests each box of `rows` against each of each range of `columns`, and writes the ids of those
 // that overlap. A range that holds the row itself is entered just behind it, so scan(b, r, {r})
-// tests each pair of r once. Adds the tests to `work`; visits are the caller's to count.
+// tests each pair of r once.
 void scan_boxes(const BoxArrays& boxes, IndexRange rows, std::span<const IndexRange> columns,
-                PairBuffer& out, TaskWork& work);
+                PairBuffer& out);
 
 // The same with a mark on each box: a pair counts only where marks[column] has every bit that
 // wants[row] has. Both are indexed like the boxes and padded like them.
 void scan_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> marks,
                        std::span<const std::uint32_t> wants, IndexRange rows, IndexRange columns,
-                       PairBuffer& out, TaskWork& work);
+                       PairBuffer& out);
+
+// How many pairs each of them tests, for one range of columns.
+std::size_t pairs_of_scan(IndexRange rows, IndexRange columns);
 
 // The boxes are in ascending order of their minimum on `axis`. Tests each box of `rows` against
-// those behind it that start before it ends, and writes the ids of those that overlap. Candidates
-// are the pairs that overlap on the axis.
-void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out,
-                 TaskWork& work);
+// those behind it that start before it ends, and writes the ids of those that overlap.
+void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out);
+
+// Its box tests and candidates, of all rows: a row's candidates are those behind it that start
+// before it ends, and one test more finds where they end, unless the array does.
+BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis);
 
 }  // namespace touchstone

@@ -78,16 +78,13 @@ TOUCHSTONE_TARGET void scan_marked(const Columns boxes, const Marks marks, Index
   }
 }
 
-TOUCHSTONE_TARGET void sweep(const Columns boxes, std::size_t size, int axis, IndexRange rows,
-                             PairBuffer& out, TaskWork& work) {
+TOUCHSTONE_TARGET void sweep(const Columns boxes, int axis, IndexRange rows, PairBuffer& out) {
   const int second = (axis + 1) % 3;
   const int third = (axis + 2) % 3;
   const Columns turned{{boxes.min[axis], boxes.min[second], boxes.min[third]},
                        {boxes.max[axis], boxes.max[second], boxes.max[third]},
                        boxes.ids};
   constexpr unsigned all = (1u << Lanes::width) - 1;
-  std::size_t near_pairs = 0;
-  std::size_t sweeps_ended = 0;  // by a box, not by the end of the array
   for (std::size_t i = rows.first; i < rows.last; ++i) {
     const Row row = load_row(turned, i);
     // The padding starts at infinity, so the sweep ends there at the latest.
@@ -97,15 +94,7 @@ TOUCHSTONE_TARGET void sweep(const Columns boxes, std::size_t size, int axis, In
       const Lanes::Test test = overlap_on(overlap_on(near, row, turned, 1, j), row, turned, 2, j);
       const unsigned lanes = Lanes::bits(test);
       if (lanes != 0) Lanes::write(lanes, turned.ids[i], turned.ids + j, out);
-      const unsigned near_lanes = Lanes::bits(near);
-      if (near_lanes != all) {
-        const std::size_t end = j + static_cast<std::size_t>(std::countr_one(near_lanes));
-        near_pairs += end - i - 1;
-        sweeps_ended += end < size ? 1 : 0;
-        break;
-      }
+      if (Lanes::bits(near) != all) break;
     }
   }
-  work.candidates += near_pairs;
-  work.box_tests += near_pairs + sweeps_ended;
 }

@@ -115,7 +115,6 @@ std::vector<RawRow> BlockRun::sample(const Place& place, std::size_t c, std::uin
                                                                            : Status::not_reported);
     return {row};
   }
-  row.take(reply->work);
   row.status = to_string(reply->status);
   RawRow prepare = row_of(c, place.set, frame);
   prepare.kind = row.kind;

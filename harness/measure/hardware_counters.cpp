@@ -7,6 +7,7 @@
 #endif
 
 #include <cmath>
+#include <initializer_list>
 
 namespace touchstone {
 

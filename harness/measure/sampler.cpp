@@ -11,7 +11,7 @@ namespace {
 // enough to share a small group between two threads.
 constexpr std::size_t pairs_a_task = 256;
 
-void count(std::int64_t& sum, std::int64_t value) {
+void count(std::int64_t& sum, std::int32_t value) {
   if (value >= 0) sum = std::max<std::int64_t>(sum, 0) + value;
 }
 
@@ -41,11 +41,6 @@ void BroadSampler::step(std::size_t frame, SampleReply& reply) {
   reply.query += finding.seconds();
   if (status != Status::ok) reply.status = status;
   reply.pairs += static_cast<std::int64_t>(sink_.size());
-  const BroadPhaseWork work = algorithm_->work();
-  count(reply.work.box_tests, work.box_tests);
-  count(reply.work.node_visits, work.node_visits);
-  count(reply.work.candidates, work.candidates);
-  reply.work.bytes = work.bytes;
   at_ = static_cast<std::ptrdiff_t>(frame);
 }
 
@@ -61,6 +56,7 @@ SampleReply BroadSampler::play(std::size_t frame) {
   reply.prepare = 0;
   if (!is_built(frame)) play_up_to(frame);
   step(frame, reply);
+  reply.work = algorithm_->work();
   for (const PairBuffer& chunk : sink_.chunks()) reply.pair_hash += pair_hash(chunk.pairs());
   return reply;
 }

@@ -34,7 +34,7 @@ struct SampleReply {
   std::int64_t contacts = -1;
   std::uint64_t outcome_hash = 0;
   std::int64_t iterations = -1, support_calls = -1;
-  BroadPhaseWork work;         // bytes: at the end of the window
+  BroadPhaseWork work;         // of a broad phase's frame that was `hashed`: to count it takes time
   Status status = Status::ok;  // a broad phase's, the last that was not ok
   std::int64_t peak_kb = -1, minor_faults = -1;
   std::int64_t voluntary_switches = -1, involuntary_switches = -1;

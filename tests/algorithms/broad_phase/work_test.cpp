@@ -176,8 +176,8 @@ TEST_F(Work, IsTheSameAtEveryWidthAndLevel) {
   EXPECT_GT(with_saving, sets.size());
 }
 
-// Numbers are of the last frame, also where an update has changed next to nothing.
-TEST_F(Work, IsOfTheLastFrame) {
+// Numbers are of the frame at hand, also where an update has changed next to nothing.
+TEST_F(Work, IsOfTheFrameAtHand) {
   for (const BroadPhaseEntry* entry : ours()) {
     SCOPED_TRACE(entry->info.name);
     Executor executor(1);
