@@ -149,7 +149,7 @@ TEST(PeakMemory, IsWhatTheContestantTookBeyondTheHarness) {
   constexpr std::int64_t slack_kb = 2 << 10;
   EXPECT_LT(idle, slack_kb);
   const std::int64_t greedy = peak(1);
-  EXPECT_GE(greedy, taken_kb);
+  EXPECT_GT(greedy, taken_kb - slack_kb);
   EXPECT_LT(greedy, taken_kb + slack_kb);
   EXPECT_LT(peak(2), slack_kb) << "of the sample, not of all before it";
 }
