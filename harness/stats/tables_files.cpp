@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -149,36 +150,68 @@ std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
   return sums;
 }
 
+// Means over the inputs and kinds of pairs, which are in work.csv, a query each.
+class MeanWork {
+ public:
+  explicit MeanWork(const WorkRow& row) : row_(row) {}
+  bool is_of(const WorkRow& row) const {
+    return row.key.task == row_.key.task && row.label == row_.label;
+  }
+  void add(const WorkRow& row) {
+    const std::array values = {row.iterations, row.support_calls, row.allocations,
+                               row.allocated_bytes};
+    const auto queries = static_cast<double>(row.queries);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isnan(values[i])) continue;
+      sums_[i] += values[i] * queries;
+      queries_[i] += queries;
+    }
+  }
+  const std::string& task() const { return row_.key.task; }
+  std::vector<std::string> cells() const {
+    std::vector<std::string> all = {task(), row_.label};
+    for (std::size_t i = 0; i < sums_.size(); ++i) all.push_back(text(sums_[i] / queries_[i]));
+    return all;
+  }
+
+ private:
+  WorkRow row_;  // the first
+  std::array<double, 4> sums_{}, queries_{};
+};
+
 // Work is counted at one thread, whatever the set is timed at: a table for each input, once.
 std::string work_tables(const std::vector<WorkRow>& rows) {
   std::string all;
   std::vector<SetKey> told;
+  std::vector<MeanWork> narrow;
   for (const WorkRow& first : rows) {
+    if (first.key.narrow()) {
+      auto mean = std::ranges::find_if(narrow, [&](const MeanWork& m) { return m.is_of(first); });
+      if (mean == narrow.end()) mean = narrow.insert(mean, MeanWork(first));
+      mean->add(first);
+      continue;
+    }
     SetKey input = first.key;
     input.threads = 1;
     if (std::ranges::find(told, input) != told.end()) continue;
     told.push_back(input);
-    const bool broad = !input.narrow();
     all += fmt::format("### {}\n\n", input.words());
-    all +=
-        header(broad ? std::vector<std::string>{"", "box tests / body", "node visits / body",
-                                                "candidates / pair", "bytes / body",
-                                                "allocations / frame", "bytes allocated / frame"}
-                     : std::vector<std::string>{"", "iterations / query", "support calls / query",
-                                                "allocations / query", "bytes allocated / query"});
+    all += header({"", "box tests / body", "node visits / body", "candidates / pair",
+                   "bytes / body", "allocations / frame", "bytes allocated / frame"});
     for (const WorkRow& row : rows) {
       if (row.key != first.key) continue;
-      std::vector<std::string> cells = {row.label};
-      if (broad) {
-        for (const double value : {row.box_tests, row.node_visits, row.candidates, row.bytes}) {
-          cells.push_back(text(value));
-        }
-      } else {
-        cells.insert(cells.end(), {text(row.iterations), text(row.support_calls)});
-      }
-      cells.insert(cells.end(), {text(row.allocations), text(row.allocated_bytes)});
-      all += line(cells);
+      all += line({row.label, text(row.box_tests), text(row.node_visits), text(row.candidates),
+                   text(row.bytes), text(row.allocations), text(row.allocated_bytes)});
     }
+    all += "\n";
+  }
+  if (!narrow.empty()) {
+    all += "### Narrow phases, over all inputs\n\n";
+    all += header({"task", "", "iterations / query", "support calls / query", "allocations / query",
+                   "bytes allocated / query"},
+                  2);
+    std::ranges::stable_sort(narrow, {}, &MeanWork::task);
+    for (const MeanWork& mean : narrow) all += line(mean.cells());
     all += "\n";
   }
   if (all.empty()) return all;
