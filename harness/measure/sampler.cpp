@@ -1,6 +1,7 @@
 #include "harness/measure/sampler.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "harness/measure/outcome_hash.h"
 
@@ -126,6 +127,18 @@ std::vector<NarrowSampler::Chunk> NarrowSampler::cut(const SampleRequest& reques
   return chunks;
 }
 
+std::vector<std::size_t> NarrowSampler::tasks_of(std::span<const Chunk> chunks) {
+  std::vector<std::size_t> tasks = {0};
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    pairs += chunks[i].batch.size();
+    if (pairs < pairs_a_task && i + 1 < chunks.size()) continue;
+    tasks.push_back(i + 1);
+    pairs = 0;
+  }
+  return tasks;
+}
+
 void NarrowSampler::solve(const Chunk& chunk, int worker) {
   instances_[static_cast<std::size_t>(worker)]->solve(
       chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()));
@@ -134,9 +147,14 @@ void NarrowSampler::solve(const Chunk& chunk, int worker) {
 SampleReply NarrowSampler::sample(const SampleRequest& request) {
   const NarrowSet& set = sets_[request.set];
   const std::vector<Chunk> chunks = cut(request);
+  const std::vector<std::size_t> tasks = tasks_of(chunks);
+  // By reference, so that std::function does not allocate.
+  const auto work = [&](std::size_t task, int worker) {
+    for (std::size_t i = tasks[task]; i < tasks[task + 1]; ++i) solve(chunks[i], worker);
+  };
   SampleReply reply;
   const Stopwatch watch;
-  executor_->run(chunks.size(), [&](std::size_t i, int worker) { solve(chunks[i], worker); });
+  executor_->run(tasks.size() - 1, std::cref(work));
   reply.query = watch.seconds();
   reply.pairs = static_cast<std::int64_t>(outcomes_.size());
   reply.contacts = 0;

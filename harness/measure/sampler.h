@@ -92,7 +92,7 @@ class NarrowSampler final : public Sampler {
   std::span<const Outcome> outcomes() const { return outcomes_; }  // of the last sample, in order
 
  private:
-  struct Chunk {  // a task of the executor
+  struct Chunk {  // pairs of one frame
     PairBatch batch;
     std::size_t first;  // outcome
   };
@@ -101,6 +101,8 @@ class NarrowSampler final : public Sampler {
   void each_frame(const SampleRequest& request, const Visit& visit) const;
   // Cuts the pairs of the window, and makes room for their outcomes.
   std::vector<Chunk> cut(const SampleRequest& request);
+  // Where the chunks of each of the executor's tasks begin, and the end of the last.
+  static std::vector<std::size_t> tasks_of(std::span<const Chunk> chunks);
   void solve(const Chunk& chunk, int worker);
 
   const BlockInput* input_;
