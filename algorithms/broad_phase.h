@@ -9,6 +9,7 @@
 
 #include "algorithms/algorithm_info.h"
 #include "algorithms/core/aabb.h"
+#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pair_sink.h"
@@ -42,6 +43,11 @@ class BroadPhase {
   // does not depend on the executor's width. A pair is never dropped: grow and go on, or return
   // Status::capacity. Status::ok otherwise.
   virtual Status find_pairs(PairSink& sink) = 0;
+
+  // What find_pairs does, on what was last built or updated. Counted when it is asked for, by going
+  // over the structure again, so that find_pairs itself does not have to; not to be asked for
+  // inside the clock.
+  virtual BroadPhaseWork work() const { return {}; }
 };
 
 struct BroadPhaseEntry {

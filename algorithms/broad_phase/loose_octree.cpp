@@ -17,6 +17,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
 #include "algorithms/kernels/cell_space.h"
+#include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/morton.h"
 #include "algorithms/kernels/radix_sort.h"
 
@@ -50,12 +51,33 @@ class LooseOctree final : public BroadPhase {
     const std::size_t tasks = block_count(items_.size(), rows_a_task);
     sink.start(tasks);
     const auto scan = [&](std::size_t task, int worker) {
-      const std::size_t first = task * rows_a_task;
-      scan_rows({first, std::min(first + rows_a_task, items_.size())},
-                scratch_[static_cast<std::size_t>(worker)], sink.chunk(task));
+      Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
+      const auto nothing = [](const Window&, const CellNumbers*) {};
+      visit_groups(rows_of(task), scratch, nothing, [&](IndexRange group) {
+        scan_boxes(arrays_, group, scratch.columns, sink.chunk(task));
+      });
     };
     executor_.run(tasks, std::cref(scan));
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    Scratch scratch;
+    std::size_t tests = 0;
+    std::size_t visits = 0;
+    const auto count_cells = [&](const Window& window, const CellNumbers* own) {
+      visits += cells_of_runs(window, own);
+    };
+    for (std::size_t task = 0; task < block_count(items_.size(), rows_a_task); ++task) {
+      visit_groups(rows_of(task), scratch, count_cells, [&](IndexRange group) {
+        ++visits;
+        for (const IndexRange columns : scratch.columns) tests += pairs_of_scan(group, columns);
+      });
+    }
+    return {.box_tests = static_cast<std::int64_t>(tests),
+            .node_visits = static_cast<std::int64_t>(visits),
+            .candidates = static_cast<std::int64_t>(tests),
+            .bytes = sum_held_bytes(ids_, items_, radix_sort_, arrays_, cells_, table_, filter_)};
   }
 
  private:
@@ -167,22 +189,31 @@ class LooseOctree final : public BroadPhase {
     return hash(cell) >> (64 - table_bits_ - std::countr_zero(filter_share));
   }
 
-  // Finds the pairs of these boxes with those behind them in their cell, in half of the cells
-  // around it and at the coarser levels.
-  void scan_rows(IndexRange rows, Scratch& scratch, PairBuffer& out) const {
+  IndexRange rows_of(std::size_t task) const {
+    const std::size_t first = task * rows_a_task;
+    return {first, std::min(first + rows_a_task, items_.size())};
+  }
+
+  // Calls visit(group) for the boxes of each cell: they are to meet those of scratch.columns, which
+  // are those behind them in their cell, in half of the cells around it and at the coarser levels.
+  // Calls look(window, own) for each window whose cells are looked up for that, as find_runs does.
+  template <class Look, class Visit>
+  void visit_groups(IndexRange rows, Scratch& scratch, const Look& look, const Visit& visit) const {
     for (auto& runs : scratch.runs) runs.clear();
     scratch.windows.fill({{1, 1, 1}, {0, 0, 0}});
     auto cell = std::ranges::upper_bound(cells_, rows.first, {}, &Cell::first) - 1;
     for (std::size_t first = rows.first; first < rows.last; ++cell) {
       const IndexRange group{first, std::min<std::size_t>(cell->last, rows.last)};
       scratch.columns.assign(1, {cell->first, cell->last});
-      add_partners(group, cell->cell, scratch);
-      scan_boxes(arrays_, group, scratch.columns, out);
+      add_partners(group, cell->cell, scratch, look);
+      visit(group);
       first = cell->last;
     }
   }
 
-  void add_partners(IndexRange group, std::uint64_t cell, Scratch& scratch) const {
+  template <class Look>
+  void add_partners(IndexRange group, std::uint64_t cell, Scratch& scratch,
+                    const Look& look) const {
     std::array<double, 3> low, high;
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
@@ -206,12 +237,14 @@ class LooseOctree final : public BroadPhase {
       if (level == own_level) {
         const std::uint64_t code = cell & ((std::uint64_t{1} << (3 * top_)) - 1);
         const CellNumbers own = morton_cell(code);
+        look(window, &own);
         find_runs(window, level, &own, scratch.columns);
         continue;
       }
       if (window != scratch.windows[l]) {
         scratch.windows[l] = window;
         scratch.runs[l].clear();
+        look(window, nullptr);
         find_runs(window, level, nullptr, scratch.runs[l]);
       }
       scratch.columns.insert(scratch.columns.end(), scratch.runs[l].begin(), scratch.runs[l].end());
@@ -236,6 +269,15 @@ class LooseOctree final : public BroadPhase {
         }
       }
     }
+  }
+
+  // How many cells that looks up.
+  static std::size_t cells_of_runs(const Window& window, const CellNumbers* own) {
+    const std::size_t row = window.high[0] + 1 - window.low[0];
+    const std::size_t slab = row * (window.high[1] + 1 - window.low[1]);
+    if (own == nullptr) return slab * (window.high[2] + 1 - window.low[2]);
+    return (window.high[0] - (*own)[0]) + row * (window.high[1] - (*own)[1]) +
+           slab * (window.high[2] - (*own)[2]);
   }
 
   void add_run(std::uint64_t cell, std::vector<IndexRange>& runs) const {

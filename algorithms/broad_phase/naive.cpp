@@ -6,6 +6,7 @@
 // Cost:    O(n^2) time, O(n) memory beside the output.
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
+#include "algorithms/kernels/held_bytes.h"
 
 namespace touchstone {
 namespace {
@@ -32,6 +33,15 @@ class Naive final : public BroadPhase {
                      }
                    });
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    const auto pairs =
+        static_cast<std::int64_t>(pairs_of_scan({0, arrays_.size()}, {0, arrays_.size()}));
+    return {.box_tests = pairs,
+            .node_visits = 0,
+            .candidates = pairs,
+            .bytes = sum_held_bytes(ids_, arrays_)};
   }
 
  private:

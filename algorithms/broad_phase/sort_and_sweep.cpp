@@ -16,6 +16,7 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
+#include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/insertion_sort.h"
 #include "algorithms/kernels/ordered_key.h"
 #include "algorithms/kernels/radix_sort.h"
@@ -60,6 +61,14 @@ class SortAndSweep final : public BroadPhase {
                      sweep_boxes(runs_, shortest_, {first, last}, sink.chunk(task));
                    });
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    if (ids_.size() > most_boxes) return {};
+    BroadPhaseWork work = work_of_sweep(runs_, shortest_);
+    work.bytes = sum_held_bytes(ids_, radix_sort_, runs_);
+    for (const Axis& axis : axes_) work.bytes += sum_held_bytes(axis.ends, axis.rank, axis.end);
+    return work;
   }
 
  private:

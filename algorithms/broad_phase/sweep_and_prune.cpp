@@ -12,6 +12,7 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
+#include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/insertion_sort.h"
 #include "algorithms/kernels/ordered_key.h"
 #include "algorithms/kernels/radix_sort.h"
@@ -53,6 +54,12 @@ class SweepAndPrune final : public BroadPhase {
                      sweep_boxes(arrays_, static_cast<int>(axis_), {first, last}, sink.chunk(task));
                    });
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    BroadPhaseWork work = work_of_sweep(arrays_, static_cast<int>(axis_));
+    work.bytes = sum_held_bytes(ids_, sums_, order_, radix_sort_, arrays_);
+    return work;
   }
 
  private:

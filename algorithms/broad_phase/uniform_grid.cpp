@@ -19,6 +19,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
 #include "algorithms/kernels/cell_space.h"
+#include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/radix_sort.h"
 
 namespace touchstone {
@@ -47,15 +48,35 @@ class UniformGrid final : public BroadPhase {
     sink.start(cell_tasks + large_tasks);
     for_each_block(executor_, entries_.size(), rows_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
-                     scan_cells(first, last, sink.chunk(task));
+                     visit_cells(first, last, [&](IndexRange rows, IndexRange cell) {
+                       scan_marked_boxes(arrays_, marks_, wants_, rows, cell, sink.chunk(task));
+                     });
                    });
     if (large_.empty()) return Status::ok;
     for_each_block(executor_, arrays_.size(), columns_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
-                     scan_marked_boxes(arrays_, marks_, wants_, {0, std::min(large_.size(), last)},
-                                       {first, last}, sink.chunk(cell_tasks + task));
+                     scan_marked_boxes(arrays_, marks_, wants_, large_rows(last), {first, last},
+                                       sink.chunk(cell_tasks + task));
                    });
     return Status::ok;
+  }
+
+  BroadPhaseWork work() const override {
+    std::size_t tests = 0;
+    std::size_t visits = 0;
+    for (std::size_t first = 0; first < entries_.size(); first += rows_a_task) {
+      visit_cells(first, std::min(first + rows_a_task, entries_.size()),
+                  [&](IndexRange rows, IndexRange cell) {
+                    tests += pairs_of_scan(rows, cell);
+                    ++visits;
+                  });
+    }
+    tests += pairs_of_scan(large_rows(arrays_.size()), {0, arrays_.size()});
+    return {.box_tests = static_cast<std::int64_t>(tests),
+            .node_visits = static_cast<std::int64_t>(visits),
+            .candidates = static_cast<std::int64_t>(tests),
+            .bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, arrays_, marks_,
+                                    wants_)};
   }
 
  private:
@@ -176,14 +197,19 @@ class UniformGrid final : public BroadPhase {
                    });
   }
 
-  // Tests the entries of [first, last) against those behind them in their cell.
-  void scan_cells(std::size_t first, std::size_t last, PairBuffer& out) const {
+  // The large boxes that are to meet those of the columns before `last`.
+  IndexRange large_rows(std::size_t last) const { return {0, std::min(large_.size(), last)}; }
+
+  // Calls visit(rows, cell) for each cell of the entries of [first, last): they are to meet those
+  // behind them in their cell.
+  template <class Visit>
+  void visit_cells(std::size_t first, std::size_t last, const Visit& visit) const {
     const std::size_t offset = large_.size();
     while (first < last) {
       std::size_t end = first + 1;
       while (end < entries_.size() && entries_[end].cell == entries_[first].cell) ++end;
-      scan_marked_boxes(arrays_, marks_, wants_, {offset + first, offset + std::min(end, last)},
-                        {offset + first, offset + end}, out);
+      visit(IndexRange{offset + first, offset + std::min(end, last)},
+            IndexRange{offset + first, offset + end});
       first = end;
     }
   }

@@ -28,6 +28,7 @@ class BoxArrays {
   // Makes room for `count` boxes, whose contents are whatever was there.
   void resize(std::size_t count);
   std::size_t size() const { return size_; }
+  std::size_t held_bytes() const { return stride_ * (6 * sizeof(float) + sizeof(std::uint32_t)); }
 
   float* min(int axis) { return extents_.get() + static_cast<std::size_t>(axis) * stride_; }
   float* max(int axis) { return min(axis + 3); }

@@ -201,4 +201,29 @@ void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& 
   }
 }
 
+std::size_t pairs_of_scan(IndexRange rows, IndexRange columns) {
+  const std::size_t first = std::max(rows.first, columns.first);
+  const std::size_t last = std::max(first, std::min(rows.last, columns.last));
+  const std::size_t within = last - first;  // rows that the range holds
+  const std::size_t outside = rows.last - rows.first - within;
+  // Row i within is tested against columns.last - 1 - i.
+  const std::size_t behind = within * (columns.last - 1 - first) - within * (within - 1) / 2;
+  return outside * (columns.last - columns.first) + behind;
+}
+
+BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis) {
+  const std::span min(boxes.min(axis), boxes.size());
+  std::size_t candidates = 0;
+  std::size_t ended = 0;
+  for (std::size_t row = 0; row < boxes.size(); ++row) {
+    const auto behind = min.subspan(row + 1);
+    const auto end = std::ranges::upper_bound(behind, boxes.max(axis)[row]);
+    candidates += static_cast<std::size_t>(end - behind.begin());
+    ended += end != behind.end() ? 1 : 0;
+  }
+  return {.box_tests = static_cast<std::int64_t>(candidates + ended),
+          .node_visits = 0,
+          .candidates = static_cast<std::int64_t>(candidates)};
+}
+
 }  // namespace touchstone

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/box_arrays.h"
 
@@ -22,8 +23,15 @@ void scan_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> ma
                        std::span<const std::uint32_t> wants, IndexRange rows, IndexRange columns,
                        PairBuffer& out);
 
+// How many pairs each of them tests, for one range of columns.
+std::size_t pairs_of_scan(IndexRange rows, IndexRange columns);
+
 // The boxes are in ascending order of their minimum on `axis`. Tests each box of `rows` against
 // those behind it that start before it ends, and writes the ids of those that overlap.
 void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out);
+
+// Its box tests and candidates, of all rows: a row's candidates are those behind it that start
+// before it ends, and one test more finds where they end, unless the array does.
+BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis);
 
 }  // namespace touchstone

@@ -36,6 +36,10 @@ class RadixSort {
     }
   }
 
+  std::size_t held_bytes() const {
+    return scratch_.capacity() * sizeof(Item) + places_.capacity() * sizeof(std::uint32_t);
+  }
+
  private:
   static constexpr std::size_t block_size = 16384;
 

@@ -158,8 +158,11 @@ class BulletBroadPhase final : public BroadPhase {
       const std::uint32_t b = to_id(pairs[i].m_pProxy1);
       if (overlap(boxes_[a], boxes_[b])) out.push(a, b);
     }
+    candidates_ = pairs.size();
     return Status::ok;
   }
+
+  BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
   void insert(std::uint32_t id) {
@@ -172,6 +175,7 @@ class BulletBroadPhase final : public BroadPhase {
   btBroadphaseInterface* broad_ = nullptr;
   std::span<const Aabb> boxes_;
   std::vector<btBroadphaseProxy*> proxies_;  // by id; null where there is no body
+  std::int64_t candidates_ = 0;
 };
 
 }  // namespace

@@ -193,6 +193,7 @@ class FclBroadPhase final : public BroadPhase {
     found_.clear();
     Found found{boxes_, Rules::repeats ? found_ : out};
     guard([&] { manager_->collide(&found, &Found::add); });
+    candidates_ = found.calls;
     if constexpr (Rules::repeats) {
       std::vector<IndexPair> pairs(found_.pairs().begin(), found_.pairs().end());
       std::ranges::sort(pairs);
@@ -202,14 +203,18 @@ class FclBroadPhase final : public BroadPhase {
     return status_;
   }
 
+  BroadPhaseWork work() const override { return {.candidates = candidates_}; }
+
  private:
   // What FCL's callback is given.
   struct Found {
     std::span<const Aabb> boxes;
     PairBuffer& out;
+    std::int64_t calls = 0;
 
     static bool add(Object* first, Object* second, void* data) {
       auto& found = *static_cast<Found*>(data);
+      ++found.calls;
       const std::uint32_t a = static_cast<const BoxObject*>(first)->id();
       const std::uint32_t b = static_cast<const BoxObject*>(second)->id();
       if (overlap(found.boxes[a], found.boxes[b])) found.out.push(a, b);
@@ -288,6 +293,7 @@ class FclBroadPhase final : public BroadPhase {
   std::vector<Object*> batch_;  // scratch
   PairBuffer found_;            // scratch, of a manager that repeats itself
   std::size_t live_ = 0;
+  std::int64_t candidates_ = 0;
   Status status_ = Status::ok;
 };
 

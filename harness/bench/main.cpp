@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   touchstone::register_narrow_benchmarks();
   touchstone::register_oracle_benchmarks();
   touchstone::register_kernel_benchmarks();
+  touchstone::register_harness_overhead_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

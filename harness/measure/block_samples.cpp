@@ -101,6 +101,10 @@ BlockRun::Taken BlockRun::sample(const Place& place, std::size_t c, std::uint32_
   row.minor_faults = reply->minor_faults;
   row.voluntary_switches = reply->voluntary_switches;
   row.involuntary_switches = reply->involuntary_switches;
+  row.cycles = reply->hardware.cycles;
+  row.instructions = reply->hardware.instructions;
+  row.branch_misses = reply->hardware.branch_misses;
+  row.cache_misses = reply->hardware.cache_misses;
   row.seconds = reply->query;
   if (set.narrow != nullptr) {
     const Checked& checked = *checks_->find(schedule_.contestants[c].label(), set.narrow);

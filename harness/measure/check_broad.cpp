@@ -15,6 +15,7 @@ namespace touchstone {
 namespace {
 
 constexpr double setup_seconds = 60;
+constexpr double longest_to_count = 10;  // seconds of all frames: allocations are counted below
 
 // What the child finds in one frame.
 struct ChildAnswer {
@@ -26,6 +27,31 @@ struct ChildAnswer {
 std::span<const Aabb> boxes_before(const BlockInput& input, std::size_t frame) {
   return frame == 0 ? std::span<const Aabb>()
                     : std::span<const Aabb>(input.frames[frame - 1].boxes);
+}
+
+// A pass of its own, in a child of its own: the frames are played once to warm the algorithm up,
+// and counted the second time, when what it keeps from frame to frame is there. What fails here is
+// not counted; the check tells of failures.
+std::vector<BroadSampler::FrameAllocations> count_allocations(const BlockInput& input,
+                                                              const BroadPhaseEntry& entry,
+                                                              bool rebuild,
+                                                              const IsolationLimits& limits) {
+  const std::size_t count = input.frames.size();
+  SharedArray<BroadSampler::FrameAllocations> counts(count);
+  if (can_count_allocations()) {
+    isolate(2 * count, limits, [&]() -> ItemWork {
+      const auto executor = std::make_shared<Executor>(1);
+      const auto sampler = std::make_shared<BroadSampler>(entry, input, rebuild, *executor);
+      return [&, executor, sampler](std::size_t item) {
+        if (item < count) {
+          sampler->play(item);
+        } else {
+          counts[item - count] = sampler->count_allocations(item - count);
+        }
+      };
+    });
+  }
+  return {counts.span().begin(), counts.span().end()};
 }
 
 std::string write_frames(const RunContext& context, const BlockInput& input,
@@ -96,6 +122,15 @@ BroadCheck check_broad(const RunContext& context, const BlockInput& input,
     context.findings->add(std::move(departure));
     result.whole = result.right = false;
   };
+  const bool to_the_end = report.failures.empty() && too_slow[0] == 0;
+  double seconds = 0;
+  for (const ChildAnswer& answer : answers.span()) {
+    seconds += answer.reply.prepare + answer.reply.query;
+  }
+  std::vector<BroadSampler::FrameAllocations> allocations(count);
+  if (to_the_end && seconds < longest_to_count) {
+    allocations = count_allocations(input, entry, group.rebuild, limits);
+  }
   for (std::size_t frame = 0; frame < count; ++frame) {
     if (report.states[frame] != ItemState::done) {
       const IsolationFailure& failure = report.failures.front();
@@ -111,11 +146,16 @@ BroadCheck check_broad(const RunContext& context, const BlockInput& input,
     const bool build = group.rebuild || frame == 0;
     RawRow prepare = context.row(frame, entry, build ? Phase::build : Phase::update);
     prepare.seconds = answer.reply.prepare;
+    prepare.allocations = allocations[frame].prepare.calls;
+    prepare.allocated_bytes = allocations[frame].prepare.bytes;
     RawRow query = context.row(frame, entry, Phase::find_pairs);
     query.seconds = answer.reply.query;
     query.status = to_string(answer.reply.status);
     query.pair_count = answer.reply.pairs;
     query.pair_hash = to_hex(answer.reply.pair_hash);
+    query.take(answer.reply.work);
+    query.allocations = allocations[frame].query.calls;
+    query.allocated_bytes = allocations[frame].query.bytes;
     if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = status_wrong;
     context.findings->add(std::move(prepare));
     context.findings->add(std::move(query));

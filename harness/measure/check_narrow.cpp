@@ -12,15 +12,14 @@
 #include "harness/error.h"
 #include "harness/io/cases.h"
 #include "harness/measure/outcome_hash.h"
-#include "harness/measure/sampler.h"
 #include "harness/run/guarded_solve.h"
-#include "harness/run/isolate.h"
 
 namespace touchstone {
 namespace {
 
 constexpr double setup_seconds = 60;
 constexpr std::size_t outcomes_at_once = 250'000;  // about 50 MB
+constexpr double longest_to_count = 10;  // seconds of a batch: allocations are counted below
 
 // What the child tells of one piece; the outcomes themselves are elsewhere.
 struct ChildAnswer {
@@ -35,6 +34,11 @@ Status status_of(const OutcomeFaults& faults, Origin origin) {
 }
 
 }  // namespace
+
+SampleRequest NarrowCheck::request(const Piece& piece) {
+  return {.set = static_cast<std::uint32_t>(piece.set),
+          .frame = static_cast<std::uint32_t>(piece.frame)};
+}
 
 NarrowCheck::NarrowCheck(const RunContext& context, const BlockInput& input,
                          std::span<const NarrowSet> sets)
@@ -109,8 +113,7 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
       const Piece& piece = pieces[item];
       if (lost[piece.set] != 0) return;
       lost[piece.set] = 1;
-      const SampleReply reply = sampler->sample({.set = static_cast<std::uint32_t>(piece.set),
-                                                 .frame = static_cast<std::uint32_t>(piece.frame)});
+      const SampleReply reply = sampler->sample(request(piece));
       answers[item] = {reply.query, reply.outcome_hash, reply.contacts, reply.iterations,
                        reply.support_calls};
       std::ranges::copy(sampler->outcomes(),
@@ -119,6 +122,12 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
     };
   });
 
+  double seconds = 0;
+  for (const ChildAnswer& answer : answers.span()) seconds += answer.seconds;
+  std::vector<Allocations> allocations(pieces.size());
+  if (report.failures.empty() && seconds < longest_to_count) {
+    allocations = count_allocations(pieces, choice, limits);
+  }
   auto failure = report.failures.begin();
   for (std::size_t item = 0; item < pieces.size(); ++item) {
     const Piece& piece = pieces[item];
@@ -141,9 +150,29 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
     result.outcome_hash = to_hex(answer.outcome_hash);
     result.iterations = answer.iterations;
     result.support_calls = answer.support_calls;
+    result.allocations = allocations[item].calls;
+    result.allocated_bytes = allocations[item].bytes;
     take(piece, choice, outcomes.span().subspan(piece.first, group(piece).size()), reference,
          std::move(result));
   }
+}
+
+std::vector<Allocations> NarrowCheck::count_allocations(std::span<const Piece> pieces,
+                                                        const NarrowChoice& choice,
+                                                        IsolationLimits limits) const {
+  limits.failures = 1;
+  SharedArray<Allocations> counts(pieces.size());
+  if (can_count_allocations()) {
+    isolate(pieces.size(), limits, [&]() -> ItemWork {
+      const auto executor = std::make_shared<Executor>(1);
+      const auto sampler = std::make_shared<NarrowSampler>(choice, *input_, sets_, *executor);
+      return [&, executor, sampler](std::size_t item) {
+        sampler->sample(request(pieces[item]));
+        counts[item] = sampler->count_allocations(request(pieces[item]));
+      };
+    });
+  }
+  return {counts.span().begin(), counts.span().end()};
 }
 
 void NarrowCheck::take(const Piece& piece, const NarrowChoice& choice,

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "harness/measure/block_input.h"
+#include "harness/measure/sampler.h"
+#include "harness/run/isolate.h"
 #include "harness/run/outcome_check.h"
 #include "harness/run/run_context.h"
 
@@ -37,7 +39,13 @@ class NarrowCheck {
     std::size_t outcomes = 0;
   };
   const PairGroup& group(const Piece& piece) const { return sets_[piece.set].frames[piece.frame]; }
+  static SampleRequest request(const Piece& piece);
   void run(const Batch& batch, const NarrowChoice& choice);
+  // A pass of its own, in a child of its own: each piece is solved once to warm the algorithm up,
+  // and counted the second time. What fails here is not counted; the check tells of failures.
+  std::vector<Allocations> count_allocations(std::span<const Piece> pieces,
+                                             const NarrowChoice& choice,
+                                             IsolationLimits limits) const;
   void take(const Piece& piece, const NarrowChoice& choice, std::span<const Outcome> outcomes,
             const std::vector<ReferenceOutcome>& reference, RawRow row);
   void lose(const Piece& piece, const NarrowChoice& choice,

@@ -1,6 +1,7 @@
 #include "harness/measure/sampler.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "harness/measure/outcome_hash.h"
 
@@ -23,15 +24,18 @@ BroadSampler::BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input
       rebuild_(rebuild || input.frames.size() == 1),
       algorithm_(entry.make(executor)) {}
 
-void BroadSampler::step(std::size_t frame, SampleReply& reply) {
+void BroadSampler::prepare(std::size_t frame) {
   const BlockFrame& now = input_->frames[frame];
-  const bool build = is_built(frame);
-  const Stopwatch preparing;
-  if (build) {
+  if (is_built(frame)) {
     algorithm_->build(now.boxes);
   } else {
     algorithm_->update(now.change());
   }
+}
+
+void BroadSampler::step(std::size_t frame, SampleReply& reply) {
+  const Stopwatch preparing;
+  prepare(frame);
   reply.prepare += preparing.seconds();
   const Stopwatch finding;
   const Status status = algorithm_->find_pairs(sink_);
@@ -41,15 +45,38 @@ void BroadSampler::step(std::size_t frame, SampleReply& reply) {
   at_ = static_cast<std::ptrdiff_t>(frame);
 }
 
+void BroadSampler::play_up_to(std::size_t frame) {
+  if (at_ == static_cast<std::ptrdiff_t>(frame) - 1) return;
+  SampleReply untimed;
+  untimed.prepare = 0;
+  for (std::size_t before = 0; before < frame; ++before) step(before, untimed);
+}
+
 SampleReply BroadSampler::play(std::size_t frame) {
-  SampleReply untimed, reply;
-  untimed.prepare = reply.prepare = 0;
-  if (!is_built(frame) && at_ != static_cast<std::ptrdiff_t>(frame) - 1) {
-    for (std::size_t before = 0; before < frame; ++before) step(before, untimed);
-  }
+  SampleReply reply;
+  reply.prepare = 0;
+  if (!is_built(frame)) play_up_to(frame);
   step(frame, reply);
+  reply.work = algorithm_->work();
   for (const PairBuffer& chunk : sink_.chunks()) reply.pair_hash += pair_hash(chunk.pairs());
   return reply;
+}
+
+BroadSampler::FrameAllocations BroadSampler::count_allocations(std::size_t frame) {
+  if (!is_built(frame)) play_up_to(frame);
+  FrameAllocations allocations;
+  {
+    const AllocationCount count;
+    prepare(frame);
+    allocations.prepare = count.so_far();
+  }
+  {
+    const AllocationCount count;
+    algorithm_->find_pairs(sink_);
+    allocations.query = count.so_far();
+  }
+  at_ = static_cast<std::ptrdiff_t>(frame);
+  return allocations;
 }
 
 SampleReply BroadSampler::sample(const SampleRequest& request) {
@@ -57,9 +84,7 @@ SampleReply BroadSampler::sample(const SampleRequest& request) {
   SampleReply untimed, reply;
   untimed.prepare = reply.prepare = 0;
   std::size_t frame = request.frame;
-  if (!rebuild_ && at_ != static_cast<std::ptrdiff_t>(frame) - 1) {
-    for (std::size_t before = 0; before < frame; ++before) step(before, untimed);
-  }
+  if (!rebuild_) play_up_to(frame);
   for (std::uint32_t i = 0; i < request.frames; ++i) {
     if (frame == input_->frames.size()) frame = 0;
     if (frame == 0 && !rebuild_) step(frame++, untimed);
@@ -77,20 +102,18 @@ NarrowSampler::NarrowSampler(const NarrowChoice& choice, const BlockInput& input
   }
 }
 
-SampleReply NarrowSampler::sample(const SampleRequest& request) {
-  struct Chunk {
-    PairBatch batch;
-    std::size_t first;  // outcome
-  };
+template <class Visit>
+void NarrowSampler::each_frame(const SampleRequest& request, const Visit& visit) const {
+  for (std::uint32_t i = 0; i < request.frames; ++i) {
+    visit((request.frame + i) % input_->frames.size());
+  }
+}
+
+std::vector<NarrowSampler::Chunk> NarrowSampler::cut(const SampleRequest& request) {
   const NarrowSet& set = sets_[request.set];
   std::vector<Chunk> chunks;
   std::size_t total = 0;
-  const auto each_frame = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < request.frames; ++i) {
-      visit((request.frame + i) % input_->frames.size());
-    }
-  };
-  each_frame([&](std::size_t frame) {
+  each_frame(request, [&](std::size_t frame) {
     const PairGroup& group = set.frames[frame];
     for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task) {
       const std::size_t end = std::min(begin + pairs_a_task, group.size());
@@ -101,15 +124,39 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
     total += group.size();
   });
   outcomes_.assign(total, Outcome{});
+  return chunks;
+}
+
+std::vector<std::size_t> NarrowSampler::tasks_of(std::span<const Chunk> chunks) {
+  std::vector<std::size_t> tasks = {0};
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    pairs += chunks[i].batch.size();
+    if (pairs < pairs_a_task && i + 1 < chunks.size()) continue;
+    tasks.push_back(i + 1);
+    pairs = 0;
+  }
+  return tasks;
+}
+
+void NarrowSampler::solve(const Chunk& chunk, int worker) {
+  instances_[static_cast<std::size_t>(worker)]->solve(
+      chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()));
+}
+
+SampleReply NarrowSampler::sample(const SampleRequest& request) {
+  const NarrowSet& set = sets_[request.set];
+  const std::vector<Chunk> chunks = cut(request);
+  const std::vector<std::size_t> tasks = tasks_of(chunks);
+  // By reference, so that std::function does not allocate.
+  const auto work = [&](std::size_t task, int worker) {
+    for (std::size_t i = tasks[task]; i < tasks[task + 1]; ++i) solve(chunks[i], worker);
+  };
   SampleReply reply;
   const Stopwatch watch;
-  executor_->run(chunks.size(), [&](std::size_t i, int worker) {
-    const Chunk& chunk = chunks[i];
-    instances_[static_cast<std::size_t>(worker)]->solve(
-        chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()));
-  });
+  executor_->run(tasks.size() - 1, std::cref(work));
   reply.query = watch.seconds();
-  reply.pairs = static_cast<std::int64_t>(total);
+  reply.pairs = static_cast<std::int64_t>(outcomes_.size());
   reply.contacts = 0;
   for (const Outcome& outcome : outcomes_) {
     reply.contacts +=
@@ -118,13 +165,20 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
     count(reply.support_calls, outcome.support_calls);
   }
   std::size_t first = 0;
-  each_frame([&](std::size_t frame) {
+  each_frame(request, [&](std::size_t frame) {
     const PairGroup& group = set.frames[frame];
     reply.pair_hash += group_hash(group);
     reply.outcome_hash += outcome_hash(group, std::span(outcomes_).subspan(first, group.size()));
     first += group.size();
   });
   return reply;
+}
+
+Allocations NarrowSampler::count_allocations(const SampleRequest& request) {
+  const std::vector<Chunk> chunks = cut(request);
+  const AllocationCount counted;
+  for (const Chunk& chunk : chunks) solve(chunk, 0);
+  return counted.so_far();
 }
 
 }  // namespace touchstone

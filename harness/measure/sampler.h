@@ -7,8 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/executor.h"
+#include "harness/measure/allocations.h"
 #include "harness/measure/block_input.h"
+#include "harness/measure/hardware_counters.h"
 #include "harness/run/campaign.h"
 #include "harness/run/clock.h"
 
@@ -31,9 +34,11 @@ struct SampleReply {
   std::int64_t contacts = -1;
   std::uint64_t outcome_hash = 0;
   std::int64_t iterations = -1, support_calls = -1;
+  BroadPhaseWork work;         // of a broad phase's frame that was `hashed`: to count it takes time
   Status status = Status::ok;  // a broad phase's, the last that was not ok
   std::int64_t peak_kb = -1, minor_faults = -1;
   std::int64_t voluntary_switches = -1, involuntary_switches = -1;
+  HardwareCounts hardware;
 };
 
 class Sampler {
@@ -55,9 +60,16 @@ class BroadSampler final : public Sampler {
   // One frame, frame 0 too; its pairs are in sink() until the next call.
   SampleReply play(std::size_t frame);
   const PairSink& sink() const { return sink_; }
+  // The same frame without a clock: what build or update, and what find_pairs asks of the heap.
+  struct FrameAllocations {
+    Allocations prepare, query;
+  };
+  FrameAllocations count_allocations(std::size_t frame);
 
  private:
   void step(std::size_t frame, SampleReply& reply);
+  void prepare(std::size_t frame);
+  void play_up_to(std::size_t frame);
   bool is_built(std::size_t frame) const { return rebuild_ || frame == 0; }
 
   const BlockInput* input_;
@@ -75,9 +87,24 @@ class NarrowSampler final : public Sampler {
                 std::span<const NarrowSet> sets, Executor& executor);
 
   SampleReply sample(const SampleRequest& request) override;
+  // What its queries ask of the heap, without a clock and in this thread.
+  Allocations count_allocations(const SampleRequest& request);
   std::span<const Outcome> outcomes() const { return outcomes_; }  // of the last sample, in order
 
  private:
+  struct Chunk {  // pairs of one frame
+    PairBatch batch;
+    std::size_t first;  // outcome
+  };
+  // Calls visit(frame) for each frame of the window.
+  template <class Visit>
+  void each_frame(const SampleRequest& request, const Visit& visit) const;
+  // Cuts the pairs of the window, and makes room for their outcomes.
+  std::vector<Chunk> cut(const SampleRequest& request);
+  // Where the chunks of each of the executor's tasks begin, and the end of the last.
+  static std::vector<std::size_t> tasks_of(std::span<const Chunk> chunks);
+  void solve(const Chunk& chunk, int worker);
+
   const BlockInput* input_;
   std::span<const NarrowSet> sets_;
   Executor* executor_;

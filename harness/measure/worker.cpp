@@ -1,6 +1,7 @@
 #include "harness/measure/worker.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -21,6 +22,7 @@
 #include <system_error>
 #include <vector>
 
+#include "harness/measure/hardware_counters.h"
 #include "harness/run/clock.h"
 #include "harness/scene/random.h"
 
@@ -74,43 +76,68 @@ class Usage {
       : clear_(open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC)),
         status_(open("/proc/self/status", O_RDONLY | O_CLOEXEC)) {}
 
+  // What is in memory now is the harness's: peaks are told beyond it.
+  void be_empty() {
+#if defined(__GLIBC__)
+    malloc_trim(0);  // or the algorithm would use up what the harness has given back
+#endif
+    own_kb_ = status().anonymous;
+  }
   void start() {
     // From here on the peak is that of what follows (proc(5), clear_refs).
     can_reset_ = clear_ >= 0 && write(clear_, "5", 1) == 1;
     getrusage(RUSAGE_SELF, &before_);
+    hardware_.start();
   }
   void finish(SampleReply& reply) const {
+    reply.hardware = hardware_.counts();
     rusage after{};
     getrusage(RUSAGE_SELF, &after);
     reply.minor_faults = after.ru_minflt - before_.ru_minflt;
     reply.voluntary_switches = after.ru_nvcsw - before_.ru_nvcsw;
     reply.involuntary_switches = after.ru_nivcsw - before_.ru_nivcsw;
-    if (can_reset_) reply.peak_kb = peak_kb();
+    if (!can_reset_ || own_kb_ < 0) return;
+    const Status now = status();
+    // The peak is of all pages; those of files, programs among them, only ever grow.
+    if (now.peak >= 0) {
+      reply.peak_kb = std::max<std::int64_t>(now.peak - now.files - now.shared - own_kb_, 0);
+    }
   }
 
  private:
-  std::int64_t peak_kb() const {
+  struct Status {  // kilobytes resident; -1 where the system does not tell
+    std::int64_t peak = -1, anonymous = -1, files = 0, shared = 0;
+  };
+  Status status() const {
     std::array<char, 4096> text;
     const ssize_t got = status_ < 0 ? -1 : pread(status_, text.data(), text.size(), 0);
-    if (got <= 0) return -1;
+    if (got <= 0) return {};
     const std::string_view all(text.data(), static_cast<std::size_t>(got));
-    constexpr std::string_view key = "VmHWM:";
+    Status status;
+    take(all, "VmHWM:", status.peak);
+    take(all, "RssAnon:", status.anonymous);
+    take(all, "RssFile:", status.files);
+    take(all, "RssShmem:", status.shared);
+    return status;
+  }
+  static void take(std::string_view all, std::string_view key, std::int64_t& value) {
     const std::size_t at = all.find(key);
-    if (at == std::string_view::npos) return -1;
+    if (at == std::string_view::npos) return;
     const std::size_t digits = all.find_first_of("0123456789", at);
-    std::int64_t value = -1;
     if (digits != std::string_view::npos) {
       std::from_chars(all.data() + digits, all.data() + all.size(), value);
     }
-    return value;
   }
 
   int clear_, status_;
   bool can_reset_ = false;
+  std::int64_t own_kb_ = -1;
   rusage before_{};
+  HardwareCounters hardware_;
 };
 
 void serve(int line, const Worker::Make& make, Usage& usage) {
+  usage.be_empty();
   const std::unique_ptr<Sampler> sampler = make();
   Message message;
   for (;;) {

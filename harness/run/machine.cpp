@@ -1,13 +1,25 @@
 #include "harness/run/machine.h"
 
 #include <fmt/core.h>
+#include <sched.h>
 #include <sys/utsname.h>
 #include <unistd.h>
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+#if defined(__GLIBC__)
+#include <gnu/libc-version.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -21,7 +33,7 @@ namespace {
 
 constexpr std::string_view unknown = "unknown";
 
-std::string first_line(const std::string& file) {
+std::string first_line(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string line;
   return std::getline(stream, line) && !line.empty() ? line : std::string(unknown);
@@ -37,6 +49,112 @@ std::string value_of(const std::string& file, std::string_view key) {
     return begin == std::string::npos ? std::string(unknown) : line.substr(begin);
   }
   return std::string(unknown);
+}
+
+// Places as the kernel writes them: "0-3,6".
+std::string ranges(const std::set<int>& places) {
+  std::string text;
+  for (auto at = places.begin(); at != places.end();) {
+    const int first = *at;
+    int last = first;
+    while (++at != places.end() && *at == last + 1) last = *at;
+    if (!text.empty()) text += ',';
+    text += first == last ? std::to_string(first) : fmt::format("{}-{}", first, last);
+  }
+  return text;
+}
+
+// The processors that this process may run on.
+std::string affinity() {
+  cpu_set_t mask;
+  if (sched_getaffinity(0, sizeof mask, &mask) != 0) return {};
+  std::set<int> allowed;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (CPU_ISSET(cpu, &mask)) allowed.insert(cpu);
+  }
+  return ranges(allowed);
+}
+
+// Cores, as pairs of package and number: processors that share one count once.
+std::string physical_cores(const std::string& folder) {
+  std::set<std::string> cores;
+  for (int cpu = 0;; ++cpu) {
+    const std::string place = fmt::format("{}cpu{}/", folder, cpu);
+    if (!std::filesystem::exists(place)) break;
+    const std::string core = first_line(place + "topology/core_id");
+    if (core != unknown) cores.insert(first_line(place + "topology/physical_package_id") + core);
+  }
+  return cores.empty() ? std::string() : std::to_string(cores.size());
+}
+
+std::string boost(const std::string& folder) {
+  const std::string off = first_line(folder + "intel_pstate/no_turbo");
+  if (off != unknown) return off == "0" ? "1" : "0";
+  return first_line(folder + "cpufreq/boost");
+}
+
+// By the bit and the leaf that processors keep for it, since not every hypervisor is in /sys.
+std::string hypervisor() {
+  const std::string named = first_line("/sys/hypervisor/type");
+  if (named != unknown) return named;
+#if defined(__x86_64__)
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  constexpr unsigned present = 1u << 31;
+  if (__get_cpuid(1, &a, &b, &c, &d) == 0) return {};
+  if ((c & present) == 0) return "none";
+  __cpuid(0x40000000, a, b, c, d);
+  char vendor[13] = {};
+  std::memcpy(vendor, &b, 4);
+  std::memcpy(vendor + 4, &c, 4);
+  std::memcpy(vendor + 8, &d, 4);
+  return vendor;
+#else
+  return {};
+#endif
+}
+
+// The limits that hold for this process: its group's and those above it. `first`: the file's name
+// in version 1, whose controllers are apart; `second`: in version 2.
+std::string group_limits(const std::string& controller, const std::string& first,
+                         const std::string& second) {
+  const std::filesystem::path root = "/sys/fs/cgroup";
+  std::string limits;
+  bool any = false;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t colon = line.find(':');
+    const std::size_t end = line.find(':', colon + 1);
+    if (colon == std::string::npos || end == std::string::npos) continue;
+    const std::string names = "," + line.substr(colon + 1, end - colon - 1) + ",";
+    const bool unified = names == ",,";
+    if (!unified && names.find("," + controller + ",") == std::string::npos) continue;
+    const std::filesystem::path folder = unified ? root : root / controller;
+    std::filesystem::path group = line.substr(end + 2);
+    for (bool at_root = false; !at_root; group = group.parent_path()) {
+      at_root = group.empty();
+      const std::string value = first_line(folder / group / (unified ? second : first));
+      if (value == unknown) continue;
+      any = true;
+      const bool none = value.starts_with("max") || value == "-1" || value.size() >= 19;
+      if (!none) limits += (limits.empty() ? "" : "; ") + value;
+    }
+  }
+  return !any ? "" : limits.empty() ? "none" : limits;
+}
+
+std::string command_line() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!text.empty() && text.back() == '\0') text.pop_back();
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
+}
+
+std::string preloaded() {
+  const char* const value = std::getenv("LD_PRELOAD");
+  return value == nullptr || *value == '\0' ? "none" : value;
 }
 
 // What git says, or "unknown" where there is no git or no repository.
@@ -60,6 +178,9 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
   add("processor", value_of("/proc/cpuinfo", "model name"));
   add("microcode", value_of("/proc/cpuinfo", "microcode"));
   add("cores_online", std::to_string(std::thread::hardware_concurrency()));
+  add("cores_physical", physical_cores(cpu));
+  add("affinity", affinity());
+  add("numa_nodes", first_line("/sys/devices/system/node/online"));
   add("simultaneous_multithreading", first_line(cpu + "smt/active"));
   for (int level = 0; level < 4; ++level) {
     const std::string cache = fmt::format("{}cpu0/cache/index{}/", cpu, level);
@@ -68,20 +189,35 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
                     first_line(cache + "size")));
   }
   add("governor", first_line(cpu + "cpu0/cpufreq/scaling_governor"));
-  add("boost", first_line(cpu + "cpufreq/boost"));
+  add("frequency_driver", first_line(cpu + "cpu0/cpufreq/scaling_driver"));
+  add("greatest_frequency_khz", first_line(cpu + "cpu0/cpufreq/cpuinfo_max_freq"));
+  add("boost", boost(cpu));
+  add("clock_source",
+      first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource"));
   add("memory", value_of("/proc/meminfo", "MemTotal"));
   utsname name{};
   uname(&name);
   add("kernel", fmt::format("{} {} {}", name.sysname, name.release, name.machine));
-  add("hypervisor", first_line("/sys/hypervisor/type"));
+  add("hypervisor", hypervisor());
+  add("processor_limit", group_limits("cpu", "cpu.cfs_quota_us", "cpu.max"));
+  add("memory_limit", group_limits("memory", "memory.limit_in_bytes", "memory.max"));
+  add("transparent_huge_pages", first_line("/sys/kernel/mm/transparent_hugepage/enabled"));
+  add("perf_event_paranoid", first_line("/proc/sys/kernel/perf_event_paranoid"));
   add("address_randomisation", first_line("/proc/sys/kernel/randomize_va_space"));
   for (const auto& [key, value] : build_facts) add(key, value);
+#if defined(__GLIBC__)
+  add("c_library", std::string("glibc ") + gnu_get_libc_version());
+#else
+  add("c_library", "");
+#endif
+  add("preloaded", preloaded());
   add("instructions_of_machine", to_string(isa_of_machine()));
   add("instructions_in_use", to_string(isa()));
   std::string commit = git("rev-parse HEAD");
   if (!commit.empty()) commit.pop_back();
   add("commit", commit);
   add("tree", commit.empty() ? "" : git("status --porcelain").empty() ? "clean" : "changed");
+  add(command_line_fact, command_line());
   return facts;
 }
 

@@ -53,10 +53,20 @@ void columns(Row& row, Visit visit) {
   visit("iterations", row.iterations);
   visit("iterations_squared", row.iterations_squared);
   visit("support_calls", row.support_calls);
+  visit("box_tests", row.box_tests);
+  visit("node_visits", row.node_visits);
+  visit("candidates", row.candidates);
+  visit("bytes", row.bytes);
+  visit("allocations", row.allocations);
+  visit("allocated_bytes", row.allocated_bytes);
   visit("peak_kb", row.peak_kb);
   visit("minor_faults", row.minor_faults);
   visit("voluntary_switches", row.voluntary_switches);
   visit("involuntary_switches", row.involuntary_switches);
+  visit("cycles", row.cycles);
+  visit("instructions", row.instructions);
+  visit("branch_misses", row.branch_misses);
+  visit("cache_misses", row.cache_misses);
   visit("status", row.status);
   visit("noise", row.noise);
   visit("words", row.words);
@@ -126,6 +136,13 @@ std::string_view to_string(Phase phase) {
 }
 
 std::string_view to_string(RowKind kind) { return kind == RowKind::check ? "check" : "sample"; }
+
+void RawRow::take(const BroadPhaseWork& work) {
+  box_tests = work.box_tests;
+  node_visits = work.node_visits;
+  candidates = work.candidates;
+  bytes = work.bytes;
+}
 
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
                          double duality_gap) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/outcome.h"
 #include "harness/io/csv.h"
 
@@ -51,10 +52,15 @@ struct RawRow {
   double worst_error = Outcome::none;
   std::int64_t failures = -1;
   std::int64_t iterations = -1, iterations_squared = -1, support_calls = -1;
+  std::int64_t box_tests = -1, node_visits = -1, candidates = -1, bytes = -1;
+  std::int64_t allocations = -1, allocated_bytes = -1;
   std::int64_t peak_kb = -1, minor_faults = -1;
   std::int64_t voluntary_switches = -1, involuntary_switches = -1;
+  std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
   std::string status;
   std::string noise, words, stop;
+
+  void take(const BroadPhaseWork& work);
 
   // Its algorithm answered no more.
   bool lost() const {

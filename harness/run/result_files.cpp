@@ -19,6 +19,7 @@
 
 #include "harness/error.h"
 #include "harness/run/clock.h"
+#include "harness/run/machine.h"
 
 namespace touchstone {
 namespace {
@@ -178,6 +179,13 @@ void ResultFiles::compare_facts() {
   std::map<std::string, std::string> old = read_facts(machine());
   was_finished_ = old[finished_key] == "yes";
   old.erase(finished_key);
+  // Each command that the results come from is told, once.
+  for (auto& [name, value] : facts_) {
+    if (name != command_line_fact || !old.contains(name)) continue;
+    const std::string& before = old[name];
+    value = before.find(value) == std::string::npos ? before + " && " + value : before;
+    old[name] = value;
+  }
   for (auto& [name, value] : facts_) {
     const auto at = old.find(name);
     if (at != old.end() && std::ranges::find(source_facts, name) != source_facts.end()) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -31,10 +32,28 @@ constexpr std::array machine_facts_compared = {"processor",
                                                "instructions_in_use",
                                                "build_type",
                                                "sanitizers"};
-constexpr std::array facts_remarked = {
-    "campaign_hash", "seed",   "microcode", "kernel", "address_randomisation",
-    "compiler",      "flags",  "eigen",     "onetbb", "bullet",
-    "fcl",           "libccd", "commit",    "tree"};
+constexpr std::array facts_remarked = {"affinity",
+                                       "processor_limit",
+                                       "memory_limit",
+                                       "numa_nodes",
+                                       "transparent_huge_pages",
+                                       "clock_source",
+                                       "c_library",
+                                       "preloaded",
+                                       "campaign_hash",
+                                       "seed",
+                                       "microcode",
+                                       "kernel",
+                                       "address_randomisation",
+                                       "compiler",
+                                       "flags",
+                                       "eigen",
+                                       "onetbb",
+                                       "bullet",
+                                       "fcl",
+                                       "libccd",
+                                       "commit",
+                                       "tree"};
 
 std::string fact(const Results& results, const char* name) {
   const auto at = results.machine.find(name);
@@ -86,23 +105,35 @@ double log_of_run(const Results& run, const SetKey& key, const std::string& labe
   return median(logs(by_square(*contestant, noise)));
 }
 
-// What a verified frame must give again, to the digit.
-struct Fact {
-  const char* name;
-  std::string value;
-  bool operator==(const Fact&) const = default;
+// What a verified frame must give again, to the digit, and did not.
+struct Change {
+  std::string name, in_a, in_b;
 };
 
-std::vector<Fact> facts(const Check& check, Compared what) {
+std::optional<Change> change(const Check& a, const Check& b) {
   const auto known = [](std::int64_t n) { return n < 0 ? std::string("none") : std::to_string(n); };
-  std::vector<Fact> all = {{"pair count", known(check.pair_count)},
-                           {"pair hash", check.pair_hash},
-                           {"contact count", known(check.contact_count)}};
-  if (what == Compared::answers_and_work) {
-    all.push_back({"iterations", known(check.iterations)});
-    all.push_back({"support calls", known(check.support_calls)});
+  if (a.pair_count != b.pair_count) {
+    return Change{"pair count", known(a.pair_count), known(b.pair_count)};
   }
-  return all;
+  if (a.pair_hash != b.pair_hash) return Change{"pair hash", a.pair_hash, b.pair_hash};
+  if (a.contact_count != b.contact_count) {
+    return Change{"contact count", known(a.contact_count), known(b.contact_count)};
+  }
+  return std::nullopt;
+}
+
+// The same of the work. A build that cannot count something says nothing about it; and what a peer
+// asks of the heap is up to the versions of the libraries below it.
+std::optional<Change> changed_work(const Check& a, const Check& b, bool ours) {
+  for (std::size_t i = 0; i < work_names.size(); ++i) {
+    const auto work = static_cast<Work>(i);
+    const bool of_heap = work == Work::allocations || work == Work::allocated_bytes;
+    if (a.work[i] == b.work[i] || a.work[i] < 0 || b.work[i] < 0 || (of_heap && !ours)) continue;
+    std::string name = work_names[i];
+    std::ranges::replace(name, '_', ' ');
+    return Change{name, std::to_string(a.work[i]), std::to_string(b.work[i])};
+  }
+  return std::nullopt;
 }
 
 // Calls visit(set of A, contestant of A, contestant of B) for each contestant that both have.
@@ -233,12 +264,13 @@ std::vector<std::string> changed_answers(const Results& a, const Results& b, Com
     for (const Check& check : in_a.checks) {
       const auto at = by_frame.find({check.frame, check.part});
       if (at == by_frame.end()) continue;
-      const std::vector<Fact> of_a = facts(check, what);
-      const std::vector<Fact> of_b = facts(*at->second, what);
-      const auto [one, other] = std::ranges::mismatch(of_a, of_b);
-      if (one == of_a.end()) continue;
+      std::optional<Change> found = change(check, *at->second);
+      if (!found && what == Compared::answers_and_work) {
+        found = changed_work(check, *at->second, is_ours(set.key, in_a.label));
+      }
+      if (!found) continue;
       lines.push_back(fmt::format("{}, frame {}: {} {} in {}, {} in {}", where, check.frame,
-                                  one->name, one->value, names.a, other->value, names.b));
+                                  found->name, found->in_a, names.a, found->in_b, names.b));
       return;  // the first frame stands for the others
     }
   });

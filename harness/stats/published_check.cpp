@@ -24,9 +24,10 @@ bool is_about(const PublishedClaim& claim, const SampleSet& set) {
 PublishedRow iterations_row(const PublishedClaim& claim, const SampleSet& set) {
   double sum = 0, squares = 0, count = 0;
   for (const Check& check : set.find(claim.algorithm)->checks) {
-    if (check.iterations < 0 || check.pair_count <= 0) continue;
-    sum += static_cast<double>(check.iterations);
-    squares += static_cast<double>(check.iterations_squared);
+    const std::int64_t iterations = check.count(Work::iterations);
+    if (iterations < 0 || check.pair_count <= 0) continue;
+    sum += static_cast<double>(iterations);
+    squares += static_cast<double>(check.count(Work::iterations_squared));
     count += static_cast<double>(check.pair_count);
   }
   const double mean = sum / count;

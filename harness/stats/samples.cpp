@@ -27,7 +27,9 @@ const std::vector<std::string> required = {
     "process",       "square",       "round",         "position",  "frames",  "twin",  "noise",
     "contact_count", "outcome_hash", "disagreements", "failures"};
 const std::vector<std::string> optional = {
-    "seed", "stop", "duality_gap", "compared", "iterations", "iterations_squared", "support_calls"};
+    "seed",           "stop",      "duality_gap", "compared",   "iterations", "iterations_squared",
+    "support_calls",  "box_tests", "node_visits", "candidates", "bytes",      "allocations",
+    "allocated_bytes"};
 
 // A row's fields by the columns' names.
 class Fields {
@@ -114,11 +116,14 @@ class Reader {
     const std::string status = row.text("status");
     if (failed(status)) contestant.failure = status;
     if (kind == "check") {
-      contestant.checks.push_back(
-          {frame, part_of(row), status, row.text("pair_hash"), row.text("outcome_hash"),
-           row.count("pair_count"), row.count("contact_count"), row.count("disagreements"),
-           row.count("failures"), row.count("compared"), row.count("iterations"),
-           row.count("iterations_squared"), row.count("support_calls")});
+      Check check{frame, part_of(row), status, row.text("pair_hash"), row.text("outcome_hash")};
+      check.pair_count = row.count("pair_count");
+      check.contact_count = row.count("contact_count");
+      check.disagreements = row.count("disagreements");
+      check.failures = row.count("failures");
+      check.compared = row.count("compared");
+      for (std::size_t i = 0; i < work_names.size(); ++i) check.work[i] = row.count(work_names[i]);
+      contestant.checks.push_back(std::move(check));
     } else {
       take_sample(contestant, row, set.key.narrow());
     }
@@ -196,6 +201,8 @@ class Reader {
   std::map<SetKey, std::size_t> places_;
 };
 
+}  // namespace
+
 bool is_ours(const SetKey& key, const std::string& label) {
   const std::string name = label.substr(0, label.find(' '));
   const auto ours = [&](const auto& entries) {
@@ -205,8 +212,6 @@ bool is_ours(const SetKey& key, const std::string& label) {
   };
   return key.narrow() ? ours(narrow_phases()) : ours(broad_phases());
 }
-
-}  // namespace
 
 std::string SetKey::words() const {
   std::string text = fmt::format("{}, {} bodies, {} boxes, {} thread{}", scene, bodies, boxes,

@@ -45,14 +45,43 @@ struct Sample {
   double seconds() const;  // all parts; NaN where nothing was timed
 };
 
+// Work counters, by their columns.
+enum class Work : std::uint8_t {
+  iterations,
+  iterations_squared,  // for their deviation
+  support_calls,
+  box_tests,
+  node_visits,
+  candidates,
+  bytes,
+  allocations,
+  allocated_bytes
+};
+inline constexpr std::array<const char*, 9> work_names = {
+    "iterations", "iterations_squared", "support_calls",  "box_tests", "node_visits", "candidates",
+    "bytes",      "allocations",        "allocated_bytes"};
+
 // The verified answer to one frame. Counts of -1 are not known.
 struct Check {
   std::int64_t frame = 0;
   Part part = Part::build;
   std::string status, pair_hash, outcome_hash;
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
-               compared = -1, iterations = -1, iterations_squared = -1, support_calls = -1;
+               compared = -1;
+  std::array<std::int64_t, work_names.size()> work = unknown_work();
+
+  std::int64_t count(Work of) const { return work[static_cast<std::size_t>(of)]; }
+
+ private:
+  static constexpr std::array<std::int64_t, work_names.size()> unknown_work() {
+    std::array<std::int64_t, work_names.size()> none{};
+    none.fill(-1);
+    return none;
+  }
 };
+
+// Whether the registry knows it as one of ours.
+bool is_ours(const SetKey& key, const std::string& label);
 
 struct Contestant {
   std::string label;  // "sweep-and-prune", "gjk double 1e-06"

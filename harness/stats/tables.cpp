@@ -188,6 +188,40 @@ std::optional<AgreementRow> agreement_row(const SampleSet& set, const Contestant
   return row.queries > 0 ? std::optional(row) : std::nullopt;
 }
 
+std::optional<WorkRow> work_row(const SampleSet& set, const Contestant& contestant) {
+  const bool narrow = set.key.narrow();
+  WorkRow row{set.key, contestant.label, origin_of(set.key, contestant.label)};
+  std::array<double, work_names.size()> sums;
+  sums.fill(nan);
+  for (const Check& check : contestant.checks) {
+    if (check.pair_count >= 0) {  // rows of a build or an update have none
+      ++row.frames;
+      row.queries += check.pair_count;
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      if (check.work[i] < 0) continue;
+      const auto count = static_cast<double>(check.work[i]);
+      sums[i] = std::isnan(sums[i]) ? count : sums[i] + count;
+    }
+  }
+  const auto per = [&](Work work, double units) {
+    return units > 0 ? sums[static_cast<std::size_t>(work)] / units : nan;
+  };
+  const auto frames = static_cast<double>(row.frames);
+  const auto queries = static_cast<double>(row.queries);
+  const double body_frames = frames * static_cast<double>(set.key.bodies);
+  row.box_tests = per(Work::box_tests, body_frames);
+  row.node_visits = per(Work::node_visits, body_frames);
+  row.candidates = per(Work::candidates, queries);
+  row.bytes = per(Work::bytes, body_frames);
+  row.iterations = per(Work::iterations, queries);
+  row.support_calls = per(Work::support_calls, queries);
+  row.allocations = per(Work::allocations, narrow ? queries : frames);
+  row.allocated_bytes = per(Work::allocated_bytes, narrow ? queries : frames);
+  const bool any = std::ranges::any_of(sums, [](double sum) { return !std::isnan(sum); });
+  return any ? std::optional(row) : std::nullopt;
+}
+
 }  // namespace
 
 bool is_wrong(const SampleSet& set, const Contestant& contestant) {
@@ -238,6 +272,7 @@ Tables make_tables(const Results& results, Noise noise) {
       if (&contestant != &base && !contestant.samples.empty()) {
         tables.ratios.push_back(ratio_row(set, contestant, base, false, noise));
       }
+      if (auto row = work_row(set, contestant)) tables.work.push_back(*std::move(row));
       if (!set.key.narrow()) continue;
       if (auto row = agreement_row(set, contestant)) tables.agreement.push_back(*std::move(row));
     }

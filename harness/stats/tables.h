@@ -66,6 +66,19 @@ struct AgreementRow {
   std::int64_t queries = 0, right = 0, wrong = 0, failed = 0, unanswered = 0;
 };
 
+// What a contestant's work comes to, over all its verified frames. NaN where it is not counted.
+struct WorkRow {
+  SetKey key;
+  std::string label, origin;
+  std::int64_t frames = 0, queries = 0;  // queries: pairs of a narrow phase, found pairs of a broad
+  // Broad phases: a body and frame; candidates are for each pair found, bytes for each body.
+  double box_tests = 0, node_visits = 0, candidates = 0, bytes = 0;
+  // Narrow phases: a query.
+  double iterations = 0, support_calls = 0;
+  // What a frame, or a query, asks of the heap once it is warm.
+  double allocations = 0, allocated_bytes = 0;
+};
+
 struct Tables {
   std::string campaign;
   std::vector<std::string> machine;  // what tells the machine, "processor: ..."
@@ -75,6 +88,7 @@ struct Tables {
   std::vector<ExponentRow> exponents;
   std::vector<SpeedUpRow> speed_ups;
   std::vector<AgreementRow> agreement;
+  std::vector<WorkRow> work;
 };
 
 // The time of a over that of b, both of the set, with the p of its being 1: paired over the squares
@@ -93,9 +107,9 @@ Tables make_tables(const Results& results, Noise noise);
 bool is_wrong(const SampleSet& set, const Contestant& contestant);
 
 // Writes tables.md and times.csv, ratios.csv, winners.csv, exponents.csv, speed_ups.csv,
-// agreement.csv into the folder. `band`: ratios.csv states for each cell the band within which its
-// ratio holds: the interval, widened by this factor at both ends. InputError where a file cannot be
-// written.
+// agreement.csv, work.csv into the folder. `band`: ratios.csv states for each cell the band within
+// which its ratio holds: the interval, widened by this factor at both ends. InputError where a file
+// cannot be written.
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder);
 
 }  // namespace touchstone::stats

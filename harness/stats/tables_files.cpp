@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -136,6 +137,76 @@ std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
   return sums;
 }
 
+// Means over the inputs and kinds of pairs, which are in work.csv, a query each.
+class MeanWork {
+ public:
+  explicit MeanWork(const WorkRow& row) : row_(row) {}
+  bool is_of(const WorkRow& row) const {
+    return row.key.task == row_.key.task && row.label == row_.label;
+  }
+  void add(const WorkRow& row) {
+    const std::array values = {row.iterations, row.support_calls, row.allocations,
+                               row.allocated_bytes};
+    const auto queries = static_cast<double>(row.queries);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isnan(values[i])) continue;
+      sums_[i] += values[i] * queries;
+      queries_[i] += queries;
+    }
+  }
+  const std::string& task() const { return row_.key.task; }
+  std::vector<std::string> cells() const {
+    std::vector<std::string> all = {task(), row_.label};
+    for (std::size_t i = 0; i < sums_.size(); ++i) all.push_back(text(sums_[i] / queries_[i]));
+    return all;
+  }
+
+ private:
+  WorkRow row_;  // the first
+  std::array<double, 4> sums_{}, queries_{};
+};
+
+// Work is counted at one thread, whatever the set is timed at: a table for each input, once.
+std::string work_tables(const std::vector<WorkRow>& rows) {
+  std::string all;
+  std::vector<SetKey> told;
+  std::vector<MeanWork> narrow;
+  for (const WorkRow& first : rows) {
+    if (first.key.narrow()) {
+      auto mean = std::ranges::find_if(narrow, [&](const MeanWork& m) { return m.is_of(first); });
+      if (mean == narrow.end()) mean = narrow.insert(mean, MeanWork(first));
+      mean->add(first);
+      continue;
+    }
+    SetKey input = first.key;
+    input.threads = 1;
+    if (std::ranges::find(told, input) != told.end()) continue;
+    told.push_back(input);
+    all += fmt::format("### {}\n\n", input.words());
+    all += header({"", "box tests / body", "node visits / body", "candidates / pair",
+                   "bytes / body", "allocations / frame", "bytes allocated / frame"});
+    for (const WorkRow& row : rows) {
+      if (row.key != first.key) continue;
+      all += line({row.label, text(row.box_tests), text(row.node_visits), text(row.candidates),
+                   text(row.bytes), text(row.allocations), text(row.allocated_bytes)});
+    }
+    all += "\n";
+  }
+  if (!narrow.empty()) {
+    all += "### Narrow phases, over all inputs\n\n";
+    all += header({"task", "", "iterations / query", "support calls / query", "allocations / query",
+                   "bytes allocated / query"},
+                  2);
+    std::ranges::stable_sort(narrow, {}, &MeanWork::task);
+    for (const MeanWork& mean : narrow) all += line(mean.cells());
+    all += "\n";
+  }
+  if (all.empty()) return all;
+  return "## Work\n\nCounted over the verified frames; it does not depend on the machine. "
+         "Allocations are those of\nthe second playing, when what is kept is there.\n\n" +
+         all;
+}
+
 std::string markdown(const Tables& tables) {
   std::string all = fmt::format("# Tables of the campaign {}\n\n", tables.campaign);
   for (const std::string& fact : tables.machine) all += fmt::format("- {}\n", fact);
@@ -188,6 +259,7 @@ std::string markdown(const Tables& tables) {
     }
     all += "\n";
   }
+  all += work_tables(tables.work);
   all += "## Times\n\n";
   for (std::size_t begin = 0; begin < tables.times.size();) {
     std::size_t end = begin;
@@ -255,6 +327,18 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
     csv.field(row.right).field(row.wrong).field(row.failed).field(row.unanswered).end_row();
   }
   agreement.close();
+  TableFile work(folder / "work.csv",
+                 {"algorithm", "origin", "frames", "queries", "box_tests_a_body",
+                  "node_visits_a_body", "candidates_a_pair", "bytes_a_body", "iterations_a_query",
+                  "support_calls_a_query", "unit", "allocations", "allocated_bytes"});
+  for (const WorkRow& row : tables.work) {
+    CsvWriter& csv = work.row(row.key).field(row.label).field(row.origin);
+    csv.field(row.frames).field(row.queries).field(row.box_tests).field(row.node_visits);
+    csv.field(row.candidates).field(row.bytes).field(row.iterations).field(row.support_calls);
+    csv.field(row.key.narrow() ? "query" : "frame").field(row.allocations);
+    csv.field(row.allocated_bytes).end_row();
+  }
+  work.close();
   write_text(folder / "tables.md", markdown(tables));
 }
 

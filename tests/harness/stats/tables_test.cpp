@@ -119,7 +119,7 @@ TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
     write_tables(tables, 1.5, folder_.path() / name);
   }
   for (const char* name : {"tables.md", "times.csv", "ratios.csv", "winners.csv", "exponents.csv",
-                           "speed_ups.csv", "agreement.csv"}) {
+                           "speed_ups.csv", "agreement.csv", "work.csv"}) {
     const std::string one = folder_.read(std::string("one/") + name);
     EXPECT_FALSE(one.empty()) << name;
     EXPECT_EQ(one, folder_.read(std::string("two/") + name)) << name;
@@ -129,6 +129,39 @@ TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
   EXPECT_THAT(text, HasSubstr("### uniform, 1000 bodies, tight boxes, 2 threads, broad phases"));
   EXPECT_THAT(text, HasSubstr("Ratios are to sweep-and-prune. The canary, sweep-and-prune against "
                               "itself: "));
+}
+
+TEST_F(TablesOf, WorkABodyAPairAndAQuery) {
+  FakeRun run = fake_run();  // 8 frames of 50 pairs, 1000 bodies
+  run.blocks[0].contestants[1].work = ",,4000,500,75,32000,3,120";
+  run.blocks[1].contestants[0].work = "200,250,,,,,0,0";
+  const Tables tables = make(run);
+  ASSERT_EQ(tables.work.size(), 2u);  // who counts nothing has no row
+  const WorkRow& grid = tables.work[0];
+  EXPECT_EQ(grid.label, "uniform-grid");
+  EXPECT_EQ(grid.frames, 8);
+  EXPECT_EQ(grid.queries, 400);
+  EXPECT_DOUBLE_EQ(grid.box_tests, 4);
+  EXPECT_DOUBLE_EQ(grid.node_visits, 0.5);
+  EXPECT_DOUBLE_EQ(grid.candidates, 1.5);
+  EXPECT_DOUBLE_EQ(grid.bytes, 32);
+  EXPECT_DOUBLE_EQ(grid.allocations, 3);
+  EXPECT_DOUBLE_EQ(grid.allocated_bytes, 120);
+  EXPECT_TRUE(std::isnan(grid.iterations));
+  const WorkRow& gjk = tables.work[1];
+  EXPECT_EQ(gjk.label, "gjk double");
+  EXPECT_DOUBLE_EQ(gjk.iterations, 4);
+  EXPECT_DOUBLE_EQ(gjk.support_calls, 5);
+  EXPECT_DOUBLE_EQ(gjk.allocations, 0);
+  EXPECT_TRUE(std::isnan(gjk.box_tests));
+  std::filesystem::create_directory(folder_.path() / "w");
+  write_tables(tables, 1.5, folder_.path() / "w");
+  const std::string text = folder_.read("w/tables.md");
+  EXPECT_THAT(text, HasSubstr("## Work"));
+  EXPECT_THAT(text, HasSubstr("| uniform-grid | 4 | 0.5 | 1.5 | 32 | 3 | 120 |"));
+  EXPECT_THAT(text, HasSubstr("| distance | gjk double | 4 | 5 | 0 | 0 |"));
+  EXPECT_THAT(folder_.read("w/work.csv"),
+              HasSubstr("uniform-grid,ours,8,400,4,0.5,1.5,32,,,frame,3"));
 }
 
 TEST_F(TablesOf, ACanaryThatIsToldApartIsTold) {
@@ -163,6 +196,31 @@ TEST_F(TablesOf, ASuspectSetIsMarkedAndProvesNothing) {
   EXPECT_EQ(undecided(check_tables(reference, read_results(reference), Noise::left_out)), 0);
   EXPECT_EQ(undecided(check_tables(reference, read_results(folder), Noise::left_out)), 2);
   EXPECT_EQ(undecided(check_tables(folder, read_results(reference), Noise::left_out)), 2);
+}
+
+TEST_F(TablesOf, WorkOfAReferenceIsCheckedToTheDigit) {
+  const auto changed = [&](const std::string& label, const std::string& stated,
+                           const std::string& here) {
+    FakeRun run = fake_run();
+    run.blocks[0].contestants[1].name = label;
+    run.blocks[0].contestants[1].work = stated;
+    const auto reference = write(run, "reference");
+    write_tables(make_tables(read_results(reference), Noise::left_out), 1.2, reference);
+    run.blocks[0].contestants[1].work = here;
+    return check_tables(reference, read_results(write(run, "here")), Noise::left_out).changed;
+  };
+  const std::string work = ",,4000,500,75,32000,3,120";
+  EXPECT_THAT(changed("uniform-grid", work, work), IsEmpty());
+  EXPECT_THAT(changed("uniform-grid", work, ",,4001,500,75,32000,3,120"),
+              ElementsAre(AllOf(HasSubstr("uniform-grid in uniform"),
+                                HasSubstr("box tests 4000 in the reference, 4001 in these"))));
+  EXPECT_THAT(changed("uniform-grid", work, ",,4000,500,75,32000,4,120"),
+              ElementsAre(HasSubstr("allocations 3 in the reference, 4 in these")));
+  // A library's allocations are up to its version, and some builds do not count them.
+  EXPECT_THAT(changed("bullet-tree", work, ",,4000,500,75,32000,4,120"), IsEmpty());
+  EXPECT_THAT(changed("bullet-tree", work, ",,4000,500,76,32000,3,120"),
+              ElementsAre(HasSubstr("candidates 75 in the reference, 76 in these")));
+  EXPECT_THAT(changed("uniform-grid", work, ",,4000,500,75,32000,,"), IsEmpty());
 }
 
 TEST(HoldsIn, IntervalAgainstTheBand) {
@@ -222,6 +280,10 @@ TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
   EXPECT_THAT(check(run).changed, ElementsAre(HasSubstr("pair hash 00000000000000aa in the "
                                                         "reference, 00000000000000bb in these "
                                                         "results")));
+  // A counter that either does not know is not compared.
+  run = fake_run();
+  run.blocks[0].contestants[1].work = ",,5,,,,,";
+  EXPECT_THAT(check(run).changed, IsEmpty());
   run = fake_run();
   run.blocks[0].scene_hash = "1";
   EXPECT_THAT(check(run).changed, ElementsAre(HasSubstr("scene uniform with 1000 bodies")));

@@ -1,0 +1,152 @@
+#include "harness/bench/harness_overhead.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/measure/sampler.h"
+#include "harness/run/build_info.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::int64_t bodies = 1000;
+constexpr int frames = 64;
+constexpr int repetitions = 15;  // of a real algorithm's sample; the median counts
+
+class NoBroadPhase final : public BroadPhase {
+ public:
+  void build(std::span<const Aabb>) override {}
+  void update(const FrameChange&) override {}
+  Status find_pairs(PairSink&) override { return Status::ok; }
+};
+
+class NoNarrowPhase final : public NarrowPhase {
+ public:
+  void bind(std::span<const Shape>) override {}
+  void solve(const PairBatch&, std::span<Outcome>) override {}
+};
+
+struct Stage {
+  Scene scene;
+  BlockInput input;
+
+  explicit Stage(const char* file)
+      : scene(load_scene(std::filesystem::path(source_folder) / "datasets" / file,
+                         {bodies, -1, frames})),
+        input(scene, BoxKind::tight, true) {}
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Seconds a unit: what one sample says.
+using Take = std::function<double(Sampler& sampler)>;
+
+double typical(Sampler& sampler, const Take& take) {
+  take(sampler);  // to warm up
+  std::vector<double> values;
+  for (int i = 0; i < repetitions; ++i) values.push_back(take(sampler));
+  return median(std::move(values));
+}
+
+void report(benchmark::State& state, Sampler& idle, const Take& take, double fastest) {
+  std::vector<double> values;
+  for (auto _ : state) {
+    values.push_back(take(idle));
+    state.SetIterationTime(values.back());
+  }
+  constexpr double nanoseconds = 1e9;
+  const double overhead = median(std::move(values));
+  state.counters["overhead"] = overhead * nanoseconds;
+  state.counters["fastest"] = fastest * nanoseconds;
+  state.counters["share"] = 100 * overhead / fastest;
+}
+
+void broad(benchmark::State& state, int threads) {
+  const Stage stage("uniform.toml");
+  Executor executor(threads);
+  const Take take = [](Sampler& sampler) {
+    const SampleReply reply = sampler.sample({.frame = 1, .frames = frames - 1});
+    return (reply.prepare + reply.query) / (frames - 1);
+  };
+  double fastest = std::numeric_limits<double>::infinity();
+  for (const BroadPhaseEntry& entry : broad_phases()) {
+    if (entry.info.origin != Origin::ours) continue;
+    BroadSampler sampler(entry, stage.input, false, executor);
+    const double seconds = typical(sampler, take);
+    if (seconds < fastest) state.SetLabel(entry.info.name);
+    fastest = std::min(fastest, seconds);
+  }
+  BroadPhaseEntry none;
+  none.make = [](Executor&) { return std::make_unique<NoBroadPhase>(); };
+  BroadSampler idle(none, stage.input, false, executor);
+  report(state, idle, take, fastest);
+}
+
+// Spheres against spheres, the cheapest queries that there are, and the kind with the most pairs.
+void narrow(benchmark::State& state, int threads) {
+  const Stage stage("primitives.toml");
+  Executor executor(threads);
+  std::vector<std::vector<IndexPair>> pairs;
+  for (const BlockFrame& frame : stage.input.frames) pairs.push_back(frame.truth);
+  constexpr Task task = Task::intersect;
+  const std::vector<NarrowSet> sets = narrow_sets(stage.input, "", pairs, {&task, 1});
+  const auto spheres = std::ranges::find_if(sets, [](const NarrowSet& set) {
+    return set.kind_a == ShapeKind::sphere && set.kind_b == ShapeKind::sphere;
+  });
+  if (spheres == sets.end()) return state.SkipWithError("the scene has no pair of spheres");
+  const auto number = static_cast<std::uint32_t>(spheres - sets.begin());
+  const Take take = [&](Sampler& sampler) {
+    const SampleReply reply = sampler.sample({.set = number, .frames = frames});
+    return reply.query / static_cast<double>(reply.pairs);
+  };
+  double fastest = std::numeric_limits<double>::infinity();
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    if (entry.info.origin != Origin::ours ||
+        !offers(entry, spheres->kind_a, spheres->kind_b, task)) {
+      continue;
+    }
+    const NarrowChoice choice{.entry = &entry, .settings = {.scalar = entry.scalars.front()}};
+    NarrowSampler sampler(choice, stage.input, sets, executor);
+    const double seconds = typical(sampler, take);
+    if (seconds < fastest) state.SetLabel(entry.info.name);
+    fastest = std::min(fastest, seconds);
+  }
+  NarrowPhaseEntry none;
+  none.make = [](const NarrowPhaseSettings&) { return std::make_unique<NoNarrowPhase>(); };
+  NarrowSampler idle({.entry = &none, .settings = {}}, stage.input, sets, executor);
+  report(state, idle, take, fastest);
+}
+
+}  // namespace
+
+void register_harness_overhead_benchmarks() {
+  const struct {
+    const char* name;
+    void (*run)(benchmark::State&, int threads);
+  } kinds[] = {{"broad", broad}, {"narrow", narrow}};
+  for (const auto& kind : kinds) {
+    for (const int threads : {1, 2}) {
+      benchmark::RegisterBenchmark(
+          fmt::format("harness/overhead/{}/{}", kind.name, threads).c_str(),
+          [=](benchmark::State& state) { kind.run(state, threads); })
+          ->UseManualTime()
+          ->Iterations(200)
+          ->Unit(benchmark::kNanosecond);
+    }
+  }
+}
+
+}  // namespace touchstone

@@ -1,0 +1,50 @@
+// What the processor counts, where the kernel lets us ask it (perf_event_open(2)).
+#pragma once
+
+#include <cstdint>
+
+namespace touchstone {
+
+// Of one kind of event, in user space, of the thread that opened it and of all threads that it
+// starts afterwards.
+class EventCounter {
+ public:
+  // `type` and `config` as in perf_event_attr.
+  EventCounter(std::uint32_t type, std::uint64_t config);
+  ~EventCounter();
+  EventCounter(const EventCounter&) = delete;
+  EventCounter& operator=(const EventCounter&) = delete;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  void start();
+  // Since start(); -1 where the kernel refused the counter, or never had the time to run it. Where
+  // it shared a register of the processor with others, what was seen is scaled up to the whole
+  // time.
+  std::int64_t count() const;
+
+ private:
+  struct Reading {
+    std::uint64_t value = 0, enabled = 0, running = 0;  // the times in nanoseconds
+  };
+  Reading read() const;
+
+  int descriptor_;
+  Reading before_;
+};
+
+struct HardwareCounts {
+  std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
+};
+
+// To be made before the threads that it is to count, and read outside the clock.
+class HardwareCounters {
+ public:
+  HardwareCounters();
+  void start();
+  HardwareCounts counts() const;  // since start()
+
+ private:
+  EventCounter cycles_, instructions_, branch_misses_, cache_misses_;
+};
+
+}  // namespace touchstone

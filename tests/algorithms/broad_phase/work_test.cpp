@@ -1,0 +1,204 @@
+// What our broad phases count of their work: by hand on small scenes, and the same everywhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "algorithms/core/isa.h"
+#include "algorithms/registry.h"
+#include "tests/algorithms/broad_phase/box_sets.h"
+
+namespace touchstone {
+namespace {
+
+struct Counted {
+  BroadPhaseWork work;
+  std::size_t pairs;
+};
+
+Counted count(const std::string& name, std::span<const Aabb> boxes, int width = 1) {
+  Executor executor(width);
+  const auto algorithm = find_broad_phase(name)->make(executor);
+  PairSink sink;
+  algorithm->build(boxes);
+  EXPECT_EQ(algorithm->find_pairs(sink), Status::ok);
+  return {algorithm->work(), sink.size()};
+}
+
+auto numbers(const BroadPhaseWork& work) {
+  return std::tuple(work.box_tests, work.node_visits, work.candidates, work.bytes);
+}
+
+std::vector<const BroadPhaseEntry*> ours() {
+  std::vector<const BroadPhaseEntry*> list;
+  for (const BroadPhaseEntry& entry : broad_phases()) {
+    if (entry.info.origin == Origin::ours) list.push_back(&entry);
+  }
+  return list;
+}
+
+class Work : public testing::Test {
+ protected:
+  void TearDown() override { limit_isa(isa_of_machine()); }
+};
+
+// Unit cubes on the x axis, 10 apart.
+std::vector<Aabb> row_of_cubes(std::size_t count) {
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = 10 * static_cast<float>(i);
+    boxes.push_back({{x, 0, 0}, {x + 1, 1, 1}});
+  }
+  return boxes;
+}
+
+TEST_F(Work, NaiveTestsEveryPairOnce) {
+  Random random(1);
+  for (const std::size_t n : {0u, 1u, 2u, 17u, 256u, 257u, 1'500u, 4'000u}) {
+    const Counted counted = count("naive", uniform_boxes(random, n, 0.1f));
+    const auto pairs = static_cast<std::int64_t>(n * (n - 1) / 2);
+    EXPECT_EQ(counted.work.box_tests, pairs) << n;
+    EXPECT_EQ(counted.work.candidates, pairs) << n;
+    EXPECT_EQ(counted.work.node_visits, 0) << n;
+  }
+}
+
+TEST_F(Work, ASweepComparesEachBoxWithTheOneThatEndsIt) {
+  // Apart on x: no candidate, and each box but the last meets its neighbour, which ends its sweep.
+  for (const char* name : {"sweep-and-prune", "sort-and-sweep"}) {
+    SCOPED_TRACE(name);
+    for (const std::size_t n : {1u, 2u, 15u, 16u, 17u, 40u}) {
+      const Counted counted = count(name, row_of_cubes(n));
+      EXPECT_EQ(counted.work.box_tests, static_cast<std::int64_t>(n - 1)) << n;
+      EXPECT_EQ(counted.work.candidates, 0) << n;
+      EXPECT_EQ(counted.work.node_visits, 0) << n;
+    }
+  }
+}
+
+TEST_F(Work, SweepsByHand) {
+  // On x, the widest axis: 0 overlaps 1 and 2, and 3 ends its sweep; 1 overlaps 2, ended by 3; 2 is
+  // ended by 3; 3 touches 4, and the array ends; 4 has none behind it. On y, box 1 is off 0 and 2.
+  const std::vector<Aabb> boxes = {{{0, 0, 0}, {10, 1, 1}},
+                                   {{2, 5, 0}, {12, 6, 1}},
+                                   {{4, 0, 0}, {14, 1, 1}},
+                                   {{50, 0, 0}, {60, 1, 1}},
+                                   {{60, 0, 0}, {70, 1, 1}}};
+  const Counted sweep = count("sweep-and-prune", boxes);
+  EXPECT_EQ(sweep.pairs, 2u);
+  EXPECT_EQ(sweep.work.candidates, 4);     // 01 02 12 34
+  EXPECT_EQ(sweep.work.box_tests, 4 + 3);  // and 03 13 23
+  // Here the list of y is the longer one: 02 03 04 23 24 34. So it sweeps x too, by places.
+  const Counted sort = count("sort-and-sweep", boxes);
+  EXPECT_EQ(sort.pairs, 2u);
+  EXPECT_EQ(sort.work.candidates, 4);
+  EXPECT_EQ(sort.work.box_tests, 4 + 3);
+}
+
+TEST_F(Work, AStackInOnePlaceHasNothingButCandidates) {
+  const std::vector<Aabb> boxes(100, Aabb{{1, 2, 3}, {2, 3, 4}});
+  for (const BroadPhaseEntry* entry : ours()) {
+    SCOPED_TRACE(entry->info.name);
+    const Counted counted = count(entry->info.name, boxes);
+    EXPECT_EQ(counted.pairs, 4950u);
+    EXPECT_EQ(counted.work.candidates, 4950);
+    EXPECT_EQ(counted.work.box_tests, 4950);
+  }
+}
+
+TEST_F(Work, GridByHand) {
+  // Cells have twice the size of the cubes: sides of 2, so that cube i, at 10 i, lies alone in the
+  // cell of its own; nothing is tested.
+  const Counted apart = count("uniform-grid", row_of_cubes(20));
+  EXPECT_EQ(apart.work.box_tests, 0);
+  EXPECT_EQ(apart.work.node_visits, 20);
+  // The same with each cube there twice: a test a cell, and all of them are pairs.
+  std::vector<Aabb> twice = row_of_cubes(20);
+  twice.insert(twice.end(), twice.begin(), twice.begin() + 20);
+  const Counted doubled = count("uniform-grid", twice);
+  EXPECT_EQ(doubled.pairs, 20u);
+  EXPECT_EQ(doubled.work.box_tests, 20);
+  EXPECT_EQ(doubled.work.candidates, 20);
+  EXPECT_EQ(doubled.work.node_visits, 20);
+}
+
+TEST_F(Work, GridTestsALargeBoxAgainstAll) {
+  // One box over all cells is kept apart: it meets each of the 200 others in its only cell.
+  std::vector<Aabb> boxes = row_of_cubes(200);
+  boxes.push_back({{0, 0, 0}, {2000, 1, 1}});
+  const Counted counted = count("uniform-grid", boxes);
+  EXPECT_EQ(counted.pairs, 200u);
+  EXPECT_EQ(counted.work.box_tests, 200);
+  EXPECT_EQ(counted.work.node_visits, 200);
+}
+
+TEST_F(Work, OctreeByHand) {
+  // One cell: its own is entered, and there is no other to look up.
+  const std::vector<Aabb> one = {{{0, 0, 0}, {1, 1, 1}}};
+  const Counted alone = count("loose-octree", one);
+  EXPECT_EQ(alone.work.box_tests, 0);
+  EXPECT_EQ(alone.work.node_visits, 1);
+  // Far apart, all of a size: nothing is tested, each enters its cell and looks into others.
+  const Counted apart = count("loose-octree", row_of_cubes(20));
+  EXPECT_EQ(apart.work.box_tests, 0);
+  EXPECT_EQ(apart.work.candidates, 0);
+  EXPECT_GE(apart.work.node_visits, 20);
+  EXPECT_LE(apart.work.node_visits, 20 * 14);  // itself and half of its 26 neighbours
+}
+
+TEST_F(Work, IsTheSameAtEveryWidthAndLevel) {
+  Random random(2);
+  std::vector<BoxSet> sets = box_sets();
+  sets.push_back({.name = "crowd", .boxes = uniform_boxes(random, 6'000, 0.05f)});
+  std::size_t with_saving = 0;
+  for (const BroadPhaseEntry* entry : ours()) {
+    SCOPED_TRACE(entry->info.name);
+    for (const BoxSet& set : sets) {
+      SCOPED_TRACE(set.name);
+      std::optional<BroadPhaseWork> first;
+      for (const Isa level : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+        if (level > isa_of_machine()) continue;
+        limit_isa(level);
+        for (const int width : {1, 3}) {
+          const Counted counted = count(entry->info.name, set.boxes, width);
+          if (!first) first = counted.work;
+          EXPECT_EQ(numbers(*first), numbers(counted.work)) << to_string(level) << ' ' << width;
+          EXPECT_GE(counted.work.candidates, static_cast<std::int64_t>(counted.pairs));
+          EXPECT_GE(counted.work.box_tests, counted.work.candidates);
+        }
+      }
+      const auto n = static_cast<std::int64_t>(set.boxes.size());
+      with_saving += first->box_tests < n * (n - 1) / 4 ? 1 : 0;
+      EXPECT_GT(first->bytes, 0);
+    }
+  }
+  EXPECT_GT(with_saving, sets.size());
+}
+
+// Numbers are of the frame at hand, also where an update has changed next to nothing.
+TEST_F(Work, IsOfTheFrameAtHand) {
+  for (const BroadPhaseEntry* entry : ours()) {
+    SCOPED_TRACE(entry->info.name);
+    Executor executor(1);
+    const auto algorithm = entry->make(executor);
+    PairSink sink;
+    Random random(3);
+    const std::vector<Aabb> many = uniform_boxes(random, 900, 0.2f);
+    const std::vector<Aabb> few = uniform_boxes(random, 30, 0.2f);
+    algorithm->build(many);
+    algorithm->find_pairs(sink);
+    const BroadPhaseWork of_many = algorithm->work();
+    algorithm->update({many, {}, {}, {}});
+    algorithm->find_pairs(sink);
+    EXPECT_EQ(of_many.box_tests, algorithm->work().box_tests);
+    algorithm->build(few);
+    algorithm->find_pairs(sink);
+    EXPECT_EQ(count(entry->info.name, few).work.box_tests, algorithm->work().box_tests);
+    EXPECT_EQ(count(entry->info.name, few).work.node_visits, algorithm->work().node_visits);
+    EXPECT_GE(algorithm->work().bytes, count(entry->info.name, few).work.bytes);  // it is kept
+  }
+}
+
+}  // namespace
+}  // namespace touchstone
