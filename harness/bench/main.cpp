@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "harness/bench/benchmarks.h"
+#include "harness/bench/harness_overhead.h"
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);

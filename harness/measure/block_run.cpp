@@ -209,7 +209,7 @@ void BlockRun::run_round(const Place& place) {
   const std::uint32_t frame = set.first_frame(
       input_->frames.size(), static_cast<std::size_t>(place.lap) * group.size() + place.round);
   std::vector<Taken> round;
-  std::int64_t switches = 0;
+  double waited = 0;
   const NoiseReading before = NoiseReading::now();
   const Stopwatch watch;
   for (std::size_t position = 0; position < group.size(); ++position) {
@@ -217,11 +217,11 @@ void BlockRun::run_round(const Place& place) {
     if (out_[c] != 0) continue;
     Taken taken = sample(place, c, frame);
     for (RawRow& row : taken.rows) row.position = static_cast<std::int64_t>(position);
-    switches += std::max<std::int64_t>(taken.rows.back().involuntary_switches, 0);
+    if (const double own = taken.rows.back().waited; own > 0) waited += own;
     round.push_back(std::move(taken));
   }
   const double seconds = watch.seconds();
-  const std::string flags = noise_judge()(before, NoiseReading::now(), seconds, switches);
+  const std::string flags = noise_judge()(before, NoiseReading::now(), seconds, waited);
   state.spent += seconds;
   for (Taken& taken : round) {
     for (RawRow& row : taken.rows) {

@@ -101,6 +101,7 @@ BlockRun::Taken BlockRun::sample(const Place& place, std::size_t c, std::uint32_
   row.minor_faults = reply->minor_faults;
   row.voluntary_switches = reply->voluntary_switches;
   row.involuntary_switches = reply->involuntary_switches;
+  row.waited = reply->waited;
   row.cycles = reply->hardware.cycles;
   row.instructions = reply->hardware.instructions;
   row.branch_misses = reply->hardware.branch_misses;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pressure_share = 0.1;
 constexpr double steal_share = 0.01;
-constexpr double switches_a_second = 20;
+constexpr double preempted_share = 0.05;
 constexpr double busy_percent = 5;
 
 // The number behind "key" on the line that begins with `line`.
@@ -50,7 +50,7 @@ NoiseReading NoiseReading::now(const std::filesystem::path& proc) {
 }
 
 std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
-                        std::int64_t involuntary_switches) {
+                        double workers_waited) {
   std::string flags;
   const auto add = [&](bool raised, const char* flag) {
     if (raised) flags += (flags.empty() ? "" : "+") + std::string(flag);
@@ -60,7 +60,7 @@ std::string noise_flags(const NoiseReading& before, const NoiseReading& after, d
   };
   add(grew(before.waited, after.waited) > pressure_share * seconds, "pressure");
   add(grew(before.stolen, after.stolen) > steal_share * seconds, "steal");
-  add(static_cast<double>(involuntary_switches) > switches_a_second * seconds, "preempted");
+  add(workers_waited > preempted_share * seconds, "preempted");
   return flags;
 }
 

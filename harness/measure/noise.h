@@ -19,9 +19,9 @@ struct NoiseReading {
 
 // Flags of a round joined by '+', empty where it was quiet or nothing is known: "pressure" where
 // tasks waited for a processor for over a tenth of it, "steal" where over a hundredth was stolen,
-// "preempted" where the workers were switched out against their will, more than 20 times a second.
+// "preempted" where the workers were ready for over a twentieth of it and had no processor.
 std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
-                        std::int64_t involuntary_switches);
+                        double workers_waited);
 
 // Who flags the rounds: noise_flags, unless a test put a judge of its own in its place.
 using NoiseJudge = decltype(&noise_flags);

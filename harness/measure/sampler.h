@@ -38,6 +38,7 @@ struct SampleReply {
   Status status = Status::ok;  // a broad phase's, the last that was not ok
   std::int64_t peak_kb = -1, minor_faults = -1;
   std::int64_t voluntary_switches = -1, involuntary_switches = -1;
+  double waited = Outcome::none;  // seconds for which its threads had no processor
   HardwareCounts hardware;
 };
 

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "harness/measure/hardware_counters.h"
+#include "harness/measure/run_delay.h"
 #include "harness/run/clock.h"
 #include "harness/scene/random.h"
 
@@ -87,10 +88,12 @@ class Usage {
     // From here on the peak is that of what follows (proc(5), clear_refs).
     can_reset_ = clear_ >= 0 && write(clear_, "5", 1) == 1;
     getrusage(RUSAGE_SELF, &before_);
+    delay_ = run_delay();
     hardware_.start();
   }
   void finish(SampleReply& reply) const {
     reply.hardware = hardware_.counts();
+    if (const auto delay = run_delay(); delay && delay_) reply.waited = *delay - *delay_;
     rusage after{};
     getrusage(RUSAGE_SELF, &after);
     reply.minor_faults = after.ru_minflt - before_.ru_minflt;
@@ -133,6 +136,7 @@ class Usage {
   bool can_reset_ = false;
   std::int64_t own_kb_ = -1;
   rusage before_{};
+  std::optional<double> delay_;
   HardwareCounters hardware_;
 };
 
@@ -151,6 +155,7 @@ void serve(int line, const Worker::Make& make, Usage& usage) {
     usage.start();
     message.reply = sampler->sample(request);
     usage.finish(message.reply);
+    come_to_rest();
   }
 }
 

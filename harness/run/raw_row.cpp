@@ -63,6 +63,7 @@ void columns(Row& row, Visit visit) {
   visit("minor_faults", row.minor_faults);
   visit("voluntary_switches", row.voluntary_switches);
   visit("involuntary_switches", row.involuntary_switches);
+  visit("waited", row.waited);
   visit("cycles", row.cycles);
   visit("instructions", row.instructions);
   visit("branch_misses", row.branch_misses);

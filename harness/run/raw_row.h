@@ -56,6 +56,7 @@ struct RawRow {
   std::int64_t allocations = -1, allocated_bytes = -1;
   std::int64_t peak_kb = -1, minor_faults = -1;
   std::int64_t voluntary_switches = -1, involuntary_switches = -1;
+  double waited = Outcome::none;  // seconds
   std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
   std::string status;
   std::string noise, words, stop;

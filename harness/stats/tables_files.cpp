@@ -183,22 +183,23 @@ std::string work_tables(const std::vector<WorkRow>& rows) {
     if (std::ranges::find(told, input) != told.end()) continue;
     told.push_back(input);
     all += fmt::format("### {}\n\n", input.words());
-    all += header({"", "box tests / body", "node visits / body", "candidates / pair",
-                   "bytes / body", "allocations / frame", "bytes allocated / frame"});
+    all += markdown_header({"", "box tests / body", "node visits / body", "candidates / pair",
+                            "bytes / body", "allocations / frame", "bytes allocated / frame"});
     for (const WorkRow& row : rows) {
       if (row.key != first.key) continue;
-      all += line({row.label, text(row.box_tests), text(row.node_visits), text(row.candidates),
-                   text(row.bytes), text(row.allocations), text(row.allocated_bytes)});
+      all +=
+          markdown_row({row.label, text(row.box_tests), text(row.node_visits), text(row.candidates),
+                        text(row.bytes), text(row.allocations), text(row.allocated_bytes)});
     }
     all += "\n";
   }
   if (!narrow.empty()) {
     all += "### Narrow phases, over all inputs\n\n";
-    all += header({"task", "", "iterations / query", "support calls / query", "allocations / query",
-                   "bytes allocated / query"},
-                  2);
+    all += markdown_header({"task", "", "iterations / query", "support calls / query",
+                            "allocations / query", "bytes allocated / query"},
+                           2);
     std::ranges::stable_sort(narrow, {}, &MeanWork::task);
-    for (const MeanWork& mean : narrow) all += line(mean.cells());
+    for (const MeanWork& mean : narrow) all += markdown_row(mean.cells());
     all += "\n";
   }
   if (all.empty()) return all;

@@ -326,7 +326,7 @@ TEST_F(ExactTimes, ATwinThatIsOneMakesNoneSuspect) {
 
 TEST_F(ExactTimes, ARoundThatWasDisturbedDoesNotCount) {
   // Every round: there is then no interval to end by, and none to make a set suspect.
-  noise_judge() = [](const NoiseReading&, const NoiseReading&, double, std::int64_t) {
+  noise_judge() = [](const NoiseReading&, const NoiseReading&, double, double) {
     return std::string("steal");
   };
   fill();

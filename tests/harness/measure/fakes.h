@@ -89,7 +89,7 @@ inline BroadPhaseEntry timed_fake(const std::string& name, std::uint64_t seed, c
 class QuietMachine {
  public:
   QuietMachine() {
-    noise_judge() = [](const NoiseReading&, const NoiseReading&, double, std::int64_t) {
+    noise_judge() = [](const NoiseReading&, const NoiseReading&, double, double) {
       return std::string();
     };
   }

@@ -15,12 +15,12 @@ using testing::HasSubstr;
 
 // A second in which so many seconds were waited and stolen.
 std::string flags(std::optional<double> waited, std::optional<double> stolen,
-                  std::int64_t switches = 0) {
+                  double preempted = 0) {
   NoiseReading before{.waited = 100, .stolen = 7};
   NoiseReading after;
   if (waited) after.waited = 100 + *waited;
   if (stolen) after.stolen = 7 + *stolen;
-  return noise_flags(before, after, 1, switches);
+  return noise_flags(before, after, 1, preempted);
 }
 
 TEST(NoiseFlags, EachBeyondItsLimit) {
@@ -29,15 +29,15 @@ TEST(NoiseFlags, EachBeyondItsLimit) {
   EXPECT_EQ(flags(0.11, 0), "pressure");
   EXPECT_EQ(flags(0, 0.009), "");
   EXPECT_EQ(flags(0, 0.011), "steal");
-  EXPECT_EQ(flags(0, 0, 20), "");
-  EXPECT_EQ(flags(0, 0, 21), "preempted");
-  EXPECT_EQ(flags(1, 1, 1000), "pressure+steal+preempted");
-  EXPECT_EQ(flags(0, 1, 1000), "steal+preempted");
+  EXPECT_EQ(flags(0, 0, 0.049), "");
+  EXPECT_EQ(flags(0, 0, 0.051), "preempted");
+  EXPECT_EQ(flags(1, 1, 0.5), "pressure+steal+preempted");
+  EXPECT_EQ(flags(0, 1, 0.5), "steal+preempted");
 }
 
 TEST(NoiseFlags, LimitsGrowWithTheTime) {
-  EXPECT_EQ(noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 10, 100), "");
-  EXPECT_EQ(noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 0.1, 100),
+  EXPECT_EQ(noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 10, 0.1), "");
+  EXPECT_EQ(noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 0.1, 0.1),
             "pressure+steal+preempted");
 }
 
@@ -46,7 +46,7 @@ TEST(NoiseFlags, WhatIsUnknownRaisesNone) {
   EXPECT_EQ(flags({}, 1), "steal");
   EXPECT_EQ(flags(1, {}), "pressure");
   EXPECT_EQ(noise_flags({}, {.waited = 1e9, .stolen = 1e9}, 1, 0), "");
-  EXPECT_EQ(noise_flags({}, {}, 1, 21), "preempted");
+  EXPECT_EQ(noise_flags({}, {}, 1, 0.06), "preempted");
 }
 
 class NoiseFiles : public testing::Test {
