@@ -128,8 +128,8 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
         choices.push_back({entry,
                            {.scalar = scalar,
                             .tolerance = tolerance,
-                            .duality_gap = duality_gap,
-                            .max_iterations = max_iterations}});
+                            .max_iterations = max_iterations,
+                            .duality_gap = duality_gap}});
       }
     }
   }

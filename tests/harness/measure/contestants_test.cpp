@@ -72,7 +72,8 @@ struct Harm {
 // In the check pass, in a worker's first pass, and in its samples: each instance starts to count
 // anew, and the first pass goes over the same frames as the check.
 constexpr int in_check = 2;
-constexpr int in_samples = FakeCampaign::frames + 2;
+// The pass that counts allocations plays the frames twice.
+constexpr int in_samples = 2 * FakeCampaign::frames + 2;
 
 TEST(Contestants, ACrashCostsItsOwnRowsOnly) {
   const auto crash = [](int, PairSink&) {
