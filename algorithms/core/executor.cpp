@@ -3,8 +3,16 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_scheduler_observer.h>
 
+#if defined(__linux__)
+#include <sched.h>
+#endif
+
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #if defined(TOUCHSTONE_THREAD_SANITIZER)
 // Debian's libtbb is not instrumented, and half of oneTBB is in headers: so this file is not
@@ -23,14 +31,67 @@ void __tsan_release(void* address);
 
 namespace touchstone {
 
-struct Executor::Arena {
-  explicit Arena(int width) : arena(width) { arena.initialize(); }
-  oneapi::tbb::task_arena arena;
+namespace {
+
+// The processors that this process may use; empty where the system does not tell.
+std::vector<int> allowed_processors() {
+  std::vector<int> processors;
+#if defined(__linux__)
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) {
+    for (int i = 0; i < CPU_SETSIZE; ++i) {
+      if (CPU_ISSET(i, &set)) processors.push_back(i);
+    }
+  }
+#endif
+  return processors;
+}
+
+// Puts each thread that enters the arena on the processor of its place there.
+class Pins final : public oneapi::tbb::task_scheduler_observer {
+ public:
+  Pins(oneapi::tbb::task_arena& arena, std::vector<int> processors)
+      : task_scheduler_observer(arena), processors_(std::move(processors)) {
+    observe(true);
+  }
+  ~Pins() override { observe(false); }
+  Pins(const Pins&) = delete;
+  Pins& operator=(const Pins&) = delete;
+
+  void on_scheduler_entry(bool) override {
+#if defined(__linux__)
+    thread_local int pinned = -1;
+    const int place = oneapi::tbb::this_task_arena::current_thread_index();
+    const int processor = processors_[static_cast<std::size_t>(place)];
+    if (pinned == processor) return;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(processor, &set);
+    if (sched_setaffinity(0, sizeof set, &set) == 0) pinned = processor;
+#endif
+  }
+
+ private:
+  std::vector<int> processors_;
 };
 
-Executor::Executor(int width) : width_(width) {
+}  // namespace
+
+struct Executor::Arena {
+  Arena(int width, Pinning pinning) : arena(width) {
+    arena.initialize();
+    if (pinning == Pinning::none) return;
+    std::vector<int> processors = allowed_processors();
+    if (processors.size() < static_cast<std::size_t>(width)) return;
+    pins.emplace(arena, std::move(processors));
+  }
+  oneapi::tbb::task_arena arena;
+  std::optional<Pins> pins;
+};
+
+Executor::Executor(int width, Pinning pinning) : width_(width) {
   if (width < 1) throw std::invalid_argument("an executor has at least one thread");
-  if (width > 1) arena_ = std::make_unique<Arena>(width);
+  if (width > 1) arena_ = std::make_unique<Arena>(width, pinning);
 }
 
 Executor::~Executor() = default;

@@ -2,16 +2,25 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
 namespace touchstone {
 
+// Whether each thread is kept on a processor of its own, of those that the process may use. Left to
+// itself the system may let two threads take turns on one for milliseconds, which is what would be
+// measured then.
+enum class Pinning : std::uint8_t {
+  none,
+  one_a_thread,  // where there are enough processors; the caller's thread too, and for good
+};
+
 // A oneTBB arena of a fixed width.
 class Executor {
  public:
   // `width` >= 1 threads, the caller's among them.
-  explicit Executor(int width);
+  explicit Executor(int width, Pinning pinning = Pinning::none);
   ~Executor();
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;

@@ -21,7 +21,8 @@ template <class Made>
 class Owning final : public Sampler {
  public:
   template <class Build>
-  Owning(int width, const Build& build) : executor_(width), sampler_(build(executor_)) {}
+  Owning(int width, const Build& build)
+      : executor_(width, Pinning::one_a_thread), sampler_(build(executor_)) {}
   SampleReply sample(const SampleRequest& request) override { return sampler_.sample(request); }
 
  private:

@@ -1,9 +1,15 @@
 #include "algorithms/core/executor.h"
 
 #include <gtest/gtest.h>
+#if defined(__linux__)
+#include <sched.h>
+#endif
 
+#include <array>
 #include <atomic>
+#include <set>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -34,6 +40,34 @@ TEST(Executor, NoTwoTasksShareAWorkerAtOnce) {
   });
   EXPECT_EQ(clashes, 0);
 }
+
+#if defined(__linux__)
+TEST(Executor, PinnedThreadsHaveAProcessorEach) {
+  // In a thread of its own, for pins stay.
+  std::thread([] {
+    cpu_set_t allowed;
+    ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+    if (CPU_COUNT(&allowed) < 2) GTEST_SKIP() << "there is one processor only";
+    Executor executor(2, touchstone::Pinning::one_a_thread);
+    std::array<std::set<int>, 2> seen;
+    for (int run = 0; run < 200; ++run) {
+      executor.run(64, [&](std::size_t, int worker) {
+        seen[static_cast<std::size_t>(worker)].insert(sched_getcpu());
+      });
+    }
+    EXPECT_EQ(seen[0].size(), 1u);
+    EXPECT_LE(seen[1].size(), 1u);
+    if (!seen[1].empty()) {
+      EXPECT_NE(*seen[0].begin(), *seen[1].begin());
+    }
+    // More threads than processors are left to the system.
+    Executor wide(CPU_SETSIZE, touchstone::Pinning::one_a_thread);
+    std::atomic<int> tasks = 0;
+    wide.run(100, [&](std::size_t, int) { ++tasks; });
+    EXPECT_EQ(tasks, 100);
+  }).join();
+}
+#endif
 
 TEST(Executor, HandsExceptionsOn) {
   for (const int width : {1, 2}) {
