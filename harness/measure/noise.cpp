@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-constexpr double pressure_share = 0.1;
+constexpr double pressure_share = 0.5;
 constexpr double steal_share = 0.01;
 constexpr double preempted_share = 0.05;
 constexpr double busy_percent = 5;

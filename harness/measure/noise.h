@@ -18,8 +18,10 @@ struct NoiseReading {
 };
 
 // Flags of a round joined by '+', empty where it was quiet or nothing is known: "pressure" where
-// tasks waited for a processor for over a tenth of it, "steal" where over a hundredth was stolen,
-// "preempted" where the workers were ready for over a twentieth of it and had no processor.
+// some task of the machine waited for a processor for over half of it (a program that does nothing
+// but measure makes a tenth to a third itself, by waking its threads), "steal" where over a
+// hundredth was stolen, "preempted" where the workers were ready for over a twentieth of it and had
+// no processor.
 std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
                         double workers_waited);
 

@@ -25,8 +25,8 @@ std::string flags(std::optional<double> waited, std::optional<double> stolen,
 
 TEST(NoiseFlags, EachBeyondItsLimit) {
   EXPECT_EQ(flags(0, 0), "");
-  EXPECT_EQ(flags(0.09, 0), "");
-  EXPECT_EQ(flags(0.11, 0), "pressure");
+  EXPECT_EQ(flags(0.49, 0), "");
+  EXPECT_EQ(flags(0.51, 0), "pressure");
   EXPECT_EQ(flags(0, 0.009), "");
   EXPECT_EQ(flags(0, 0.011), "steal");
   EXPECT_EQ(flags(0, 0, 0.049), "");
