@@ -38,7 +38,7 @@ def draw(tables):
                 continue
             for i, (kind, style) in enumerate(KINDS.items()):
                 share = own[kind] / own["queries"]
-                axes.plot([share if share > 0 else none], [place + 0.2 * (i - 1)], linestyle="",
+                axes.plot([share if share > 0 else none * 1.22 ** (i - 1)], [place + 0.2 * (i - 1)], linestyle="",
                           marker=style["marker"], color=style["color"], markersize=3.4,
                           markerfacecolor=style["color"] if share > 0 else "white",
                           markeredgewidth=0.6, clip_on=False)

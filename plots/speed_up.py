@@ -25,7 +25,9 @@ def draw(tables):
     for axes, own in zip(panels, inputs.values()):
         base = own[0]["base_threads"]
         axes.plot(threads, [t / base for t in threads], color="#999999", linestyle=":", zorder=1)
-        names = common.in_order(r["algorithm"] for r in own)
+        # What has one number of threads only has no speed-up.
+        names = [n for n in common.in_order(r["algorithm"] for r in own)
+                 if len({r["threads"] for r in own if r["algorithm"] == n}) > 1]
         for i, name in enumerate(names):
             points = sorted((r for r in own if r["algorithm"] == name), key=lambda r: r["threads"])
             # Beside each other, so that no interval hides another.

@@ -36,7 +36,7 @@ def draw(tables):
             axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, fill=False, hatch="////",
                                      edgecolor="white", linewidth=0))
         axes.text(x, y - 0.2, row["winner"], ha="center", va="center", fontsize=6.4)
-        lead = f"{row['ratio']:.2f} × faster than" if decided else "not told apart from"
+        lead = f"{row['ratio']:.2f} × as fast as" if decided else "not told apart from"
         axes.text(x, y + 0.2, f"{lead}\n{row['runner_up']}", ha="center", va="center",
                   fontsize=5.2, linespacing=1.2, color="#333333")
     axes.set_xlim(-0.5, len(settings) - 0.5)

@@ -146,6 +146,9 @@ std::string command_line() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!text.empty() && text.back() == '\0') text.pop_back();
+  // The program by its name: where it lies says nothing about the results.
+  const std::size_t end = std::min(text.find('\0'), text.size());
+  text.erase(0, text.rfind('/', end) + 1);
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
   }
