@@ -1,19 +1,20 @@
 #include "harness/measure/set_times.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace touchstone {
 namespace {
 
-std::vector<double> differences(const std::map<std::int64_t, double>& a,
-                                const std::map<std::int64_t, double>& b) {
-  std::vector<double> values;
-  for (const auto& [square, value] : a) {
-    const auto at = b.find(square);
-    if (at != b.end()) values.push_back(value - at->second);
+stats::Noise noise(bool noisy) { return noisy ? stats::Noise::kept : stats::Noise::left_out; }
+
+stats::Part part_of(Phase phase) {
+  switch (phase) {
+    case Phase::build: return stats::Part::build;
+    case Phase::update: return stats::Part::update;
+    case Phase::find_pairs: return stats::Part::find_pairs;
+    case Phase::narrow: break;
   }
-  return values;
+  return stats::Part::narrow;
 }
 
 }  // namespace
@@ -25,63 +26,46 @@ void SetTimes::add(const RawRow& row) {
     baseline_ = label;
     label = twin_of(label);
   }
-  std::vector<Sample>& samples = samples_[label];
-  if (samples.empty() || samples.back().square != row.square || samples.back().round != row.round) {
-    samples.push_back({row.square, row.round, row.position, 0,
-                       static_cast<double>(row.narrow.empty() ? row.frames : row.pair_count),
-                       !row.noise.empty() && row.noise != "canary"});
-  }
-  samples.back().seconds += row.seconds;
+  stats::Sample sample;
+  sample.process = row.process;
+  sample.square = row.square;
+  sample.round = row.round;
+  sample.position = row.position;
+  sample.units = static_cast<double>(row.narrow.empty() ? row.frames : row.pair_count);
+  sample.noisy = !row.noise.empty() && row.noise != "canary";
+  stats::add_phase(contestants_[label], part_of(row.phase), sample, row.seconds);
 }
 
 std::vector<std::string> SetTimes::labels() const {
   std::vector<std::string> labels;
-  for (const auto& [label, samples] : samples_) labels.push_back(label);
+  for (const auto& [label, contestant] : contestants_) labels.push_back(label);
   return labels;
+}
+
+const stats::Contestant& SetTimes::find(const std::string& label) const {
+  static const stats::Contestant none;
+  const auto at = contestants_.find(label);
+  return at == contestants_.end() ? none : at->second;
 }
 
 std::vector<double> SetTimes::times(const std::string& label, bool noisy) const {
   std::vector<double> times;
-  const auto at = samples_.find(label);
-  if (at == samples_.end()) return times;
-  for (const Sample& sample : at->second) {
+  for (const stats::Sample& sample : find(label).samples) {
     if (sample.units > 0 && (noisy || !sample.noisy)) {
-      times.push_back(sample.seconds / sample.units);
+      times.push_back(sample.seconds() / sample.units);
     }
   }
   return times;
 }
 
-std::map<std::int64_t, double> SetTimes::by_square(const std::string& label, bool noisy) const {
-  std::map<std::int64_t, std::vector<double>> rounds;
-  const auto at = samples_.find(label);
-  if (at != samples_.end()) {
-    for (const Sample& sample : at->second) {
-      if (sample.units > 0 && sample.seconds > 0 && (noisy || !sample.noisy)) {
-        rounds[sample.square].push_back(sample.seconds / sample.units);
-      }
-    }
-  }
-  std::map<std::int64_t, double> medians;
-  for (auto& [square, values] : rounds) {
-    medians[square] = std::log(stats::median(std::move(values)));
-  }
-  return medians;
-}
-
 std::vector<double> SetTimes::log_ratios(const std::string& a, const std::string& b,
                                          bool noisy) const {
-  const auto of_a = by_square(a, noisy);
-  const auto of_b = by_square(b, noisy);
-  std::vector<double> direct = differences(of_a, of_b);
-  if (!direct.empty() || baseline_.empty()) return direct;
-  const auto of_baseline = by_square(baseline_, noisy);
-  const std::vector<double> left = differences(of_a, of_baseline);
-  const std::vector<double> right = differences(of_b, of_baseline);
-  for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
-    direct.push_back(left[i] - right[i]);
-  }
-  return direct;
+  return stats::paired_log_ratios(find(a), find(b), noise(noisy));
+}
+
+stats::MedianInterval SetTimes::log_ratio(const std::string& a, const std::string& b, bool noisy,
+                                          double confidence) const {
+  return stats::log_ratio(find(a), find(b), find(baseline_), noise(noisy), confidence).value;
 }
 
 double half_width(const stats::MedianInterval& log_ratio) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "harness/run/text_table.h"
 
@@ -61,17 +62,21 @@ std::vector<double> TimeGrid::times(const Cell& cell, bool noisy) const {
   return all;
 }
 
-// Paired where they met in a set; contestants of different blocks are compared as they stand.
+// Paired where they met in a square, by the baseline where they met in a set only; contestants of
+// different blocks are compared as they stand.
 stats::MedianInterval TimeGrid::log_ratio(const Cell& a, const Cell& b) const {
   std::vector<double> paired;
+  std::optional<stats::MedianInterval> by_baseline;
   for (const auto& [set_a, label_a] : a.parts) {
     for (const auto& [set_b, label_b] : b.parts) {
       if (set_a != set_b) continue;
       const std::vector<double> ratios = set_a->log_ratios(label_a, label_b, noisy_);
       paired.insert(paired.end(), ratios.begin(), ratios.end());
+      if (!by_baseline) by_baseline = set_a->log_ratio(label_a, label_b, noisy_, confidence);
     }
   }
   if (!paired.empty()) return stats::median_interval(std::move(paired), confidence);
+  if (by_baseline && !std::isnan(by_baseline->median)) return *by_baseline;
   return stats::shift(logarithms(times(b, noisy_)), logarithms(times(a, noisy_)), confidence);
 }
 

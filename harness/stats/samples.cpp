@@ -141,22 +141,7 @@ class Reader {
     sample.position = row.needed_count("position");
     sample.units = static_cast<double>(row.needed_count(narrow ? "pair_count" : "frames", 1));
     sample.noisy = row.has("noise") && row.text("noise") != canary;
-    sample.parts.fill(nan);
-    const auto place = [](const Sample& s) {
-      return std::tuple(s.process, s.square, s.round, s.position);
-    };
-    double* slot = nullptr;
-    if (!contestant.samples.empty()) {
-      Sample& last = contestant.samples.back();
-      if (place(last) == place(sample)) slot = &last.parts[static_cast<std::size_t>(part)];
-    }
-    if (slot == nullptr || !std::isnan(*slot)) {
-      contestant.samples.push_back(sample);
-      slot = &contestant.samples.back().parts[static_cast<std::size_t>(part)];
-    }
-    *slot = seconds;
-    Sample& last = contestant.samples.back();
-    last.noisy = last.noisy || sample.noisy;
+    add_phase(contestant, part, sample, seconds);
   }
 
   SampleSet& set_of(const Fields& row) {
@@ -223,6 +208,22 @@ std::string SetKey::words() const {
   return text;
 }
 
+void add_phase(Contestant& contestant, Part part, Sample sample, double seconds) {
+  const auto place = [](const Sample& s) {
+    return std::tuple(s.process, s.square, s.round, s.position);
+  };
+  const auto at = static_cast<std::size_t>(part);
+  std::vector<Sample>& samples = contestant.samples;
+  const bool is_new = samples.empty() || place(samples.back()) != place(sample) ||
+                      !std::isnan(samples.back().parts[at]);
+  if (is_new) {
+    sample.parts.fill(nan);
+    samples.push_back(sample);
+  }
+  samples.back().parts[at] = seconds;
+  samples.back().noisy = samples.back().noisy || sample.noisy;
+}
+
 double Sample::seconds() const {
   double sum = nan;
   for (const double part : parts) {
@@ -285,6 +286,15 @@ std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, 
     if (at != of_b.end()) ratios.push_back(std::log(value / at->second));
   }
   return ratios;
+}
+
+LogRatio log_ratio(const Contestant& a, const Contestant& b, const Contestant& baseline,
+                   Noise noise, double confidence) {
+  const std::vector<double> paired = paired_log_ratios(a, b, noise);
+  if (!paired.empty()) return {median_interval(paired, confidence), sign_test(paired)};
+  const std::vector<double> of_a = paired_log_ratios(a, baseline, noise);
+  const std::vector<double> of_b = paired_log_ratios(b, baseline, noise);
+  return {shift(of_b, of_a, confidence), mann_whitney(of_b, of_a)};
 }
 
 }  // namespace touchstone::stats

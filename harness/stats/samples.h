@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "harness/stats/statistics.h"
+
 namespace touchstone::stats {
 
 // A set: contestants that were given the same input and asked the same, so that their times may be
@@ -119,6 +121,10 @@ struct Results {
 // line.
 Results read_results(const std::filesystem::path& folder_or_file);
 
+// Adds a phase's seconds to the sample that it is of: phases of one sample come one after the
+// other. `sample` tells which, without its parts.
+void add_phase(Contestant& contestant, Part part, Sample sample, double seconds);
+
 // Seconds a frame or a query, of each square: the median over the square's rounds. Noisy rounds are
 // left out unless they are asked for.
 using SquareKey = std::pair<std::int64_t, std::int64_t>;  // process, square
@@ -127,5 +133,14 @@ std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise)
 
 // log(a / b) for every square that both were in: the values of paired statistics.
 std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, Noise noise);
+
+// log(a / b) with the p of its being 0. Those that were never in one square are compared by what
+// each has to the baseline in its own squares (Mann-Whitney).
+struct LogRatio {
+  MedianInterval value;
+  double p = 1;
+};
+LogRatio log_ratio(const Contestant& a, const Contestant& b, const Contestant& baseline,
+                   Noise noise, double confidence);
 
 }  // namespace touchstone::stats

@@ -248,13 +248,8 @@ bool is_wrong(const SampleSet& set, const Contestant& contestant) {
 
 TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
                           Noise noise) {
-  const std::vector<double> paired = paired_log_ratios(a, b, noise);
-  if (!paired.empty()) {
-    return {exponential(median_interval(paired, confidence)), sign_test(paired)};
-  }
-  const std::vector<double> of_a = to_baseline(set, a, noise);
-  const std::vector<double> of_b = to_baseline(set, b, noise);
-  return {exponential(shift(of_b, of_a, confidence)), mann_whitney(of_b, of_a)};
+  const LogRatio found = log_ratio(a, b, set.baseline(), noise, confidence);
+  return {exponential(found.value), found.p};
 }
 
 Tables make_tables(const Results& results, Noise noise) {

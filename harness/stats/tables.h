@@ -106,6 +106,9 @@ Tables make_tables(const Results& results, Noise noise);
 // contradicts.
 bool is_wrong(const SampleSet& set, const Contestant& contestant);
 
+// All tables, as Markdown.
+std::string tables_markdown(const Tables& tables);
+
 // Writes tables.md and times.csv, ratios.csv, winners.csv, exponents.csv, speed_ups.csv,
 // agreement.csv, work.csv into the folder. `band`: ratios.csv states for each cell the band within
 // which its ratio holds: the interval, widened by this factor at both ends. InputError where a file

@@ -1,0 +1,243 @@
+// The tables for people: Markdown.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "harness/stats/markdown.h"
+#include "harness/stats/tables.h"
+
+namespace touchstone::stats {
+namespace {
+
+std::string text(double value, const char* none = "-") {
+  return std::isnan(value) ? none : fmt::format("{:.4g}", value);
+}
+
+std::string interval(const MedianInterval& values, double scale = 1) {
+  return std::isnan(values.low)
+             ? std::string("-")
+             : fmt::format("{:.4g} to {:.4g}", values.low * scale, values.high * scale);
+}
+
+std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
+
+std::string remark(const TimeRow& row) {
+  std::vector<std::string> words;
+  if (row.wrong) words.emplace_back("**wrong on some**");
+  if (!row.failure.empty()) words.push_back(row.failure);
+  if (row.noisy > 0) words.push_back(fmt::format("{} of {} noisy", row.noisy, row.samples));
+  if (row.outliers > 0) words.push_back(fmt::format("{} outliers", row.outliers));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// The times of one set, each beside its ratio to the baseline.
+std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) {
+  const TimeRow& first = tables.times[begin];
+  const bool broad = !first.key.narrow();
+  const double scale = broad ? 1e3 : 1e9;
+  std::vector<std::string> names = {"", broad ? "ms a frame" : "ns a query", "95 % interval",
+                                    "minimum"};
+  if (broad) names.insert(names.end(), {"build", "update", "find pairs"});
+  names.insert(names.end(), {"ratio", "95 % interval", "p (Holm)", "squares", "remarks"});
+  std::string body;
+  std::string baseline;
+  std::string canary;
+  const auto ratio_of = [&](const std::string& label, bool of_twin) -> const RatioRow* {
+    const auto at = std::ranges::find_if(tables.ratios, [&](const RatioRow& row) {
+      return row.key == first.key && row.label == label && row.canary == of_twin;
+    });
+    return at == tables.ratios.end() ? nullptr : &*at;
+  };
+  for (std::size_t i = begin; i < end; ++i) {
+    const TimeRow& row = tables.times[i];
+    std::vector<std::string> cells = {row.label, text(row.seconds.median * scale),
+                                      interval(row.seconds, scale), text(row.minimum * scale)};
+    if (broad) {
+      for (const Part part : {Part::build, Part::update, Part::find_pairs}) {
+        cells.push_back(text(row.parts[static_cast<std::size_t>(part)] * scale));
+      }
+    }
+    if (const RatioRow* const ratio = ratio_of(row.label, false)) {
+      baseline = ratio->baseline;
+      cells.insert(cells.end(), {text(ratio->ratio.median), interval(ratio->ratio),
+                                 probability(ratio->p_corrected)});
+    } else {
+      cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-", "-"});
+    }
+    cells.push_back(std::to_string(row.seconds.n));
+    cells.push_back(remark(row));
+    body += markdown_row(cells);
+    if (const RatioRow* const twin = ratio_of(row.label, true)) {
+      const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
+      canary =
+          fmt::format("The canary, {} against itself: {}, {}{}.\n", row.label,
+                      text(twin->ratio.median), interval(twin->ratio),
+                      twin->suspect ? " (**told apart** by more than the campaign's width: this "
+                                      "table is **suspect**)"
+                      : told_apart  ? " (**told apart**: trust no smaller difference)"
+                                    : "");
+    }
+  }
+  std::string all = fmt::format("### {}\n\n", first.key.words());
+  if (!baseline.empty()) all += fmt::format("Ratios are to {}. ", baseline);
+  if (!baseline.empty() || !canary.empty()) all += canary + "\n";
+  return all + markdown_header(names) + body + "\n";
+}
+
+// Sums over the inputs and kinds of pairs, which are in agreement.csv.
+std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
+  std::vector<AgreementRow> sums;
+  for (const AgreementRow& row : rows) {
+    auto at = std::ranges::find_if(sums, [&](const AgreementRow& sum) {
+      return sum.key.task == row.key.task && sum.label == row.label;
+    });
+    if (at == sums.end()) at = sums.insert(sums.end(), {row.key, row.label, row.origin});
+    at->queries += row.queries;
+    at->right += row.right;
+    at->wrong += row.wrong;
+    at->failed += row.failed;
+    at->unanswered += row.unanswered;
+  }
+  std::ranges::stable_sort(sums, {}, [](const AgreementRow& sum) { return sum.key.task; });
+  return sums;
+}
+
+// Means over the inputs and kinds of pairs, which are in work.csv, a query each.
+class MeanWork {
+ public:
+  explicit MeanWork(const WorkRow& row) : row_(row) {}
+  bool is_of(const WorkRow& row) const {
+    return row.key.task == row_.key.task && row.label == row_.label;
+  }
+  void add(const WorkRow& row) {
+    const std::array values = {row.iterations, row.support_calls, row.allocations,
+                               row.allocated_bytes};
+    const auto queries = static_cast<double>(row.queries);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isnan(values[i])) continue;
+      sums_[i] += values[i] * queries;
+      queries_[i] += queries;
+    }
+  }
+  const std::string& task() const { return row_.key.task; }
+  std::vector<std::string> cells() const {
+    std::vector<std::string> all = {task(), row_.label};
+    for (std::size_t i = 0; i < sums_.size(); ++i) all.push_back(text(sums_[i] / queries_[i]));
+    return all;
+  }
+
+ private:
+  WorkRow row_;  // the first
+  std::array<double, 4> sums_{}, queries_{};
+};
+
+// Work is counted at one thread, whatever the set is timed at: a table for each input, once.
+std::string work_tables(const std::vector<WorkRow>& rows) {
+  std::string all;
+  std::vector<SetKey> told;
+  std::vector<MeanWork> narrow;
+  for (const WorkRow& first : rows) {
+    if (first.key.narrow()) {
+      auto mean = std::ranges::find_if(narrow, [&](const MeanWork& m) { return m.is_of(first); });
+      if (mean == narrow.end()) mean = narrow.insert(mean, MeanWork(first));
+      mean->add(first);
+      continue;
+    }
+    SetKey input = first.key;
+    input.threads = 1;
+    if (std::ranges::find(told, input) != told.end()) continue;
+    told.push_back(input);
+    all += fmt::format("### {}\n\n", input.words());
+    all += markdown_header({"", "box tests / body", "node visits / body", "candidates / pair",
+                            "bytes / body", "allocations / frame", "bytes allocated / frame"});
+    for (const WorkRow& row : rows) {
+      if (row.key != first.key) continue;
+      all +=
+          markdown_row({row.label, text(row.box_tests), text(row.node_visits), text(row.candidates),
+                        text(row.bytes), text(row.allocations), text(row.allocated_bytes)});
+    }
+    all += "\n";
+  }
+  if (!narrow.empty()) {
+    all += "### Narrow phases, over all inputs\n\n";
+    all += markdown_header({"task", "", "iterations / query", "support calls / query",
+                            "allocations / query", "bytes allocated / query"},
+                           2);
+    std::ranges::stable_sort(narrow, {}, &MeanWork::task);
+    for (const MeanWork& mean : narrow) all += markdown_row(mean.cells());
+    all += "\n";
+  }
+  if (all.empty()) return all;
+  return "## Work\n\nCounted over the verified frames; it does not depend on the machine. "
+         "Allocations are those of\nthe second playing, when what is kept is there.\n\n" +
+         all;
+}
+
+}  // namespace
+
+std::string tables_markdown(const Tables& tables) {
+  std::string all = fmt::format("# Tables of the campaign {}\n\n", tables.campaign);
+  for (const std::string& fact : tables.machine) all += fmt::format("- {}\n", fact);
+  all +=
+      "\nTimes are medians over squares, intervals those of the sign test at 95 %. A ratio is the "
+      "median of\npaired log ratios. p is corrected over the whole table by Holm's method. "
+      "`-`: too few samples to tell.\n\n";
+  if (!tables.winners.empty()) {
+    all += "## Winner against runner-up\n\n";
+    all += markdown_header(
+        {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
+    for (const WinnerRow& row : tables.winners) {
+      all += markdown_row({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner,
+                           row.runner_up, text(row.ratio.median), interval(row.ratio),
+                           probability(row.p_corrected)});
+    }
+    all += "\n";
+  }
+  if (!tables.exponents.empty()) {
+    all += "## Scaling: time grows as bodies to the power of\n\n";
+    all += markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts"}, 2);
+    for (const ExponentRow& row : tables.exponents) {
+      all += markdown_row({fmt::format("{}, {} boxes, {} thread{}", row.key.scene, row.key.boxes,
+                                       row.key.threads, row.key.threads == 1 ? "" : "s"),
+                           row.label, fmt::format("{:.2f}", row.law.exponent),
+                           std::isnan(row.law.low)
+                               ? std::string("-")
+                               : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
+                           fmt::format("{}", fmt::join(row.counts, ", "))});
+    }
+    all += "\n";
+  }
+  if (!tables.speed_ups.empty()) {
+    all += "## Speed-up by threads\n\n";
+    all += markdown_header({"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
+    for (const SpeedUpRow& row : tables.speed_ups) {
+      all += markdown_row({row.key.words(), row.label, std::to_string(row.base_threads),
+                           text(row.speed_up.median), interval(row.speed_up)});
+    }
+    all += "\n";
+  }
+  if (!tables.agreement.empty()) {
+    all += "## Agreement with the exact answers\n\n";
+    all += markdown_header(
+        {"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered"}, 2);
+    for (const AgreementRow& row : by_task(tables.agreement)) {
+      all += markdown_row({row.key.task, row.label, std::to_string(row.queries),
+                           std::to_string(row.right), std::to_string(row.wrong),
+                           std::to_string(row.failed), std::to_string(row.unanswered)});
+    }
+    all += "\n";
+  }
+  all += work_tables(tables.work);
+  all += "## Times\n\n";
+  for (std::size_t begin = 0; begin < tables.times.size();) {
+    std::size_t end = begin;
+    while (end < tables.times.size() && tables.times[end].key == tables.times[begin].key) ++end;
+    all += set_table(tables, begin, end);
+    begin = end;
+  }
+  return all;
+}
+
+}  // namespace touchstone::stats
