@@ -71,8 +71,8 @@ std::string write_frames(const RunContext& context, const BlockInput& input,
 
 }  // namespace
 
-BroadCheck check_broad(const RunContext& context, const BlockInput& input,
-                       const BroadPhaseEntry& entry, bool with_pairs) {
+CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
+                         const BroadPhaseEntry& entry, bool with_pairs) {
   const CampaignGroup& group = *context.block->group;
   const std::size_t count = input.frames.size();
   std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
@@ -108,7 +108,7 @@ BroadCheck check_broad(const RunContext& context, const BlockInput& input,
     };
   });
 
-  BroadCheck result;
+  CheckedBroad result;
   result.whole = result.right = true;
   const auto leave = [&](std::size_t frame, Status status, const std::string& why,
                          const std::string& words) {

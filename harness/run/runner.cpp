@@ -135,7 +135,7 @@ NarrowInput check_broad_phases(const RunContext& context, const BlockInput& inpu
   if (again && !product) return sets;
   for (const BroadPhaseEntry* entry : group.broad) {
     if (!context.admits(*entry)) continue;
-    const BroadCheck check = check_broad(context, input, *entry, product);
+    const CheckedBroad check = check_broad(context, input, *entry, product);
     if (!product || !check.whole) continue;
     auto found = narrow_sets(input, entry->info.name, check.pairs, group.tasks);
     // Other pairs than the true ones have answers of their own.
