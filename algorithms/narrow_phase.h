@@ -24,11 +24,11 @@ struct NarrowPhaseSettings {
   // Greatest number of iterations of each loop of a query (GJK's, EPA's, the portal's); without it
   // the algorithm's own. A query that needs more says not_converged.
   std::optional<int> max_iterations = {};
-  // Instead of a tolerance, for those that know it (NarrowPhaseEntry::stops_by_duality_gap): the Frank-Wolfe duality
-  // gap 2 x . (x - s) of |x|^2 (square metres) at which a distance is found, x being the nearest
-  // point of the difference so far and s the newest support point (Montaut et al., RSS 2022, sec.
-  // III). It is absolute, so that it allows a greater error in the distance the nearer the bodies
-  // are; published counts of iterations are for such a stop.
+  // Instead of a tolerance, for those that know it (NarrowPhaseEntry::stops_by_duality_gap): the
+  // Frank-Wolfe duality gap 2 x . (x - s) of |x|^2 (square metres) at which a distance is found, x
+  // being the nearest point of the difference so far and s the newest support point (Montaut et
+  // al., RSS 2022, sec. III). It is absolute, so that it allows a greater error in the distance the
+  // nearer the bodies are; published counts of iterations are for such a stop.
   std::optional<double> duality_gap = {};
 };
 
