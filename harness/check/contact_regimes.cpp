@@ -208,7 +208,8 @@ RegimeCase make_at_an_amount(RegimeDraw& draw, ContactSetting setting) {
   if (!amount.random_pose) {
     setting.gap = amount.value;
     RegimeCase result = make_contact(draw, setting);
-    result.detail += "-" + std::string(amount.name);
+    result.detail += '-';
+    result.detail += amount.name;
     return result;
   }
   RegimeCase result{{}, std::string(amount.name)};

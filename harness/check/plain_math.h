@@ -10,22 +10,9 @@
 
 namespace touchstone {
 
-inline double inner(const Vec3d& u, const Vec3d& v) {
-  return u.x() * v.x() + u.y() * v.y() + u.z() * v.z();
-}
 inline Vec3d outer(const Vec3d& u, const Vec3d& v) {
   return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
           u.x() * v.y() - u.y() * v.x()};
-}
-inline Vec3d times(const Mat3d& m, const Vec3d& v) {
-  return {m(0, 0) * v.x() + m(0, 1) * v.y() + m(0, 2) * v.z(),
-          m(1, 0) * v.x() + m(1, 1) * v.y() + m(1, 2) * v.z(),
-          m(2, 0) * v.x() + m(2, 1) * v.y() + m(2, 2) * v.z()};
-}
-inline Vec3d transposed_times(const Mat3d& m, const Vec3d& v) {
-  return {m(0, 0) * v.x() + m(1, 0) * v.y() + m(2, 0) * v.z(),
-          m(0, 1) * v.x() + m(1, 1) * v.y() + m(2, 1) * v.z(),
-          m(0, 2) * v.x() + m(1, 2) * v.y() + m(2, 2) * v.z()};
 }
 // Of length 1 up to rounding; x where v is zero. No square overflows or vanishes.
 inline Vec3d unit(const Vec3d& v) {

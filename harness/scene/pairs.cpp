@@ -6,6 +6,7 @@
 
 #include "algorithms/core/bounds.h"
 #include "harness/scene/generators.h"
+#include "harness/scene/portable_math.h"
 
 namespace touchstone {
 namespace {
@@ -38,9 +39,7 @@ Vec3d support_point(const Shape& shape, const Vec3d& n) {
               r.z() * (scaled.z() / norm)};
     }
     case ShapeKind::hull: {
-      const auto along = [&](const Vec3d& v) {
-        return v.x() * n.x() + v.y() * n.y() + v.z() * n.z();
-      };
+      const auto along = [&](const Vec3d& v) { return inner(v, n); };
       const std::vector<Vec3d>& vertices = shape.hull->vertices;
       return *std::ranges::max_element(vertices, {}, along);
     }
@@ -49,15 +48,9 @@ Vec3d support_point(const Shape& shape, const Vec3d& n) {
   return Vec3d::Zero();
 }
 
-Vec3d turned(const Mat3d& r, const Vec3d& v) {
-  return {r(0, 0) * v.x() + r(0, 1) * v.y() + r(0, 2) * v.z(),
-          r(1, 0) * v.x() + r(1, 1) * v.y() + r(1, 2) * v.z(),
-          r(2, 0) * v.x() + r(2, 1) * v.y() + r(2, 2) * v.z()};
-}
-
 Vec3d world_support(const Scene& scene, const Body& body, const Vec3d& n) {
   const Mat3d& r = body.pose.rotation;
-  return turned(r, support_point(scene.shapes[body.shape], turned(r.transpose(), n)));
+  return times(r, support_point(scene.shapes[body.shape], transposed_times(r, n)));
 }
 
 std::vector<double> read_gaps(TomlTable& table) {

@@ -54,6 +54,19 @@ inline double length(const Vec3d& v) {
   return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
 }
 
+inline double inner(const Vec3d& u, const Vec3d& v) {
+  return u.x() * v.x() + u.y() * v.y() + u.z() * v.z();
+}
+inline Vec3d times(const Mat3d& m, const Vec3d& v) {
+  return {m(0, 0) * v.x() + m(0, 1) * v.y() + m(0, 2) * v.z(),
+          m(1, 0) * v.x() + m(1, 1) * v.y() + m(1, 2) * v.z(),
+          m(2, 0) * v.x() + m(2, 1) * v.y() + m(2, 2) * v.z()};
+}
+inline Vec3d transposed_times(const Mat3d& m, const Vec3d& v) {
+  return {m(0, 0) * v.x() + m(1, 0) * v.y() + m(2, 0) * v.z(),
+          m(0, 1) * v.x() + m(1, 1) * v.y() + m(2, 1) * v.z(),
+          m(0, 2) * v.x() + m(1, 2) * v.y() + m(2, 2) * v.z()};
+}
 inline Mat3d product(const Mat3d& a, const Mat3d& b) {
   Mat3d c;
   for (int i = 0; i < 3; ++i) {
