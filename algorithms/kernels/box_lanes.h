@@ -40,16 +40,22 @@ inline Columns columns_of(const BoxArrays& boxes) {
           boxes.ids()};
 }
 
-// The ids of one box and of those among ids[0..] whose bit is set.
-inline void write_pairs(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
-                        PairBuffer& out) {
-  out.reserve(static_cast<std::size_t>(std::popcount(lanes)));
-  IndexPair* end = out.end();
+// Writes the ids of one box and of those among ids[0..] whose bit is set, where there is room for 16
+// pairs; where they end.
+inline IndexPair* put_pairs(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
+                            IndexPair* end) {
   for (; lanes != 0; lanes &= lanes - 1) {
     const std::uint32_t other = ids[std::countr_zero(lanes)];
     *end++ = {std::min(id, other), std::max(id, other)};
   }
-  out.advance(static_cast<std::size_t>(end - out.end()));
+  return end;
+}
+
+// The same into a buffer.
+inline void write_pairs(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
+                        PairBuffer& out) {
+  out.reserve(static_cast<std::size_t>(std::popcount(lanes)));
+  out.advance(static_cast<std::size_t>(put_pairs(lanes, id, ids, out.end()) - out.end()));
 }
 
 // Those of from[0..15] whose bit is set, one behind the other; how many.
@@ -66,6 +72,16 @@ inline std::size_t pick_numbers(unsigned lanes, std::uint32_t first, std::uint32
     to[count++] = first + static_cast<std::uint32_t>(std::countr_zero(lanes));
   }
   return count;
+}
+
+// By element, so that it compiles to the same on any machine.
+template <class Floats4>
+inline float least4(Floats4 x) {
+  return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+}
+template <class Floats4>
+inline float greatest4(Floats4 x) {
+  return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
 // Four lanes in the compiler's own vector types: SSE2 on x86-64, whatever there is elsewhere.
@@ -101,6 +117,12 @@ struct Lanes {
   static void write(unsigned lanes, std::uint32_t id, const std::uint32_t* ids, PairBuffer& out) {
     write_pairs(lanes, id, ids, out);
   }
+  // Sixteen ids, and the pairs of another with those whose bit is set: where there is room for 16.
+  using Ids = const std::uint32_t*;
+  static Ids load_ids(const std::uint32_t* ids) { return ids; }
+  static IndexPair* put(unsigned lanes, std::uint32_t id, Ids ids, IndexPair* end) {
+    return put_pairs(lanes, id, ids, end);
+  }
   // As box_lanes::pick and pick_numbers, but up to 16 values may be written.
   template <class Value>
   static std::size_t compress(unsigned lanes, const Value* from, Value* to) {
@@ -108,6 +130,23 @@ struct Lanes {
   }
   static std::size_t compress_numbers(unsigned lanes, std::uint32_t first, std::uint32_t* to) {
     return pick_numbers(lanes, first, to);
+  }
+  // Of from[0..15].
+  static float least16(const float* from) {
+    Floats x = load(from);
+    for (std::size_t part = width; part < 16; part += width) {
+      const Floats y = load(from + part);
+      x = y < x ? y : x;
+    }
+    return least4(x);
+  }
+  static float greatest16(const float* from) {
+    Floats x = load(from);
+    for (std::size_t part = width; part < 16; part += width) {
+      const Floats y = load(from + part);
+      x = y > x ? y : x;
+    }
+    return greatest4(x);
   }
 };
 #define TOUCHSTONE_TARGET
@@ -145,6 +184,12 @@ struct Lanes {
                                       PairBuffer& out) {
     write_pairs(lanes, id, ids, out);
   }
+  // Sixteen ids, and the pairs of another with those whose bit is set: where there is room for 16.
+  using Ids = const std::uint32_t*;
+  static Ids load_ids(const std::uint32_t* ids) { return ids; }
+  static IndexPair* put(unsigned lanes, std::uint32_t id, Ids ids, IndexPair* end) {
+    return put_pairs(lanes, id, ids, end);
+  }
   // As box_lanes::pick and pick_numbers, but up to 16 values may be written.
   template <class Value>
   static std::size_t compress(unsigned lanes, const Value* from, Value* to) {
@@ -152,6 +197,14 @@ struct Lanes {
   }
   static std::size_t compress_numbers(unsigned lanes, std::uint32_t first, std::uint32_t* to) {
     return pick_numbers(lanes, first, to);
+  }
+  TOUCHSTONE_TARGET static float least16(const float* from) {
+    const __m256 x = _mm256_min_ps(load(from), load(from + width));
+    return least4(_mm_min_ps(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1)));
+  }
+  TOUCHSTONE_TARGET static float greatest16(const float* from) {
+    const __m256 x = _mm256_max_ps(load(from), load(from + width));
+    return greatest4(_mm_max_ps(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1)));
   }
 };
 #include "algorithms/kernels/box_lanes.inl"
@@ -179,22 +232,29 @@ struct Lanes {
     const __m512i mark = _mm512_loadu_si512(marks);
     return _mm512_cmpeq_epi32_mask(_mm512_and_si512(mark, wanted), wanted);
   }
+  using Ids = __m512i;
+  TOUCHSTONE_TARGET static Ids load_ids(const std::uint32_t* ids) {
+    return _mm512_loadu_si512(ids);
+  }
   // Compresses in registers and stores whole vectors: compressing to memory is slow on Zen 4.
-  TOUCHSTONE_TARGET static void write(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
-                                      PairBuffer& out) {
-    const auto mask = static_cast<__mmask16>(lanes);
+  TOUCHSTONE_TARGET static IndexPair* put(unsigned lanes, std::uint32_t id, Ids ids,
+                                          IndexPair* end) {
     const __m512i one = _mm512_set1_epi32(static_cast<int>(id));
-    const __m512i others = _mm512_maskz_compress_epi32(mask, _mm512_loadu_si512(ids));
+    const __m512i others = _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), ids);
     const __m512i a = _mm512_min_epu32(one, others);
     const __m512i b = _mm512_max_epu32(one, others);
     const __m512i low = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
     const __m512i high =
         _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
     const auto count = static_cast<std::size_t>(std::popcount(lanes));
+    _mm512_storeu_si512(end, _mm512_permutex2var_epi32(a, low, b));
+    if (count > 8) _mm512_storeu_si512(end + 8, _mm512_permutex2var_epi32(a, high, b));
+    return end + count;
+  }
+  TOUCHSTONE_TARGET static void write(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
+                                      PairBuffer& out) {
     out.reserve(width);
-    _mm512_storeu_si512(out.end(), _mm512_permutex2var_epi32(a, low, b));
-    if (count > 8) _mm512_storeu_si512(out.end() + 8, _mm512_permutex2var_epi32(a, high, b));
-    out.advance(count);
+    out.advance(static_cast<std::size_t>(put(lanes, id, load_ids(ids), out.end()) - out.end()));
   }
   TOUCHSTONE_TARGET static std::size_t compress(unsigned lanes, const float* from, float* to) {
     const auto mask = static_cast<__mmask16>(lanes);
@@ -215,6 +275,12 @@ struct Lanes {
     const auto mask = static_cast<__mmask16>(lanes);
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(mask, numbers));
     return static_cast<std::size_t>(std::popcount(lanes));
+  }
+  TOUCHSTONE_TARGET static float least16(const float* from) {
+    return _mm512_reduce_min_ps(load(from));
+  }
+  TOUCHSTONE_TARGET static float greatest16(const float* from) {
+    return _mm512_reduce_max_ps(load(from));
   }
 };
 #include "algorithms/kernels/box_lanes.inl"

@@ -1,12 +1,15 @@
 // A tree of boxes without pointers: blocks of 16 boxes that lie one behind the other, the bounds of
 // each block, the bounds of 16 blocks, and so on.
+// Paper: Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for wide vectors).
 //
 // The order of the boxes decides how good it is: along a space-filling curve the blocks are small.
+// There may be empty boxes among them, to fill up blocks; they overlap nothing.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,13 +25,17 @@ class BoxPyramid {
   static constexpr std::size_t fan = 16;           // boxes a block, nodes a node
   static constexpr std::size_t group = fan * fan;  // boxes that look for partners together
 
-  // Bounds of the boxes as they stand; these stay alive and unchanged while pairs are looked for.
-  void fit(Executor& executor, const BoxArrays& boxes);
+  BoxPyramid() : levels_(1) { levels_.reserve(9); }  // 2^32 boxes have no more
 
-  const BoxArrays& boxes() const { return *boxes_; }
-  std::size_t groups() const { return (boxes_->size() + group - 1) / group; }
-  // levels()[0] bounds blocks, each further level the one before; the last has one node. None where
-  // there is no box.
+  // To be filled in, then fitted.
+  BoxArrays& boxes() { return levels_[0]; }
+  const BoxArrays& boxes() const { return levels_[0]; }
+  // Bounds of the boxes as they stand; there is one at least.
+  void fit(Executor& executor);
+
+  std::size_t groups() const { return (boxes().size() + group - 1) / group; }
+  // levels()[0] is the boxes, levels()[1] bounds blocks of them, levels()[2] groups, each further
+  // level 16 of the one before; the last has one node.
   std::span<const BoxArrays> levels() const { return {levels_.data(), used_}; }
   // Sum over the blocks of the sums of their bounds' sides (metres): what a better order would make
   // smaller.
@@ -36,28 +43,48 @@ class BoxPyramid {
   std::size_t held_bytes() const;
 
  private:
-  const BoxArrays* boxes_ = nullptr;
   std::vector<BoxArrays> levels_;
-  std::size_t used_ = 0;
+  std::size_t used_ = 1;
 };
 
-// Lists that a search fills and keeps the memory of, and what it counts. One a worker.
+// A list of boxes that vectors are written to the end of; those behind the last one are undefined.
+// Keeps its memory.
+class BoxList {
+ public:
+  void clear() { size_ = 0; }
+  std::size_t size() const { return size_; }
+  // Room for `more` boxes, and a vector's width, behind the last one.
+  void reserve(std::size_t more) {
+    if (capacity_ < size_ + more + BoxArrays::padding) grow(more);
+  }
+  void advance(std::size_t written) { size_ += written; }
+
+  float* extent(std::size_t index) { return extents_.get() + index * capacity_; }  // min, then max
+  const float* extent(std::size_t index) const { return extents_.get() + index * capacity_; }
+  std::uint32_t* ids() { return ids_.get(); }
+  const std::uint32_t* ids() const { return ids_.get(); }
+
+ private:
+  void grow(std::size_t more);
+
+  std::unique_ptr<float[]> extents_;
+  std::unique_ptr<std::uint32_t[]> ids_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+// What a search lists, and what it counts. One a worker.
 struct PyramidScratch {
-  static constexpr std::size_t partners_at_once = 64;
-
   std::vector<std::uint32_t> nodes, children;  // of two levels, one below the other
-  std::array<std::vector<float>, 6> bounds;    // of the blocks near a group
-  std::vector<std::uint32_t> partners;         // blocks near a block
-  std::array<std::uint32_t, (partners_at_once + 1) * BoxPyramid::fan> rows, columns;  // to test
+  BoxList near;                                // blocks near the group, by their bounds and numbers
+  BoxList partners;                            // boxes near a block
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
-
-  void make_room(std::size_t blocks);  // as many as the greatest pyramid has
 };
 
-// Writes the ids of each pair of boxes that overlap, one of them in this group of `first`, the
-// other in `second`. Where the two are one pyramid: each pair once over all groups. Neither is
-// empty.
-void pair_group(const BoxPyramid& first, std::size_t group, const BoxPyramid& second,
-                PyramidScratch& scratch, PairBuffer& out);
+// Writes the ids of each pair of boxes that overlap, one of them in this group, the other in the same
+// block or in one behind it: each pair once over all groups. A pair of boxes of different sizes costs
+// least when the smaller one comes first.
+void pair_group(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& scratch,
+                PairBuffer& out);
 
 }  // namespace touchstone

@@ -5,117 +5,161 @@
 // Which of the 16 boxes from j on overlap the row's.
 TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxes, std::size_t j) {
   unsigned lanes = 0;
-  for (std::size_t part = 0; part < BoxPyramid::fan; part += Lanes::width) {
+  for (std::size_t part = 0; part < fan; part += Lanes::width) {
     lanes |= overlaps(row, boxes, j + part) << part;
   }
   return lanes;
 }
 
-// The nodes of a level that overlap the row, among the children of `parents`; those before `from`
-// are left out. Of blocks the bounds are listed too.
-template <bool with_bounds>
-TOUCHSTONE_TARGET inline std::size_t descend(const Row& row, const Columns& level,
-                                             const std::uint32_t* parents, std::size_t count,
-                                             std::uint32_t from, std::uint32_t* children,
-                                             const Bounds& bounds) {
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t first = parents[i] * BoxPyramid::fan;
-    unsigned lanes = overlaps16(row, level, first);
-    if (first < from) lanes &= 0xffffu << (from - first);
-    if constexpr (with_bounds) {
-      for (int axis = 0; axis < 3; ++axis) {
-        Lanes::compress(lanes, level.min[axis] + first, bounds.min[axis] + found);
-        Lanes::compress(lanes, level.max[axis] + first, bounds.max[axis] + found);
+// The same, of those before `end`.
+TOUCHSTONE_TARGET inline unsigned overlaps_before(const Row& row, const Columns& boxes,
+                                                  std::size_t j, std::size_t end) {
+  const unsigned lanes = overlaps16(row, boxes, j);
+  return end - j < fan ? lanes & ((1u << (end - j)) - 1) : lanes;
+}
+
+// Appends those of boxes[j .. j + 15] whose bit is set; there is room for them.
+TOUCHSTONE_TARGET inline void append(unsigned lanes, const Columns& boxes, std::size_t j,
+                                     BoxList& list) {
+  const std::size_t end = list.size();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Lanes::compress(lanes, boxes.min[axis] + j, list.extent(axis) + end);
+    Lanes::compress(lanes, boxes.max[axis] + j, list.extent(axis + 3) + end);
+  }
+  list.advance(Lanes::compress(lanes, boxes.ids + j, list.ids() + end));
+}
+
+// The nodes of a level that overlap the row, by their numbers, into scratch.nodes: found from the top
+// down. Those before node `from` are left out. How many.
+TOUCHSTONE_TARGET inline std::size_t descend(const Row& row, const BoxPyramid& pyramid,
+                                             std::size_t target, std::size_t from,
+                                             PyramidScratch& scratch) {
+  const std::span<const BoxArrays> levels = pyramid.levels();
+  scratch.nodes.resize(std::max(scratch.nodes.size(), fan));
+  scratch.nodes[0] = 0;
+  std::size_t count = 1;
+  for (std::size_t level = levels.size() - 1; level-- > target;) {
+    const Columns nodes = columns_of(levels[level]);
+    const std::size_t before = from >> (4 * (level - target));
+    scratch.work.node_visits += static_cast<std::int64_t>(count);
+    scratch.work.box_tests += static_cast<std::int64_t>(
+        children_of(scratch.nodes, count, levels[level].size(), before));
+    scratch.children.resize(std::max(scratch.children.size(), (count + 1) * fan));
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t first = scratch.nodes[i] * fan;
+      unsigned lanes = overlaps16(row, nodes, first);
+      if (first < before) lanes &= 0xffffu << (before - first);
+      found += Lanes::compress_numbers(lanes, static_cast<std::uint32_t>(first),
+                                       scratch.children.data() + found);
+    }
+    scratch.nodes.swap(scratch.children);
+    count = found;
+  }
+  return count;
+}
+
+// Blocks that overlap the group's bounds, those of the group first; none before these.
+TOUCHSTONE_TARGET inline void list_blocks(const BoxPyramid& pyramid, std::size_t group,
+                                          PyramidScratch& scratch) {
+  const Row bounds = load_row(columns_of(pyramid.levels()[2]), group);
+  const Columns blocks = columns_of(pyramid.levels()[1]);
+  scratch.near.clear();
+  const std::size_t parents = descend(bounds, pyramid, 2, group, scratch);
+  scratch.work.node_visits += static_cast<std::int64_t>(parents);
+  scratch.work.box_tests += static_cast<std::int64_t>(
+      children_of(scratch.nodes, parents, pyramid.levels()[1].size(), group * fan));
+  scratch.near.reserve(parents * fan);
+  for (std::size_t i = 0; i < parents; ++i) {
+    const std::size_t first = scratch.nodes[i] * fan;
+    append(overlaps16(bounds, blocks, first), blocks, first, scratch.near);
+  }
+}
+
+// Pairs of a block's boxes with those listed. Where the list begins with the block's own boxes, each
+// is paired with the ones behind it. A function of its own, so that its vectors stay in registers.
+TOUCHSTONE_TARGET [[gnu::noinline]] void pair_rows(const Columns& boxes, std::size_t first,
+                                                   std::size_t size, bool with_own,
+                                                   const BoxList& list, PairBuffer& out) {
+  const Columns columns = columns_of(list);
+  const Columns rows = boxes;
+  out.reserve(size * list.size() + fan);
+  IndexPair* end = out.end();
+  for (std::size_t j = 0; j < list.size(); j += fan) {
+    const unsigned there = list.size() - j < fan ? (1u << (list.size() - j)) - 1 : 0xffffu;
+    const Sixteen sixteen = load_sixteen(columns, j);
+    const Lanes::Ids ids = Lanes::load_ids(columns.ids + j);
+    if (with_own && j == 0) {
+      for (std::size_t r = 0; r < size; ++r) {
+        const unsigned lanes = overlaps(rows, first + r, sixteen) & there & (0xfffeu << r);
+        end = Lanes::put(lanes, rows.ids[first + r], ids, end);
+      }
+    } else {
+      for (std::size_t r = 0; r < size; ++r) {
+        const unsigned lanes = overlaps(rows, first + r, sixteen) & there;
+        end = Lanes::put(lanes, rows.ids[first + r], ids, end);
       }
     }
-    found += Lanes::compress_numbers(lanes, first, children + found);
   }
-  return found;
+  out.advance(static_cast<std::size_t>(end - out.end()));
 }
 
-// Pairs inside one block.
-TOUCHSTONE_TARGET inline void pair_within(const Columns& boxes, std::size_t first, std::size_t size,
-                                          PairBuffer& out) {
-  for (std::size_t r = 0; r + 1 < size; ++r) {
-    const unsigned lanes = overlaps16(load_row(boxes, first + r), boxes, first) & (0xfffeu << r);
-    Lanes::write(lanes & 0xffff, boxes.ids[first + r], boxes.ids + first, out);
-  }
-}
+TOUCHSTONE_TARGET void search(const BoxPyramid& pyramid, std::size_t group,
+                              PyramidScratch& scratch, PairBuffer& out) {
+  constexpr std::size_t most_partners = 512;  // that are paired at once, so that they stay in cache
+  const Columns boxes = columns_of(pyramid.boxes());
+  const Columns blocks = columns_of(pyramid.levels()[1]);
+  list_blocks(pyramid, group, scratch);
+  const Columns near = columns_of(scratch.near);
+  const std::size_t near_count = scratch.near.size();
+  scratch.nodes.resize(std::max(scratch.nodes.size(), near_count + fan));
+  BoxList& list = scratch.partners;
+  list.clear();
+  list.reserve(most_partners + fan);
 
-// Pairs of a box of one block, the boxes from `first` on, with those of its partners; how many were
-// tested. The rows that are near a partner are listed first: the length of the list is known before
-// it is gone through, so that no branch has to be guessed.
-TOUCHSTONE_TARGET inline std::int64_t pair_blocks(const Search& s, std::size_t first,
-                                                  std::span<const std::uint32_t> partners,
-                                                  PyramidScratch& scratch, PairBuffer& out) {
-  constexpr std::size_t fan = BoxPyramid::fan;
-  std::uint32_t* rows = scratch.rows.data();
-  std::uint32_t* columns = scratch.columns.data();
-  std::size_t listed = 0;
-  std::size_t tests = 0;
-  for (const std::uint32_t partner : partners) {
-    const std::uint32_t column = partner * fan;
-    const unsigned lanes = overlaps16(load_row(s.column_blocks, partner), s.rows, first);
-    for (std::size_t k = 0; k < fan; ++k) columns[listed + k] = column;
-    const std::size_t more =
-        Lanes::compress_numbers(lanes, static_cast<std::uint32_t>(first), rows + listed);
-    listed += more;
-    tests += more * std::min(fan, s.column_count - column);
-  }
-  for (std::size_t i = 0; i < listed; ++i) {
-    const unsigned lanes = overlaps16(load_row(s.rows, rows[i]), s.columns, columns[i]);
-    Lanes::write(lanes, s.rows.ids[rows[i]], s.columns.ids + columns[i], out);
-  }
-  return static_cast<std::int64_t>(tests);
-}
-
-TOUCHSTONE_TARGET void search(const Search& s, PyramidScratch& scratch, PairBuffer& out) {
-  constexpr std::size_t fan = BoxPyramid::fan;
-  // Down to the blocks of `second` that are near the group.
-  std::uint32_t* parents = scratch.nodes.data();
-  std::uint32_t* blocks = scratch.children.data();
-  const Bounds bounds = bounds_of(scratch);
-  const Row group = load_row(s.group_bounds, s.group);
-  parents[0] = 0;
-  std::size_t count = 1;
-  for (std::size_t level = s.levels.size(); level-- > 0;) {
-    const std::uint32_t from = s.self ? s.first_block >> (4 * level) : 0;
-    scratch.work.node_visits += static_cast<std::int64_t>(count);
-    scratch.work.box_tests +=
-        static_cast<std::int64_t>(children_of(parents, count, s.levels[level].size(), from));
-    const Columns nodes = columns_of(s.levels[level]);
-    count = level > 0 ? descend<false>(group, nodes, parents, count, from, blocks, bounds)
-                      : descend<true>(group, nodes, parents, count, from, blocks, bounds);
-    std::swap(parents, blocks);
-  }
-  std::swap(parents, blocks);
-
-  const Columns near{{bounds.min[0], bounds.min[1], bounds.min[2]},
-                     {bounds.max[0], bounds.max[1], bounds.max[2]},
-                     blocks};
-  const std::uint32_t* partners = scratch.partners.data();
-  std::size_t start = 0;
-  for (std::uint32_t block = s.first_block; block < s.last_block; ++block) {
+  for (std::size_t n = 0; n < near_count && near.ids[n] < (group + 1) * fan; ++n) {
+    const std::size_t block = near.ids[n];
     const std::size_t first = block * fan;
-    const std::size_t size = std::min(fan, s.row_count - first);
-    if (s.self) {
-      pair_within(s.rows, first, size, out);
-      scratch.work.candidates += static_cast<std::int64_t>(size * (size - 1) / 2);
-      while (start < count && blocks[start] <= block) ++start;
-    }
-    const Row bound = load_row(s.row_blocks, block);
+    const std::size_t size = std::min(fan, pyramid.boxes().size() - first);
+    const Row bounds = load_row(blocks, block);
+    // Each pair of blocks once: with those behind.
     std::size_t found = 0;
-    for (std::size_t i = start; i < count; i += fan) {
-      unsigned lanes = overlaps16(bound, near, i);
-      if (count - i < fan) lanes &= (1u << (count - i)) - 1;
-      found += Lanes::compress(lanes, blocks + i, scratch.partners.data() + found);
+    for (std::size_t i = n + 1; i < near_count; i += fan) {
+      const unsigned lanes = overlaps_before(bounds, near, i, near_count);
+      found += Lanes::compress(lanes, near.ids + i, scratch.nodes.data() + found);
     }
-    scratch.work.node_visits += static_cast<std::int64_t>(found);
-    scratch.work.box_tests += static_cast<std::int64_t>(count - start + found * size);
-    for (std::size_t i = 0; i < found; i += PyramidScratch::partners_at_once) {
-      const std::size_t end = std::min(i + PyramidScratch::partners_at_once, found);
-      scratch.work.candidates += pair_blocks(s, first, {partners + i, end - i}, scratch, out);
+    append((1u << size) - 1, boxes, first, list);
+    bool with_own = true;
+    std::size_t listed = 0;
+    for (std::size_t i = 0; i < found; ++i) {
+      const std::size_t partner = scratch.nodes[i] * fan;
+      append(overlaps16(bounds, boxes, partner), boxes, partner, list);
+      if (list.size() >= most_partners) {
+        pair_rows(boxes, first, size, std::exchange(with_own, false), list, out);
+        listed += list.size();
+        list.clear();
+      }
+    }
+    pair_rows(boxes, first, size, with_own, list, out);
+    listed += list.size();
+    list.clear();
+    // Of its own boxes each met those behind it.
+    const std::size_t pairs = size * listed - size * (size + 1) / 2;
+    scratch.work.candidates += static_cast<std::int64_t>(pairs);
+    scratch.work.node_visits += static_cast<std::int64_t>(1 + found);
+    scratch.work.box_tests += static_cast<std::int64_t>(
+        pairs + near_count - n - 1 + children_of(scratch.nodes, found, pyramid.boxes().size(), 0));
+  }
+}
+
+// Bounds of the 16 boxes below each of these nodes.
+TOUCHSTONE_TARGET void bound(const BoxArrays& below, BoxArrays& above, std::size_t first,
+                             std::size_t last) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = first; i < last; ++i) {
+      above.min(axis)[i] = Lanes::least16(below.min(axis) + i * fan);
+      above.max(axis)[i] = Lanes::greatest16(below.max(axis) + i * fan);
     }
   }
+  for (std::size_t i = first; i < last; ++i) above.ids()[i] = static_cast<std::uint32_t>(i);
 }

@@ -10,29 +10,39 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t lanes = 16;
-// The compiler splits it where the machine's vectors are narrower.
-using Integers = std::uint32_t __attribute__((vector_size(4 * lanes)));
+constexpr std::size_t boxes_at_once = 16;
 
-// Numbers of cells: [axis][lane].
-using Cells = std::array<std::array<std::uint32_t, lanes>, 3>;
+// Doubled centres: [axis][box].
+using Centres = std::array<std::array<float, boxes_at_once>, 3>;
+
+// How cells are numbered; the axes that count come first.
+struct Numbering {
+  int axes, bits;
+  std::array<float, 3> low, scale;
+};
 
 namespace baseline {
 #define TOUCHSTONE_TARGET
+#define TOUCHSTONE_LANES 4
 #include "algorithms/kernels/hilbert.inl"
+#undef TOUCHSTONE_LANES
 #undef TOUCHSTONE_TARGET
 }  // namespace baseline
 
 #if defined(__x86_64__)
 namespace avx2 {
 #define TOUCHSTONE_TARGET __attribute__((target("avx2")))
+#define TOUCHSTONE_LANES 8
 #include "algorithms/kernels/hilbert.inl"
+#undef TOUCHSTONE_LANES
 #undef TOUCHSTONE_TARGET
 }  // namespace avx2
 
 namespace avx512 {
 #define TOUCHSTONE_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#define TOUCHSTONE_LANES 16
 #include "algorithms/kernels/hilbert.inl"
+#undef TOUCHSTONE_LANES
 #undef TOUCHSTONE_TARGET
 }  // namespace avx512
 #else
@@ -62,32 +72,34 @@ HilbertGrid::HilbertGrid(const std::array<float, 3>& low, const std::array<float
     const double cells = static_cast<double>(1u << (code_bits / axes_));
     if (extent[axis_[static_cast<std::size_t>(axes_) - 1]] * cells > 4 * longest) break;
   }
-  bits_ = code_bits / axes_;
+  // As many as a float tells apart.
+  bits_ = std::min(code_bits / axes_, 23);
   const auto cells = static_cast<double>(1u << bits_);
   for (float& scale : scale_) {
     scale = longest > 0 ? static_cast<float>(std::min(cells / longest, 1e38)) : 0;
   }
 }
 
-void HilbertGrid::codes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
-                        std::uint32_t* codes) const {
-  const auto last = static_cast<float>((1u << bits_) - 1);
+void HilbertGrid::codes(std::span<const Aabb> boxes, std::uint32_t* codes) const {
+  Numbering numbering{axes_, bits_, {}, {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    numbering.low[i] = low_[axis_[i]];
+    numbering.scale[i] = scale_[axis_[i]];
+  }
   const auto places = places_of_level();
-  Cells cells{};
-  for (std::size_t first = 0; first < ids.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, ids.size() - first);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const Aabb& box = boxes[ids[first + lane]];
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t axis = axis_[i];
-        const float cell = (box.min[axis] + box.max[axis] - low_[axis]) * scale_[axis];
-        // Sums that overflow are at the end of the curve; a NaN of theirs at its beginning.
-        cells[i][lane] = static_cast<std::uint32_t>(cell > 0 ? std::min(cell, last) : 0.0f);
-      }
+  const auto [x, y, z] = axis_;
+  Centres centres{};
+  for (std::size_t first = 0; first < boxes.size(); first += boxes_at_once) {
+    const std::size_t count = std::min(boxes_at_once, boxes.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Aabb& box = boxes[first + i];
+      centres[0][i] = box.min[x] + box.max[x];
+      centres[1][i] = box.min[y] + box.max[y];
+      centres[2][i] = box.min[z] + box.max[z];
     }
-    std::uint32_t found[lanes];
-    places(axes_, cells, bits_, found);
-    std::copy_n(found, count, codes + first);
+    std::uint32_t found[boxes_at_once];
+    places(numbering, centres, count == boxes_at_once ? codes + first : found);
+    if (count < boxes_at_once) std::copy_n(found, count, codes + first);
   }
 }
 

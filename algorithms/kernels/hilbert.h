@@ -20,9 +20,9 @@ class HilbertGrid {
   HilbertGrid(const std::array<float, 3>& low, const std::array<float, 3>& high, int code_bits);
 
   int code_bits() const { return axes_ * bits_; }
-  // codes[i] of boxes[ids[i]]; the same at every level of vector instructions.
-  void codes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
-             std::uint32_t* codes) const;
+  // Of the boxes' centres: codes[i] is that of boxes[i]. The same at every level of vector
+  // instructions. Empty boxes have some code.
+  void codes(std::span<const Aabb> boxes, std::uint32_t* codes) const;
 
  private:
   std::array<float, 3> low_, scale_;

@@ -1,8 +1,13 @@
 // The loops of hilbert.h. Included by hilbert.cpp once for each level of vector instructions, inside
-// that level's namespace, with TOUCHSTONE_TARGET set to its attribute. Integers only, so that the
-// codes are the same at every level.
+// that level's namespace, with TOUCHSTONE_TARGET set to its attribute and TOUCHSTONE_LANES to the width
+// of its vectors. No sums of products: the codes are the same at every level.
 //
 // Vectors are changed in place: none is passed by value, for how that is done depends on the level.
+
+constexpr std::size_t lanes = TOUCHSTONE_LANES;
+using Integers = std::uint32_t __attribute__((vector_size(4 * lanes)));
+using Signed = std::int32_t __attribute__((vector_size(4 * lanes)));
+using Floats = float __attribute__((vector_size(4 * lanes)));
 
 // Skilling's transpose of the cell numbers.
 template <int axes>
@@ -51,18 +56,40 @@ TOUCHSTONE_TARGET inline void place_on_curve(Integers (&x)[axes], int bits, Inte
   }
 }
 
-// Cells become places on the curve.
-TOUCHSTONE_TARGET void places(int axes, const Cells& cells, int bits, std::uint32_t* codes) {
-  Integers code;
-  const auto run = [&]<int count>() TOUCHSTONE_TARGET {
-    Integers x[count];
-    std::memcpy(x, cells.data(), sizeof x);
-    place_on_curve<count>(x, bits, code);
-  };
-  switch (axes) {
-    case 1: run.template operator()<1>(); break;
-    case 2: run.template operator()<2>(); break;
-    default: run.template operator()<3>(); break;
+// The numbers of the cells that the centres are in.
+TOUCHSTONE_TARGET inline void cell(const Numbering& numbering, std::size_t axis,
+                                   const float* centres, Integers& x) {
+  const auto last = static_cast<float>((1u << numbering.bits) - 1);
+  Floats place;
+  std::memcpy(&place, centres, sizeof place);
+  place = (place - numbering.low[axis]) * numbering.scale[axis];
+  // Sums that overflow are at the end of the curve, or at its beginning like a NaN of theirs.
+  place = place > 0.0f ? place : Floats{};
+  place = place < last ? place : Floats{} + last;
+  x = reinterpret_cast<Integers>(__builtin_convertvector(place, Signed));
+}
+
+template <int axes>
+TOUCHSTONE_TARGET inline void places_on(const Numbering& numbering, const Centres& centres,
+                                        std::uint32_t* codes) {
+  for (std::size_t first = 0; first < boxes_at_once; first += lanes) {
+    Integers x[axes];
+    Integers code;
+    for (int i = 0; i < axes; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      cell(numbering, axis, centres[axis].data() + first, x[i]);
+    }
+    place_on_curve<axes>(x, numbering.bits, code);
+    std::memcpy(codes + first, &code, sizeof code);
   }
-  std::memcpy(codes, &code, sizeof code);
+}
+
+// Places on the curve of 16 centres.
+TOUCHSTONE_TARGET void places(const Numbering& numbering, const Centres& centres,
+                              std::uint32_t* codes) {
+  switch (numbering.axes) {
+    case 1: return places_on<1>(numbering, centres, codes);
+    case 2: return places_on<2>(numbering, centres, codes);
+    default: return places_on<3>(numbering, centres, codes);
+  }
 }
