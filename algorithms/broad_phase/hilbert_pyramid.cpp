@@ -45,14 +45,14 @@ class HilbertPyramid final : public BroadPhase {
   Status find_pairs(PairSink& sink) override {
     const std::size_t groups = order_.empty() ? 0 : pyramid_.groups();
     sink.start(block_count(groups, groups_a_task));
-    const auto task = [&](std::size_t task, int worker) {
+    const auto search = [&](std::size_t task, int worker) {
       PyramidScratch& scratch = scratch_[static_cast<std::size_t>(worker)];
       const std::size_t last = std::min((task + 1) * groups_a_task, groups);
       for (std::size_t group = task * groups_a_task; group < last; ++group) {
         pair_group(pyramid_, group, scratch, sink.chunk(task));
       }
     };
-    executor_.run(block_count(groups, groups_a_task), std::cref(task));
+    executor_.run(block_count(groups, groups_a_task), std::cref(search));
     return Status::ok;
   }
 

@@ -119,4 +119,12 @@ void pair_group(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& sc
   }
 }
 
+std::size_t list_overlaps(const BoxPyramid& pyramid, const Aabb& box, PyramidScratch& scratch) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::list(pyramid, box, scratch);
+    case Isa::avx2: return avx2::list(pyramid, box, scratch);
+    default: return baseline::list(pyramid, box, scratch);
+  }
+}
+
 }  // namespace touchstone

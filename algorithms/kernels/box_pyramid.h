@@ -87,4 +87,7 @@ struct PyramidScratch {
 void pair_group(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& scratch,
                 PairBuffer& out);
 
+// The ids of the boxes that overlap this one, into scratch.children; how many.
+std::size_t list_overlaps(const BoxPyramid& pyramid, const Aabb& box, PyramidScratch& scratch);
+
 }  // namespace touchstone

@@ -163,3 +163,25 @@ TOUCHSTONE_TARGET void bound(const BoxArrays& below, BoxArrays& above, std::size
   }
   for (std::size_t i = first; i < last; ++i) above.ids()[i] = static_cast<std::uint32_t>(i);
 }
+
+TOUCHSTONE_TARGET std::size_t list(const BoxPyramid& pyramid, const Aabb& box,
+                                   PyramidScratch& scratch) {
+  Row row;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    row.min[axis] = Lanes::broadcast(box.min[axis]);
+    row.max[axis] = Lanes::broadcast(box.max[axis]);
+  }
+  const Columns boxes = columns_of(pyramid.boxes());
+  const std::size_t blocks = descend(row, pyramid, 1, 0, scratch);
+  scratch.children.resize(std::max(scratch.children.size(), (blocks + 1) * fan));
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const std::size_t first = scratch.nodes[i] * fan;
+    found += Lanes::compress(overlaps16(row, boxes, first), boxes.ids + first,
+                             scratch.children.data() + found);
+  }
+  scratch.work.node_visits += static_cast<std::int64_t>(blocks);
+  scratch.work.box_tests +=
+      static_cast<std::int64_t>(children_of(scratch.nodes, blocks, pyramid.boxes().size(), 0));
+  return found;
+}

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t block_size = 8192;
 constexpr std::size_t boxes_at_once = 1024;
+// Cells of the curve a body, as a power of two: more would make the sort longer, fewer the order worse.
+constexpr int cells_a_body_log2 = 1;
 // A class of fewer goes into the next larger one.
 constexpr std::size_t least_members = 64;
 // More boxes than these in one cell of the curve get a curve of their own.
@@ -97,7 +99,7 @@ void CurveOrder::make(Executor& executor, std::span<const Aabb> boxes) {
   id_bits_ = bits_of(boxes.size());
   if (used_ == 0) return;
   // Cells enough to tell bodies apart; more would only make the sort longer.
-  const int wanted = (bits_of(bodies) + TUNE_BITS + 2) / 3 * 3;
+  const int wanted = (bits_of(bodies) + cells_a_body_log2 + 2) / 3 * 3;
   // Empty boxes come last, and are cut off.
   const int class_bits = bits_of(bodies < boxes.size() ? used_ : used_ - 1);
   const HilbertGrid grid(range.low, range.high, std::min(wanted, 30));
@@ -144,7 +146,7 @@ void CurveOrder::refine(std::span<const Aabb> boxes, std::size_t first, std::siz
   for (std::size_t i = first; i < last; ++i) region.add(boxes[id(i)]);
   if (region.low == region.high) return;
   const HilbertGrid grid(region.low, region.high,
-                         std::min((bits_of(last - first) + TUNE_BITS + 2) / 3 * 3, 30));
+                         std::min((bits_of(last - first) + cells_a_body_log2 + 2) / 3 * 3, 30));
   std::array<Aabb, 64> some;
   std::array<std::uint32_t, 64> codes;
   for (std::size_t i = first; i < last; i += some.size()) {
