@@ -1,13 +1,14 @@
-// Candidate list: pairs whose slightly grown boxes overlap are listed once, and only they are tested
-// until something has moved too far.
-// Paper:   Verlet, "Computer 'Experiments' on Classical Fluids. I", Physical Review 159, 1967
+// Candidate list: pairs whose slightly grown boxes overlap are listed once, and only they are
+// tested until something has moved too far. Paper:   Verlet, "Computer 'Experiments' on Classical
+// Fluids. I", Physical Review 159, 1967
 //          (neighbour lists); the list is made by the Hilbert pyramid (hilbert_pyramid.cpp).
 // Departs: each box grows by what its own motion asks for. How many frames a list is to last is
 //          chosen so that making and testing it cost least together, by counts: the same at every
 //          width. The few boxes that leave their grown ones, or come in, are searched one by one
 //          until there are too many. Where motion is too fast for a list, the pyramid searches.
 // Fails:   motion of a body's size a frame: then it is the Hilbert pyramid, and a little more.
-// Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 75 bytes
+// Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 75
+// bytes
 //          a body and 8 a candidate.
 #include <algorithm>
 #include <array>
@@ -78,13 +79,13 @@ class CandidateList final : public BroadPhase {
   PairSink candidates_;
   ListDuration duration_;
 
-  std::vector<std::uint8_t> strayed_;   // by body
-  std::vector<std::uint32_t> strays_;   // boxes that have left their grown ones, or come in
-  std::size_t searched_ = 0;            // strays, summed over the frames of this list
+  std::vector<std::uint8_t> strayed_;  // by body
+  std::vector<std::uint32_t> strays_;  // boxes that have left their grown ones, or come in
+  std::size_t searched_ = 0;           // strays, summed over the frames of this list
   BoxArrays stray_boxes_;
-  std::vector<std::size_t> counts_;     // of blocks
-  std::vector<Motion> motions_;         // of blocks
-  std::size_t pairs_ = 0;               // found last
+  std::vector<std::size_t> counts_;  // of blocks
+  std::vector<Motion> motions_;      // of blocks
+  std::size_t pairs_ = 0;            // found last
 };
 
 // Whether `outer` holds `inner`. An empty box is held by any.
@@ -111,8 +112,8 @@ void CandidateList::keep_reference() {
 float displacement(const Aabb& then, const Aabb& now) {
   float most = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    most = std::max(most, std::abs((now.min[axis] - then.min[axis]) +
-                                   (now.max[axis] - then.max[axis])));
+    most = std::max(most,
+                    std::abs((now.min[axis] - then.min[axis]) + (now.max[axis] - then.max[axis])));
   }
   return most;
 }
@@ -152,23 +153,23 @@ void CandidateList::make_list(double frames) {
   const std::size_t known = std::min(boxes_.size(), reference_.size());
   const float step_of = 0.5f / static_cast<float>(std::max(age_, 1));
   reference_.resize(boxes_.size(), Aabb::empty());
-  for_each_block(
-      executor_, boxes_.size(), block_size, [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-          const Aabb& box = boxes_[i];
-          if (box.is_empty()) {
-            reference_[i] = Aabb::empty();
-            continue;
-          }
-          const bool there = i < known && !reference_[i].is_empty();
-          const float step = there ? displacement(reference_[i], box) * step_of : least;
-          const float margin = growth * std::max(step, least);
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            reference_[i].min[axis] = box.min[axis] - margin;
-            reference_[i].max[axis] = box.max[axis] + margin;
-          }
-        }
-      });
+  for_each_block(executor_, boxes_.size(), block_size,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     const Aabb& box = boxes_[i];
+                     if (box.is_empty()) {
+                       reference_[i] = Aabb::empty();
+                       continue;
+                     }
+                     const bool there = i < known && !reference_[i].is_empty();
+                     const float step = there ? displacement(reference_[i], box) * step_of : least;
+                     const float margin = growth * std::max(step, least);
+                     for (std::size_t axis = 0; axis < 3; ++axis) {
+                       reference_[i].min[axis] = box.min[axis] - margin;
+                       reference_[i].max[axis] = box.max[axis] + margin;
+                     }
+                   }
+                 });
   age_ = 0;
   order_.make(executor_, reference_);
   fit(reference_);
@@ -290,9 +291,12 @@ Status CandidateList::find_pairs(PairSink& sink) {
       const std::size_t last = std::min(first + strays_a_task, strays_.size());
       search_strays(first, last, scratch_[static_cast<std::size_t>(worker)], out);
     } else if (strays_.empty()) {
-      write_overlapping(boxes_, candidates[task].pairs(), [](IndexPair) { return true; }, out);
+      write_overlapping(
+          boxes_, candidates[task].pairs(), [](IndexPair) { return true; }, out);
     } else {
-      const auto stayed = [&](IndexPair pair) { return (strayed_[pair.a] | strayed_[pair.b]) == 0; };
+      const auto stayed = [&](IndexPair pair) {
+        return (strayed_[pair.a] | strayed_[pair.b]) == 0;
+      };
       write_overlapping(boxes_, candidates[task].pairs(), stayed, out);
     }
   };
@@ -308,7 +312,8 @@ BroadPhaseWork CandidateList::work() const {
   if (listed_) {
     for (const PairBuffer& chunk : candidates_.chunks()) listed += chunk.size();
     search_strays(0, strays_.size(), scratch, pairs);
-    const std::size_t among = strays_.size() * (strays_.size() - std::min<std::size_t>(1, strays_.size())) / 2;
+    const std::size_t among =
+        strays_.size() * (strays_.size() - std::min<std::size_t>(1, strays_.size())) / 2;
     listed += among;
     scratch.work.box_tests += scratch.work.candidates + static_cast<std::int64_t>(listed);
     scratch.work.candidates += static_cast<std::int64_t>(listed);
@@ -327,10 +332,11 @@ BroadPhaseWork CandidateList::work() const {
 }  // namespace touchstone
 
 TOUCHSTONE_BROAD_PHASE {
-  return {{.info = {.name = "candidate-list",
-                    .citation = "Verlet, \"Computer 'Experiments' on Classical Fluids. I\", Physical "
-                                "Review 159, 1967; over a Hilbert pyramid"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::CandidateList>(executor);
-           }}};
+  return {
+      {.info = {.name = "candidate-list",
+                .citation = "Verlet, \"Computer 'Experiments' on Classical Fluids. I\", Physical "
+                            "Review 159, 1967; over a Hilbert pyramid"},
+       .make = [](touchstone::Executor& executor) {
+         return std::make_unique<touchstone::CandidateList>(executor);
+       }}};
 }

@@ -2,7 +2,8 @@
 // tree of bounds without pointers; groups of 256 boxes look for their partners together.
 // Paper:   Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (Hilbert order, full nodes); Wald,
 //          Benthin, Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for wide vectors).
-// Departs: size classes, each four times the one below, one behind the other, so that large boxes do
+// Departs: size classes, each four times the one below, one behind the other, so that large boxes
+// do
 //          not blow up the bounds of small ones. Blocks are paired with those behind them only, so
 //          each pair comes once. What is to be tested next is listed first and then gone through,
 //          so that hardly a branch has to be guessed. While bodies move a little the order is kept,

@@ -40,8 +40,8 @@ inline Columns columns_of(const BoxArrays& boxes) {
           boxes.ids()};
 }
 
-// Writes the ids of one box and of those among ids[0..] whose bit is set, where there is room for 16
-// pairs; where they end.
+// Writes the ids of one box and of those among ids[0..] whose bit is set, where there is room for
+// 16 pairs; where they end.
 inline IndexPair* put_pairs(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
                             IndexPair* end) {
   for (; lanes != 0; lanes &= lanes - 1) {

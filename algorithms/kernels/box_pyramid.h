@@ -81,9 +81,9 @@ struct PyramidScratch {
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 
-// Writes the ids of each pair of boxes that overlap, one of them in this group, the other in the same
-// block or in one behind it: each pair once over all groups. A pair of boxes of different sizes costs
-// least when the smaller one comes first.
+// Writes the ids of each pair of boxes that overlap, one of them in this group, the other in the
+// same block or in one behind it: each pair once over all groups. A pair of boxes of different
+// sizes costs least when the smaller one comes first.
 void pair_group(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& scratch,
                 PairBuffer& out);
 

@@ -29,8 +29,8 @@ TOUCHSTONE_TARGET inline void append(unsigned lanes, const Columns& boxes, std::
   list.advance(Lanes::compress(lanes, boxes.ids + j, list.ids() + end));
 }
 
-// The nodes of a level that overlap the row, by their numbers, into scratch.nodes: found from the top
-// down. Those before node `from` are left out. How many.
+// The nodes of a level that overlap the row, by their numbers, into scratch.nodes: found from the
+// top down. Those before node `from` are left out. How many.
 TOUCHSTONE_TARGET inline std::size_t descend(const Row& row, const BoxPyramid& pyramid,
                                              std::size_t target, std::size_t from,
                                              PyramidScratch& scratch) {
@@ -42,8 +42,8 @@ TOUCHSTONE_TARGET inline std::size_t descend(const Row& row, const BoxPyramid& p
     const Columns nodes = columns_of(levels[level]);
     const std::size_t before = from >> (4 * (level - target));
     scratch.work.node_visits += static_cast<std::int64_t>(count);
-    scratch.work.box_tests += static_cast<std::int64_t>(
-        children_of(scratch.nodes, count, levels[level].size(), before));
+    scratch.work.box_tests +=
+        static_cast<std::int64_t>(children_of(scratch.nodes, count, levels[level].size(), before));
     scratch.children.resize(std::max(scratch.children.size(), (count + 1) * fan));
     std::size_t found = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -76,8 +76,9 @@ TOUCHSTONE_TARGET inline void list_blocks(const BoxPyramid& pyramid, std::size_t
   }
 }
 
-// Pairs of a block's boxes with those listed. Where the list begins with the block's own boxes, each
-// is paired with the ones behind it. A function of its own, so that its vectors stay in registers.
+// Pairs of a block's boxes with those listed. Where the list begins with the block's own boxes,
+// each is paired with the ones behind it. A function of its own, so that its vectors stay in
+// registers.
 TOUCHSTONE_TARGET [[gnu::noinline]] void pair_rows(const Columns& boxes, std::size_t first,
                                                    std::size_t size, bool with_own,
                                                    const BoxList& list, PairBuffer& out) {
@@ -104,8 +105,8 @@ TOUCHSTONE_TARGET [[gnu::noinline]] void pair_rows(const Columns& boxes, std::si
   out.advance(static_cast<std::size_t>(end - out.end()));
 }
 
-TOUCHSTONE_TARGET void search(const BoxPyramid& pyramid, std::size_t group,
-                              PyramidScratch& scratch, PairBuffer& out) {
+TOUCHSTONE_TARGET void search(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& scratch,
+                              PairBuffer& out) {
   constexpr std::size_t most_partners = 512;  // that are paired at once, so that they stay in cache
   const Columns boxes = columns_of(pyramid.boxes());
   const Columns blocks = columns_of(pyramid.levels()[1]);

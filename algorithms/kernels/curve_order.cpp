@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t block_size = 8192;
 constexpr std::size_t boxes_at_once = 1024;
-// Cells of the curve a body, as a power of two: more would make the sort longer, fewer the order worse.
+// Cells of the curve a body, as a power of two: more would make the sort longer, fewer the order
+// worse.
 constexpr int cells_a_body_log2 = 1;
 // A class of fewer goes into the next larger one.
 constexpr std::size_t least_members = 64;
@@ -103,17 +104,16 @@ void CurveOrder::make(Executor& executor, std::span<const Aabb> boxes) {
   // Empty boxes come last, and are cut off.
   const int class_bits = bits_of(bodies < boxes.size() ? used_ : used_ - 1);
   const HilbertGrid grid(range.low, range.high, std::min(wanted, 30));
-  for_each_block(executor, boxes.size(), boxes_at_once,
-                 [&](std::size_t, std::size_t first, std::size_t last) {
-                   std::array<std::uint32_t, boxes_at_once> codes;
-                   grid.codes(boxes.subspan(first, last - first), codes.data());
-                   for (std::size_t i = first; i < last; ++i) {
-                     const std::uint64_t own =
-                         boxes[i].is_empty() ? used_ : class_of[magnitude(boxes[i])];
-                     const std::uint64_t key = own << grid.code_bits() | codes[i - first];
-                     order_[i] = key << id_bits_ | i;
-                   }
-                 });
+  for_each_block(
+      executor, boxes.size(), boxes_at_once, [&](std::size_t, std::size_t first, std::size_t last) {
+        std::array<std::uint32_t, boxes_at_once> codes;
+        grid.codes(boxes.subspan(first, last - first), codes.data());
+        for (std::size_t i = first; i < last; ++i) {
+          const std::uint64_t own = boxes[i].is_empty() ? used_ : class_of[magnitude(boxes[i])];
+          const std::uint64_t key = own << grid.code_bits() | codes[i - first];
+          order_[i] = key << id_bits_ | i;
+        }
+      });
   radix_sort_(executor, order_, grid.code_bits() + class_bits,
               [bits = id_bits_](std::uint64_t item) { return item >> bits; });
   order_.resize(bodies);
@@ -131,8 +131,8 @@ void CurveOrder::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
     };
     std::size_t first = i - stride;
     while (first > from && code(first - 1) == code(i)) --first;
-    const auto end = std::find_if_not(order_.begin() + static_cast<std::ptrdiff_t>(i),
-                                      order_.end(), same);
+    const auto end =
+        std::find_if_not(order_.begin() + static_cast<std::ptrdiff_t>(i), order_.end(), same);
     from = static_cast<std::size_t>(end - order_.begin());
     if (from - first > most_in_cell) refine(boxes, first, from, 0);
   }

@@ -17,8 +17,8 @@ namespace touchstone {
 
 // Size classes, each up to four times the size of the one below, the smallest first; within a class
 // the order of a Hilbert curve through the boxes' centres. Each class begins at a multiple of 256
-// places. Where many boxes are in one cell of the curve, it is drawn anew through that cell, so that
-// a few boxes far away, or dense clusters, do not spoil it.
+// places. Where many boxes are in one cell of the curve, it is drawn anew through that cell, so
+// that a few boxes far away, or dense clusters, do not spoil it.
 class CurveOrder {
  public:
   // Empty boxes are left out.
@@ -49,7 +49,7 @@ class CurveOrder {
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
   std::vector<Range> ranges_;
-  std::size_t used_ = 0;                               // classes
+  std::size_t used_ = 0;                                // classes
   std::array<std::size_t, most_classes + 1> begins_{};  // of the classes, in the order
 };
 

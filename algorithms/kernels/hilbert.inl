@@ -1,6 +1,6 @@
-// The loops of hilbert.h. Included by hilbert.cpp once for each level of vector instructions, inside
-// that level's namespace, with TOUCHSTONE_TARGET set to its attribute and TOUCHSTONE_LANES to the width
-// of its vectors. No sums of products: the codes are the same at every level.
+// The loops of hilbert.h. Included by hilbert.cpp once for each level of vector instructions,
+// inside that level's namespace, with TOUCHSTONE_TARGET set to its attribute and TOUCHSTONE_LANES
+// to the width of its vectors. No sums of products: the codes are the same at every level.
 //
 // Vectors are changed in place: none is passed by value, for how that is done depends on the level.
 

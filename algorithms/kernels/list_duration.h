@@ -1,8 +1,8 @@
 // How many frames a list of candidate pairs is to last.
 //
 // A list over boxes grown for f frames costs a search every f frames and its tests every frame, and
-// grows like the cube of what the boxes grow by. All by counts, so that the choice does not depend on
-// the machine's mood.
+// grows like the cube of what the boxes grow by. All by counts, so that the choice does not depend
+// on the machine's mood.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@ class ListDuration {
   void ended(int age, std::size_t bodies, std::size_t pairs);
 
  private:
-  double growth_ = 2;       // of a box's side a frame, in shares of the motion
-  double lasted_ = 1;       // frames that a list lasted, a frame that it was made for
-  double share_ = 0;        // of the last list
+  double growth_ = 2;  // of a box's side a frame, in shares of the motion
+  double lasted_ = 1;  // frames that a list lasted, a frame that it was made for
+  double share_ = 0;   // of the last list
   double frames_ = 0;
   double candidates_ = 0;  // a body
 };
