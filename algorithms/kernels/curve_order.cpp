@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <functional>
 #include <limits>
 
 #include "algorithms/kernels/blocks.h"
@@ -17,8 +19,6 @@ constexpr std::size_t boxes_at_once = 1024;
 // Cells of the curve a body, as a power of two: more would make the sort longer, fewer the order
 // worse.
 constexpr int cells_a_body_log2 = 1;
-// A class of fewer goes into the next larger one.
-constexpr std::size_t least_members = 64;
 // More boxes than these in one cell of the curve get a curve of their own.
 constexpr std::size_t most_in_cell = 128;
 
@@ -37,91 +37,127 @@ struct Region {
   }
 };
 
-// By the exponent of the longest side.
+// Of the longest side: two to an octave.
+constexpr std::size_t magnitudes = 512;
+std::size_t magnitude(float side) { return std::bit_cast<std::uint32_t>(side) >> 22 & 511; }
 std::size_t magnitude(const Aabb& box) {
-  const float side =
-      std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
-  return std::bit_cast<std::uint32_t>(side) >> 24 & 127;
+  return magnitude(
+      std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]}));
+}
+
+// What some of the boxes say of all.
+struct Sample {
+  Region region;
+  std::array<std::uint32_t, magnitudes> members{};
+  std::size_t stride;
+
+  Sample(std::span<const Aabb> boxes, std::size_t every) : stride(every) {
+    for (std::size_t i = 0; i < boxes.size(); i += stride) {
+      if (boxes[i].is_empty()) continue;
+      region.add(boxes[i]);
+      ++members[magnitude(boxes[i])];
+    }
+  }
+  bool empty() const { return region.low[0] > region.high[0]; }
+};
+
+Sample take_sample(std::span<const Aabb> boxes) {
+  Sample sample(boxes, std::max<std::size_t>(1, boxes.size() / 1024));
+  return sample.empty() && sample.stride > 1 ? Sample(boxes, 1) : sample;
+}
+
+// How far apart this many bodies are that fill a region, be it flat or a line (metres).
+double spacing(const Region& region, double bodies) {
+  std::array<double, 3> extent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    extent[axis] = (double{region.high[axis]} - region.low[axis]) / 2;
+  }
+  std::ranges::sort(extent, std::greater());
+  const double space = std::cbrt(extent[0] * extent[1] * extent[2] / bodies);
+  if (extent[2] >= space) return space;
+  const double plane = std::sqrt(extent[0] * extent[1] / bodies);
+  return extent[1] >= plane ? plane : extent[0] / bodies;
+}
+
+struct Classes {
+  std::array<std::uint8_t, magnitudes> of{};  // of each magnitude
+  std::size_t count = 0;
+};
+
+// From the smallest up. Boxes that are not much larger than what a block of 16 takes up can be in one
+// with the smallest; the larger ones are fewer, so their blocks are larger, and the same holds again.
+Classes make_classes(const Sample& sample) {
+  constexpr double most_spacings = 5;
+  double bodies = 0;
+  for (const std::uint32_t members : sample.members) bodies += members;
+  Classes classes;
+  std::size_t from = 0;
+  while (bodies > 0 && classes.count + 2 < CurveOrder::most_classes) {
+    const double side =
+        most_spacings * spacing(sample.region, bodies * static_cast<double>(sample.stride));
+    const std::size_t end = std::clamp(magnitude(static_cast<float>(side)) + 1, from, magnitudes);
+    double inside = 0;
+    for (std::size_t i = from; i < end; ++i) inside += sample.members[i];
+    if (inside == 0) break;  // all overlap many others: size does not tell them apart
+    std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
+              classes.of.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::uint8_t>(classes.count));
+    ++classes.count;
+    bodies -= inside;
+    from = end;
+  }
+  std::size_t seen = magnitudes;
+  while (seen > from && sample.members[seen - 1] == 0) --seen;
+  // The rest, and what is larger than any of the sample.
+  for (const std::size_t end : {seen, magnitudes}) {
+    if (end == from) continue;
+    std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
+              classes.of.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::uint8_t>(classes.count));
+    ++classes.count;
+    from = end;
+  }
+  return classes;
 }
 
 }  // namespace
 
-CurveOrder::Range CurveOrder::measure(Executor& executor, std::span<const Aabb> boxes) {
-  ranges_.resize(block_count(boxes.size(), block_size));
-  for_each_block(executor, boxes.size(), block_size,
-                 [&](std::size_t block, std::size_t first, std::size_t last) {
-                   Region region;
-                   std::array<std::uint32_t, magnitudes> members{};
-                   for (const Aabb& box : boxes.subspan(first, last - first)) {
-                     if (box.is_empty()) continue;
-                     region.add(box);
-                     ++members[magnitude(box)];
-                   }
-                   ranges_[block] = {region.low, region.high, members};
-                 });
-  const Region nothing;
-  Range all{nothing.low, nothing.high, {}};
-  for (const Range& range : ranges_) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      all.low[axis] = std::min(all.low[axis], range.low[axis]);
-      all.high[axis] = std::max(all.high[axis], range.high[axis]);
-    }
-    for (std::size_t i = 0; i < magnitudes; ++i) all.members[i] += range.members[i];
-  }
-  return all;
-}
-
-// The class of each magnitude, from the smallest up. A class is closed when it has members enough;
-// the largest few have one of their own, however few they are.
-std::array<std::uint8_t, CurveOrder::magnitudes> CurveOrder::make_classes(const Range& range) {
-  std::array<std::uint8_t, magnitudes> class_of{};
-  used_ = 0;
-  begins_ = {};
-  std::size_t members = 0;
-  for (std::size_t i = 0; i < magnitudes; ++i) {
-    class_of[i] = static_cast<std::uint8_t>(used_);
-    members += range.members[i];
-    begins_[used_ + 1] = begins_[used_] + members;
-    if (members >= least_members && used_ + 1 < most_classes) {
-      ++used_;
-      members = 0;
-      begins_[used_ + 1] = begins_[used_];
-    }
-  }
-  used_ += members > 0 ? 1 : 0;
-  return class_of;
-}
-
 void CurveOrder::make(Executor& executor, std::span<const Aabb> boxes) {
-  const Range range = measure(executor, boxes);
-  const std::array<std::uint8_t, magnitudes> class_of = make_classes(range);
-  const std::size_t bodies = begins_[used_];
+  const Sample sample = take_sample(boxes);
+  used_ = 0;
+  order_.clear();
+  if (sample.empty()) return;
+  const Classes classes = make_classes(sample);
   order_.resize(boxes.size());
   id_bits_ = bits_of(boxes.size());
-  if (used_ == 0) return;
-  // Cells enough to tell bodies apart; more would only make the sort longer.
-  const int wanted = (bits_of(bodies) + cells_a_body_log2 + 2) / 3 * 3;
-  // Empty boxes come last, and are cut off.
-  const int class_bits = bits_of(bodies < boxes.size() ? used_ : used_ - 1);
-  const HilbertGrid grid(range.low, range.high, std::min(wanted, 30));
+  const int wanted = (bits_of(boxes.size()) + cells_a_body_log2 + 2) / 3 * 3;
+  const HilbertGrid grid(sample.region.low, sample.region.high, std::min(wanted, 30));
   for_each_block(
       executor, boxes.size(), boxes_at_once, [&](std::size_t, std::size_t first, std::size_t last) {
         std::array<std::uint32_t, boxes_at_once> codes;
         grid.codes(boxes.subspan(first, last - first), codes.data());
         for (std::size_t i = first; i < last; ++i) {
-          const std::uint64_t own = boxes[i].is_empty() ? used_ : class_of[magnitude(boxes[i])];
+          // Empty boxes come last.
+          const std::uint64_t own =
+              boxes[i].is_empty() ? classes.count : classes.of[magnitude(boxes[i])];
           const std::uint64_t key = own << grid.code_bits() | codes[i - first];
           order_[i] = key << id_bits_ | i;
         }
       });
-  radix_sort_(executor, order_, grid.code_bits() + class_bits,
+  radix_sort_(executor, order_, grid.code_bits() + bits_of(classes.count),
               [bits = id_bits_](std::uint64_t item) { return item >> bits; });
-  order_.resize(bodies);
-  refine_runs(executor, boxes);
+  for (std::size_t at = 1; at <= classes.count; ++at) {
+    const std::uint64_t least = std::uint64_t{at} << (grid.code_bits() + id_bits_);
+    const auto end = std::lower_bound(order_.begin(), order_.end(), least);
+    const auto begin = static_cast<std::size_t>(end - order_.begin());
+    if (begin > begins_[used_]) begins_[++used_] = begin;
+  }
+  order_.resize(begins_[used_]);
+  refine_runs(boxes);
 }
 
 // Finds the cells that hold too many.
-void CurveOrder::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
+void CurveOrder::refine_runs(std::span<const Aabb> boxes) {
   constexpr std::size_t stride = most_in_cell / 2;
   std::size_t from = 0;
   for (std::size_t i = stride; i < order_.size(); i += stride) {
@@ -136,7 +172,6 @@ void CurveOrder::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
     from = static_cast<std::size_t>(end - order_.begin());
     if (from - first > most_in_cell) refine(boxes, first, from, 0);
   }
-  static_cast<void>(executor);
 }
 
 // Draws a curve through boxes first <= i < last of the order.
@@ -184,7 +219,10 @@ void CurveOrder::gather(Executor& executor, std::span<const Aabb> boxes, BoxArra
     const std::size_t members = begins_[at + 1] - begin;
     for_each_block(executor, members, block_size,
                    [&](std::size_t, std::size_t first, std::size_t last) {
+                     // The boxes are anywhere in memory: they are asked for in good time.
+                     constexpr std::size_t ahead = 24;
                      for (std::size_t i = first; i < last; ++i) {
+                       if (i + ahead < last) __builtin_prefetch(&boxes[id(begin + i + ahead)]);
                        const std::uint32_t body = id(begin + i);
                        arrays.set(place + i, boxes[body], body);
                      }
@@ -194,7 +232,7 @@ void CurveOrder::gather(Executor& executor, std::span<const Aabb> boxes, BoxArra
 }
 
 std::size_t CurveOrder::held_bytes() const {
-  return static_cast<std::size_t>(sum_held_bytes(order_, radix_sort_, ranges_));
+  return static_cast<std::size_t>(sum_held_bytes(order_, radix_sort_));
 }
 
 }  // namespace touchstone

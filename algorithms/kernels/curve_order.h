@@ -15,12 +15,15 @@
 
 namespace touchstone {
 
-// Size classes, each up to four times the size of the one below, the smallest first; within a class
+// Classes of boxes by size, the smallest first: none is much larger than the space that 16 of its
+// class take up, so that their bounds stay small; within a class
 // the order of a Hilbert curve through the boxes' centres. Each class begins at a multiple of 256
 // places. Where many boxes are in one cell of the curve, it is drawn anew through that cell, so
 // that a few boxes far away, or dense clusters, do not spoil it.
 class CurveOrder {
  public:
+  static constexpr std::size_t most_classes = 16;
+
   // Empty boxes are left out.
   void make(Executor& executor, std::span<const Aabb> boxes);
   bool empty() const { return used_ == 0; }
@@ -31,15 +34,8 @@ class CurveOrder {
   std::size_t held_bytes() const;
 
  private:
-  // Powers of four that a float can have.
-  static constexpr std::size_t magnitudes = 128;
-  static constexpr std::size_t most_classes = 16;
-  struct Range;
-
-  Range measure(Executor& executor, std::span<const Aabb> boxes);
-  std::array<std::uint8_t, magnitudes> make_classes(const Range& range);
   void refine(std::span<const Aabb> boxes, std::size_t first, std::size_t last, int depth);
-  void refine_runs(Executor& executor, std::span<const Aabb> boxes);
+  void refine_runs(std::span<const Aabb> boxes);
   std::uint32_t id(std::size_t i) const {
     return static_cast<std::uint32_t>(order_[i] & ((std::uint64_t{1} << id_bits_) - 1));
   }
@@ -48,15 +44,8 @@ class CurveOrder {
   std::vector<std::uint64_t> order_;  // class and place on the curve above, id below
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
-  std::vector<Range> ranges_;
   std::size_t used_ = 0;                                // classes
   std::array<std::size_t, most_classes + 1> begins_{};  // of the classes, in the order
-};
-
-// Of a block of bodies: where their doubled centres lie, and how many have which magnitude.
-struct CurveOrder::Range {
-  std::array<float, 3> low, high;
-  std::array<std::uint32_t, magnitudes> members;
 };
 
 }  // namespace touchstone
