@@ -2,11 +2,10 @@
 // tree of bounds without pointers; groups of 256 boxes look for their partners together.
 // Paper:   Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (Hilbert order, full nodes); Wald,
 //          Benthin, Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for wide vectors).
-// Departs: size classes, each four times the one below, one behind the other, so that large boxes
-// do
-//          not blow up the bounds of small ones. Blocks are paired with those behind them only, so
-//          each pair comes once. What is to be tested next is listed first and then gone through,
-//          so that hardly a branch has to be guessed. While bodies move a little the order is kept,
+// Departs: boxes much larger than what a block takes up come in a class behind, so that they do not
+//          blow up the bounds of small ones. Blocks are paired with those behind them only, so each
+//          pair comes once. What is to be tested next is listed first and then gone through, so
+//          that hardly a branch has to be guessed. While bodies move a little the order is kept,
 //          and made anew when the bounds of the blocks have grown by a quarter.
 // Fails:   long thin boxes in all directions: their blocks overlap whatever their order is.
 // Cost:    O(n) time for order and tree, O(n + k) to be expected for the search; k = pairs that

@@ -84,9 +84,9 @@ TOUCHSTONE_TARGET [[gnu::noinline]] void pair_rows(const Columns& boxes, std::si
                                                    const BoxList& list, PairBuffer& out) {
   const Columns columns = columns_of(list);
   const Columns rows = boxes;
-  out.reserve(size * list.size() + fan);
-  IndexPair* end = out.end();
   for (std::size_t j = 0; j < list.size(); j += fan) {
+    out.reserve((fan + 1) * fan);
+    IndexPair* end = out.end();
     const unsigned there = list.size() - j < fan ? (1u << (list.size() - j)) - 1 : 0xffffu;
     const Sixteen sixteen = load_sixteen(columns, j);
     const Lanes::Ids ids = Lanes::load_ids(columns.ids + j);
@@ -101,8 +101,8 @@ TOUCHSTONE_TARGET [[gnu::noinline]] void pair_rows(const Columns& boxes, std::si
         end = Lanes::put(lanes, rows.ids[first + r], ids, end);
       }
     }
+    out.advance(static_cast<std::size_t>(end - out.end()));
   }
-  out.advance(static_cast<std::size_t>(end - out.end()));
 }
 
 TOUCHSTONE_TARGET void search(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& scratch,

@@ -20,7 +20,7 @@ constexpr std::size_t boxes_at_once = 1024;
 // worse.
 constexpr int cells_a_body_log2 = 1;
 // More boxes than these in one cell of the curve get a curve of their own.
-constexpr std::size_t most_in_cell = 128;
+constexpr std::size_t most_in_cell = 32;
 
 int bits_of(std::size_t x) { return static_cast<int>(std::bit_width(x)); }
 
@@ -84,8 +84,9 @@ struct Classes {
   std::size_t count = 0;
 };
 
-// From the smallest up. Boxes that are not much larger than what a block of 16 takes up can be in one
-// with the smallest; the larger ones are fewer, so their blocks are larger, and the same holds again.
+// From the smallest up. Boxes that are not much larger than what a block of 16 takes up can be in
+// one with the smallest; the larger ones are fewer, so their blocks are larger, and the same holds
+// again.
 Classes make_classes(const Sample& sample) {
   constexpr double most_spacings = 5;
   double bodies = 0;
@@ -132,18 +133,18 @@ void CurveOrder::make(Executor& executor, std::span<const Aabb> boxes) {
   id_bits_ = bits_of(boxes.size());
   const int wanted = (bits_of(boxes.size()) + cells_a_body_log2 + 2) / 3 * 3;
   const HilbertGrid grid(sample.region.low, sample.region.high, std::min(wanted, 30));
-  for_each_block(
-      executor, boxes.size(), boxes_at_once, [&](std::size_t, std::size_t first, std::size_t last) {
-        std::array<std::uint32_t, boxes_at_once> codes;
-        grid.codes(boxes.subspan(first, last - first), codes.data());
-        for (std::size_t i = first; i < last; ++i) {
-          // Empty boxes come last.
-          const std::uint64_t own =
-              boxes[i].is_empty() ? classes.count : classes.of[magnitude(boxes[i])];
-          const std::uint64_t key = own << grid.code_bits() | codes[i - first];
-          order_[i] = key << id_bits_ | i;
-        }
-      });
+  for_each_block(executor, boxes.size(), boxes_at_once,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   std::array<std::uint32_t, boxes_at_once> codes;
+                   grid.codes(boxes.subspan(first, last - first), codes.data());
+                   for (std::size_t i = first; i < last; ++i) {
+                     // Empty boxes come last.
+                     const std::uint64_t own =
+                         boxes[i].is_empty() ? classes.count : classes.of[magnitude(boxes[i])];
+                     const std::uint64_t key = own << grid.code_bits() | codes[i - first];
+                     order_[i] = key << id_bits_ | i;
+                   }
+                 });
   radix_sort_(executor, order_, grid.code_bits() + bits_of(classes.count),
               [bits = id_bits_](std::uint64_t item) { return item >> bits; });
   for (std::size_t at = 1; at <= classes.count; ++at) {

@@ -30,7 +30,7 @@ double ListDuration::choose(const Motion& motion, std::size_t bodies, std::size_
     const double grown = 1 + growth_ * motion.share * frames;
     const double candidates = found * grown * grown * grown;
     // Memory is to stay in proportion to the output.
-    if (candidates > 4 * found + 4) break;
+    if (candidates > 2.5 * found + 2) break;
     const double lasts = std::max(1.0, frames * lasted_);
     const double cost = (search + search_pair * candidates) / lasts + test * candidates + look;
     if (cost < least) {
