@@ -19,6 +19,7 @@
 #include <bit>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/kernels/box_lanes.h"
 #include "algorithms/kernels/box_list.h"
 #include "algorithms/kernels/box_scan.h"
 #include "algorithms/kernels/held_bytes.h"
@@ -86,17 +87,20 @@ class IncrementalSweepAndPrune final : public BroadPhase {
             .candidates = best.candidates,
             .bytes = sum_held_bytes(ids_, before_, points_[0], points_[1], points_[2], radix_sort_,
                                     arrays_, set_, mark_, jumpers_, walkers_, fresh_[0], fresh_[1],
-                                    fresh_[2], changes_[0], changes_[1], changes_[2])};
+                                    fresh_[2], changes_[0], changes_[1], changes_[2], shadows_[0],
+                                    shadows_[1], shadows_[2], places_[0], places_[1], places_[2])};
   }
 
  private:
   static constexpr std::size_t pairs_a_chunk = 16384;
   static constexpr std::size_t rows_a_task = 512;
+  static constexpr std::size_t passed_at_once = 256;
 
   struct Change {
     IndexPair pair;
     bool comes;
   };
+  using Shadow = std::array<float, 4>;
   // On an axis.
   struct Overlaps {
     std::int64_t candidates = 0;  // pairs that overlap there
@@ -114,21 +118,39 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   bool is_far(const Aabb& now, std::uint32_t id) const;
   void take_jumpers_out();
   void put_jumpers_in(std::span<const Aabb> boxes);
-  bool repair_axis(std::size_t axis, std::span<const Aabb> boxes);
+  void prepare(std::size_t axis);
   bool repair_all(std::size_t axis, std::span<const Aabb> boxes);
   bool repair_few(std::size_t axis, std::span<const Aabb> boxes);
-  std::size_t sink_point(std::size_t axis, std::size_t at, std::span<const Aabb> boxes);
-  std::size_t raise_point(std::size_t axis, std::size_t at, std::span<const Aabb> boxes);
-  void pass(EndPoint lower, EndPoint upper, std::size_t axis, std::span<const Aabb> boxes);
+  template <bool with_places>
+  std::size_t move_down(std::size_t axis, std::size_t at, std::span<const Aabb> boxes);
+  std::size_t move_up(std::size_t axis, std::size_t at, std::span<const Aabb> boxes);
+  void passed(EndPoint point, bool down, std::span<const std::uint32_t> others, std::size_t axis,
+              std::span<const Aabb> boxes);
+  void set_shadow(std::size_t axis, std::uint32_t id, std::size_t other, const Aabb& box) {
+    // The two others in the order of the axes.
+    const std::size_t half = other < 3 - axis - other ? 0 : 2;
+    shadows_[axis][id][half] = box.min[other];
+    shadows_[axis][id][half + 1] = -box.max[other];
+  }
+  // The place of an end point in the sorted ones.
+  std::uint32_t& place(std::size_t axis, EndPoint point) {
+    return places_[axis][2 * body_of(point) + (is_max(point) ? 1 : 0)];
+  }
 
   Executor& executor_;
   std::vector<BoxList> lists_;  // one a worker
   std::vector<std::uint32_t> ids_;
   std::vector<Aabb> before_;  // the boxes that the end points are of
   std::array<std::vector<EndPoint>, 3> points_, fresh_;
+  // By id, of each axis: where the box lies on the two others, minima and maxima with the sign
+  // turned, as they are when this axis is repaired: those before it already are.
+  std::array<std::vector<Shadow>, 3> shadows_;
+  std::array<std::vector<std::uint32_t>, 3> places_;  // of minimum and maximum, by id
+  bool shadowed_ = false, placed_ = false;            // whether these are up to date
   RadixSort<EndPoint> radix_sort_;
   BoxArrays arrays_;  // by minimum on the best axis, for a sweep; by id, for bodies that come
   std::size_t axis_ = 0;
+  bool few_ = false;    // of the bodies have moved
   bool swept_ = false;  // the pairs are yet to be found, by a sweep
   PairSink found_;
   PairSet set_;
@@ -160,6 +182,7 @@ void IncrementalSweepAndPrune::rebuild(std::span<const Aabb> boxes) {
   const auto candidates = static_cast<std::size_t>(overlaps_on(axis_).candidates);
   most_passes_ = 8 * ids_.size() + candidates / 16 + 256;
   swept_ = true;
+  shadowed_ = placed_ = false;
 }
 
 IncrementalSweepAndPrune::Overlaps IncrementalSweepAndPrune::overlaps_on(std::size_t axis) const {
@@ -228,10 +251,20 @@ bool IncrementalSweepAndPrune::repair(const FrameChange& change) {
 
   std::array<bool, 3> repaired{};
   const auto axis_task = [&](std::size_t axis, int) {
+    prepare(axis);
+    shadows_[axis].resize(before_.size());
+    for (std::size_t other = 0; other < axis; ++other) {
+      for (const std::uint32_t id : walkers_) set_shadow(axis, id, other, change.boxes[id]);
+    }
     changes_[axis].clear();
-    repaired[axis] = repair_axis(axis, change.boxes);
+    repaired[axis] = few_ ? repair_few(axis, change.boxes) : repair_all(axis, change.boxes);
+    for (std::size_t other = axis + 1; other < 3; ++other) {
+      for (const std::uint32_t id : walkers_) set_shadow(axis, id, other, change.boxes[id]);
+    }
   };
   executor_.run(3, std::cref(axis_task));
+  shadowed_ = true;
+  placed_ = few_;
   if (!repaired[0] || !repaired[1] || !repaired[2]) {
     // Mostly the next frame will be like this one.
     wait_ = std::min(2 * wait_ + 1, std::size_t{15});
@@ -252,10 +285,10 @@ void IncrementalSweepAndPrune::classify(const FrameChange& change) {
   jumpers_.assign(change.removed.begin(), change.removed.end());
   jumpers_.insert(jumpers_.end(), change.inserted.begin(), change.inserted.end());
   walkers_.clear();
-  const bool few = change.moved.size() <= before_.size() / 16;
+  few_ = change.moved.size() <= before_.size() / 16;
   for (const std::uint32_t id : change.moved) {
     // Where many move, those that move far are told by the passes that they take.
-    (few && is_far(change.boxes[id], id) ? jumpers_ : walkers_).push_back(id);
+    (few_ && is_far(change.boxes[id], id) ? jumpers_ : walkers_).push_back(id);
   }
 }
 
@@ -281,11 +314,18 @@ void IncrementalSweepAndPrune::take_jumpers_out() {
     std::erase_if(points_[axis], [&](EndPoint point) { return mark_[body_of(point)] != 0; });
   };
   executor_.run(3, std::cref(task));
+  placed_ = false;
 }
 
 void IncrementalSweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
   for (const std::uint32_t id : jumpers_) before_[id] = boxes[id];
+  placed_ = false;
   const auto task = [&](std::size_t axis, int) {
+    for (const std::uint32_t id : jumpers_) {
+      for (std::size_t other = 0; other < 3; ++other) {
+        if (other != axis) set_shadow(axis, id, other, boxes[id]);
+      }
+    }
     std::vector<EndPoint>& fresh = fresh_[axis];
     fresh.clear();
     for (const std::uint32_t id : jumpers_) {
@@ -332,35 +372,53 @@ void IncrementalSweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
   for (const std::uint32_t id : jumpers_) mark_[id] = 0;
 }
 
-// Sorts the walkers' end points on an axis; false when that takes too many passes.
-bool IncrementalSweepAndPrune::repair_axis(std::size_t axis, std::span<const Aabb> boxes) {
-  return walkers_.size() > before_.size() / 16 ? repair_all(axis, boxes) : repair_few(axis, boxes);
+// Before an axis is repaired: what of the frame it sees.
+void IncrementalSweepAndPrune::prepare(std::size_t axis) {
+  std::vector<Shadow>& shadows = shadows_[axis];
+  if (!shadowed_) {
+    shadows.resize(before_.size());
+    for (std::uint32_t id = 0; id < before_.size(); ++id) {
+      for (std::size_t other = 0; other < 3; ++other) {
+        if (other != axis) set_shadow(axis, id, other, before_[id]);
+      }
+    }
+  }
+  if (!placed_ && few_) {
+    places_[axis].resize(2 * before_.size());
+    for (std::uint32_t at = 0; at < points_[axis].size(); ++at) {
+      place(axis, points_[axis][at]) = at;
+    }
+  }
 }
 
+// Insertion sort; false when that takes too many passes.
 bool IncrementalSweepAndPrune::repair_all(std::size_t axis, std::span<const Aabb> boxes) {
   std::vector<EndPoint>& points = points_[axis];
   std::size_t passes = 0;
+  EndPoint highest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t id = body_of(points[i]);
-    points[i] = end_point(boxes[id], axis, is_max(points[i]), id);
-    passes += sink_point(axis, i, boxes);
-    if (passes > most_passes_) return false;
+    const EndPoint now = points[i] = end_point(boxes[id], axis, is_max(points[i]), id);
+    if (now < highest) {
+      passes += move_down<false>(axis, i, boxes);
+      if (passes > most_passes_) return false;
+    }
+    highest = std::max(highest, now);
   }
   return true;
 }
 
+// The same, where most end points stay where they are.
 bool IncrementalSweepAndPrune::repair_few(std::size_t axis, std::span<const Aabb> boxes) {
   std::vector<EndPoint>& points = points_[axis];
   std::size_t passes = 0;
   for (const std::uint32_t id : walkers_) {
     for (const bool max : {false, true}) {
-      const EndPoint then = end_point(before_[id], axis, max, id);
       const EndPoint now = end_point(boxes[id], axis, max, id);
-      if (now == then) continue;
-      const auto at = std::ranges::lower_bound(points, then);
-      *at = now;
-      const auto place = static_cast<std::size_t>(at - points.begin());
-      passes += now < then ? sink_point(axis, place, boxes) : raise_point(axis, place, boxes);
+      const std::size_t at = place(axis, now);
+      const EndPoint then = points[at];
+      points[at] = now;
+      passes += now < then ? move_down<true>(axis, at, boxes) : move_up(axis, at, boxes);
       if (passes > most_passes_) return false;
     }
   }
@@ -368,53 +426,75 @@ bool IncrementalSweepAndPrune::repair_few(std::size_t axis, std::span<const Aabb
 }
 
 // Moves the end point at a place down to where it belongs; how many it passes.
-std::size_t IncrementalSweepAndPrune::sink_point(std::size_t axis, std::size_t at,
-                                                 std::span<const Aabb> boxes) {
+template <bool with_places>
+std::size_t IncrementalSweepAndPrune::move_down(std::size_t axis, std::size_t at,
+                                                std::span<const Aabb> boxes) {
   EndPoint* const points = points_[axis].data();
   const EndPoint point = points[at];
+  std::array<std::uint32_t, passed_at_once> others;
   std::size_t to = at;
-  for (; to > 0 && point < points[to - 1]; --to) {
-    points[to] = points[to - 1];
-    pass(point, points[to], axis, boxes);
+  while (to > 0 && point < points[to - 1]) {
+    const std::size_t stop = to - std::min(to, passed_at_once);
+    std::size_t count = 0;
+    for (; to > stop && point < points[to - 1]; --to) {
+      const EndPoint other = points[to] = points[to - 1];
+      if constexpr (with_places) place(axis, other) = static_cast<std::uint32_t>(to);
+      // No branch: whether it is a minimum or a maximum cannot be guessed.
+      others[count] = body_of(other);
+      count += is_max(other) != is_max(point) ? 1 : 0;
+    }
+    passed(point, true, {others.data(), count}, axis, boxes);
   }
   points[to] = point;
+  if constexpr (with_places) place(axis, point) = static_cast<std::uint32_t>(to);
   return at - to;
 }
 
-std::size_t IncrementalSweepAndPrune::raise_point(std::size_t axis, std::size_t at,
-                                                  std::span<const Aabb> boxes) {
+std::size_t IncrementalSweepAndPrune::move_up(std::size_t axis, std::size_t at,
+                                              std::span<const Aabb> boxes) {
   EndPoint* const points = points_[axis].data();
   const std::size_t last = points_[axis].size() - 1;
   const EndPoint point = points[at];
+  std::array<std::uint32_t, passed_at_once> others;
   std::size_t to = at;
-  for (; to < last && points[to + 1] < point; ++to) {
-    points[to] = points[to + 1];
-    pass(points[to], point, axis, boxes);
+  while (to < last && points[to + 1] < point) {
+    const std::size_t stop = to + std::min(last - to, passed_at_once);
+    std::size_t count = 0;
+    for (; to < stop && points[to + 1] < point; ++to) {
+      const EndPoint other = points[to] = points[to + 1];
+      place(axis, other) = static_cast<std::uint32_t>(to);
+      others[count] = body_of(other);
+      count += is_max(other) != is_max(point) ? 1 : 0;
+    }
+    passed(point, false, {others.data(), count}, axis, boxes);
   }
   points[to] = point;
+  place(axis, point) = static_cast<std::uint32_t>(to);
   return to - at;
 }
 
-// Two end points have changed places, and now one is below the other. A pair comes, or goes, where
-// the boxes overlap on this axis after the frame, or before it, but not both; and overlap on the
-// axes that are repaired before this one after the frame, and on the others before it. So it may be
-// found more than once, but never for another change than the axis makes.
-void IncrementalSweepAndPrune::pass(EndPoint lower, EndPoint upper, std::size_t axis,
-                                    std::span<const Aabb> boxes) {
-  if (is_max(lower) == is_max(upper)) return;
-  const std::uint32_t a = body_of(lower);
-  const std::uint32_t b = body_of(upper);
-  for (std::size_t other = 0; other < 3; ++other) {
-    if (other == axis) continue;
-    const bool overlapping = other < axis ? overlap_on(boxes[a], boxes[b], other)
-                                          : overlap_on(before_[a], before_[b], other);
-    if (!overlapping) return;
+// The end point has gone past some of the other kind. A pair comes, or goes, where the boxes
+// overlap on this axis after the frame, or before it, but not both; and overlap on the axes that
+// are repaired before this one after the frame, and on the others before it. So it may be found
+// more than once, but never for another change than the axis makes.
+void IncrementalSweepAndPrune::passed(EndPoint point, bool down,
+                                      std::span<const std::uint32_t> others, std::size_t axis,
+                                      std::span<const Aabb> boxes) {
+  using Lanes = box_lanes::baseline::Lanes;
+  const std::vector<Shadow>& shadows = shadows_[axis];
+  const std::uint32_t a = body_of(point);
+  const Shadow& own = shadows[a];
+  const Shadow turned{-own[1], -own[0], -own[3], -own[2]};
+  const Lanes::Floats reach = Lanes::load(turned.data());
+  const bool comes = down != is_max(point);  // a maximum is above a minimum now
+  for (const std::uint32_t b : others) {
+    const Lanes::Floats shadow = Lanes::load(shadows[b].data());
+    if (Lanes::bits(Lanes::less_equal(shadow, reach)) != 0xf) continue;
+    const bool now = overlap_on(boxes[a], boxes[b], axis);
+    const bool then = overlap_on(before_[a], before_[b], axis);
+    if (now != comes || then == comes) continue;
+    changes_[axis].push_back({{std::min(a, b), std::max(a, b)}, comes});
   }
-  const bool comes = is_max(upper);
-  const bool now = overlap_on(boxes[a], boxes[b], axis);
-  const bool then = overlap_on(before_[a], before_[b], axis);
-  if (now != comes || then == comes) return;
-  changes_[axis].push_back({{std::min(a, b), std::max(a, b)}, comes});
 }
 
 }  // namespace
