@@ -94,13 +94,20 @@ class IncrementalSweepAndPrune final : public BroadPhase {
  private:
   static constexpr std::size_t pairs_a_chunk = 16384;
   static constexpr std::size_t rows_a_task = 512;
-  static constexpr std::size_t passed_at_once = 256;
 
   struct Change {
     IndexPair pair;
     bool comes;
   };
   using Shadow = std::array<float, 4>;
+  // Two end points that have changed places.
+  struct Pass {
+    EndPoint lower, upper;
+  };
+  struct Passes {
+    std::array<Pass, 1024> list;
+    std::size_t size = 0;
+  };
   // On an axis.
   struct Overlaps {
     std::int64_t candidates = 0;  // pairs that overlap there
@@ -121,16 +128,15 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   void prepare(std::size_t axis);
   bool repair_all(std::size_t axis, std::span<const Aabb> boxes);
   bool repair_few(std::size_t axis, std::span<const Aabb> boxes);
-  template <bool with_places>
-  std::size_t move_down(std::size_t axis, std::size_t at, std::span<const Aabb> boxes);
-  std::size_t move_up(std::size_t axis, std::size_t at, std::span<const Aabb> boxes);
-  void passed(EndPoint point, bool down, std::span<const std::uint32_t> others, std::size_t axis,
-              std::span<const Aabb> boxes);
-  void set_shadow(std::size_t axis, std::uint32_t id, std::size_t other, const Aabb& box) {
-    // The two others in the order of the axes.
-    const std::size_t half = other < 3 - axis - other ? 0 : 2;
-    shadows_[axis][id][half] = box.min[other];
-    shadows_[axis][id][half + 1] = -box.max[other];
+  static constexpr std::ptrdiff_t down = -1, up = 1;
+  template <std::ptrdiff_t way, bool with_places>
+  std::size_t move(std::size_t axis, std::size_t at, std::span<const Aabb> boxes);
+  void look_at_passes(std::size_t axis, std::span<const Aabb> boxes);
+  // Of a body, on the two other axes: as it is in one box on the first, in another on the second.
+  void set_shadow(std::size_t axis, std::uint32_t id, const Aabb& first, const Aabb& second) {
+    const std::size_t i = axis == 0 ? 1 : 0;
+    const std::size_t j = axis == 2 ? 1 : 2;
+    shadows_[axis][id] = {first.min[i], -first.max[i], second.min[j], -second.max[j]};
   }
   // The place of an end point in the sorted ones.
   std::uint32_t& place(std::size_t axis, EndPoint point) {
@@ -154,6 +160,7 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   bool swept_ = false;  // the pairs are yet to be found, by a sweep
   PairSink found_;
   PairSet set_;
+  std::array<Passes, 3> passes_;  // that are yet to be looked at
   std::array<std::vector<Change>, 3> changes_;
   std::vector<std::uint32_t> jumpers_, walkers_;
   std::vector<std::uint8_t> mark_;  // by id: it is a jumper
@@ -253,13 +260,17 @@ bool IncrementalSweepAndPrune::repair(const FrameChange& change) {
   const auto axis_task = [&](std::size_t axis, int) {
     prepare(axis);
     shadows_[axis].resize(before_.size());
-    for (std::size_t other = 0; other < axis; ++other) {
-      for (const std::uint32_t id : walkers_) set_shadow(axis, id, other, change.boxes[id]);
+    if (axis > 0) {
+      const Aabb* const second = axis == 1 ? before_.data() : change.boxes.data();
+      for (const std::uint32_t id : walkers_) set_shadow(axis, id, change.boxes[id], second[id]);
     }
     changes_[axis].clear();
+    passes_[axis].size = 0;
     repaired[axis] = few_ ? repair_few(axis, change.boxes) : repair_all(axis, change.boxes);
-    for (std::size_t other = axis + 1; other < 3; ++other) {
-      for (const std::uint32_t id : walkers_) set_shadow(axis, id, other, change.boxes[id]);
+    if (axis < 2) {
+      for (const std::uint32_t id : walkers_) {
+        set_shadow(axis, id, change.boxes[id], change.boxes[id]);
+      }
     }
   };
   executor_.run(3, std::cref(axis_task));
@@ -321,11 +332,7 @@ void IncrementalSweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
   for (const std::uint32_t id : jumpers_) before_[id] = boxes[id];
   placed_ = false;
   const auto task = [&](std::size_t axis, int) {
-    for (const std::uint32_t id : jumpers_) {
-      for (std::size_t other = 0; other < 3; ++other) {
-        if (other != axis) set_shadow(axis, id, other, boxes[id]);
-      }
-    }
+    for (const std::uint32_t id : jumpers_) set_shadow(axis, id, boxes[id], boxes[id]);
     std::vector<EndPoint>& fresh = fresh_[axis];
     fresh.clear();
     for (const std::uint32_t id : jumpers_) {
@@ -378,9 +385,7 @@ void IncrementalSweepAndPrune::prepare(std::size_t axis) {
   if (!shadowed_) {
     shadows.resize(before_.size());
     for (std::uint32_t id = 0; id < before_.size(); ++id) {
-      for (std::size_t other = 0; other < 3; ++other) {
-        if (other != axis) set_shadow(axis, id, other, before_[id]);
-      }
+      set_shadow(axis, id, before_[id], before_[id]);
     }
   }
   if (!placed_ && few_) {
@@ -395,16 +400,13 @@ void IncrementalSweepAndPrune::prepare(std::size_t axis) {
 bool IncrementalSweepAndPrune::repair_all(std::size_t axis, std::span<const Aabb> boxes) {
   std::vector<EndPoint>& points = points_[axis];
   std::size_t passes = 0;
-  EndPoint highest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t id = body_of(points[i]);
-    const EndPoint now = points[i] = end_point(boxes[id], axis, is_max(points[i]), id);
-    if (now < highest) {
-      passes += move_down<false>(axis, i, boxes);
-      if (passes > most_passes_) return false;
-    }
-    highest = std::max(highest, now);
+    points[i] = end_point(boxes[id], axis, is_max(points[i]), id);
+    passes += move<down, false>(axis, i, boxes);
+    if (passes > most_passes_) return false;
   }
+  look_at_passes(axis, boxes);
   return true;
 }
 
@@ -418,83 +420,61 @@ bool IncrementalSweepAndPrune::repair_few(std::size_t axis, std::span<const Aabb
       const std::size_t at = place(axis, now);
       const EndPoint then = points[at];
       points[at] = now;
-      passes += now < then ? move_down<true>(axis, at, boxes) : move_up(axis, at, boxes);
+      passes += now < then ? move<down, true>(axis, at, boxes) : move<up, true>(axis, at, boxes);
       if (passes > most_passes_) return false;
     }
   }
+  look_at_passes(axis, boxes);
   return true;
 }
 
-// Moves the end point at a place down to where it belongs; how many it passes.
-template <bool with_places>
-std::size_t IncrementalSweepAndPrune::move_down(std::size_t axis, std::size_t at,
-                                                std::span<const Aabb> boxes) {
+// Moves the end point at a place to where it belongs, and lists those of the other kind that it
+// passes; how many it passes in all.
+template <std::ptrdiff_t way, bool with_places>
+std::size_t IncrementalSweepAndPrune::move(std::size_t axis, std::size_t at,
+                                           std::span<const Aabb> boxes) {
   EndPoint* const points = points_[axis].data();
+  Passes& passes = passes_[axis];
   const EndPoint point = points[at];
-  std::array<std::uint32_t, passed_at_once> others;
+  const auto is_next = [&](std::size_t to) {
+    if constexpr (way == down) return to > 0 && point < points[to - 1];
+    return to + 1 < points_[axis].size() && points[to + 1] < point;
+  };
   std::size_t to = at;
-  while (to > 0 && point < points[to - 1]) {
-    const std::size_t stop = to - std::min(to, passed_at_once);
-    std::size_t count = 0;
-    for (; to > stop && point < points[to - 1]; --to) {
-      const EndPoint other = points[to] = points[to - 1];
-      if constexpr (with_places) place(axis, other) = static_cast<std::uint32_t>(to);
-      // No branch: whether it is a minimum or a maximum cannot be guessed.
-      others[count] = body_of(other);
-      count += is_max(other) != is_max(point) ? 1 : 0;
-    }
-    passed(point, true, {others.data(), count}, axis, boxes);
+  while (is_next(to)) {
+    const EndPoint other = points[to] = points[to + way];
+    if constexpr (with_places) place(axis, other) = static_cast<std::uint32_t>(to);
+    to += way;
+    // No branch: whether it is a minimum or a maximum cannot be guessed.
+    passes.list[passes.size] = way == down ? Pass{point, other} : Pass{other, point};
+    passes.size += is_max(other) != is_max(point) ? 1 : 0;
+    if (passes.size == passes.list.size()) look_at_passes(axis, boxes);
   }
   points[to] = point;
   if constexpr (with_places) place(axis, point) = static_cast<std::uint32_t>(to);
-  return at - to;
+  return way == down ? at - to : to - at;
 }
 
-std::size_t IncrementalSweepAndPrune::move_up(std::size_t axis, std::size_t at,
-                                              std::span<const Aabb> boxes) {
-  EndPoint* const points = points_[axis].data();
-  const std::size_t last = points_[axis].size() - 1;
-  const EndPoint point = points[at];
-  std::array<std::uint32_t, passed_at_once> others;
-  std::size_t to = at;
-  while (to < last && points[to + 1] < point) {
-    const std::size_t stop = to + std::min(last - to, passed_at_once);
-    std::size_t count = 0;
-    for (; to < stop && points[to + 1] < point; ++to) {
-      const EndPoint other = points[to] = points[to + 1];
-      place(axis, other) = static_cast<std::uint32_t>(to);
-      others[count] = body_of(other);
-      count += is_max(other) != is_max(point) ? 1 : 0;
-    }
-    passed(point, false, {others.data(), count}, axis, boxes);
-  }
-  points[to] = point;
-  place(axis, point) = static_cast<std::uint32_t>(to);
-  return to - at;
-}
-
-// The end point has gone past some of the other kind. A pair comes, or goes, where the boxes
-// overlap on this axis after the frame, or before it, but not both; and overlap on the axes that
-// are repaired before this one after the frame, and on the others before it. So it may be found
-// more than once, but never for another change than the axis makes.
-void IncrementalSweepAndPrune::passed(EndPoint point, bool down,
-                                      std::span<const std::uint32_t> others, std::size_t axis,
-                                      std::span<const Aabb> boxes) {
+// Of the end points that have passed each other. A pair comes, or goes, where the boxes overlap on
+// this axis after the frame, or before it, but not both; and overlap on the axes that are repaired
+// before this one after the frame, and on the others before it. So it may be found more than once,
+// but never for another change than the axis makes.
+void IncrementalSweepAndPrune::look_at_passes(std::size_t axis, std::span<const Aabb> boxes) {
   using Lanes = box_lanes::baseline::Lanes;
-  const std::vector<Shadow>& shadows = shadows_[axis];
-  const std::uint32_t a = body_of(point);
-  const Shadow& own = shadows[a];
-  const Shadow turned{-own[1], -own[0], -own[3], -own[2]};
-  const Lanes::Floats reach = Lanes::load(turned.data());
-  const bool comes = down != is_max(point);  // a maximum is above a minimum now
-  for (const std::uint32_t b : others) {
-    const Lanes::Floats shadow = Lanes::load(shadows[b].data());
-    if (Lanes::bits(Lanes::less_equal(shadow, reach)) != 0xf) continue;
+  const Shadow* const shadows = shadows_[axis].data();
+  for (const Pass& pass : std::span(passes_[axis].list).first(passes_[axis].size)) {
+    const std::uint32_t a = body_of(pass.lower);
+    const std::uint32_t b = body_of(pass.upper);
+    const Shadow& own = shadows[a];
+    const Lanes::Floats reach{-own[1], -own[0], -own[3], -own[2]};
+    if (Lanes::bits(Lanes::less_equal(Lanes::load(shadows[b].data()), reach)) != 0xf) continue;
+    const bool comes = is_max(pass.upper);
     const bool now = overlap_on(boxes[a], boxes[b], axis);
     const bool then = overlap_on(before_[a], before_[b], axis);
     if (now != comes || then == comes) continue;
     changes_[axis].push_back({{std::min(a, b), std::max(a, b)}, comes});
   }
+  passes_[axis].size = 0;
 }
 
 }  // namespace
