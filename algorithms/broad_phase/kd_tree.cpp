@@ -72,7 +72,7 @@ class KdTree final : public BroadPhase {
 
  private:
   static constexpr std::size_t block_size = 8192;
-  static constexpr std::uint32_t leaf_size = 16;
+  static constexpr std::uint32_t leaf_size = 32;
   static constexpr std::uint32_t least_members = 4;  // of a node
   // A node of no more is the work of one task, with all that is below it.
   static constexpr std::uint32_t cut_size = 2048;
@@ -84,7 +84,7 @@ class KdTree final : public BroadPhase {
 
   using Sides = std::array<float, 3>;
 
-  struct alignas(32) Body {
+  struct alignas(16) Body {
     Sides min;
     std::uint32_t id;
     Sides max;
