@@ -11,9 +11,8 @@
 // Fails:   dense or fast scenes in which all move: an end point passes others in proportion to
 //          n^(2/3) times its way, and in flat or stacked scenes to n. The sweep that is then made
 //          goes like n^(5/3), and n^2 where most boxes overlap on every axis.
-// Cost:    O(m log n + s) a frame, for m bodies that move and s end points that pass each other,
-// and
-//          O(n + k) where bodies come or go; O(n + k) memory, k = pairs, which are copied out.
+// Cost:    O(m + s) a frame, for m bodies that move and s end points that pass each other; O(n + k)
+//          where bodies come or go; O(n + k) memory, k = pairs, which are copied out.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -86,10 +85,13 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   // What a sweep of the end points as they stand takes; of pairs that have been kept, too.
   BroadPhaseWork work() const override {
     const Overlaps best = overlaps_on(best_axis());
+    std::size_t found = 0;
+    for (const PairBuffer& chunk : found_.chunks()) found += chunk.capacity() * sizeof(IndexPair);
     return {.box_tests = best.candidates + best.ended,
             .node_visits = 0,
             .candidates = best.candidates,
-            .bytes = sum_held_bytes(ids_, before_, points_[0], points_[1], points_[2], radix_sort_,
+            .bytes = static_cast<std::int64_t>(found) +
+                     sum_held_bytes(ids_, before_, points_[0], points_[1], points_[2], radix_sort_,
                                     arrays_, set_, mark_, jumpers_, walkers_, fresh_[0], fresh_[1],
                                     fresh_[2], changes_[0], changes_[1], changes_[2], shadows_[0],
                                     shadows_[1], shadows_[2], places_[0], places_[1], places_[2])};
