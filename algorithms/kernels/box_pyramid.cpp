@@ -14,7 +14,7 @@ using box_lanes::columns_of;
 
 constexpr std::size_t fan = BoxPyramid::fan;
 
-Columns columns_of(const BoxList& list) {
+Columns columns_of(const ListedBoxes& list) {
   return {{list.extent(0), list.extent(1), list.extent(2)},
           {list.extent(3), list.extent(4), list.extent(5)},
           list.ids()};
@@ -97,7 +97,7 @@ std::size_t BoxPyramid::held_bytes() const {
   return bytes;
 }
 
-void BoxList::grow(std::size_t more) {
+void ListedBoxes::grow(std::size_t more) {
   const std::size_t capacity = std::max(size_ + more + BoxArrays::padding, 2 * capacity_);
   auto extents = std::make_unique_for_overwrite<float[]>(6 * capacity);
   auto ids = std::make_unique_for_overwrite<std::uint32_t[]>(capacity);

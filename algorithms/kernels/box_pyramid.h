@@ -49,7 +49,7 @@ class BoxPyramid {
 
 // A list of boxes that vectors are written to the end of; those behind the last one are undefined.
 // Keeps its memory.
-class BoxList {
+class ListedBoxes {
  public:
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
@@ -76,8 +76,8 @@ class BoxList {
 // What a search lists, and what it counts. One a worker.
 struct PyramidScratch {
   std::vector<std::uint32_t> nodes, children;  // of two levels, one below the other
-  BoxList near;                                // blocks near the group, by their bounds and numbers
-  BoxList partners;                            // boxes near a block
+  ListedBoxes near;                            // blocks near the group, by their bounds and numbers
+  ListedBoxes partners;                        // boxes near a block
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 

@@ -20,7 +20,7 @@ TOUCHSTONE_TARGET inline unsigned overlaps_before(const Row& row, const Columns&
 
 // Appends those of boxes[j .. j + 15] whose bit is set; there is room for them.
 TOUCHSTONE_TARGET inline void append(unsigned lanes, const Columns& boxes, std::size_t j,
-                                     BoxList& list) {
+                                     ListedBoxes& list) {
   const std::size_t end = list.size();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Lanes::compress(lanes, boxes.min[axis] + j, list.extent(axis) + end);
@@ -81,7 +81,7 @@ TOUCHSTONE_TARGET inline void list_blocks(const BoxPyramid& pyramid, std::size_t
 // registers.
 TOUCHSTONE_TARGET [[gnu::noinline]] void pair_rows(const Columns& boxes, std::size_t first,
                                                    std::size_t size, bool with_own,
-                                                   const BoxList& list, PairBuffer& out) {
+                                                   const ListedBoxes& list, PairBuffer& out) {
   const Columns columns = columns_of(list);
   const Columns rows = boxes;
   for (std::size_t j = 0; j < list.size(); j += fan) {
@@ -114,7 +114,7 @@ TOUCHSTONE_TARGET void search(const BoxPyramid& pyramid, std::size_t group, Pyra
   const Columns near = columns_of(scratch.near);
   const std::size_t near_count = scratch.near.size();
   scratch.nodes.resize(std::max(scratch.nodes.size(), near_count + fan));
-  BoxList& list = scratch.partners;
+  ListedBoxes& list = scratch.partners;
   list.clear();
   list.reserve(most_partners + fan);
 
