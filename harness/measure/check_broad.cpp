@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "harness/io/box_frames.h"
 #include "harness/measure/sampler.h"
@@ -15,7 +16,7 @@ namespace touchstone {
 namespace {
 
 constexpr double setup_seconds = 60;
-constexpr double longest_to_count = 10;  // seconds of all frames: allocations are counted below
+constexpr double longest_to_count = 3;  // seconds of all frames: allocations are counted below
 
 // What the child finds in one frame.
 struct ChildAnswer {
@@ -54,6 +55,29 @@ std::vector<BroadSampler::FrameAllocations> count_allocations(const BlockInput& 
   return {counts.span().begin(), counts.span().end()};
 }
 
+// A broad phase takes at least in proportion to the number of boxes: one that was over its limit
+// with fewer of the same scene will be over this one too. Says so; empty where it is to be tried.
+std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& entry) {
+  const RawRow here = context.row(0, entry, Phase::find_pairs);
+  for (const RawRow& row : context.findings->rows()) {
+    if (row.block < 0 || row.block >= context.number ||
+        std::cmp_greater_equal(row.block, context.blocks.size()) || row.kind != RowKind::check ||
+        row.process >= 0 || row.broad != here.broad || !row.narrow.empty() ||
+        row.status != to_string(Status::timed_out)) {
+      continue;
+    }
+    if (row.scene != here.scene || row.boxes != here.boxes || row.rebuild != here.rebuild ||
+        row.isa_limit != here.isa_limit || row.bodies > here.bodies) {
+      continue;
+    }
+    const double limit = context.blocks[static_cast<std::size_t>(row.block)].group->time_limit;
+    const double growth = static_cast<double>(here.bodies) / static_cast<double>(row.bodies);
+    if (limit * growth < context.block->group->time_limit) continue;
+    return fmt::format("not tried: over the limit of {:g} s with {} bodies", limit, row.bodies);
+  }
+  return "";
+}
+
 std::string write_frames(const RunContext& context, const BlockInput& input,
                          const std::string& name, std::size_t frame) {
   if (context.reproductions.empty()) return "";
@@ -75,6 +99,24 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
                          const BroadPhaseEntry& entry, bool with_pairs) {
   const CampaignGroup& group = *context.block->group;
   const std::size_t count = input.frames.size();
+  CheckedBroad result;
+  result.whole = result.right = true;
+  const auto leave = [&](std::size_t frame, Status status, const std::string& why,
+                         const std::string& words) {
+    RawRow row = context.row(frame, entry, Phase::find_pairs);
+    row.status = to_string(status);
+    row.words = one_line(words);
+    context.findings->add(std::move(row));
+    Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
+    departure.known = departure.known || status == Status::timed_out;
+    departure.what = why + "; left out from here on";
+    context.findings->add(std::move(departure));
+    result.whole = result.right = false;
+  };
+  if (const std::string why = already_too_slow(context, entry); !why.empty()) {
+    leave(0, Status::timed_out, why, why);
+    return result;
+  }
   std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
   for (const BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
   SharedArray<ChildAnswer> answers(count);
@@ -108,20 +150,6 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     };
   });
 
-  CheckedBroad result;
-  result.whole = result.right = true;
-  const auto leave = [&](std::size_t frame, Status status, const std::string& why,
-                         const std::string& words) {
-    RawRow row = context.row(frame, entry, Phase::find_pairs);
-    row.status = to_string(status);
-    row.words = one_line(words);
-    context.findings->add(std::move(row));
-    Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
-    departure.known = departure.known || status == Status::timed_out;
-    departure.what = why + "; left out from here on";
-    context.findings->add(std::move(departure));
-    result.whole = result.right = false;
-  };
   const bool to_the_end = report.failures.empty() && too_slow[0] == 0;
   double seconds = 0;
   for (const ChildAnswer& answer : answers.span()) {
