@@ -16,6 +16,8 @@ namespace touchstone {
 namespace {
 
 constexpr double setup_seconds = 60;
+// For a box or a pair, at most: the frame's pairs are sorted and compared, its work is counted.
+constexpr double seconds_to_verify = 5e-6;
 constexpr double longest_to_count = 3;  // seconds of all frames: allocations are counted below
 
 // What the child finds in one frame.
@@ -122,10 +124,15 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
   SharedArray<ChildAnswer> answers(count);
   SharedArray<IndexPair> kept(with_pairs ? room : 0);
   SharedArray<std::size_t> too_slow(1);  // 0: no frame was, else the frame's number and one
-  const IsolationLimits limits = {.item_seconds = group.time_limit,
-                                  .setup_seconds = setup_seconds,
-                                  .failures = 1,
-                                  .memory = group.memory_limit};
+  std::size_t greatest = 0;              // boxes and pairs of a frame
+  for (const BlockFrame& frame : input.frames) {
+    greatest = std::max(greatest, frame.boxes.size() + frame.truth.size());
+  }
+  const IsolationLimits limits = {
+      .item_seconds = group.time_limit + seconds_to_verify * static_cast<double>(greatest),
+      .setup_seconds = setup_seconds,
+      .failures = 1,
+      .memory = group.memory_limit};
   const IsolationReport report = isolate(count, limits, [&]() -> ItemWork {
     const auto executor = std::make_shared<Executor>(1);
     const auto sampler = std::make_shared<BroadSampler>(entry, input, group.rebuild, *executor);
