@@ -68,11 +68,13 @@ std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& e
         row.status != to_string(Status::timed_out)) {
       continue;
     }
-    if (row.scene != here.scene || row.boxes != here.boxes || row.rebuild != here.rebuild ||
-        row.isa_limit != here.isa_limit || row.bodies > here.bodies) {
+    const Block& before = context.blocks[static_cast<std::size_t>(row.block)];
+    if (before.scene_file != context.block->scene_file || row.boxes != here.boxes ||
+        row.rebuild != here.rebuild || row.isa_limit != here.isa_limit ||
+        row.bodies > here.bodies) {
       continue;
     }
-    const double limit = context.blocks[static_cast<std::size_t>(row.block)].group->time_limit;
+    const double limit = before.group->time_limit;
     const double growth = static_cast<double>(here.bodies) / static_cast<double>(row.bodies);
     if (limit * growth < context.block->group->time_limit) continue;
     return fmt::format("not tried: over the limit of {:g} s with {} bodies", limit, row.bodies);
