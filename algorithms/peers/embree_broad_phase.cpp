@@ -10,9 +10,11 @@
 //          larger worlds are scaled down by a power of two; rounding keeps the order of floats, so
 //          that no pair is lost. It has threads=<the executor's width>, in an arena of that width,
 //          so that one thread is one, whatever else the process has made of Embree.
-// Fails:   on more than one thread the pairs come in another order each time. Refitting follows what
+// Fails:   on more than one thread the pairs come in another order each time. Refitting follows
+// what
 //          moves a little: where bodies mix, the tree becomes useless, until some come or go and it
-//          is built again. Threads=N limits oneTBB in the whole process to N while Embree is in use.
+//          is built again. Threads=N limits oneTBB in the whole process to N while Embree is in
+//          use.
 // Cost:    O(n log n) time to build, O(n) to refit; O(n + k) to query where boxes are small; O(n)
 //          memory.
 #include "algorithms/broad_phase.h"
@@ -111,6 +113,12 @@ class EmbreeBroadPhase final : public BroadPhase {
     }
   }
 
+  bool convert(std::span<const Aabb> boxes) override {
+    converted_.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) converted_[i] = to_embree(boxes[i], scale_);
+    return true;
+  }
+
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
@@ -171,6 +179,7 @@ class EmbreeBroadPhase final : public BroadPhase {
   std::vector<std::uint32_t> ids_;         // by primitive
   std::vector<std::uint32_t> primitives_;  // by id
   std::vector<RTCBounds> bounds_;          // by primitive
+  std::vector<RTCBounds> converted_;       // scratch
   float scale_ = 1;                        // of them
   std::vector<Count> given_;               // by thread
   std::int64_t candidates_ = 0;

@@ -12,14 +12,14 @@
 //            leaves it, and about as many leaves as there are bodies; bodies are put in with their
 //            boxes known, or all would first go through one list;
 //          - the sweep sorts on the axis on which the world is widest, and tests the thinnest last.
-//          A box that ends at the greatest float is given as endless, or the sweep would pass its own
-//          sentinel.
-//          ODE's library has globals, so all calls of a process take turns.
+//          A box that ends at the greatest float is given as endless, or the sweep would pass its
+//          own sentinel. ODE's library has globals, so all calls of a process take turns.
 // Fails:   the hash keeps a table of n^2 bits, and gives up (`capacity`) where that is 2 GB, from
 //          131,072 bodies on. The quadtree is flat, its axes are x and y, and all boxes that lie
 //          across its middle lines are tested against everything: far from linear. The sweep is
 //          quadratic in the boxes that overlap on its axis.
-// Cost:    hash O(n levels + k) time beside clearing its table, quadtree O(n sqrt(n) + k) where boxes
+// Cost:    hash O(n levels + k) time beside clearing its table, quadtree O(n sqrt(n) + k) where
+// boxes
 //          are small, sweep O(n + pairs on the axis); O(n) memory but for the hash.
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
@@ -214,6 +214,12 @@ class OdeBroadPhase final : public BroadPhase {
     return Status::ok;
   }
 
+  bool convert(std::span<const Aabb> boxes) override {
+    converted_.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) set_box(converted_[i], boxes[i]);
+    return true;
+  }
+
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
@@ -271,7 +277,8 @@ class OdeBroadPhase final : public BroadPhase {
   std::span<const Aabb> boxes_;
   dSpaceID space_ = nullptr;  // null where there are too many bodies for it
   std::size_t live_ = 0;
-  std::vector<dGeomID> geoms_;  // by id; null where there is no body
+  std::vector<dGeomID> geoms_;   // by id; null where there is no body
+  std::vector<Body> converted_;  // scratch
   std::int64_t candidates_ = 0;
 };
 
@@ -285,8 +292,8 @@ TOUCHSTONE_BROAD_PHASE {
       {.info = {.name = "ode-hash",
                 .citation = "ODE 0.16, dHashSpaceCreate (dSpaceCollide)",
                 .origin = Origin::peer},
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<OdeBroadPhase<Hash>>(); })},
+       .make =
+           TOUCHSTONE_IF_BUILT([](Executor&) { return std::make_unique<OdeBroadPhase<Hash>>(); })},
       {.info = {.name = "ode-quadtree",
                 .citation = "ODE 0.16, dQuadTreeSpaceCreate (dSpaceCollide)",
                 .origin = Origin::peer},
@@ -295,7 +302,7 @@ TOUCHSTONE_BROAD_PHASE {
       {.info = {.name = "ode-sap",
                 .citation = "ODE 0.16, dSweepAndPruneSpaceCreate (dSpaceCollide)",
                 .origin = Origin::peer},
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<OdeBroadPhase<Sweep>>(); })},
+       .make =
+           TOUCHSTONE_IF_BUILT([](Executor&) { return std::make_unique<OdeBroadPhase<Sweep>>(); })},
   };
 }
