@@ -44,6 +44,14 @@ class BroadPhase {
   // Status::capacity. Status::ok otherwise.
   virtual Status find_pairs(PairSink& sink) = 0;
 
+  // Of a peer: turns these boxes, none of them empty, into what its library takes, in memory of its
+  // own, and does nothing else: what build and update do to the boxes that are new to them, once
+  // more, so that the harness can time it apart. False where there is nothing to convert.
+  virtual bool convert(std::span<const Aabb> boxes) {
+    static_cast<void>(boxes);
+    return false;
+  }
+
   // What find_pairs does, on what was last built or updated. Counted when it is asked for, by going
   // over the structure again, so that find_pairs itself does not have to; not to be asked for
   // inside the clock.

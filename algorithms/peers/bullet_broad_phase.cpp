@@ -162,6 +162,15 @@ class BulletBroadPhase final : public BroadPhase {
     return Status::ok;
   }
 
+  bool convert(std::span<const Aabb> boxes) override {
+    converted_.clear();
+    for (const Aabb& box : boxes) {
+      converted_.push_back(corner(box.min));
+      converted_.push_back(corner(box.max));
+    }
+    return true;
+  }
+
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
@@ -175,6 +184,7 @@ class BulletBroadPhase final : public BroadPhase {
   btBroadphaseInterface* broad_ = nullptr;
   std::span<const Aabb> boxes_;
   std::vector<btBroadphaseProxy*> proxies_;  // by id; null where there is no body
+  std::vector<btVector3> converted_;         // scratch
   std::int64_t candidates_ = 0;
 };
 

@@ -203,6 +203,12 @@ class FclBroadPhase final : public BroadPhase {
     return status_;
   }
 
+  bool convert(std::span<const Aabb> boxes) override {
+    converted_.clear();
+    for (const Aabb& box : boxes) converted_.push_back(to_fcl(box));
+    return true;
+  }
+
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
@@ -290,8 +296,9 @@ class FclBroadPhase final : public BroadPhase {
   // is that of the ids. The managers hold pointers, so it is never reallocated under them.
   std::vector<BoxObject> objects_;
   std::unique_ptr<Manager> manager_;
-  std::vector<Object*> batch_;  // scratch
-  PairBuffer found_;            // scratch, of a manager that repeats itself
+  std::vector<Object*> batch_;                // scratch
+  PairBuffer found_;                          // scratch, of a manager that repeats itself
+  std::vector<fcl::AABB<double>> converted_;  // scratch
   std::size_t live_ = 0;
   std::int64_t candidates_ = 0;
   Status status_ = Status::ok;

@@ -203,6 +203,11 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     query.allocated_bytes = allocations[frame].query.bytes;
     if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = status_wrong;
     context.findings->add(std::move(prepare));
+    if (answer.reply.convert >= 0) {
+      RawRow convert = context.row(frame, entry, Phase::convert);
+      convert.seconds = answer.reply.convert;
+      context.findings->add(std::move(convert));
+    }
     context.findings->add(std::move(query));
     if (!answer.faults.none()) {
       result.right = false;

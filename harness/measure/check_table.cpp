@@ -31,6 +31,7 @@ double Checked::greatest_seconds() const { return seconds.empty() ? 0 : std::ran
 CheckTable::CheckTable(std::span<const RawRow> rows, std::int64_t block, std::size_t frames) {
   for (const RawRow& row : rows) {
     if (row.block != block || row.kind != RowKind::check || row.process >= 0) continue;
+    if (row.phase == Phase::convert) continue;  // a part of the build or the update
     if (row.status == to_string(Status::unsupported)) continue;
     const auto frame = static_cast<std::size_t>(row.frame);
     if (frame >= frames) continue;

@@ -29,6 +29,7 @@ struct SampleRequest {
 struct SampleReply {
   double prepare = Outcome::none;  // seconds: build or update; none in a narrow phase
   double query = 0;                // seconds: find_pairs, or the narrow phase
+  double convert = Outcome::none;  // seconds: of a peer's `prepare`, where one frame was `hashed`
   std::int64_t pairs = 0;
   std::uint64_t pair_hash = 0;
   std::int64_t contacts = -1;
@@ -70,6 +71,7 @@ class BroadSampler final : public Sampler {
  private:
   void step(std::size_t frame, SampleReply& reply);
   void prepare(std::size_t frame);
+  double time_conversion(std::size_t frame);
   void play_up_to(std::size_t frame);
   bool is_built(std::size_t frame) const { return rebuild_ || frame == 0; }
 

@@ -12,6 +12,7 @@ stats::Part part_of(Phase phase) {
     case Phase::build: return stats::Part::build;
     case Phase::update: return stats::Part::update;
     case Phase::find_pairs: return stats::Part::find_pairs;
+    case Phase::convert: return stats::Part::convert;
     case Phase::narrow: break;
   }
   return stats::Part::narrow;

@@ -8,7 +8,8 @@
 namespace touchstone {
 namespace {
 
-constexpr std::array all_phases = {Phase::build, Phase::update, Phase::find_pairs, Phase::narrow};
+constexpr std::array all_phases = {Phase::build, Phase::update, Phase::find_pairs, Phase::narrow,
+                                   Phase::convert};
 constexpr std::array all_row_kinds = {RowKind::check, RowKind::sample};
 
 // Calls visit(column name, field) for each column in order: the header, what is written and what is
@@ -134,6 +135,7 @@ std::string_view to_string(Phase phase) {
     case Phase::update: return "update";
     case Phase::find_pairs: return "find_pairs";
     case Phase::narrow: return "narrow";
+    case Phase::convert: return "convert";
   }
   return "?";
 }

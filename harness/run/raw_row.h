@@ -12,7 +12,8 @@
 
 namespace touchstone {
 
-enum class Phase : std::uint8_t { build, update, find_pairs, narrow };
+// `convert`: what of a peer's build or update is the conversion to its own types, once more.
+enum class Phase : std::uint8_t { build, update, find_pairs, narrow, convert };
 std::string_view to_string(Phase phase);
 
 enum class RowKind : std::uint8_t {

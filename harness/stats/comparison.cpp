@@ -52,6 +52,10 @@ constexpr std::array facts_remarked = {"affinity",
                                        "bullet",
                                        "fcl",
                                        "libccd",
+                                       "ode",
+                                       "embree",
+                                       "cgal",
+                                       "boost_geometry",
                                        "commit",
                                        "tree"};
 

@@ -88,7 +88,7 @@ Part part_of(const Fields& row) {
   for (std::size_t i = 0; i < part_names.size(); ++i) {
     if (phase == part_names[i]) return static_cast<Part>(i);
   }
-  row.fail("phase", "expected build, update, find_pairs or narrow");
+  row.fail("phase", "expected build, update, find_pairs, narrow or convert");
 }
 
 // In a set's last row: the run told its baseline from the twin.
@@ -127,8 +127,14 @@ class Reader {
     const std::string status = row.text("status");
     if (failed(status)) contestant.failure = status;
     if (kind == "check") {
-      Check check{frame, part_of(row), status, row.text("pair_hash"), row.text("outcome_hash")};
+      Check check;
+      check.frame = frame;
+      check.part = part_of(row);
+      check.status = status;
+      check.pair_hash = row.text("pair_hash");
+      check.outcome_hash = row.text("outcome_hash");
       check.pair_count = row.count("pair_count");
+      check.seconds = row.seconds();
       check.contact_count = row.count("contact_count");
       check.disagreements = row.count("disagreements");
       check.failures = row.count("failures");

@@ -34,15 +34,16 @@ struct SetKey {
   std::string words() const;  // "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"
 };
 
-enum class Part : std::uint8_t { build, update, find_pairs, narrow };
-inline constexpr std::array<const char*, 4> part_names = {"build", "update", "find_pairs",
-                                                          "narrow"};
+// `convert` is a part of build or update, told by checks and not by samples.
+enum class Part : std::uint8_t { build, update, find_pairs, narrow, convert };
+inline constexpr std::array<const char*, 5> part_names = {"build", "update", "find_pairs", "narrow",
+                                                          "convert"};
 
 // One contestant's work on the same run of frames: its phases together. Seconds, NaN for a part
 // that it did not have.
 struct Sample {
   std::int64_t process = 0, square = 0, round = 0, position = 0;
-  std::array<double, 4> parts;
+  std::array<double, part_names.size()> parts;
   double units = 0;  // frames of a broad phase, queries of a narrow one
   bool noisy = false;
 
@@ -69,6 +70,7 @@ inline constexpr std::array<const char*, 9> work_names = {
 struct Check {
   std::int64_t frame = 0;
   Part part = Part::build;
+  double seconds = 0;  // no sample: NaN where it failed
   std::string status, pair_hash, outcome_hash;
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
                compared = -1;

@@ -56,7 +56,7 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
   row.seconds = median_interval(values_of(by_square(contestant, noise)), confidence);
   row.minimum = nan;
   std::vector<double> all;
-  std::array<std::vector<double>, 4> parts;
+  std::array<std::vector<double>, part_names.size()> parts;
   for (const Sample& sample : contestant.samples) {
     ++row.samples;
     row.noisy += sample.noisy;
@@ -67,6 +67,11 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
     all.push_back(value);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (!std::isnan(sample.parts[i])) parts[i].push_back(sample.parts[i] / sample.units);
+    }
+  }
+  for (const Check& check : contestant.checks) {
+    if (check.part == Part::convert) {
+      parts[static_cast<std::size_t>(Part::convert)].push_back(check.seconds);
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) row.parts[i] = median(std::move(parts[i]));

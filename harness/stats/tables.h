@@ -14,11 +14,11 @@ namespace touchstone::stats {
 // One contestant of one set.
 struct TimeRow {
   SetKey key;
-  std::string label, origin;    // ours, peer, oracle; empty where the registry knows it not
-  bool per_query = false;       // the times are of a query, not of a frame
-  MedianInterval seconds;       // over the squares
-  double minimum = 0;           // of all samples, noisy ones too: noise only adds
-  std::array<double, 4> parts;  // medians of the phases, NaN where there is none
+  std::string label, origin;  // ours, peer, oracle; empty where the registry knows it not
+  bool per_query = false;     // the times are of a query, not of a frame
+  MedianInterval seconds;     // over the squares
+  double minimum = 0;         // of all samples, noisy ones too: noise only adds
+  std::array<double, part_names.size()> parts;  // medians of the phases, NaN where there is none
   std::int64_t samples = 0, noisy = 0, outliers = 0;
   bool wrong = false;   // departs from the pairs or answers of the others
   std::string failure;  // crashed, timed_out, unsupported

@@ -46,8 +46,8 @@ class TableFile {
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder) {
   TableFile times(folder / "times.csv",
                   {"algorithm", "origin", "unit", "seconds", "seconds_low", "seconds_high",
-                   "minimum", "build", "update", "find_pairs", "narrow", "squares", "samples",
-                   "noisy", "outliers", "wrong", "failure"});
+                   "minimum", "build", "update", "find_pairs", "narrow", "convert", "squares",
+                   "samples", "noisy", "outliers", "wrong", "failure"});
   for (const TimeRow& row : tables.times) {
     CsvWriter& csv = times.row(row.key).field(row.label).field(row.origin);
     csv.field(row.key.narrow() ? "query" : "frame").field(row.seconds.median);

@@ -39,7 +39,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   const double scale = broad ? 1e3 : 1e9;
   std::vector<std::string> names = {"", broad ? "ms a frame" : "ns a query", "95 % interval",
                                     "minimum"};
-  if (broad) names.insert(names.end(), {"build", "update", "find pairs"});
+  if (broad) names.insert(names.end(), {"build", "update", "(converting)", "find pairs"});
   names.insert(names.end(), {"ratio", "95 % interval", "p (Holm)", "squares", "remarks"});
   std::string body;
   std::string baseline;
@@ -55,7 +55,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     std::vector<std::string> cells = {row.label, text(row.seconds.median * scale),
                                       interval(row.seconds, scale), text(row.minimum * scale)};
     if (broad) {
-      for (const Part part : {Part::build, Part::update, Part::find_pairs}) {
+      for (const Part part : {Part::build, Part::update, Part::convert, Part::find_pairs}) {
         cells.push_back(text(row.parts[static_cast<std::size_t>(part)] * scale));
       }
     }

@@ -105,7 +105,12 @@ std::set<std::string> libraries_of(const SourceFile& file) {
   std::set<std::string> libraries;
   for (const std::string& to : file.other) {
     const std::string first = to.substr(0, to.find('/'));
-    if (first == "fcl" || first == "ccd") libraries.insert(first);
+    if (first == "fcl" || first == "ccd" || first == "ode" || first == "embree3") {
+      libraries.insert(first);
+    }
+    if (to.starts_with("boost/geometry")) libraries.insert("boost geometry");
+    // A reference of the tests too.
+    if (first == "CGAL" && !in(file.path, "tests")) libraries.insert("CGAL");
     if (first == "bullet" || to.starts_with("bt") || first == "BulletCollision" ||
         first == "LinearMath") {
       libraries.insert("bullet");

@@ -130,7 +130,12 @@ TEST_P(BroadPhases, FindThePairsOfEverySet) {
     algorithm->build(sample.set.boxes);
     const auto found = ordered_pairs(*algorithm, sink);
     expect_truth(found, sample.truth, sample.set.boxes.size(), sample.set.degenerate);
-    EXPECT_EQ(ordered_pairs(*algorithm, sink), found) << "asked again";
+    const auto again = ordered_pairs(*algorithm, sink);
+    if (is_ours()) {
+      EXPECT_EQ(again, found) << "asked again";
+    } else {  // a library may order them as its threads happen to run
+      expect_truth(again, sample.truth, sample.set.boxes.size(), sample.set.degenerate);
+    }
   }
 }
 

@@ -1,4 +1,4 @@
-// CGAL is under the GNU General Public License: for tests only.
+// CGAL is under the GNU General Public License: TOUCHSTONE_WITH_CGAL=OFF leaves this out.
 #include <CGAL/Gmpz.h>
 #include <CGAL/Homogeneous.h>
 #include <CGAL/Polytope_distance_d.h>

@@ -25,6 +25,14 @@ inline std::vector<IndexPair> closed_pairs(std::span<const Aabb> boxes) {
   return pairs;
 }
 
+inline std::vector<IndexPair> sorted_pairs(BroadPhase& algorithm) {
+  PairSink sink;
+  EXPECT_EQ(algorithm.find_pairs(sink), Status::ok);
+  std::vector<IndexPair> found = sink.gather();
+  std::ranges::sort(found);
+  return found;
+}
+
 inline bool only_touch(const Aabb& a, const Aabb& b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (a.min[axis] == b.max[axis] || b.min[axis] == a.max[axis]) return true;

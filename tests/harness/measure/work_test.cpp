@@ -83,6 +83,44 @@ TEST(WorkColumns, OfTheCheck) {
   EXPECT_EQ(rows, 2 * FakeCampaign::frames);
 }
 
+// Converts its boxes in a time that depends on how many there are; the first time is cold.
+class Converting final : public BroadPhase {
+ public:
+  explicit Converting(Executor& executor) : naive_(find_broad_phase("naive")->make(executor)) {
+    FakeClock::start();
+  }
+  void build(std::span<const Aabb> boxes) override { naive_->build(boxes); }
+  void update(const FrameChange& change) override { naive_->update(change); }
+  Status find_pairs(PairSink& sink) override { return naive_->find_pairs(sink); }
+  bool convert(std::span<const Aabb> boxes) override {
+    const double cold = calls_++ % 4 == 0 ? 100 : 1;
+    FakeClock::spend(1e-6 * cold * static_cast<double>(boxes.size()));
+    return true;
+  }
+
+ private:
+  std::unique_ptr<BroadPhase> naive_;
+  int calls_ = 0;
+};
+
+TEST(Conversion, IsTimedApartInTheCheck) {
+  FakeCampaign fakes;
+  BroadPhaseEntry converting = fake("converting", [](int, PairSink&) {});
+  converting.make = [](Executor& executor) { return std::make_unique<Converting>(executor); };
+  fakes.fakes = {converting, fake("silent", [](int, PairSink&) {})};
+  const RunResult result = run_campaign(fakes.campaign(1), fakes.out());
+  int rows = 0;
+  for (const RawRow& row : result.findings.rows()) {
+    EXPECT_NE(row.status, "wrong") << row.broad;
+    if (row.phase != Phase::convert) continue;
+    ++rows;
+    EXPECT_EQ(row.kind, RowKind::check);
+    EXPECT_EQ(row.broad, "converting");
+    EXPECT_NEAR(row.seconds, 1e-6 * static_cast<double>(row.bodies), 1e-9);  // all of them move
+  }
+  EXPECT_EQ(rows, FakeCampaign::frames);
+}
+
 TEST(WorkColumns, NothingIsCountedWhereTimeIsTaken) {
   const RunResult result = run_counting(false);
   int rows = 0;

@@ -1,0 +1,210 @@
+// Embree's collision of a scene with itself; the scene is one user geometry of boxes.
+// Paper:   Wald, Woop, Benthin, Johnson, Ernst, "Embree: a kernel framework for efficient CPU ray
+//          tracing", SIGGRAPH 2014; Embree 3.13, rtcCollide. `embree-low` builds its BVH anew in
+//          each frame, along a Morton curve (Lauterbach et al., "Fast BVH construction on GPUs",
+//          Eurographics 2009), which RTC_BUILD_QUALITY_LOW stands for; `embree-refit` builds it by
+//          the surface area heuristic and then only refits it (RTC_BUILD_QUALITY_REFIT).
+// Departs: a dynamic scene (RTC_SCENE_FLAG_DYNAMIC) of low quality, in which alone the geometry's
+//          quality counts. Embree gives leaves' boxes, each pair both ways: those with the smaller
+//          primitive first are tested against the given boxes. It drops boxes beyond 1.84e18, so
+//          larger worlds are scaled down by a power of two; rounding keeps the order of floats, so
+//          that no pair is lost. It has threads=<the executor's width>, in an arena of that width,
+//          so that one thread is one, whatever else the process has made of Embree.
+// Fails:   on more than one thread the pairs come in another order each time. Refitting follows
+// what
+//          moves a little: where bodies mix, the tree becomes useless, until some come or go and it
+//          is built again. Threads=N limits oneTBB in the whole process to N while Embree is in
+//          use.
+// Cost:    O(n log n) time to build, O(n) to refit; O(n + k) to query where boxes are small; O(n)
+//          memory.
+#include "algorithms/broad_phase.h"
+#if TOUCHSTONE_BUILT
+#include <embree3/rtcore.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace touchstone {
+namespace {
+
+// Embree's own limit, FLT_LARGE, is 1.84e18.
+constexpr float largest = 0x1p60F;
+
+float reach_of(const Aabb& box) {
+  float reach = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  }
+  return reach;
+}
+
+RTCBounds to_embree(const Aabb& box, float scale) {
+  return {scale * box.min[0], scale * box.min[1], scale * box.min[2], 0,
+          scale * box.max[0], scale * box.max[1], scale * box.max[2], 0};
+}
+
+class EmbreeBroadPhase final : public BroadPhase {
+ public:
+  EmbreeBroadPhase(const Executor& executor, RTCBuildQuality quality)
+      : quality_(quality),
+        width_(static_cast<std::size_t>(executor.width())),
+        arena_(executor.width()),
+        device_(rtcNewDevice(
+            ("threads=" + std::to_string(executor.width()) + ",set_affinity=0").c_str())),
+        scene_(rtcNewScene(device_)) {
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+  }
+  ~EmbreeBroadPhase() override {
+    rtcReleaseScene(scene_);  // the geometry goes with it
+    rtcReleaseDevice(device_);
+  }
+  EmbreeBroadPhase(const EmbreeBroadPhase&) = delete;
+  EmbreeBroadPhase& operator=(const EmbreeBroadPhase&) = delete;
+
+  void build(std::span<const Aabb> boxes) override {
+    boxes_ = boxes;
+    float reach = 0;
+    primitives_.assign(boxes.size(), none);
+    ids_.clear();
+    for (std::uint32_t id = 0; id < boxes.size(); ++id) {
+      if (boxes[id].is_empty()) continue;
+      reach = std::max(reach, reach_of(boxes[id]));
+      primitives_[id] = static_cast<std::uint32_t>(ids_.size());
+      ids_.push_back(id);
+    }
+    scale_ = reach < largest ? 1.0F : std::ldexp(1.0F, 59 - std::ilogb(reach));
+    bounds_.resize(ids_.size());
+    for (std::size_t i = 0; i < ids_.size(); ++i) bounds_[i] = to_embree(boxes[ids_[i]], scale_);
+    attach();
+    rtcCommitScene(scene_);
+  }
+
+  void update(const FrameChange& change) override {
+    const auto held = [&](std::uint32_t id) {
+      return scale_ * reach_of(change.boxes[id]) < largest;
+    };
+    if (!change.inserted.empty() || !change.removed.empty() ||
+        !std::ranges::all_of(change.moved, held)) {
+      return build(change.boxes);
+    }
+    boxes_ = change.boxes;
+    for (const std::uint32_t id : change.moved) {
+      bounds_[primitives_[id]] = to_embree(boxes_[id], scale_);
+    }
+    rtcCommitGeometry(geometry_);
+    rtcCommitScene(scene_);
+  }
+
+  Status find_pairs(PairSink& sink) override {
+    sink.start(width_);
+    given_.assign(width_, {});
+    candidates_ = 0;
+    if (ids_.size() < 2) return Status::ok;
+    Found found{*this, sink};
+    arena_.execute([&] { rtcCollide(scene_, scene_, &Found::add, &found); });
+    for (const Count& count : given_) candidates_ += count.pairs;
+    switch (rtcGetDeviceError(device_)) {
+      case RTC_ERROR_NONE: return Status::ok;
+      case RTC_ERROR_OUT_OF_MEMORY: return Status::capacity;
+      default: return Status::degenerate;
+    }
+  }
+
+  bool convert(std::span<const Aabb> boxes) override {
+    converted_.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) converted_[i] = to_embree(boxes[i], scale_);
+    return true;
+  }
+
+  BroadPhaseWork work() const override { return {.candidates = candidates_}; }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  // Of one thread; a cache line each.
+  struct alignas(64) Count {
+    std::int64_t pairs = 0;
+  };
+
+  // What Embree's callback is given. Its threads are those of the arena.
+  struct Found {
+    EmbreeBroadPhase& of;
+    PairSink& sink;
+
+    static void add(void* data, RTCCollision* collisions, unsigned count) {
+      const auto& [of, sink] = *static_cast<Found*>(data);
+      const auto place =
+          static_cast<std::size_t>(oneapi::tbb::this_task_arena::current_thread_index());
+      PairBuffer& out = sink.chunk(place);
+      of.given_[place].pairs += count;
+      for (unsigned i = 0; i < count; ++i) {
+        const auto [geometry0, first, geometry1, second] = collisions[i];
+        if (first >= second) continue;
+        const std::uint32_t a = of.ids_[first];
+        const std::uint32_t b = of.ids_[second];
+        if (overlap(of.boxes_[a], of.boxes_[b])) out.push(a, b);
+      }
+    }
+  };
+
+  // A geometry of its own for each build: one that is refitted would else keep its tree.
+  void attach() {
+    if (geometry_ != nullptr) rtcDetachGeometry(scene_, 0);
+    geometry_ = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryBuildQuality(geometry_, quality_);
+    rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<unsigned>(ids_.size()));
+    rtcSetGeometryUserData(geometry_, this);
+    rtcSetGeometryBoundsFunction(
+        geometry_,
+        [](const RTCBoundsFunctionArguments* asked) {
+          const auto& self = *static_cast<const EmbreeBroadPhase*>(asked->geometryUserPtr);
+          *asked->bounds_o = self.bounds_[asked->primID];
+        },
+        nullptr);
+    rtcCommitGeometry(geometry_);
+    rtcAttachGeometryByID(scene_, geometry_, 0);
+    rtcReleaseGeometry(geometry_);  // the scene holds it
+  }
+
+  RTCBuildQuality quality_;
+  std::size_t width_;
+  oneapi::tbb::task_arena arena_;
+  RTCDevice device_;
+  RTCScene scene_;
+  RTCGeometry geometry_ = nullptr;
+  std::span<const Aabb> boxes_;
+  std::vector<std::uint32_t> ids_;         // by primitive
+  std::vector<std::uint32_t> primitives_;  // by id
+  std::vector<RTCBounds> bounds_;          // by primitive
+  std::vector<RTCBounds> converted_;       // scratch
+  float scale_ = 1;                        // of them
+  std::vector<Count> given_;               // by thread
+  std::int64_t candidates_ = 0;
+};
+
+}  // namespace
+}  // namespace touchstone
+#endif
+
+TOUCHSTONE_BROAD_PHASE {
+  using namespace touchstone;
+  return {
+      {.info = {.name = "embree-low",
+                .citation = "Embree 3.13, rtcCollide, RTC_BUILD_QUALITY_LOW (Wald, Woop, Benthin, "
+                            "Johnson, Ernst, SIGGRAPH 2014)",
+                .origin = Origin::peer},
+       .make = TOUCHSTONE_IF_BUILT([](Executor& executor) {
+         return std::make_unique<EmbreeBroadPhase>(executor, RTC_BUILD_QUALITY_LOW);
+       })},
+      {.info = {.name = "embree-refit",
+                .citation = "Embree 3.13, rtcCollide, RTC_BUILD_QUALITY_REFIT (Wald, Woop, "
+                            "Benthin, Johnson, Ernst, SIGGRAPH 2014)",
+                .origin = Origin::peer},
+       .make = TOUCHSTONE_IF_BUILT([](Executor& executor) {
+         return std::make_unique<EmbreeBroadPhase>(executor, RTC_BUILD_QUALITY_REFIT);
+       })},
+  };
+}
