@@ -35,10 +35,7 @@ class CandidateList final : public BroadPhase {
 
   void build(std::span<const Aabb> boxes) override {
     boxes_ = boxes;
-    order_.make(executor_, boxes);
-    fit(boxes);
-    listed_ = false;
-    age_ = no_reference;
+    search_anew();
   }
 
   void update(const FrameChange& change) override;
@@ -49,7 +46,6 @@ class CandidateList final : public BroadPhase {
   static constexpr std::size_t block_size = 4096;
   static constexpr std::size_t groups_a_task = 4;
   static constexpr std::size_t strays_a_task = 32;
-  static constexpr int no_reference = -1;
 
   void fit(std::span<const Aabb> boxes) {
     if (order_.empty()) return;
@@ -58,7 +54,7 @@ class CandidateList final : public BroadPhase {
   }
   std::size_t groups() const { return order_.empty() ? 0 : pyramid_.groups(); }
 
-  void keep_reference();
+  void search_anew();
   Motion measure_motion();
   void make_list(double frames);
   bool find_strays(const FrameChange& change);
@@ -74,7 +70,7 @@ class CandidateList final : public BroadPhase {
 
   // By body: the grown boxes of the list, or those of an earlier frame to measure motion by.
   std::vector<Aabb> reference_;
-  int age_ = no_reference;  // frames since then
+  int age_ = 0;  // frames since then
   bool listed_ = false;
   PairSink candidates_;
   ListDuration duration_;
@@ -84,7 +80,6 @@ class CandidateList final : public BroadPhase {
   std::size_t searched_ = 0;           // strays, summed over the frames of this list
   BoxArrays stray_boxes_;
   std::vector<std::size_t> counts_;  // of blocks
-  std::vector<Motion> motions_;      // of blocks
   std::size_t pairs_ = 0;            // found last
 };
 
@@ -97,15 +92,18 @@ bool holds(const Aabb& outer, const Aabb& inner) {
   return held;
 }
 
-void CandidateList::keep_reference() {
+// Without a list; the boxes are kept to see how far they move.
+void CandidateList::search_anew() {
+  order_.make(executor_, boxes_);
+  fit(boxes_);
   reference_.resize(boxes_.size());
   for_each_block(executor_, boxes_.size(), block_size,
                  [&](std::size_t, std::size_t first, std::size_t last) {
-                   std::copy(boxes_.begin() + static_cast<std::ptrdiff_t>(first),
-                             boxes_.begin() + static_cast<std::ptrdiff_t>(last),
-                             reference_.begin() + static_cast<std::ptrdiff_t>(first));
+                   std::ranges::copy(boxes_.subspan(first, last - first),
+                                     reference_.begin() + static_cast<std::ptrdiff_t>(first));
                  });
   age_ = 0;
+  listed_ = false;
 }
 
 // How far a box's centre has come on the axis where that is most (metres, doubled).
@@ -151,7 +149,7 @@ void CandidateList::make_list(double frames) {
   // Bodies that hardly move may move more: half of what is usual is allowed to all.
   const float least = motion.step / 2;
   const std::size_t known = std::min(boxes_.size(), reference_.size());
-  const float step_of = 0.5f / static_cast<float>(std::max(age_, 1));
+  const float step_of = 0.5f / static_cast<float>(age_);
   reference_.resize(boxes_.size(), Aabb::empty());
   for_each_block(executor_, boxes_.size(), block_size,
                  [&](std::size_t, std::size_t first, std::size_t last) {
@@ -236,7 +234,7 @@ bool CandidateList::find_strays(const FrameChange& change) {
 
 void CandidateList::update(const FrameChange& change) {
   boxes_ = change.boxes;
-  if (age_ != no_reference) ++age_;
+  ++age_;
   if (listed_) {
     if (find_strays(change)) {
       stray_boxes_.gather(executor_, boxes_, strays_.size(),
@@ -245,18 +243,9 @@ void CandidateList::update(const FrameChange& change) {
     }
     duration_.ended(age_, boxes_.size(), pairs_);
   }
-  if (age_ == no_reference) {
-    order_.make(executor_, boxes_);
-    fit(boxes_);
-    keep_reference();
-    return;
-  }
   const double frames = duration_.choose(measure_motion(), boxes_.size(), pairs_);
   if (frames > 0) return make_list(frames);
-  listed_ = false;
-  order_.make(executor_, boxes_);
-  fit(boxes_);
-  keep_reference();
+  search_anew();
 }
 
 // Pairs of strays first <= i < last with boxes that have not strayed, and with strays behind them.
