@@ -61,7 +61,7 @@ namespace avx512 = baseline;
 void bound(Executor& executor, const BoxArrays& below, BoxArrays& above) {
   const std::size_t count = block_count(below.size(), fan);
   above.resize(count);
-  for_each_block(executor, count, 1024, [&](std::size_t, std::size_t first, std::size_t last) {
+  for_each_block(executor, count, 256, [&](std::size_t, std::size_t first, std::size_t last) {
     switch (isa()) {
       case Isa::avx512: return avx512::bound(below, above, first, last);
       case Isa::avx2: return avx2::bound(below, above, first, last);

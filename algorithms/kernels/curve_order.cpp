@@ -154,25 +154,24 @@ void CurveOrder::make(Executor& executor, std::span<const Aabb> boxes) {
     if (begin > begins_[used_]) begins_[++used_] = begin;
   }
   order_.resize(begins_[used_]);
-  refine_runs(boxes);
+  refine_runs(executor, boxes);
 }
 
 // Finds the cells that hold too many.
-void CurveOrder::refine_runs(std::span<const Aabb> boxes) {
+void CurveOrder::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
   constexpr std::size_t stride = most_in_cell / 2;
+  runs_.clear();
   std::size_t from = 0;
   for (std::size_t i = stride; i < order_.size(); i += stride) {
     if (i < from || code(i - stride) != code(i)) continue;
-    const auto same = [&, wanted = code(i)](std::uint64_t item) {
-      return item >> id_bits_ == wanted;
-    };
     std::size_t first = i - stride;
     while (first > from && code(first - 1) == code(i)) --first;
-    const auto end =
-        std::find_if_not(order_.begin() + static_cast<std::ptrdiff_t>(i), order_.end(), same);
-    from = static_cast<std::size_t>(end - order_.begin());
-    if (from - first > most_in_cell) refine(boxes, first, from, 0);
+    from = i + 1;
+    while (from < order_.size() && code(from) == code(i)) ++from;
+    if (from - first > most_in_cell) runs_.push_back({first, from});
   }
+  const auto task = [&](std::size_t i, int) { refine(boxes, runs_[i].first, runs_[i].last, 0); };
+  executor.run(runs_.size(), std::cref(task));
 }
 
 // Draws a curve through boxes first <= i < last of the order.
@@ -233,7 +232,7 @@ void CurveOrder::gather(Executor& executor, std::span<const Aabb> boxes, BoxArra
 }
 
 std::size_t CurveOrder::held_bytes() const {
-  return static_cast<std::size_t>(sum_held_bytes(order_, radix_sort_));
+  return static_cast<std::size_t>(sum_held_bytes(order_, radix_sort_, runs_));
 }
 
 }  // namespace touchstone

@@ -35,7 +35,7 @@ class CurveOrder {
 
  private:
   void refine(std::span<const Aabb> boxes, std::size_t first, std::size_t last, int depth);
-  void refine_runs(std::span<const Aabb> boxes);
+  void refine_runs(Executor& executor, std::span<const Aabb> boxes);
   std::uint32_t id(std::size_t i) const {
     return static_cast<std::uint32_t>(order_[i] & ((std::uint64_t{1} << id_bits_) - 1));
   }
@@ -44,6 +44,7 @@ class CurveOrder {
   std::vector<std::uint64_t> order_;  // class and place on the curve above, id below
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
+  std::vector<IndexRange> runs_;                        // of boxes in one cell
   std::size_t used_ = 0;                                // classes
   std::array<std::size_t, most_classes + 1> begins_{};  // of the classes, in the order
 };
