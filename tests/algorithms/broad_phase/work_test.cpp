@@ -103,7 +103,9 @@ TEST_F(Work, AStackInOnePlaceHasNothingButCandidates) {
     const Counted counted = count(entry->info.name, boxes);
     EXPECT_EQ(counted.pairs, 4950u);
     EXPECT_EQ(counted.work.candidates, 4950);
-    EXPECT_EQ(counted.work.box_tests, 4950);
+    // Those with bounds of many boxes test these too, a few for each 16 boxes or against them.
+    EXPECT_GE(counted.work.box_tests, 4950);
+    EXPECT_LE(counted.work.box_tests, 4950 + 4950 / 4);
   }
 }
 
