@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_lanes.h"
@@ -33,8 +34,8 @@ class DynamicBvh final : public BroadPhase {
 
   void build(std::span<const Aabb> boxes) override {
     is_sorted_ = false;
-    load(boxes, 0);
     keeps_pairs_ = false;
+    load(boxes, 0);
   }
 
   void update(const FrameChange& change) override;
@@ -79,6 +80,10 @@ class DynamicBvh final : public BroadPhase {
   static float longest_side(const Aabb& box) {
     return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
   }
+  IndexPair ids_of(const IndexPair& ranks) const {
+    const auto [a, b] = std::minmax(id_of_[ranks.a], id_of_[ranks.b]);
+    return {a, b};
+  }
   Aabb fat(const Aabb& box) const {
     constexpr float most = std::numeric_limits<float>::max();
     const float margin = std::min(margin_, most_margin * longest_side(box));
@@ -98,20 +103,22 @@ class DynamicBvh final : public BroadPhase {
   }
 
   Motion motion_of(const FrameChange& change) const;
-  void make_anew(const FrameChange& change);
+  void make_anew(const FrameChange& change, const Motion& motion);
   void load(std::span<const Aabb> boxes, float margin);
   void fill_tree(std::span<const Aabb> boxes);
   bool search(std::size_t task, Scratch& scratch, std::size_t most, PairBuffer& out) const;
   bool search_all(std::size_t most_a_task, PairSink& sink);
   bool keep_pairs();
 
-  bool list_leavers(const FrameChange& change);
-  void follow(const FrameChange& change);
-  void remove_pairs(std::uint32_t id);
-  void look_anew();
+  void take_boxes(const FrameChange& change);
+  void take_box(std::uint32_t rank, const Aabb& box);
+  void change_tree(const FrameChange& change);
+  void list_pairs_of(std::span<const std::uint32_t> ranks);
   void link_pairs();
   void link(std::size_t pair);
+  void remove_pairs_of(std::span<const std::uint32_t> ranks);
   void test_pairs(std::span<const std::uint32_t> moved);
+  void look_anew();
 
   Executor& executor_;
   std::vector<Scratch> scratch_;
@@ -123,31 +130,33 @@ class DynamicBvh final : public BroadPhase {
   float margin_ = 0;
   std::size_t count_ = 0;  // of bodies
 
-  // Body r of these is the one that was loaded as r - 1, or came later. The first is nobody's, and
-  // meets nobody.
+  // Bodies have ranks, in the order in which they were loaded or came later; rank 0 is nobody's,
+  // and its box meets nobody.
   std::vector<Body> bodies_;
+  std::vector<Aabb> fats_;
+  std::vector<std::uint32_t> id_of_;    // of each rank; of those that are gone, too
   std::vector<std::uint32_t> rank_of_;  // of each id
 
   // Pairs of fat boxes, where they are kept; in order of their discovery, gone ones of rank 0.
   bool keeps_pairs_ = false;
-  std::vector<IndexPair> pairs_;  // ids
   std::vector<IndexPair> ranks_;
+  std::vector<IndexPair> pairs_;     // their ids
   std::vector<std::uint8_t> meets_;  // 1 where the bodies' own boxes overlap
   std::size_t gone_ = 0;
   // The pairs of a body, linked: 2 p for its being the first of pair p, 2 p + 1 for the second.
   bool are_linked_ = false;
   std::vector<std::uint32_t> first_of_;  // of each rank
   std::vector<std::uint32_t> next_;
-  // Bodies that have left their boxes, or are new, in this frame; and how many since the tree was
-  // loaded.
-  std::vector<std::uint32_t> leavers_;
-  std::vector<std::uint8_t> is_leaver_;  // of each id
+  std::vector<std::uint32_t> open_, listed_;  // of list_pairs_of
+  // Ranks of those that moved or go, and of those that have left their boxes or are new, in this
+  // frame; and how many have since the tree was loaded.
+  std::vector<std::uint32_t> moved_, leavers_;
+  std::vector<std::uint8_t> is_leaver_;  // of each rank
   std::size_t left_ = 0;
   PairSink found_;
 };
 
-// --- all bodies
-// -----------------------------------------------------------------------------------
+// --- all bodies ---
 
 // From a sample of those that moved.
 DynamicBvh::Motion DynamicBvh::motion_of(const FrameChange& change) const {
@@ -176,10 +185,9 @@ DynamicBvh::Motion DynamicBvh::motion_of(const FrameChange& change) const {
   return motion;
 }
 
-void DynamicBvh::make_anew(const FrameChange& change) {
+void DynamicBvh::make_anew(const FrameChange& change, const Motion& motion) {
   const std::size_t churn = change.inserted.size() + change.removed.size();
   if (churn > 0) is_sorted_ = false;
-  const Motion motion = motion_of(change);
   keeps_pairs_ = motion.fast + churn <= count_ / few;
   load(change.boxes, keeps_pairs_ ? frames_ahead * motion.usual : 0);
   if (!keeps_pairs_ || keep_pairs()) return;
@@ -191,7 +199,6 @@ void DynamicBvh::load(std::span<const Aabb> boxes, float margin) {
   margin_ = margin;
   left_ = 0;
   rank_of_.resize(boxes.size());
-  is_leaver_.assign(boxes.size(), 0);
   const bool was_sorted = is_sorted_;
   if (!was_sorted) {
     list_bodies(executor_, boxes, ids_);
@@ -208,17 +215,24 @@ void DynamicBvh::load(std::span<const Aabb> boxes, float margin) {
   is_sorted_ = true;
 }
 
+// The tree is of ranks where pairs are kept, and otherwise of ids, which are then the pairs found.
 void DynamicBvh::fill_tree(std::span<const Aabb> boxes) {
   count_ = order_.size();
   bodies_.resize(count_ + 1);
+  fats_.resize(count_ + 1);
+  id_of_.resize(count_ + 1);
+  is_leaver_.assign(count_ + 1, 0);
   bodies_[0] = body_of(Aabb::empty());
-  BoxArrays& arrays = tree_.start(count_, boxes.size());
+  BoxArrays& arrays = tree_.start(count_, std::max(boxes.size(), count_ + 1));
   for_each_block(executor_, count_, 4096, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t id = order_.id(i);
-      arrays.set(i, fat(boxes[id]), id);
-      bodies_[i + 1] = body_of(boxes[id]);
-      rank_of_[id] = static_cast<std::uint32_t>(i + 1);
+      const auto rank = static_cast<std::uint32_t>(i + 1);
+      bodies_[rank] = body_of(boxes[id]);
+      fats_[rank] = fat(boxes[id]);
+      id_of_[rank] = id;
+      rank_of_[id] = rank;
+      arrays.set(i, fats_[rank], keeps_pairs_ ? rank : id);
     }
   });
   tree_.load(executor_);
@@ -254,80 +268,110 @@ bool DynamicBvh::keep_pairs() {
   const bool are_all = search_all(leaves_a_task * group_size * most_pairs_a_body, found_);
   if (!are_all || found_.size() > most_pairs) return false;
   const std::size_t count = found_.size();
-  pairs_.resize(count);
   ranks_.resize(count);
+  pairs_.resize(count);
   meets_.resize(count);
   gone_ = 0;
   are_linked_ = false;
   std::size_t at = 0;
   for (const PairBuffer& chunk : found_.chunks()) {
-    std::ranges::copy(chunk.pairs(), pairs_.begin() + static_cast<std::ptrdiff_t>(at));
+    std::ranges::copy(chunk.pairs(), ranks_.begin() + static_cast<std::ptrdiff_t>(at));
     at += chunk.size();
   }
   for_each_block(executor_, count, pairs_a_task,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t p = first; p < last; ++p) {
-                     ranks_[p] = {rank_of_[pairs_[p].a], rank_of_[pairs_[p].b]};
+                     pairs_[p] = ids_of(ranks_[p]);
                      meets_[p] = meet(bodies_[ranks_[p].a], bodies_[ranks_[p].b]);
                    }
                  });
   return true;
 }
 
-// --- some bodies
-// ----------------------------------------------------------------------------------
+// --- some bodies ---
 
 void DynamicBvh::update(const FrameChange& change) {
   if (change.moved.empty() && change.inserted.empty() && change.removed.empty()) return;
+  const Motion motion = motion_of(change);
+  const std::size_t most = count_ / few;
   const std::size_t churn = change.inserted.size() + change.removed.size();
   const bool is_worn =
       left_ > count_ / 2 || gone_ > pairs_.size() / 2 + count_ || pairs_.size() > most_pairs;
-  if (!keeps_pairs_ || is_worn || churn > count_ / few || !list_leavers(change) ||
-      !tree_.has_room_for(leavers_.size() + change.inserted.size())) {
-    return make_anew(change);
+  if (!keeps_pairs_ || is_worn || churn > most) return make_anew(change, motion);
+  take_boxes(change);
+  if (leavers_.size() > most || !tree_.has_room_for(leavers_.size() + change.inserted.size())) {
+    return make_anew(change, motion);
   }
-  follow(change);
-}
-
-// Moved bodies that are no longer in their fat boxes; false where there are too many.
-bool DynamicBvh::list_leavers(const FrameChange& change) {
-  leavers_.clear();
-  for (const std::uint32_t id : change.moved) {
-    if (!contains(tree_.box_at(tree_.place_of(id)), change.boxes[id])) leavers_.push_back(id);
-  }
-  return leavers_.size() <= count_ / few;
-}
-
-void DynamicBvh::follow(const FrameChange& change) {
-  for (const std::uint32_t id : change.moved) bodies_[rank_of_[id]] = body_of(change.boxes[id]);
-  const bool is_still = leavers_.empty() && change.inserted.empty() && change.removed.empty();
-  if (!is_still) {
-    link_pairs();
-    is_sorted_ = is_sorted_ && change.inserted.empty() && change.removed.empty();
-    for (const std::uint32_t id : change.removed) {
-      remove_pairs(id);
-      tree_.remove(id);
-    }
-    for (const std::uint32_t id : leavers_) {
-      remove_pairs(id);
-      tree_.move(id, fat(change.boxes[id]));
-    }
-    rank_of_.resize(change.boxes.size());
-    is_leaver_.resize(change.boxes.size());
-    tree_.make_room_for_ids(change.boxes.size());
-    for (const std::uint32_t id : change.inserted) {
-      rank_of_[id] = static_cast<std::uint32_t>(bodies_.size());
-      bodies_.push_back(body_of(change.boxes[id]));
-      first_of_.push_back(none);
-      tree_.insert(id, fat(change.boxes[id]));
-    }
-    leavers_.insert(leavers_.end(), change.inserted.begin(), change.inserted.end());
-    left_ += leavers_.size() + change.removed.size();
-    count_ += change.inserted.size();
-    count_ -= change.removed.size();
-  }
+  if (leavers_.size() + churn > 0) change_tree(change);
   test_pairs(change.moved);
   look_anew();
+}
+
+void DynamicBvh::take_box(std::uint32_t rank, const Aabb& box) {
+  bodies_[rank] = body_of(box);
+  is_leaver_[rank] = contains(fats_[rank], box) ? 0 : 1;
+}
+
+// Of those that moved; and lists those that are no longer in their fat boxes.
+void DynamicBvh::take_boxes(const FrameChange& change) {
+  leavers_.clear();
+  if (change.moved.size() <= count_ / few) {
+    for (const std::uint32_t id : change.moved) {
+      const std::uint32_t rank = rank_of_[id];
+      take_box(rank, change.boxes[id]);
+      if (is_leaver_[rank] != 0) leavers_.push_back(rank);
+    }
+    return;
+  }
+  // Most have: all in their order, which is kinder to memory. An empty box, of a body that goes, is
+  // within any.
+  for_each_block(executor_, bodies_.size() - 1, 4096,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     const auto rank = static_cast<std::uint32_t>(i + 1);
+                     const std::uint32_t id = id_of_[rank];
+                     if (rank_of_[id] == rank) take_box(rank, change.boxes[id]);
+                   }
+                 });
+  for (std::uint32_t rank = 1; rank < bodies_.size(); ++rank) {
+    if (is_leaver_[rank] != 0) leavers_.push_back(rank);
+  }
+}
+
+void DynamicBvh::change_tree(const FrameChange& change) {
+  link_pairs();
+  remove_pairs_of(leavers_);
+  for (const std::uint32_t rank : leavers_) {
+    fats_[rank] = fat(change.boxes[id_of_[rank]]);
+    tree_.move(rank, fats_[rank]);
+  }
+  moved_.clear();
+  for (const std::uint32_t id : change.removed) {
+    const std::uint32_t rank = std::exchange(rank_of_[id], 0);
+    moved_.push_back(rank);
+    bodies_[rank] = bodies_[0];
+    tree_.remove(rank);
+  }
+  remove_pairs_of(moved_);
+  rank_of_.resize(change.boxes.size());
+  const std::size_t ranks = bodies_.size() + change.inserted.size();
+  tree_.make_room_for_ids(ranks);
+  is_leaver_.resize(ranks);
+  first_of_.resize(ranks, none);
+  for (const std::uint32_t id : change.inserted) {
+    const auto rank = static_cast<std::uint32_t>(bodies_.size());
+    bodies_.push_back(body_of(change.boxes[id]));
+    fats_.push_back(fat(change.boxes[id]));
+    id_of_.push_back(id);
+    rank_of_[id] = rank;
+    is_leaver_[rank] = 1;
+    leavers_.push_back(rank);
+    tree_.insert(rank, fats_[rank]);
+  }
+  if (!change.inserted.empty() || !change.removed.empty()) is_sorted_ = false;
+  left_ += leavers_.size() + change.removed.size();
+  count_ += change.inserted.size();
+  count_ -= change.removed.size();
 }
 
 void DynamicBvh::link(std::size_t pair) {
@@ -346,20 +390,38 @@ void DynamicBvh::link_pairs() {
   for (std::size_t p = 0; p < pairs_.size(); ++p) link(p);
 }
 
-void DynamicBvh::remove_pairs(std::uint32_t id) {
-  std::uint32_t& first = first_of_[rank_of_[id]];
-  for (std::uint32_t at = first; at != none; at = next_[at]) {
-    const std::size_t p = at / 2;
+// The lists of all of them are followed side by side, so that they wait for memory together.
+void DynamicBvh::list_pairs_of(std::span<const std::uint32_t> ranks) {
+  open_.resize(ranks.size() + 1);  // one more is written to
+  listed_.clear();
+  std::size_t count = 0;
+  const auto keep = [&](std::uint32_t at) {
+    open_[count] = at;
+    count += at != none ? 1 : 0;
+  };
+  for (const std::uint32_t rank : ranks) keep(first_of_[rank]);
+  while (count > 0) {
+    const std::size_t before = std::exchange(count, 0);
+    for (std::size_t i = 0; i < before; ++i) {
+      const std::uint32_t at = open_[i];
+      listed_.push_back(at / 2);
+      keep(next_[at]);
+    }
+  }
+}
+
+void DynamicBvh::remove_pairs_of(std::span<const std::uint32_t> ranks) {
+  list_pairs_of(ranks);
+  for (const std::uint32_t p : listed_) {
     gone_ += ranks_[p].a != 0 ? 1 : 0;
     ranks_[p] = {0, 0};
     meets_[p] = 0;
   }
-  first = none;
+  for (const std::uint32_t rank : ranks) first_of_[rank] = none;
 }
 
 // The moved bodies' pairs, or all where these are most.
 void DynamicBvh::test_pairs(std::span<const std::uint32_t> moved) {
-  if (moved.empty()) return;
   const auto test = [&](std::size_t p) {
     meets_[p] = meet(bodies_[ranks_[p].a], bodies_[ranks_[p].b]);
   };
@@ -368,11 +430,12 @@ void DynamicBvh::test_pairs(std::span<const std::uint32_t> moved) {
                    [&](std::size_t, std::size_t first, std::size_t last) {
                      for (std::size_t p = first; p < last; ++p) test(p);
                    });
-    return;
-  }
-  link_pairs();
-  for (const std::uint32_t id : moved) {
-    for (std::uint32_t at = first_of_[rank_of_[id]]; at != none; at = next_[at]) test(at / 2);
+  } else if (!moved.empty()) {
+    link_pairs();
+    moved_.clear();
+    for (const std::uint32_t id : moved) moved_.push_back(rank_of_[id]);
+    list_pairs_of(moved_);
+    for (const std::uint32_t p : listed_) test(p);
   }
 }
 
@@ -380,28 +443,24 @@ void DynamicBvh::test_pairs(std::span<const std::uint32_t> moved) {
 void DynamicBvh::look_anew() {
   if (leavers_.empty()) return;
   for (Scratch& scratch : scratch_) tree_.make_room(scratch.tree);
-  for (const std::uint32_t id : leavers_) is_leaver_[id] = 1;
   const std::size_t tasks = block_count(leavers_.size(), bodies_a_task);
   found_.start(tasks);
   const auto look = [&](std::size_t task, int worker) {
-    PairBuffer& out = found_.chunk(task);
+    WideTreeScratch& scratch = scratch_[static_cast<std::size_t>(worker)].tree;
     const std::size_t last = std::min((task + 1) * bodies_a_task, leavers_.size());
     for (std::size_t i = task * bodies_a_task; i < last; ++i) {
-      const std::uint32_t id = leavers_[i];
-      const Aabb box = tree_.box_at(tree_.place_of(id));
-      for (const std::uint32_t other :
-           tree_.find(box, scratch_[static_cast<std::size_t>(worker)].tree)) {
-        if (is_leaver_[other] == 0 || id < other) out.push(id, other);
+      const std::uint32_t rank = leavers_[i];
+      for (const std::uint32_t other : tree_.find(fats_[rank], scratch)) {
+        if (is_leaver_[other] == 0 || rank < other) found_.chunk(task).push(rank, other);
       }
     }
   };
   executor_.run(tasks, std::cref(look));
-  for (const std::uint32_t id : leavers_) is_leaver_[id] = 0;
+  for (const std::uint32_t rank : leavers_) is_leaver_[rank] = 0;
   for (const PairBuffer& chunk : found_.chunks()) {
-    for (const IndexPair& pair : chunk.pairs()) {
-      const IndexPair ranks{rank_of_[pair.a], rank_of_[pair.b]};
-      pairs_.push_back(pair);
+    for (const IndexPair& ranks : chunk.pairs()) {
       ranks_.push_back(ranks);
+      pairs_.push_back(ids_of(ranks));
       meets_.push_back(meet(bodies_[ranks.a], bodies_[ranks.b]));
       next_.resize(2 * pairs_.size());
       link(pairs_.size() - 1);
@@ -409,8 +468,7 @@ void DynamicBvh::look_anew() {
   }
 }
 
-// --- the pairs
-// ------------------------------------------------------------------------------------
+// --- the pairs ---
 
 Status DynamicBvh::find_pairs(PairSink& sink) {
   if (!keeps_pairs_) {
@@ -451,9 +509,10 @@ BroadPhaseWork DynamicBvh::work() const {
   }
   std::size_t found = 0;
   for (const PairBuffer& chunk : found_.chunks()) found += chunk.capacity() * sizeof(IndexPair);
-  work.bytes = static_cast<std::int64_t>(found) +
-               sum_held_bytes(ids_, order_, tree_, bodies_, rank_of_, pairs_, ranks_, meets_,
-                              first_of_, next_, leavers_, is_leaver_);
+  work.bytes =
+      static_cast<std::int64_t>(found) +
+      sum_held_bytes(ids_, order_, tree_, bodies_, fats_, id_of_, rank_of_, pairs_, ranks_, meets_,
+                     first_of_, next_, open_, listed_, moved_, leavers_, is_leaver_);
   return work;
 }
 
