@@ -1,6 +1,6 @@
 // Dynamic BVH: a tree of boxes that are a little larger than the bodies', and the pairs of those
 // that overlap; a body that stays in its fat box changes neither, and only the others look anew.
-// Papers:  Catto, "Dynamic Bounding Volume Hierarchies", GDC 2019; Presson's btDbvt in Bullet, 2008
+// Paper:   Catto, "Dynamic Bounding Volume Hierarchies", GDC 2019; Presson's btDbvt in Bullet, 2008
 //          (fat boxes, pairs that persist); Rouwe, Jolt's QuadTree, 2021 (wide nodes).
 // Departs: nodes have 16 children, see kernels/wide_tree.h. The margin follows what bodies move a
 //          frame, and is at most a tenth of their size. No subtree is rebuilt: once many bodies
@@ -57,7 +57,7 @@ class DynamicBvh final : public BroadPhase {
 
   using Lanes = box_lanes::baseline::Lanes;
   // A body's own box, the fourth number of each corner being zero: a vector's worth.
-  struct Body {
+  struct alignas(32) Body {
     std::array<float, 4> low, high;
   };
   struct Scratch {
@@ -66,7 +66,7 @@ class DynamicBvh final : public BroadPhase {
   };
   struct Motion {
     float usual = 0;       // what nine in ten move, of those that a margin can serve
-    std::size_t fast = 0;  // bodies that leave any margin within two frames
+    std::size_t fast = 0;  // bodies that leave any margin within four frames
   };
 
   static Body body_of(const Aabb& box) {
@@ -134,7 +134,7 @@ class DynamicBvh final : public BroadPhase {
   // and its box meets nobody.
   std::vector<Body> bodies_;
   std::vector<Aabb> fats_;
-  std::vector<std::uint32_t> id_of_;    // of each rank; of those that are gone, too
+  std::vector<std::uint32_t> id_of_;    // of each rank; none of those that are gone
   std::vector<std::uint32_t> rank_of_;  // of each id
 
   // Pairs of fat boxes, where they are kept; in order of their discovery, gone ones of rank 0.
@@ -174,7 +174,7 @@ DynamicBvh::Motion DynamicBvh::motion_of(const FrameChange& change) const {
       moved = std::max({moved, std::abs(box.min[axis] - before.low[axis]),
                         std::abs(box.max[axis] - before.high[axis])});
     }
-    if (moved <= 0.5f * most_margin * longest_side(box)) slow[slow_count++] = moved;
+    if (moved <= 0.25f * most_margin * longest_side(box)) slow[slow_count++] = moved;
   }
   if (count > 0) motion.fast = (count - slow_count) * change.moved.size() / count;
   if (slow_count > 0) {
@@ -219,23 +219,28 @@ void DynamicBvh::load(std::span<const Aabb> boxes, float margin) {
 void DynamicBvh::fill_tree(std::span<const Aabb> boxes) {
   count_ = order_.size();
   bodies_.resize(count_ + 1);
-  fats_.resize(count_ + 1);
-  id_of_.resize(count_ + 1);
-  is_leaver_.assign(count_ + 1, 0);
   bodies_[0] = body_of(Aabb::empty());
-  BoxArrays& arrays = tree_.start(count_, std::max(boxes.size(), count_ + 1));
+  const std::size_t ranks = keeps_pairs_ ? count_ + 1 : 0;
+  fats_.resize(ranks);
+  id_of_.resize(ranks);
+  is_leaver_.assign(ranks, 0);
+  BoxArrays& arrays = tree_.start(count_);
   for_each_block(executor_, count_, 4096, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t id = order_.id(i);
       const auto rank = static_cast<std::uint32_t>(i + 1);
       bodies_[rank] = body_of(boxes[id]);
+      rank_of_[id] = rank;
+      if (!keeps_pairs_) {
+        arrays.set(i, boxes[id], id);
+        continue;
+      }
       fats_[rank] = fat(boxes[id]);
       id_of_[rank] = id;
-      rank_of_[id] = rank;
-      arrays.set(i, fats_[rank], keeps_pairs_ ? rank : id);
+      arrays.set(i, fats_[rank], rank);
     }
   });
-  tree_.load(executor_);
+  tree_.load(executor_, ranks);
   for (Scratch& scratch : scratch_) tree_.make_room(scratch.tree);
 }
 
@@ -330,7 +335,7 @@ void DynamicBvh::take_boxes(const FrameChange& change) {
                    for (std::size_t i = first; i < last; ++i) {
                      const auto rank = static_cast<std::uint32_t>(i + 1);
                      const std::uint32_t id = id_of_[rank];
-                     if (rank_of_[id] == rank) take_box(rank, change.boxes[id]);
+                     if (id != none) take_box(rank, change.boxes[id]);
                    }
                  });
   for (std::uint32_t rank = 1; rank < bodies_.size(); ++rank) {
@@ -350,6 +355,7 @@ void DynamicBvh::change_tree(const FrameChange& change) {
     const std::uint32_t rank = std::exchange(rank_of_[id], 0);
     moved_.push_back(rank);
     bodies_[rank] = bodies_[0];
+    id_of_[rank] = none;
     tree_.remove(rank);
   }
   remove_pairs_of(moved_);

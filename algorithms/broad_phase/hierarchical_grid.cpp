@@ -1,6 +1,6 @@
 // Hierarchical grid: a grid for each size class; each box lies in one cell of the grid that suits
 // it, and looks for partners in the cells around it and in those of the coarser grids.
-// Papers:  Ericson, "Real-Time Collision Detection", 2005, section 7.2; Mirtich, "Impulse-based
+// Paper:   Ericson, "Real-Time Collision Detection", 2005, section 7.2; Mirtich, "Impulse-based
 //          Dynamic Simulation of Rigid Body Systems", thesis, Berkeley 1996 (the hash of grids).
 // Departs: no hash and no linked lists: boxes are sorted by cell, cells of a grid row by row, there
 //          and back as an ox ploughs, so that a few cells side by side are one run of boxes, and an

@@ -1,6 +1,6 @@
 // Linear BVH: boxes along a space-filling curve, and the binary tree that the bits of their places
 // make, built and bounded in one pass from the leaves up; each leaf looks for its partners.
-// Papers:  Lauterbach et al., "Fast BVH Construction on GPUs", Eurographics 2009; Karras,
+// Paper:   Lauterbach et al., "Fast BVH Construction on GPUs", Eurographics 2009; Karras,
 //          "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees", HPG 2012;
 //          Apetrei, "Fast and Simple Agglomerative LBVH Construction", CGVC 2014 (one pass).
 // Departs: a leaf has 16 boxes, for vectors of them, and its key is that of its first. The curve is

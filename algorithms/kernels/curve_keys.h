@@ -1,7 +1,7 @@
 // Bodies by size class, and within a class along a Hilbert curve: runs of them have small bounds.
-// Papers:  Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (Hilbert order); Vinkler, Bittner,
-//          Havran, "Extended Morton Codes for High Performance Bounding Volume Hierarchy
-//          Construction", HPG 2017 (the size is part of the code).
+// Papers: Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (Hilbert order); Vinkler, Bittner,
+//         Havran, "Extended Morton Codes for High Performance Bounding Volume Hierarchy
+//         Construction", HPG 2017 (the size is part of the code).
 #pragma once
 
 #include <array>

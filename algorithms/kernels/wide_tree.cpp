@@ -69,7 +69,7 @@ double surface(const Aabb& box) {
 
 }  // namespace
 
-BoxArrays& WideTree::start(std::size_t bodies, std::size_t id_count) {
+BoxArrays& WideTree::start(std::size_t bodies) {
   bodies_ = bodies;
   leaves_ = std::max<std::size_t>(1, block_count(bodies, fan));
   std::size_t height = 0;
@@ -90,15 +90,16 @@ BoxArrays& WideTree::start(std::size_t bodies, std::size_t id_count) {
       height_of_[node] = static_cast<std::uint8_t>(h);
     }
   }
-  place_of_.resize(id_count);
   return boxes_;
 }
 
-void WideTree::load(Executor& executor) {
+void WideTree::load(Executor& executor, std::size_t id_count) {
+  place_of_.resize(id_count);
   for (std::size_t place = bodies_; place < leaves_ * fan; ++place) {
     boxes_.set(place, Aabb::empty(), nobody);
   }
-  for_each_block(executor, bodies_, 8192, [&](std::size_t, std::size_t first, std::size_t last) {
+  const std::size_t placed = id_count > 0 ? bodies_ : 0;
+  for_each_block(executor, placed, 8192, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       place_of_[boxes_.ids()[i]] = static_cast<std::uint32_t>(i);
     }
@@ -147,7 +148,7 @@ double WideTree::spread() const {
 
 void WideTree::make_room(WideTreeScratch& scratch) const {
   // A vector's width more, since whole vectors are written.
-  const std::size_t room = std::max(node_capacity_ * fan, place_of_.size()) + fan;
+  const std::size_t room = node_capacity_ * fan + fan;
   if (scratch.nodes.size() < room) scratch.nodes.resize(room);
   if (scratch.children.size() < room) scratch.children.resize(room);
 }

@@ -31,10 +31,11 @@ class WideTree {
  public:
   static constexpr std::size_t fan = 16;
 
-  // Bodies get places 0, 1 ... in the order in which they are to be loaded; ids are below
-  // `id_count`. The caller sets box and id of each place, in any order, then calls `load`.
-  BoxArrays& start(std::size_t bodies, std::size_t id_count);
-  void load(Executor& executor);
+  // Bodies get places 0, 1 ... in the order in which they are to be loaded. The caller sets box and
+  // id of each place, in any order, then calls `load`.
+  BoxArrays& start(std::size_t bodies);
+  // Ids are below `id_count`; 0: the tree is not to be changed.
+  void load(Executor& executor, std::size_t id_count);
 
   // The boxes of the bodies, and of nodes; a leaf's are 16 places one behind the other.
   const BoxArrays& boxes() const { return boxes_; }
@@ -57,7 +58,7 @@ class WideTree {
   void remove(std::uint32_t id);
   // Gives a body another box, in another leaf if its own would grow much.
   void move(std::uint32_t id, const Aabb& box);
-  // For ids from `start`'s id_count on.
+  // For ids from load's `id_count` on.
   void make_room_for_ids(std::size_t id_count) { place_of_.resize(id_count); }
 
   // The ids of the bodies whose boxes overlap this one; valid until the scratch is used again.
