@@ -1,5 +1,8 @@
 #include "algorithms/kernels/cell_space.h"
 
+#include <algorithm>
+#include <array>
+
 namespace touchstone {
 namespace {
 
@@ -47,6 +50,33 @@ BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_
   sample.usual = quantile(90, size);
   sample.smallest = quantile(0, size);
   return sample;
+}
+
+double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
+                const BoxSample& sample) {
+  constexpr std::size_t side = 32;
+  constexpr std::size_t cells = side * side * side;
+  const std::size_t count = std::min<std::size_t>(ids.size(), 1024);
+  if (count < 2) return 1;
+  CellSpace space{.origin = sample.low, .last = {side - 1, side - 1, side - 1}};
+  std::size_t apart = 1;  // cells that the region can tell apart
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double extent = sample.high[axis] - sample.low[axis];
+    space.inverse_side[axis] = extent > 0 ? side / extent : 0;
+    apart *= extent > 0 ? side : 1;
+  }
+  std::array<std::uint16_t, cells> members{};
+  std::size_t meetings = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Aabb& box = boxes[ids[i * ids.size() / count]];
+    std::size_t cell = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cell = cell * side + space.cell(box.min[axis], axis);
+    }
+    meetings += members[cell]++;
+  }
+  const double possible = 0.5 * static_cast<double>(count) * static_cast<double>(count - 1);
+  return std::max(1.0, static_cast<double>(meetings * apart) / possible);
 }
 
 }  // namespace touchstone
