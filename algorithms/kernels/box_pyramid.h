@@ -77,7 +77,8 @@ class ListedBoxes {
 struct PyramidScratch {
   std::vector<std::uint32_t> nodes, children;  // of two levels, one below the other
   ListedBoxes near;                            // blocks near the group, by their bounds and numbers
-  ListedBoxes partners;                        // boxes near a block
+  static constexpr std::size_t most_partners = 512;   // that are paired at once
+  std::array<std::uint32_t, most_partners> partners;  // places of boxes near a block
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 

@@ -76,47 +76,48 @@ TOUCHSTONE_TARGET inline void list_blocks(const BoxPyramid& pyramid, std::size_t
   }
 }
 
-// Pairs of a block's boxes with those listed. Where the list begins with the block's own boxes,
-// each is paired with the ones behind it. A function of its own, so that its vectors stay in
-// registers.
-TOUCHSTONE_TARGET [[gnu::noinline]] void pair_rows(const Columns& boxes, std::size_t first,
-                                                   std::size_t size, bool with_own,
-                                                   const ListedBoxes& list, PairBuffer& out) {
-  const Columns columns = columns_of(list);
-  const Columns rows = boxes;
-  for (std::size_t j = 0; j < list.size(); j += fan) {
-    out.reserve((fan + 1) * fan);
-    IndexPair* end = out.end();
-    const unsigned there = list.size() - j < fan ? (1u << (list.size() - j)) - 1 : 0xffffu;
-    const Sixteen sixteen = load_sixteen(columns, j);
-    const Lanes::Ids ids = Lanes::load_ids(columns.ids + j);
-    if (with_own && j == 0) {
-      for (std::size_t r = 0; r < size; ++r) {
-        const unsigned lanes = overlaps(rows, first + r, sixteen) & there & (0xfffeu << r);
-        end = Lanes::put(lanes, rows.ids[first + r], ids, end);
-      }
-    } else {
-      for (std::size_t r = 0; r < size; ++r) {
-        const unsigned lanes = overlaps(rows, first + r, sixteen) & there;
-        end = Lanes::put(lanes, rows.ids[first + r], ids, end);
-      }
-    }
-    out.advance(static_cast<std::size_t>(end - out.end()));
+// Pairs of the boxes at these places with those of one block, from `first` on. The block stays in
+// registers; that is why this is a function of its own.
+TOUCHSTONE_TARGET [[gnu::noinline]] void pair_with_block(const Columns& boxes, std::size_t first,
+                                                         const std::uint32_t* places,
+                                                         std::size_t count, PairBuffer& out) {
+  out.reserve((count + 1) * fan);
+  IndexPair* end = out.end();
+  const Columns columns = boxes;
+  const Sixteen sixteen = load_sixteen(columns, first);
+  const Lanes::Ids ids = Lanes::load_ids(columns.ids + first);
+  for (std::size_t i = 0; i < count; ++i) {
+    const unsigned lanes = overlaps(columns, places[i], sixteen);
+    end = Lanes::put(lanes, columns.ids[places[i]], ids, end);
   }
+  out.advance(static_cast<std::size_t>(end - out.end()));
+}
+
+// Pairs of a block's boxes with one another.
+TOUCHSTONE_TARGET [[gnu::noinline]] void pair_within(const Columns& boxes, std::size_t first,
+                                                     std::size_t size, PairBuffer& out) {
+  out.reserve((fan + 1) * fan);
+  IndexPair* end = out.end();
+  const Columns columns = boxes;
+  const Sixteen sixteen = load_sixteen(columns, first);
+  const Lanes::Ids ids = Lanes::load_ids(columns.ids + first);
+  const unsigned there = (1u << size) - 1;
+  for (std::size_t r = 0; r + 1 < size; ++r) {
+    const unsigned behind = there & (0xfffeu << r);
+    end = Lanes::put(overlaps(columns, first + r, sixteen) & behind, columns.ids[first + r], ids,
+                     end);
+  }
+  out.advance(static_cast<std::size_t>(end - out.end()));
 }
 
 TOUCHSTONE_TARGET void search(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& scratch,
                               PairBuffer& out) {
-  constexpr std::size_t most_partners = 512;  // that are paired at once, so that they stay in cache
   const Columns boxes = columns_of(pyramid.boxes());
   const Columns blocks = columns_of(pyramid.levels()[1]);
   list_blocks(pyramid, group, scratch);
   const Columns near = columns_of(scratch.near);
   const std::size_t near_count = scratch.near.size();
   scratch.nodes.resize(std::max(scratch.nodes.size(), near_count + fan));
-  ListedBoxes& list = scratch.partners;
-  list.clear();
-  list.reserve(most_partners + fan);
 
   for (std::size_t n = 0; n < near_count && near.ids[n] < (group + 1) * fan; ++n) {
     const std::size_t block = near.ids[n];
@@ -129,23 +130,20 @@ TOUCHSTONE_TARGET void search(const BoxPyramid& pyramid, std::size_t group, Pyra
       const unsigned lanes = overlaps_before(bounds, near, i, near_count);
       found += Lanes::compress(lanes, near.ids + i, scratch.nodes.data() + found);
     }
-    append((1u << size) - 1, boxes, first, list);
-    bool with_own = true;
+    pair_within(boxes, first, size, out);
+    std::size_t pairs = size * (size - 1) / 2;
     std::size_t listed = 0;
     for (std::size_t i = 0; i < found; ++i) {
       const std::size_t partner = scratch.nodes[i] * fan;
-      append(overlaps16(bounds, boxes, partner), boxes, partner, list);
-      if (list.size() >= most_partners) {
-        pair_rows(boxes, first, size, std::exchange(with_own, false), list, out);
-        listed += list.size();
-        list.clear();
+      listed += Lanes::compress_numbers(overlaps16(bounds, boxes, partner),
+                                        static_cast<std::uint32_t>(partner),
+                                        scratch.partners.data() + listed);
+      if (listed + fan > PyramidScratch::most_partners || i + 1 == found) {
+        pair_with_block(boxes, first, scratch.partners.data(), listed, out);
+        pairs += size * listed;
+        listed = 0;
       }
     }
-    pair_rows(boxes, first, size, with_own, list, out);
-    listed += list.size();
-    list.clear();
-    // Of its own boxes each met those behind it.
-    const std::size_t pairs = size * listed - size * (size + 1) / 2;
     scratch.work.candidates += static_cast<std::int64_t>(pairs);
     scratch.work.node_visits += static_cast<std::int64_t>(1 + found);
     scratch.work.box_tests += static_cast<std::int64_t>(
