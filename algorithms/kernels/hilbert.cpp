@@ -10,7 +10,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t boxes_at_once = 16;
+constexpr std::size_t boxes_at_once = 32;
 
 // Doubled centres: [axis][box].
 using Centres = std::array<std::array<float, boxes_at_once>, 3>;

@@ -9,25 +9,32 @@ using Integers = std::uint32_t __attribute__((vector_size(4 * lanes)));
 using Signed = std::int32_t __attribute__((vector_size(4 * lanes)));
 using Floats = float __attribute__((vector_size(4 * lanes)));
 
+// Two at a time: what is done to the one does not wait for the other.
+constexpr std::size_t parts = 2;
+
 // Skilling's transpose of the cell numbers.
 template <int axes>
-TOUCHSTONE_TARGET inline void to_transpose(Integers (&x)[axes], int bits) {
+TOUCHSTONE_TARGET inline void to_transpose(Integers (&x)[axes][parts], int bits) {
   const std::uint32_t top = 1u << (bits - 1);
   for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
+    const Integers below = Integers{} + (bit - 1);
     for (int i = 0; i < axes; ++i) {
-      const Integers set = reinterpret_cast<Integers>((x[i] & bit) != 0);
-      const Integers exchange = (x[0] ^ x[i]) & below & ~set;
-      x[0] ^= exchange ^ (set & below);
-      if (i != 0) x[i] ^= exchange;
+      for (std::size_t k = 0; k < parts; ++k) {
+        const auto set = (x[i][k] & bit) != 0;
+        const Integers exchange = (x[0][k] ^ x[i][k]) & below;
+        if (i != 0) x[i][k] ^= set ? Integers{} : exchange;
+        x[0][k] ^= set ? below : exchange;
+      }
     }
   }
-  for (int i = 1; i < axes; ++i) x[i] ^= x[i - 1];
-  Integers turn{};
-  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
-    turn ^= reinterpret_cast<Integers>((x[axes - 1] & bit) != 0) & (bit - 1);
+  for (std::size_t k = 0; k < parts; ++k) {
+    for (int i = 1; i < axes; ++i) x[i][k] ^= x[i - 1][k];
+    Integers turn{};
+    for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+      turn ^= (x[axes - 1][k] & bit) != 0 ? Integers{} + (bit - 1) : Integers{};
+    }
+    for (int i = 0; i < axes; ++i) x[i][k] ^= turn;
   }
-  for (int i = 0; i < axes; ++i) x[i] ^= turn;
 }
 
 // Puts axes - 1 zeros between the bits.
@@ -43,16 +50,6 @@ TOUCHSTONE_TARGET inline void spread(Integers& x) {
     x = (x | x << 4) & 0x0f0f0f0f;
     x = (x | x << 2) & 0x33333333;
     x = (x | x << 1) & 0x55555555;
-  }
-}
-
-template <int axes>
-TOUCHSTONE_TARGET inline void place_on_curve(Integers (&x)[axes], int bits, Integers& code) {
-  to_transpose<axes>(x, bits);
-  code = Integers{};
-  for (int i = 0; i < axes; ++i) {
-    spread<axes>(x[i]);
-    code |= x[i] << (axes - 1 - i);
   }
 }
 
@@ -72,19 +69,27 @@ TOUCHSTONE_TARGET inline void cell(const Numbering& numbering, std::size_t axis,
 template <int axes>
 TOUCHSTONE_TARGET inline void places_on(const Numbering& numbering, const Centres& centres,
                                         std::uint32_t* codes) {
-  for (std::size_t first = 0; first < boxes_at_once; first += lanes) {
-    Integers x[axes];
-    Integers code;
+  for (std::size_t first = 0; first < boxes_at_once; first += parts * lanes) {
+    Integers x[axes][parts];
     for (int i = 0; i < axes; ++i) {
       const auto axis = static_cast<std::size_t>(i);
-      cell(numbering, axis, centres[axis].data() + first, x[i]);
+      for (std::size_t k = 0; k < parts; ++k) {
+        cell(numbering, axis, centres[axis].data() + first + k * lanes, x[i][k]);
+      }
     }
-    place_on_curve<axes>(x, numbering.bits, code);
-    std::memcpy(codes + first, &code, sizeof code);
+    to_transpose<axes>(x, numbering.bits);
+    for (std::size_t k = 0; k < parts; ++k) {
+      Integers code{};
+      for (int i = 0; i < axes; ++i) {
+        spread<axes>(x[i][k]);
+        code |= x[i][k] << (axes - 1 - i);
+      }
+      std::memcpy(codes + first + k * lanes, &code, sizeof code);
+    }
   }
 }
 
-// Places on the curve of 16 centres.
+// Places on the curve of as many centres.
 TOUCHSTONE_TARGET void places(const Numbering& numbering, const Centres& centres,
                               std::uint32_t* codes) {
   switch (numbering.axes) {
