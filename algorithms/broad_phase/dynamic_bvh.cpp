@@ -9,7 +9,7 @@
 //          without one, and pairs are not kept but looked for.
 // Fails:   a body that overlaps most others and moves: its pairs are all made anew.
 // Cost:    O(n + k) to be expected where most move; O(m log n) and going over the k pairs where m
-//          do. O(n + k) memory; k = pairs of fat boxes. About 180 bytes a body and 33 a pair.
+//          do. O(n + k) memory; k = pairs of fat boxes. About 190 bytes a body and 35 a pair.
 #include <algorithm>
 #include <array>
 #include <atomic>
