@@ -5,11 +5,11 @@
 // Departs: nodes have 16 children, see kernels/wide_tree.h. The margin follows what bodies move a
 //          frame, and is at most a tenth of their size. No subtree is rebuilt: once many bodies
 //          have left their boxes, a few frames' worth of motion, the tree is loaded anew in bulk,
-//          along a Hilbert curve. Where bodies are too fast for a margin, that is done each frame
-//          without one, and pairs are not kept but looked for.
+//          along a Hilbert curve. Where bodies are too fast for a margin, or crowded, that is done
+//          each frame without one, and pairs are not kept but looked for.
 // Fails:   a body that overlaps most others and moves: its pairs are all made anew.
 // Cost:    O(n + k) to be expected where most move; O(m log n) and going over the k pairs where m
-//          do. O(n + k) memory; k = pairs of fat boxes. About 180 bytes a body and 33 a pair.
+//          do. O(n + k) memory; k = pairs of fat boxes. About 190 bytes a body and 35 a pair.
 #include <algorithm>
 #include <array>
 #include <atomic>

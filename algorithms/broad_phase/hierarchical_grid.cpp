@@ -8,10 +8,11 @@
 //          partners together. Cells are as large as the class' largest box, or larger where bodies
 //          are sparse: about 16 boxes then lie in a cube of cells. A body meets those behind it, so
 //          that each pair of cells is visited once.
-// Fails:   many bodies without volume, or many outside the region where nine in ten are, crowded in
-//          one cell.
+// Fails:   crowds that the cells do not tell apart: bodies without volume, a dense cluster in a
+//          region 500 times as wide, many bodies far outside the region where nearly all are. It is
+//          then quadratic, with a small factor.
 // Cost:    O(n) for keys and sort, O(n l + k) to be expected; l = classes in use, k = pairs in
-//          neighbouring cells. About 60 bytes a body.
+//          neighbouring cells. About 65 bytes a body.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -11,7 +11,7 @@
 // Fails:   long thin boxes in all directions: leaves overlap whatever their order is.
 // Cost:    O(n) time for keys and tree, O(n log n + k) to be expected for the search; k = pairs
 // that
-//          overlap. About 52 bytes a body.
+//          overlap. About 70 bytes a body.
 #include <atomic>
 #include <bit>
 

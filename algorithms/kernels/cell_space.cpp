@@ -54,18 +54,22 @@ BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_
 
 double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
                 const BoxSample& sample) {
-  constexpr std::size_t side = 32;
-  constexpr std::size_t cells = side * side * side;
-  const std::size_t count = std::min<std::size_t>(ids.size(), 1024);
+  // So many that two of them meet a dozen times where they are spread evenly.
+  constexpr std::size_t most_cells = 32 * 32 * 32;
+  const bool are_few = ids.size() < 8192;
+  const std::size_t side = are_few ? 8 : 32;
+  const std::size_t count = std::min<std::size_t>(ids.size(), are_few ? 128 : 1024);
   if (count < 2) return 1;
-  CellSpace space{.origin = sample.low, .last = {side - 1, side - 1, side - 1}};
+  CellSpace space{.origin = sample.low};
+  space.last.fill(static_cast<std::uint32_t>(side) - 1);
   std::size_t apart = 1;  // cells that the region can tell apart
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double extent = sample.high[axis] - sample.low[axis];
-    space.inverse_side[axis] = extent > 0 ? side / extent : 0;
+    space.inverse_side[axis] = extent > 0 ? static_cast<double>(side) / extent : 0;
     apart *= extent > 0 ? side : 1;
   }
-  std::array<std::uint16_t, cells> members{};
+  std::array<std::uint16_t, most_cells> members;
+  std::fill_n(members.begin(), side * side * side, std::uint16_t{0});
   std::size_t meetings = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Aabb& box = boxes[ids[i * ids.size() / count]];

@@ -12,6 +12,7 @@
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor.h"
+#include "algorithms/kernels/box_arrays.h"
 #include "algorithms/kernels/radix_sort.h"
 
 namespace touchstone {
@@ -22,7 +23,8 @@ class CurveKeys {
   // Keys are smaller than 2^key_bits.
   static constexpr int key_bits = 34;
 
-  // `ids`: of boxes that are not empty. Bodies whose keys are equal are in the order of `ids`.
+  // `ids`: of boxes that are not empty. Where many have one key, as in dense clusters and far away,
+  // another curve is drawn through these alone.
   void sort(Executor& executor, std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
 
   std::size_t size() const { return items_.size(); }
@@ -48,11 +50,15 @@ class CurveKeys {
   static ClassOf make_classes(const Members& of_magnitude);
   Members count_members(Executor& executor, std::span<const Aabb> boxes,
                         std::span<const std::uint32_t> ids);
+  void refine_crowds(std::span<const Aabb> boxes);
+  void refine(std::span<const Aabb> boxes, std::size_t first, std::size_t last);
 
   std::vector<std::uint64_t> items_;  // key above, id below
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
   std::vector<Members> counts_;  // of the blocks
+  std::vector<IndexRange> crowds_;
+  std::vector<std::uint64_t> places_;  // of a crowd on its curve, with the ids
 };
 
 }  // namespace touchstone

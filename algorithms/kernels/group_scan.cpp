@@ -36,27 +36,6 @@ namespace avx2 = baseline;
 namespace avx512 = baseline;
 #endif
 
-void scan(const BoxArrays& boxes, IndexRange group, bool within, const Aabb& bounds,
-          std::span<const IndexRange> others, GroupScratch& scratch, PairBuffer& out) {
-  std::int64_t near = 0;
-  std::uint32_t* const list = scratch.near.data();
-  const Columns columns = columns_of(boxes);
-  switch (isa()) {
-    case Isa::avx512: avx512::scan(columns, group, within, bounds, others, list, near, out); break;
-    case Isa::avx2: avx2::scan(columns, group, within, bounds, others, list, near, out); break;
-    case Isa::baseline:
-      baseline::scan(columns, group, within, bounds, others, list, near, out);
-      break;
-  }
-  const auto size = static_cast<std::int64_t>(group.last - group.first);
-  const std::int64_t candidates = near * size + (within ? size * (size - 1) / 2 : 0);
-  scratch.work.candidates += candidates;
-  scratch.work.box_tests += candidates;
-  for (const IndexRange range : others) {
-    scratch.work.box_tests += static_cast<std::int64_t>(range.last - range.first);
-  }
-}
-
 }  // namespace
 
 Aabb bounds_of(const BoxArrays& boxes, IndexRange range) {
@@ -78,12 +57,21 @@ Aabb bounds_of(const BoxArrays& boxes, IndexRange range) {
 
 void scan_group(const BoxArrays& boxes, IndexRange group, const Aabb& bounds,
                 std::span<const IndexRange> others, GroupScratch& scratch, PairBuffer& out) {
-  scan(boxes, group, true, bounds, others, scratch, out);
-}
-
-void scan_one_sided(const BoxArrays& boxes, IndexRange group, const Aabb& bounds,
-                    std::span<const IndexRange> others, GroupScratch& scratch, PairBuffer& out) {
-  scan(boxes, group, false, bounds, others, scratch, out);
+  std::int64_t near = 0;
+  std::uint32_t* const list = scratch.near.data();
+  const Columns columns = columns_of(boxes);
+  switch (isa()) {
+    case Isa::avx512: avx512::scan(columns, group, bounds, others, list, near, out); break;
+    case Isa::avx2: avx2::scan(columns, group, bounds, others, list, near, out); break;
+    case Isa::baseline: baseline::scan(columns, group, bounds, others, list, near, out); break;
+  }
+  const auto size = static_cast<std::int64_t>(group.last - group.first);
+  const std::int64_t candidates = near * size + size * (size - 1) / 2;
+  scratch.work.candidates += candidates;
+  scratch.work.box_tests += candidates;
+  for (const IndexRange range : others) {
+    scratch.work.box_tests += static_cast<std::int64_t>(range.last - range.first);
+  }
 }
 
 }  // namespace touchstone

@@ -38,8 +38,4 @@ Aabb bounds_of(const BoxArrays& boxes, IndexRange range);
 void scan_group(const BoxArrays& boxes, IndexRange group, const Aabb& bounds,
                 std::span<const IndexRange> others, GroupScratch& scratch, PairBuffer& out);
 
-// The others alone.
-void scan_one_sided(const BoxArrays& boxes, IndexRange group, const Aabb& bounds,
-                    std::span<const IndexRange> others, GroupScratch& scratch, PairBuffer& out);
-
 }  // namespace touchstone

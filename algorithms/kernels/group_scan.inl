@@ -42,14 +42,14 @@ TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxe
   return lanes;
 }
 
-TOUCHSTONE_TARGET void scan(const Columns boxes, IndexRange group, bool within, const Aabb& bounds,
+TOUCHSTONE_TARGET void scan(const Columns boxes, IndexRange group, const Aabb& bounds,
                             std::span<const IndexRange> others, std::uint32_t* near,
                             std::int64_t& near_count, PairBuffer& out) {
   const std::size_t size = group.last - group.first;
   const unsigned members = (1u << size) - 1;
   const std::uint32_t* const ids = boxes.ids + group.first;
   const Group g = load_group(boxes, group.first);
-  for (std::size_t r = 0; within && r + 1 < size; ++r) {
+  for (std::size_t r = 0; r + 1 < size; ++r) {
     const unsigned lanes = overlaps_of_group(load_row(boxes, group.first + r), g);
     Lanes::write(lanes & members & (~1u << r), ids[r], ids, out);
   }

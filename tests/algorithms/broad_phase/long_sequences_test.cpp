@@ -59,6 +59,7 @@ const Sequence sequences[] = {
      .teleported = 0.01f,
      .orders = 3},
     {.name = "crowd", .bodies = 150, .side = 1.2f, .moved = 0.03f, .reach = 0.2f},
+    {.name = "great crowd", .bodies = 700, .side = 0.9f, .frames = 20, .teleported = 0.01f},
     {.name = "very small", .drift = 0.0005f, .teleported = 0.01f, .scale = 1e-42f},
     {.name = "very large", .drift = 0.0005f, .teleported = 0.01f, .scale = 1e38f},
     {.name = "few bodies", .bodies = 3, .side = 0.9f, .frames = 300, .teleported = 0.2f},
@@ -233,11 +234,11 @@ TEST_P(LongSequences, AreFollowed) {
 TEST(LongSequencesOfChurn, DoNotGrowTheMemory) {
   const Sequence sequence{.name = "churn",
                           .frames = 400,
-                          .moved = 0.05f,
-                          .reach = 0.05f,
-                          .teleported = 0.02f,
-                          .inserted = 0.02f,
-                          .removed = 0.02f};
+                          .moved = 0.03f,
+                          .reach = 0.01f,
+                          .teleported = 0.01f,
+                          .inserted = 0.01f,
+                          .removed = 0.01f};
   Random random(78);
   Bodies bodies(sequence, random);
   std::vector<Follower> all = followers();
@@ -247,7 +248,8 @@ TEST(LongSequencesOfChurn, DoNotGrowTheMemory) {
     const FrameChange change = bodies.next(frame);
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i].algorithm->update(change);
-      all[i].pairs();
+      const auto pairs = static_cast<std::int64_t>(all[i].pairs().size());
+      EXPECT_GE(all[i].algorithm->work().candidates, pairs) << all[i].name;
       if (frame == sequence.frames / 2) early[i] = all[i].algorithm->work().bytes;
     }
   }
