@@ -81,6 +81,18 @@ HilbertGrid::HilbertGrid(const std::array<float, 3>& low, const std::array<float
 }
 
 void HilbertGrid::codes(std::span<const Aabb> boxes, std::uint32_t* codes) const {
+  codes_of(
+      boxes.size(), [&](std::size_t i) -> const Aabb& { return boxes[i]; }, codes);
+}
+
+void HilbertGrid::codes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
+                        std::uint32_t* codes) const {
+  codes_of(
+      ids.size(), [&](std::size_t i) -> const Aabb& { return boxes[ids[i]]; }, codes);
+}
+
+template <class Box>
+void HilbertGrid::codes_of(std::size_t total, const Box& box_of, std::uint32_t* codes) const {
   Numbering numbering{axes_, bits_, {}, {}};
   for (std::size_t i = 0; i < 3; ++i) {
     numbering.low[i] = low_[axis_[i]];
@@ -89,10 +101,10 @@ void HilbertGrid::codes(std::span<const Aabb> boxes, std::uint32_t* codes) const
   const auto places = places_of_level();
   const auto [x, y, z] = axis_;
   Centres centres{};
-  for (std::size_t first = 0; first < boxes.size(); first += boxes_at_once) {
-    const std::size_t count = std::min(boxes_at_once, boxes.size() - first);
+  for (std::size_t first = 0; first < total; first += boxes_at_once) {
+    const std::size_t count = std::min(boxes_at_once, total - first);
     for (std::size_t i = 0; i < count; ++i) {
-      const Aabb& box = boxes[first + i];
+      const Aabb& box = box_of(first + i);
       centres[0][i] = box.min[x] + box.max[x];
       centres[1][i] = box.min[y] + box.max[y];
       centres[2][i] = box.min[z] + box.max[z];

@@ -23,8 +23,15 @@ class HilbertGrid {
   // Of the boxes' centres: codes[i] is that of boxes[i]. The same at every level of vector
   // instructions. Empty boxes have some code.
   void codes(std::span<const Aabb> boxes, std::uint32_t* codes) const;
+  // codes[i] is that of boxes[ids[i]].
+  void codes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
+             std::uint32_t* codes) const;
 
  private:
+  // Of box_of(i), i < total.
+  template <class Box>
+  void codes_of(std::size_t total, const Box& box_of, std::uint32_t* codes) const;
+
   std::array<float, 3> low_, scale_;
   std::array<std::size_t, 3> axis_;  // those that count come first
   int axes_ = 0;
