@@ -3,13 +3,12 @@
 // Fluids. I", Physical Review 159, 1967
 //          (neighbour lists); the list is made by the Hilbert pyramid (hilbert_pyramid.cpp).
 // Departs: each box grows by what its own motion asks for. How many frames a list is to last is
-//          chosen so that making and testing it cost least together, by counts: the same at every
-//          width. The few boxes that leave their grown ones, or come in, are searched one by one
-//          until there are too many. Where motion is too fast for a list, the pyramid searches.
+//          chosen by counts, so that making and testing it cost least together. The few boxes that
+//          leave their grown ones, or come in, are searched one by one until there are too many.
+//          Where motion is too fast for a list, the pyramid searches.
 // Fails:   motion of a body's size a frame: then it is the Hilbert pyramid, and a little more.
-// Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 75
-// bytes
-//          a body and 8 a candidate.
+// Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 80
+//          bytes a body and 12 a candidate.
 #include <algorithm>
 #include <array>
 #include <cmath>

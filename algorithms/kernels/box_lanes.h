@@ -215,10 +215,11 @@ struct Lanes {
   }
   TOUCHSTONE_TARGET static void write(unsigned lanes, std::uint32_t id, const std::uint32_t* ids,
                                       PairBuffer& out) {
-    out.reserve(width);
+    out.reserve(2 * width);
     const __m256i one = _mm256_set1_epi32(static_cast<int>(id));
-    out.advance(
-        static_cast<std::size_t>(put8(lanes, one, load_integers(ids), out.end()) - out.end()));
+    IndexPair* end = put8(lanes & 0xff, one, load_integers(ids), out.end());
+    if (lanes >> width != 0) end = put8(lanes >> width, one, load_integers(ids + width), end);
+    out.advance(static_cast<std::size_t>(end - out.end()));
   }
   // Sixteen ids, and the pairs of another with those whose bit is set: where there is room for 16.
   struct Ids {

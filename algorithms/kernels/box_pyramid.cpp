@@ -82,6 +82,7 @@ void BoxPyramid::fit(Executor& executor) {
 
 double BoxPyramid::spread() const {
   double sum = 0;
+  if (used_ < 2) return sum;
   const BoxArrays& blocks = levels_[1];
   for (int axis = 0; axis < 3; ++axis) {
     const float* const min = blocks.min(axis);

@@ -239,7 +239,11 @@ TEST_F(Work, IsOfTheFrameAtHand) {
     const BroadPhaseWork of_many = algorithm->work();
     algorithm->update({many, {}, {}, {}});
     algorithm->find_pairs(sink);
-    EXPECT_EQ(of_many.box_tests, algorithm->work().box_tests);
+    if (entry->info.name == "candidate-list") {  // once it has seen that nothing moves
+      EXPECT_LT(algorithm->work().box_tests, of_many.box_tests);
+    } else {
+      EXPECT_EQ(algorithm->work().box_tests, of_many.box_tests);
+    }
     algorithm->build(few);
     algorithm->find_pairs(sink);
     EXPECT_EQ(count(entry->info.name, few).work.box_tests, algorithm->work().box_tests);
