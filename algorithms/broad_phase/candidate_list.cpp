@@ -1,6 +1,6 @@
 // Candidate list: pairs whose slightly grown boxes overlap are listed once, and only they are
-// tested until something has moved too far. Paper:   Verlet, "Computer 'Experiments' on Classical
-// Fluids. I", Physical Review 159, 1967
+// tested until something has moved too far.
+// Paper:   Verlet, "Computer 'Experiments' on Classical Fluids. I", Physical Review 159, 1967
 //          (neighbour lists); the list is made by the Hilbert pyramid (hilbert_pyramid.cpp).
 // Departs: each box grows by what its own motion asks for. How many frames a list is to last is
 //          chosen by counts, so that making and testing it cost least together. The few boxes that
