@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/blocks.h"
@@ -145,6 +146,7 @@ Motion CandidateList::measure_motion() {
 void CandidateList::make_list(double frames) {
   const Motion motion = measure_motion();
   const auto growth = static_cast<float>(frames);
+  constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
   // Bodies that hardly move may move more: half of what is usual is allowed to all.
   const float least = motion.step / 2;
   const std::size_t known = std::min(boxes_.size(), reference_.size());
@@ -162,8 +164,8 @@ void CandidateList::make_list(double frames) {
                      const float step = there ? displacement(reference_[i], box) * step_of : least;
                      const float margin = growth * std::max(step, least);
                      for (std::size_t axis = 0; axis < 3; ++axis) {
-                       reference_[i].min[axis] = box.min[axis] - margin;
-                       reference_[i].max[axis] = box.max[axis] + margin;
+                       reference_[i].min[axis] = std::max(box.min[axis] - margin, -most);
+                       reference_[i].max[axis] = std::min(box.max[axis] + margin, most);
                      }
                    }
                  });
