@@ -57,7 +57,7 @@ class BadRequest(Exception):
 def read_table(folder, name):
     """The rows of NAME.csv, numbers as floats, empty fields as None."""
     path = os.path.join(folder, name + ".csv")
-    texts = {"scene", "scene_hash", "seed", "boxes", "task", "pair_kind", "pairs_of", "algorithm",
+    texts = {"scene", "scene_hash", "seed", "boxes", "task", "pair_kind", "pairs_of", "isa_limit", "algorithm",
              "baseline", "origin", "unit", "failure", "winner", "runner_up", "counts"}
     rows = []
     try:
@@ -127,6 +127,8 @@ def words(row, columns):
         "boxes": lambda v: v + " boxes",
         "threads": lambda v: "1 thread" if v == 1 else f"{int(v)} threads",
         "seed": lambda v: "seed " + v,
+        "rebuild": lambda v: "rebuilt" if v else "updated",
+        "isa_limit": lambda v: v + " instructions",
     }
     return ", ".join(forms.get(c, str)(row[c]) for c in columns if row[c] not in (None, ""))
 

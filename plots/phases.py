@@ -6,7 +6,7 @@ from matplotlib.patches import Patch
 
 import common
 
-KEY = ["scene", "bodies", "boxes", "threads", "seed"]
+KEY = ["scene", "bodies", "boxes", "threads", "rebuild", "isa_limit", "seed"]
 PARTS = {"build": "#E69F00", "update": "#56B4E9", "find_pairs": "#0072B2"}
 
 

@@ -3,6 +3,7 @@
 import sys
 
 import agreement
+import broad
 import common
 import phases
 import speed_up
@@ -11,6 +12,7 @@ import winners
 
 FIGURES = {
     "time_against_count": time_against_count.draw,
+    "broad": broad.draw,
     "speed_up": speed_up.draw,
     "phases": phases.draw,
     "winners": winners.draw,

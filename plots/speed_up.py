@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 
 import common
 
-KEY = ["scene", "bodies", "boxes", "seed"]
+KEY = ["scene", "bodies", "boxes", "rebuild", "isa_limit", "seed"]
 
 
 def draw(tables):

@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 
 import common
 
-KEY = ["scene", "boxes", "threads", "seed"]
+KEY = ["scene", "boxes", "threads", "rebuild", "isa_limit", "seed"]
 
 
 def spread(positions, gap):
@@ -40,7 +40,7 @@ def label_exponents(axes, ends):
 
 def draw(tables):
     rows = [r for r in tables["times"] if not r["task"] and r["seconds"] is not None]
-    exponents = {(*(r[c] for c in KEY[:3]), r["algorithm"]): r for r in tables["exponents"]}
+    exponents = {(*(r[c] for c in KEY[:5]), r["algorithm"]): r for r in tables["exponents"]}
     inputs = {}
     for row in rows:
         inputs.setdefault(tuple(row[c] for c in KEY), []).append(row)
@@ -65,7 +65,7 @@ def draw(tables):
             axes.errorbar(x, y, yerr=[down, up], capsize=1.5, elinewidth=0.7, capthick=0.7,
                           **styles[name])
             used.add(name)
-            law = exponents.get((*key[:3], name))
+            law = exponents.get((*key[:5], name))
             if law is not None and len(points) > 1:
                 text = f"{law['exponent']:.2f}"
                 if law["exponent_low"] is not None:

@@ -6,7 +6,7 @@ from matplotlib.patches import Patch, Rectangle
 
 import common
 
-COLUMNS = ["bodies", "boxes", "threads", "seed"]
+COLUMNS = ["bodies", "boxes", "threads", "rebuild", "isa_limit", "seed"]
 
 
 def pale(colour, part):
@@ -21,7 +21,7 @@ def draw(tables):
         return None
     scenes = common.in_order(r["scene"] for r in rows)
     settings = sorted({tuple(r[c] for c in COLUMNS) for r in rows},
-                      key=lambda s: (s[1], s[2], s[3], s[0]))
+                      key=lambda s: (*s[1:], s[0]))
     titles = ["bodies"] + common.varying(rows, COLUMNS[1:])
     styles = tables.styles()
     figure, (axes,) = common.grid(1, 0.75 + 0.42 * len(scenes))

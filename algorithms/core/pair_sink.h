@@ -72,6 +72,11 @@ class PairSink {
     for (const PairBuffer& chunk : chunks()) total += chunk.size();
     return total;
   }
+  std::size_t held_bytes() const {
+    std::size_t bytes = 0;
+    for (const PairBuffer& chunk : chunks_) bytes += chunk.capacity() * sizeof(IndexPair);
+    return bytes;
+  }
   // All pairs in one array, in order.
   std::vector<IndexPair> gather() const {
     std::vector<IndexPair> all;

@@ -8,7 +8,9 @@ namespace touchstone {
 
 void BoxArrays::resize(std::size_t count) {
   if (count + padding > stride_) {
-    stride_ = (count + count / 2) / padding * padding + 2 * padding;
+    // As many as are asked for, until they turn out to grow.
+    const std::size_t room = stride_ == 0 ? count : count + count / 2;
+    stride_ = room / padding * padding + 2 * padding;
     extents_.reset(new (alignment) float[6 * stride_]);
     ids_ = std::make_unique_for_overwrite<std::uint32_t[]>(stride_);
   }

@@ -1,33 +1,6 @@
 // The loops of box_scan.h. Included by box_scan.cpp once for each level of vector instructions,
 // inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its attribute.
 
-struct Row {
-  Lanes::Floats min[3], max[3];
-};
-
-TOUCHSTONE_TARGET inline Row load_row(const Columns& boxes, std::size_t row) {
-  Row r;
-  for (int axis = 0; axis < 3; ++axis) {
-    r.min[axis] = Lanes::broadcast(boxes.min[axis][row]);
-    r.max[axis] = Lanes::broadcast(boxes.max[axis][row]);
-  }
-  return r;
-}
-
-TOUCHSTONE_TARGET inline Lanes::Test overlap_on(Lanes::Test within, const Row& row,
-                                                const Columns& boxes, int axis, std::size_t j) {
-  within = Lanes::less_equal(within, Lanes::load(boxes.min[axis] + j), row.max[axis]);
-  return Lanes::less_equal(within, row.min[axis], Lanes::load(boxes.max[axis] + j));
-}
-
-// Which of the boxes from j on, a vector of them, overlap the row's.
-TOUCHSTONE_TARGET inline unsigned overlaps(const Row& row, const Columns& boxes, std::size_t j) {
-  Lanes::Test test = Lanes::less_equal(Lanes::load(boxes.min[0] + j), row.max[0]);
-  test = Lanes::less_equal(test, row.min[0], Lanes::load(boxes.max[0] + j));
-  test = overlap_on(test, row, boxes, 1, j);
-  return Lanes::bits(overlap_on(test, row, boxes, 2, j));
-}
-
 TOUCHSTONE_TARGET inline std::size_t first_column(std::size_t row, IndexRange columns) {
   return columns.first <= row && row < columns.last ? row + 1 : columns.first;
 }

@@ -1,5 +1,8 @@
 #include "algorithms/kernels/cell_space.h"
 
+#include <algorithm>
+#include <array>
+
 namespace touchstone {
 namespace {
 
@@ -47,6 +50,37 @@ BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_
   sample.usual = quantile(90, size);
   sample.smallest = quantile(0, size);
   return sample;
+}
+
+double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
+                const BoxSample& sample) {
+  // So many that two of them meet a dozen times where they are spread evenly.
+  constexpr std::size_t most_cells = 32 * 32 * 32;
+  const bool are_few = ids.size() < 8192;
+  const std::size_t side = are_few ? 8 : 32;
+  const std::size_t count = std::min<std::size_t>(ids.size(), are_few ? 128 : 1024);
+  if (count < 2) return 1;
+  CellSpace space{.origin = sample.low};
+  space.last.fill(static_cast<std::uint32_t>(side) - 1);
+  std::size_t apart = 1;  // cells that the region can tell apart
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double extent = sample.high[axis] - sample.low[axis];
+    space.inverse_side[axis] = extent > 0 ? static_cast<double>(side) / extent : 0;
+    apart *= extent > 0 ? side : 1;
+  }
+  std::array<std::uint16_t, most_cells> members;
+  std::fill_n(members.begin(), side * side * side, std::uint16_t{0});
+  std::size_t meetings = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Aabb& box = boxes[ids[i * ids.size() / count]];
+    std::size_t cell = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cell = cell * side + space.cell(box.min[axis], axis);
+    }
+    meetings += members[cell]++;
+  }
+  const double possible = 0.5 * static_cast<double>(count) * static_cast<double>(count - 1);
+  return std::max(1.0, static_cast<double>(meetings * apart) / possible);
 }
 
 }  // namespace touchstone

@@ -53,4 +53,10 @@ struct BoxSample {
 // `ids`: the boxes that are not empty.
 BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
 
+// How much denser it is around a body than it would be if all were spread evenly over the sample's
+// region: by how often two bodies of a larger sample lie in one of 32^3 cells (8^3 for few bodies).
+// At least 1, at most the number of cells.
+double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
+                const BoxSample& sample);
+
 }  // namespace touchstone

@@ -41,7 +41,7 @@ class RadixSort {
   }
 
  private:
-  static constexpr std::size_t block_size = 16384;
+  static constexpr std::size_t block_size = 8192;
 
   template <class Digit>
   void scatter(Executor& executor, std::vector<Item>& items, std::size_t digits,

@@ -56,13 +56,15 @@ void print(const std::vector<ComparedCell>& cells, double threshold) {
 }
 
 void write(const std::vector<ComparedCell>& cells, double threshold, const std::string& file) {
-  CsvWriter csv(file, {"scene", "scene_hash", "bodies", "seed", "boxes", "threads", "task",
-                       "pair_kind", "pairs_of", "algorithm", "ratio", "ratio_low", "ratio_high",
-                       "p", "p_corrected", "n_a", "n_b", "verdict"});
+  CsvWriter csv(file, {"scene",     "scene_hash",  "bodies",    "seed",      "boxes",
+                       "threads",   "task",        "pair_kind", "pairs_of",  "rebuild",
+                       "isa_limit", "algorithm",   "ratio",     "ratio_low", "ratio_high",
+                       "p",         "p_corrected", "n_a",       "n_b",       "verdict"});
   for (const ComparedCell& cell : cells) {
     const SetKey& key = cell.key;
     csv.field(key.scene).field(key.scene_hash).field(key.bodies).field(key.seed).field(key.boxes);
     csv.field(key.threads).field(key.task).field(key.pair_kind).field(key.pairs_of);
+    csv.field(int{key.rebuild}).field(key.isa_limit);
     csv.field(cell.label).field(cell.ratio.median).field(cell.ratio.low).field(cell.ratio.high);
     csv.field(cell.p).field(cell.p_corrected).field(cell.squares_a).field(cell.squares_b);
     csv.field(to_string(verdict(cell, threshold))).end_row();

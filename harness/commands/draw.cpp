@@ -29,7 +29,7 @@ Vec3d direction(const std::string& view) {
 }
 
 std::vector<BodyState> states_of(const Scene& scene, const ScenePlayer& player) {
-  std::vector<BodyState> states(scene.size(), BodyState::apart);
+  std::vector<BodyState> states(player.boxes().size(), BodyState::apart);
   Executor executor(1);
   const std::unique_ptr<BroadPhase> broad = find_broad_phase("sweep-and-prune")->make(executor);
   PairSink sink;

@@ -9,6 +9,7 @@
 #include "harness/commands/commands.h"
 #include "harness/error.h"
 #include "harness/io/aabbs.h"
+#include "harness/io/box_frames.h"
 #include "harness/io/csv.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
@@ -28,8 +29,7 @@ void record_csv(ScenePlayer& player, const std::filesystem::path& file) {
     const auto boxes = player.boxes();
     for (std::size_t id = 0; id < boxes.size(); ++id) {
       csv.field(player.frame()).field(id);
-      for (const float x : boxes[id].min) csv.field(static_cast<double>(x));
-      for (const float x : boxes[id].max) csv.field(static_cast<double>(x));
+      append_box(csv, boxes[id]);
       csv.end_row();
     }
   } while (player.next());
@@ -62,6 +62,12 @@ void record(const RecordOptions& options) {
     throw InputError("--out: found " + options.out + "; expected a name ending in .aabbs or .csv");
   }
   const Scene scene = load_scene(options.scene, options.overrides);
+  if (!csv && scene.motion.churn > 0) {
+    throw InputError(
+        options.scene, 0,
+        "bodies come and go in this scene, and Broadmark's format has the same ones in "
+        "every frame; expected --out with a name ending in .csv");
+  }
   ScenePlayer player(scene, options.boxes == "tight" ? BoxKind::tight : BoxKind::loose);
   const std::size_t count = player.boxes().size();
   if (csv) {

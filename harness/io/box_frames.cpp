@@ -16,6 +16,7 @@
 namespace touchstone {
 namespace {
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();  // an empty field
 constexpr std::size_t frame_column = 0, id_column = 1, min_column = 2, max_column = 5;
 
 double coordinate(const CsvReader::Row& row, std::size_t column) {
@@ -27,7 +28,15 @@ double coordinate(const CsvReader::Row& row, std::size_t column) {
   return value;
 }
 
+bool is_absent(const CsvReader::Row& row) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!row.text(min_column + i).empty() || !row.text(max_column + i).empty()) return false;
+  }
+  return true;
+}
+
 Aabb read_box(const CsvReader::Row& row) {
+  if (is_absent(row)) return Aabb::empty();
   Aabb box;
   for (std::size_t i = 0; i < 3; ++i) {
     const double low = coordinate(row, min_column + i);
@@ -95,8 +104,8 @@ bool same_bits(const Aabb& a, const Aabb& b) {
 void compare(const BoxFrame& before, BoxFrame& now) {
   now.boxes.resize(std::max(now.count, before.boxes.size()), Aabb::empty());
   for (std::uint32_t id = 0; id < now.boxes.size(); ++id) {
-    const bool was = id < before.count;
-    const bool is = id < now.count;
+    const bool was = id < before.count && !before.boxes[id].is_empty();
+    const bool is = id < now.count && !now.boxes[id].is_empty();
     if (was && !is) now.removed.push_back(id);
     if (!was && is) now.inserted.push_back(id);
     if (was && is && !same_bits(before.boxes[id], now.boxes[id])) now.moved.push_back(id);
@@ -113,16 +122,20 @@ std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file) {
   return frames;
 }
 
+void append_box(CsvWriter& csv, const Aabb& box) {
+  for (const auto& end : {box.min, box.max}) {
+    for (const float value : end) csv.field(box.is_empty() ? nan : double{value});
+  }
+}
+
 void write_box_frames(std::span<const std::vector<Aabb>> frames,
                       const std::filesystem::path& file) {
   CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     for (std::size_t id = 0; id < frames[frame].size(); ++id) {
       const Aabb& box = frames[frame][id];
-      if (box.is_empty()) continue;
       csv.field(frame).field(id);
-      for (const float value : box.min) csv.field(double{value});
-      for (const float value : box.max) csv.field(double{value});
+      append_box(csv, box);
       csv.end_row();
     }
   }

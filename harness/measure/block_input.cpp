@@ -1,10 +1,9 @@
 #include "harness/measure/block_input.h"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
-#include "algorithms/registry.h"
+#include "harness/measure/overlapping_pairs.h"
 #include "harness/scene/player.h"
 
 namespace touchstone {
@@ -12,24 +11,16 @@ namespace touchstone {
 BlockInput::BlockInput(const Scene& scene, BoxKind kind, bool with_poses) : shapes(scene.shapes) {
   for (const Body& body : scene.bodies) shape_of.push_back(body.shape);
   const bool listed = !scene.pairs.empty();
-  Executor executor(1);
-  const std::unique_ptr<BroadPhase> naive = find_broad_phase("naive")->make(executor);
-  PairSink sink;
   ScenePlayer player(scene, kind);
   do {
     BlockFrame& frame = frames.emplace_back();
     frame.boxes.assign(player.boxes().begin(), player.boxes().end());
     const FrameChange change = player.change();
     frame.moved.assign(change.moved.begin(), change.moved.end());
+    frame.inserted.assign(change.inserted.begin(), change.inserted.end());
+    frame.removed.assign(change.removed.begin(), change.removed.end());
     if (with_poses) frame.poses.assign(player.poses().begin(), player.poses().end());
-    if (listed) {
-      frame.truth = scene.pairs;
-      continue;
-    }
-    naive->build(frame.boxes);
-    naive->find_pairs(sink);
-    frame.truth = sink.gather();
-    std::ranges::sort(frame.truth);
+    frame.truth = listed ? scene.pairs : overlapping_pairs(frame.boxes);
   } while (player.next());
 }
 

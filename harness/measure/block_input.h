@@ -16,16 +16,16 @@ namespace touchstone {
 
 struct BlockFrame {
   std::vector<Aabb> boxes;
-  std::vector<std::uint32_t> moved;  // against the frame before
-  std::vector<Pose> poses;           // only where a narrow phase wants them
-  std::vector<IndexPair> truth;      // sorted: the boxes that overlap, or what the scene lists
+  std::vector<std::uint32_t> moved, inserted, removed;  // against the frame before
+  std::vector<Pose> poses;                              // only where a narrow phase wants them
+  std::vector<IndexPair> truth;  // sorted: the boxes that overlap, or what the scene lists
 
-  FrameChange change() const { return {boxes, moved, {}, {}}; }
+  FrameChange change() const { return {boxes, moved, inserted, removed}; }
 };
 
 struct BlockInput {
-  // Plays the scene. The true pairs are those of the naive broad phase, which tests every pair of
-  // boxes and runs in the caller's thread, unless the scene lists its pairs.
+  // Plays the scene. The true pairs are those that overlapping_pairs finds, unless the scene lists
+  // its pairs.
   BlockInput(const Scene& scene, BoxKind kind, bool with_poses);
 
   std::span<const Shape> shapes;  // the scene's

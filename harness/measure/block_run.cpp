@@ -73,7 +73,8 @@ void BlockRun::take_over(const RawRow& row) {
 
 void BlockRun::run(const std::function<bool()>& commit) {
   commit_ = commit;
-  const std::vector<Stage> plan = stages(context_->block->group->squares);
+  const std::vector<Stage> plan =
+      stages(context_->block->group->squares, context_->block->group->processes);
   for (const Stage& stage : plan) {
     for (const ProcessSpan& span : stage) {
       const bool ends_stage = &span == &stage.back();
@@ -91,7 +92,8 @@ bool BlockRun::is_open(std::size_t s, const ProcessSpan& span) const {
   if (states_[s].stopped || !any_left(set.members)) return false;
   for (int lap = span.first; lap < span.end; ++lap) {
     for (std::size_t group = 0; group < set.groups.size(); ++group) {
-      for (std::size_t round = 0; round < set.groups[group].size(); ++round) {
+      const std::size_t rounds = rounds_of(*context_->block->group, set.groups[group].size());
+      for (std::size_t round = 0; round < rounds; ++round) {
         if (!states_[s].done.contains({set.square(lap, group), static_cast<std::int64_t>(round)})) {
           return true;
         }
@@ -122,7 +124,7 @@ bool BlockRun::run_process(const ProcessSpan& span, bool ends_stage, bool ends_a
     const MeasuredSet& set = schedule_.sets[s];
     for (int lap = span.first; lap < span.end; ++lap) {
       for (std::size_t group = 0; group < set.groups.size(); ++group) {
-        const std::size_t rounds = set.groups[group].size();
+        const std::size_t rounds = rounds_of(*context_->block->group, set.groups[group].size());
         for (std::size_t round = 0; round < rounds; ++round) {
           if (!go_on || states_[s].stopped) break;
           if (states_[s].done.contains(
@@ -208,7 +210,9 @@ void BlockRun::run_round(const Place& place) {
   const LatinSquare order =
       square_order(*context_, place.set, set.square(place.lap, place.group), group.size());
   const std::uint32_t frame = set.first_frame(
-      input_->frames.size(), static_cast<std::size_t>(place.lap) * group.size() + place.round);
+      input_->frames.size(),
+      static_cast<std::size_t>(place.lap) * rounds_of(*context_->block->group, group.size()) +
+          place.round);
   std::vector<Taken> round;
   double waited = 0;
   const NoiseReading before = NoiseReading::now();

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "harness/io/box_frames.h"
+#include "harness/measure/run_delay.h"
 #include "harness/measure/sampler.h"
 #include "harness/run/isolate.h"
 #include "harness/run/pair_check.h"
@@ -15,7 +17,10 @@ namespace touchstone {
 namespace {
 
 constexpr double setup_seconds = 60;
-constexpr double longest_to_count = 10;  // seconds of all frames: allocations are counted below
+// For a box or a pair, at most: the frame's pairs are sorted and compared, its work is counted.
+constexpr double seconds_to_verify = 5e-6;
+constexpr double longest_grace = 2;     // seconds, for what others take the processor for
+constexpr double longest_to_count = 3;  // seconds of all frames: allocations are counted below
 
 // What the child finds in one frame.
 struct ChildAnswer {
@@ -54,6 +59,31 @@ std::vector<BroadSampler::FrameAllocations> count_allocations(const BlockInput& 
   return {counts.span().begin(), counts.span().end()};
 }
 
+// A broad phase takes at least in proportion to the number of boxes: one that was over its limit
+// with fewer of the same scene will be over this one too. Says so; empty where it is to be tried.
+std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& entry) {
+  const RawRow here = context.row(0, entry, Phase::find_pairs);
+  for (const RawRow& row : context.findings->rows()) {
+    if (row.block < 0 || row.block >= context.number ||
+        std::cmp_greater_equal(row.block, context.blocks.size()) || row.kind != RowKind::check ||
+        row.process >= 0 || row.broad != here.broad || !row.narrow.empty() ||
+        row.status != to_string(Status::timed_out)) {
+      continue;
+    }
+    const Block& before = context.blocks[static_cast<std::size_t>(row.block)];
+    if (before.scene_file != context.block->scene_file || row.boxes != here.boxes ||
+        row.rebuild != here.rebuild || row.isa_limit != here.isa_limit ||
+        row.bodies > here.bodies) {
+      continue;
+    }
+    const double limit = before.group->time_limit;
+    const double growth = static_cast<double>(here.bodies) / static_cast<double>(row.bodies);
+    if (limit * growth < context.block->group->time_limit) continue;
+    return fmt::format("not tried: over the limit of {:g} s with {} bodies", limit, row.bodies);
+  }
+  return "";
+}
+
 std::string write_frames(const RunContext& context, const BlockInput& input,
                          const std::string& name, std::size_t frame) {
   if (context.reproductions.empty()) return "";
@@ -75,39 +105,6 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
                          const BroadPhaseEntry& entry, bool with_pairs) {
   const CampaignGroup& group = *context.block->group;
   const std::size_t count = input.frames.size();
-  std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
-  for (const BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
-  SharedArray<ChildAnswer> answers(count);
-  SharedArray<IndexPair> kept(with_pairs ? room : 0);
-  SharedArray<std::size_t> too_slow(1);  // 0: no frame was, else the frame's number and one
-  const IsolationLimits limits = {.item_seconds = group.time_limit,
-                                  .setup_seconds = setup_seconds,
-                                  .failures = 1,
-                                  .memory = group.memory_limit};
-  const IsolationReport report = isolate(count, limits, [&]() -> ItemWork {
-    const auto executor = std::make_shared<Executor>(1);
-    const auto sampler = std::make_shared<BroadSampler>(entry, input, group.rebuild, *executor);
-
-    return [&, executor, sampler](std::size_t frame) {
-      if (too_slow[0] > 0) return;
-      ChildAnswer& answer = answers[frame];
-      answer.reply = sampler->play(frame);
-      std::vector<IndexPair> pairs = sampler->sink().gather();
-      if (with_pairs) {
-        answer.pairs_at = frame == 0 ? 0
-                                     : answers[frame - 1].pairs_at +
-                                           static_cast<std::size_t>(answers[frame - 1].reply.pairs);
-        if (answer.pairs_at + pairs.size() > kept.size()) {
-          throw std::runtime_error("more than four times as many pairs as there are");
-        }
-        std::ranges::copy(pairs,
-                          kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
-      }
-      answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
-      if (answer.reply.prepare + answer.reply.query > group.time_limit) too_slow[0] = frame + 1;
-    };
-  });
-
   CheckedBroad result;
   result.whole = result.right = true;
   const auto leave = [&](std::size_t frame, Status status, const std::string& why,
@@ -122,6 +119,54 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     context.findings->add(std::move(departure));
     result.whole = result.right = false;
   };
+  if (const std::string why = already_too_slow(context, entry); !why.empty()) {
+    leave(0, Status::timed_out, why, why);
+    return result;
+  }
+  std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
+  for (const BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
+  SharedArray<ChildAnswer> answers(count);
+  SharedArray<IndexPair> kept(with_pairs ? room : 0);
+  SharedArray<std::size_t> too_slow(1);  // 0: no frame was, else the frame's number and one
+  std::size_t greatest = 0;              // boxes and pairs of a frame
+  for (const BlockFrame& frame : input.frames) {
+    greatest = std::max(greatest, frame.boxes.size() + frame.truth.size());
+  }
+  const double patience = group.time_limit + std::min(3 * group.time_limit, longest_grace) +
+                          seconds_to_verify * static_cast<double>(greatest);
+  const IsolationLimits limits = {.item_seconds = patience,
+                                  .setup_seconds = setup_seconds,
+                                  .failures = 1,
+                                  .memory = group.memory_limit};
+  const IsolationReport report = isolate(count, limits, [&]() -> ItemWork {
+    const auto executor = std::make_shared<Executor>(1);
+    const auto sampler = std::make_shared<BroadSampler>(entry, input, group.rebuild, *executor);
+
+    return [&, executor, sampler](std::size_t frame) {
+      if (too_slow[0] > 0) return;
+      ChildAnswer& answer = answers[frame];
+      const double waited_before = run_delay().value_or(0);
+      answer.reply = sampler->play(frame);
+      const double waited = run_delay().value_or(0) - waited_before;
+      std::vector<IndexPair> pairs = sampler->sink().gather();
+      if (with_pairs) {
+        answer.pairs_at = frame == 0 ? 0
+                                     : answers[frame - 1].pairs_at +
+                                           static_cast<std::size_t>(answers[frame - 1].reply.pairs);
+        if (answer.pairs_at + pairs.size() > kept.size()) {
+          throw std::runtime_error("more than four times as many pairs as there are");
+        }
+        std::ranges::copy(pairs,
+                          kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
+      }
+      answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
+      // What others took the processor for is not held against it.
+      if (answer.reply.prepare + answer.reply.query - waited > group.time_limit) {
+        too_slow[0] = frame + 1;
+      }
+    };
+  });
+
   const bool to_the_end = report.failures.empty() && too_slow[0] == 0;
   double seconds = 0;
   for (const ChildAnswer& answer : answers.span()) {

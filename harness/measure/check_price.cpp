@@ -55,8 +55,8 @@ double price_of_broad(const RunContext& context, const BlockInput& input, std::s
   const double verifying = watch.seconds();
   const double times = static_cast<double>(frames) / static_cast<double>(first.frames.size());
   double seconds = 0;
-  for (const BroadPhaseEntry* entry : context.block->group->broad) {
-    if (context.admits(*entry)) seconds += price_of(context, *entry, first, verifying, times);
+  for (const BroadPhaseEntry* entry : context.broad()) {
+    seconds += price_of(context, *entry, first, verifying, times);
   }
   return seconds;
 }

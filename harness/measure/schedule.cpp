@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t group_size = 4;
 constexpr std::array<int, 4> looks = {first_look, 12, 24, 48};  // squares of a group
-constexpr int processes_a_stage = 3;
 
 // Seconds of a sample of the median contestant. Long enough for the clock and short enough for many
 // rounds; less where a set's share of the time would not last for the first look.
@@ -83,9 +82,9 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
     return checked != nullptr && !checked->out;
   };
   std::vector<Contestant> candidates;
-  for (const BroadPhaseEntry* entry : group.broad) {
+  for (const BroadPhaseEntry* entry : context.broad()) {
     const Contestant contestant{.broad = entry};
-    if (context.admits(*entry) && is_in(contestant, nullptr)) candidates.push_back(contestant);
+    if (is_in(contestant, nullptr)) candidates.push_back(contestant);
   }
   if (!candidates.empty()) {
     MeasuredSet set;
@@ -126,7 +125,8 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
     }
     double samples = 0;  // until the first look
     for (const auto& contestants : set.groups) {
-      samples += first_look * static_cast<double>(contestants.size() * contestants.size());
+      samples += first_look *
+                 static_cast<double>(contestants.size() * rounds_of(group, contestants.size()));
     }
     const double share = group.seconds / static_cast<double>(schedule.sets.size());
     const double seconds = std::clamp(share / samples, shortest_sample, longest_sample);
@@ -137,16 +137,16 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
   return schedule;
 }
 
-std::vector<Stage> stages(std::optional<int> squares) {
+std::vector<Stage> stages(std::optional<int> squares, int processes) {
   std::vector<Stage> all;
   int done = 0;
   int process = 0;
   const auto add = [&](int until) {
     Stage& stage = all.emplace_back();
     const int count = until - done;
-    for (int i = 0; i < processes_a_stage; ++i) {
-      const int first = done + i * count / processes_a_stage;
-      const int end = done + (i + 1) * count / processes_a_stage;
+    for (int i = 0; i < processes; ++i) {
+      const int first = done + i * count / processes;
+      const int end = done + (i + 1) * count / processes;
       if (end > first) stage.push_back({process++, first, end});
     }
     done = until;
@@ -157,6 +157,10 @@ std::vector<Stage> stages(std::optional<int> squares) {
     for (const int look : looks) add(look);
   }
   return all;
+}
+
+std::size_t rounds_of(const CampaignGroup& group, std::size_t size) {
+  return group.rounds ? std::min(size, static_cast<std::size_t>(*group.rounds)) : size;
 }
 
 LatinSquare square_order(const RunContext& context, std::size_t set, std::int64_t square,

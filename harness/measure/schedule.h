@@ -58,9 +58,11 @@ struct ProcessSpan {
 };
 using Stage = std::vector<ProcessSpan>;
 inline constexpr int first_look = 6;  // squares; below, no interval of 95 % exists
-// 6, 12, 24 and 48 squares a group, by 3 processes each; or as many squares as are asked for.
-std::vector<Stage> stages(std::optional<int> squares);
+// 6, 12, 24 and 48 squares a group, by so many processes each; or as many squares as are asked for.
+std::vector<Stage> stages(std::optional<int> squares, int processes);
 
+// How many rounds of a square of so many contestants are taken.
+std::size_t rounds_of(const CampaignGroup& group, std::size_t size);
 // The order of a square's rounds.
 LatinSquare square_order(const RunContext& context, std::size_t set, std::int64_t square,
                          std::size_t size);

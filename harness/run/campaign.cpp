@@ -18,6 +18,8 @@ namespace {
 constexpr std::array<std::string_view, 2> box_names = {"tight", "loose"};
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
 constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
+constexpr std::array<std::string_view, 3> isa_names = {"all", "avx2", "baseline"};
+enum class IsaChoice : std::uint8_t { all, avx2, baseline };
 constexpr std::array<std::string_view, 2> pairing_names = {"separate", "product"};
 constexpr std::int64_t greatest_count = 100'000'000;
 
@@ -191,6 +193,15 @@ bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
          (!rule.counts_below || cell.bodies < *rule.counts_below);
 }
 
+std::optional<Isa> limit_of(IsaChoice choice) {
+  switch (choice) {
+    case IsaChoice::all: break;
+    case IsaChoice::avx2: return Isa::avx2;
+    case IsaChoice::baseline: return Isa::baseline;
+  }
+  return std::nullopt;
+}
+
 // Defaults alone need no scenes.
 enum class Whole : std::uint8_t { group, defaults };
 
@@ -208,8 +219,13 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
   for (const std::int64_t threads : settings.integers("threads", 1, 1024, 2)) {
     group.threads.push_back(static_cast<int>(threads));
   }
+  group.isa.clear();
+  for (const IsaChoice choice : settings.choices<IsaChoice>("isa", isa_names, {IsaChoice::all})) {
+    group.isa.push_back(limit_of(choice));
+  }
   group.rebuild = settings.of("rebuild").boolean("rebuild", false);
   group.broad = algorithms(settings, "broad", broad_phases());
+  group.limit = settings.of("limit").boolean("limit", false);
   group.narrow = narrow_choices(settings);
   group.tasks = settings.choices<Task>("tasks", task_names, {Task::intersect});
   group.pairing = static_cast<Pairing>(settings.of("pairing").choice("pairing", pairing_names, 0));
@@ -222,6 +238,10 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
   if (settings.of("squares").has("squares")) {
     group.squares = static_cast<int>(settings.of("squares").integer("squares", 6, 10'000));
   }
+  if (settings.of("rounds").has("rounds")) {
+    group.rounds = static_cast<int>(settings.of("rounds").integer("rounds", 1, 4));
+  }
+  group.processes = static_cast<int>(settings.of("processes").integer("processes", 1, 6, 3));
   group.include = rules(settings, "include");
   group.exclude = rules(settings, "exclude");
   return group;
@@ -272,6 +292,9 @@ std::string description(const Campaign& campaign) {
                         fmt::join(group.threads, ","), group.rebuild,
                         pairing_names[static_cast<std::size_t>(group.pairing)]);
     for (const BoxKind boxes : group.boxes) text += fmt::format(" boxes {}", to_string(boxes));
+    for (const auto& limit : group.isa) {
+      if (limit) text += fmt::format(" isa {}", to_string(*limit));
+    }
     for (const auto* entry : group.broad) text += " broad " + entry->info.name;
     for (const NarrowChoice& choice : group.narrow) {
       text += fmt::format(" narrow {} {} {} {} {}", choice.entry->info.name,
@@ -282,9 +305,13 @@ std::string description(const Campaign& campaign) {
     for (const Task task : group.tasks) text += fmt::format(" task {}", to_string(task));
     for (const CampaignRule& rule : group.include) text += " include " + describe(rule);
     for (const CampaignRule& rule : group.exclude) text += " exclude " + describe(rule);
-    text += fmt::format(" time_limit {} memory_limit {} width {} seconds {} squares {}\n",
+    text += fmt::format(" time_limit {} memory_limit {} width {} seconds {} squares {}",
                         group.time_limit, group.memory_limit, group.width, group.seconds,
                         group.squares.value_or(0));
+    if (group.limit) text += " limit";
+    if (group.rounds) text += fmt::format(" rounds {}", *group.rounds);
+    if (group.processes != 3) text += fmt::format(" processes {}", group.processes);
+    text += "\n";
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
 #include "harness/run/published.h"
 #include "harness/scene/scene.h"
@@ -52,8 +53,8 @@ struct CampaignCell {
   std::string pair_kind;
 };
 
-// A grid: every scene x count x seed x boxes x threads is a block, in which every algorithm of the
-// group meets the same frames.
+// A grid: every scene x count x seed x boxes x threads x isa is a block, in which every algorithm
+// of the group meets the same frames.
 struct CampaignGroup {
   std::vector<std::filesystem::path> scenes;
   std::vector<std::int64_t> counts = {-1};  // -1: as the scene says
@@ -61,8 +62,11 @@ struct CampaignGroup {
   int frames = -1;
   std::vector<BoxKind> boxes = {BoxKind::tight};
   std::vector<int> threads = {2};
+  // The most vector instructions that our kernels may use; none: what the run may use.
+  std::vector<std::optional<Isa>> isa = {std::nullopt};
   bool rebuild = false;  // every frame is built anew instead of updated
   std::vector<const BroadPhaseEntry*> broad;
+  bool limit = false;  // what no broad phase can do without is measured beside them
   std::vector<NarrowChoice> narrow;
   std::vector<Task> tasks = {Task::intersect};
   Pairing pairing = Pairing::separate;
@@ -75,6 +79,8 @@ struct CampaignGroup {
   double width = 0.02;
   double seconds = 10;
   std::optional<int> squares;
+  std::optional<int> rounds;  // taken of each square; none: all
+  int processes = 3;          // that each contestant has until the intervals are looked at
 
   bool admits(const CampaignCell& cell) const;
 };

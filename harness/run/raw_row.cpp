@@ -35,6 +35,8 @@ void columns(Row& row, Visit visit) {
   visit("twin", row.twin);
   visit("threads", row.threads);
   visit("isa", row.isa);
+  visit("isa_limit", row.isa_limit);
+  visit("rebuild", row.rebuild);
   visit("pair_kind", row.pair_kind);
   visit("process", row.process);
   visit("square", row.square);

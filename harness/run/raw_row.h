@@ -39,6 +39,8 @@ struct RawRow {
   std::int64_t twin = -1;
   std::int64_t threads = 0;
   std::string isa;
+  std::string isa_limit;      // empty: the campaign holds the level down to none
+  std::int64_t rebuild = -1;  // 1: the campaign has every frame built anew
   std::string pair_kind;
   std::int64_t process = -1, square = -1, round = -1, position = -1;
   Phase phase = Phase::build;

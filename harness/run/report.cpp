@@ -49,6 +49,7 @@ std::string broad_table(const Findings& findings, const ReportStyle& style) {
   }
   for (const RawRow& row : findings.rows()) {
     if (row.phase == Phase::narrow) continue;
+    if (row.broad == stats::limit_label) grid.add_note(row.broad, column_of[row.block], "°");
     if (row.lost()) grid.add_note(row.broad, column_of[row.block], "!");
     if (row.status == status_wrong) grid.add_note(row.broad, column_of[row.block], "~");
   }
@@ -65,8 +66,11 @@ std::string broad_table(const Findings& findings, const ReportStyle& style) {
                                                       checked[name], known ? " (known)" : ""));
   }
   return "Broad phases: milliseconds a frame, median; * is the fastest, = cannot be told from it, "
-         "! was too slow or failed, ~ is wrong\n\n" +
-         grid.text("agreement", style.page_width) +
+         "! was too slow or failed, ~ is wrong" +
+         std::string(std::ranges::find(present, stats::limit_label) == present.end()
+                         ? ""
+                         : ",\n° is what none can do without: to sort, to gather, to write") +
+         "\n\n" + grid.text("agreement", style.page_width) +
          "\nThe runner-up against the winner, with the 95 % interval:\n" + grid.winners();
 }
 

@@ -23,20 +23,29 @@ inline std::string count_text(std::int64_t count) {
 struct Varying {
   bool threads = false;
   bool boxes = false;
+  bool isa = false;
+  bool rebuild = false;
 
   Varying(const std::vector<RawRow>& rows, bool narrow) {
     std::set<std::int64_t> widths;
-    std::set<std::string> kinds;
+    std::set<std::string> kinds, limits;
+    std::set<std::int64_t> rebuilds;
     for (const RawRow& row : rows) {
       if ((row.phase == Phase::narrow) != narrow) continue;
       widths.insert(row.threads);
       kinds.insert(row.boxes);
+      limits.insert(row.isa_limit);
+      rebuilds.insert(row.rebuild);
     }
     threads = widths.size() > 1;
     boxes = kinds.size() > 1;
+    isa = limits.size() > 1;
+    rebuild = rebuilds.size() > 1;
   }
   std::string label(const RawRow& row) const {
-    return (boxes ? " " + row.boxes : "") + (threads ? fmt::format(" {}t", row.threads) : "");
+    return (boxes ? " " + row.boxes : "") + (threads ? fmt::format(" {}t", row.threads) : "") +
+           (isa && !row.isa_limit.empty() ? " " + row.isa_limit : "") +
+           (rebuild ? (row.rebuild == 1 ? " rebuilt" : " updated") : "");
   }
 };
 

@@ -18,6 +18,7 @@ RawRow RunContext::row(std::size_t frame) const {
   row.frame = static_cast<std::int64_t>(frame);
   row.threads = block->threads;
   row.isa = to_string(isa());
+  if (block->isa) row.isa_limit = to_string(*block->isa);
   return row;
 }
 
@@ -26,6 +27,7 @@ RawRow RunContext::row(std::size_t frame, const BroadPhaseEntry& entry, Phase ph
   result.broad = entry.info.name;
   result.phase = phase;
   result.status = to_string(Status::ok);
+  if (block->group->rebuild) result.rebuild = 1;
   return result;
 }
 
@@ -37,6 +39,15 @@ RawRow RunContext::row(std::size_t frame, const NarrowChoice& choice) const {
   result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
   result.phase = Phase::narrow;
   return result;
+}
+
+std::vector<const BroadPhaseEntry*> RunContext::broad() const {
+  std::vector<const BroadPhaseEntry*> entries;
+  for (const BroadPhaseEntry* entry : block->group->broad) {
+    if (admits(*entry)) entries.push_back(entry);
+  }
+  if (limit != nullptr && !entries.empty() && scene->pairs.empty()) entries.push_back(limit);
+  return entries;
 }
 
 bool RunContext::admits(const BroadPhaseEntry& entry) const {

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "algorithms/core/isa.h"
 #include "harness/run/campaign.h"
@@ -20,6 +23,7 @@ struct Block {
   SceneOverrides overrides;
   BoxKind boxes = BoxKind::tight;
   int threads = 2;
+  std::optional<Isa> isa = {};  // the most that the kernels may use, where the campaign says
 };
 
 struct RunContext {
@@ -31,12 +35,16 @@ struct RunContext {
   std::string scene_hash;
   std::filesystem::path reproductions;  // the folder for files that show a departure; empty: none
   Findings* findings = nullptr;
+  std::span<const Block> blocks = {};      // all of the campaign, by their numbers
+  const BroadPhaseEntry* limit = nullptr;  // the yardstick, where the campaign asks for it
 
   // A row with the columns that the block decides.
   RawRow row(std::size_t frame) const;
   // The same for an algorithm.
   RawRow row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const;
   RawRow row(std::size_t frame, const NarrowChoice& choice) const;
+  // The broad phases of the group that its rules let take part, the yardstick last.
+  std::vector<const BroadPhaseEntry*> broad() const;
   // Whether the campaign's rules let it take part.
   bool admits(const BroadPhaseEntry& entry) const;
   bool admits(const NarrowChoice& choice, const std::string& broad, Task task,

@@ -13,6 +13,7 @@
 #include "harness/measure/check_broad.h"
 #include "harness/measure/check_narrow.h"
 #include "harness/measure/check_price.h"
+#include "harness/measure/limit_entry.h"
 #include "harness/run/child_process.h"
 #include "harness/run/clock.h"
 #include "harness/run/machine.h"
@@ -51,7 +52,9 @@ std::vector<Block> blocks_of(const Campaign& campaign) {
         for (const std::int64_t seed : group.seeds) {
           for (const BoxKind boxes : group.boxes) {
             for (const int threads : group.threads) {
-              blocks.push_back({&group, scene, {count, seed, group.frames}, boxes, threads});
+              for (const auto& isa : group.isa) {
+                blocks.push_back({&group, scene, {count, seed, group.frames}, boxes, threads, isa});
+              }
             }
           }
         }
@@ -63,10 +66,25 @@ std::vector<Block> blocks_of(const Campaign& campaign) {
 }
 
 std::string label(const Block& block, const Scene& scene) {
-  return fmt::format("{}, {} bodies, {} frames, {} boxes, {} thread{}", scene.name, scene.size(),
-                     scene.frames, to_string(block.boxes), block.threads,
-                     block.threads == 1 ? "" : "s");
+  return fmt::format("{}, {} bodies, {} frames{}, {} boxes, {} thread{}{}", scene.name,
+                     scene.size(), scene.frames, block.group->rebuild ? " rebuilt" : "",
+                     to_string(block.boxes), block.threads, block.threads == 1 ? "" : "s",
+                     block.isa ? fmt::format(", {} instructions", to_string(*block.isa)) : "");
 }
+
+// Holds the kernels down to what the block allows, in this process and those forked from it.
+class IsaGuard {
+ public:
+  explicit IsaGuard(const Block& block) : before_(isa()) {
+    if (block.isa) limit_isa(std::min(before_, *block.isa));
+  }
+  ~IsaGuard() { limit_isa(before_); }
+  IsaGuard(const IsaGuard&) = delete;
+  IsaGuard& operator=(const IsaGuard&) = delete;
+
+ private:
+  Isa before_;
+};
 
 // Each distinct scene once.
 class Scenes {
@@ -133,10 +151,9 @@ NarrowInput check_broad_phases(const RunContext& context, const BlockInput& inpu
   if (narrow) sets.checked = narrow_sets(input, "", true_pairs(input), group.tasks);
   if (!product) sets.measured = sets.checked;
   if (again && !product) return sets;
-  for (const BroadPhaseEntry* entry : group.broad) {
-    if (!context.admits(*entry)) continue;
+  for (const BroadPhaseEntry* entry : context.broad()) {
     const CheckedBroad check = check_broad(context, input, *entry, product);
-    if (!product || !check.whole) continue;
+    if (!product || !check.whole || entry == context.limit) continue;
     auto found = narrow_sets(input, entry->info.name, check.pairs, group.tasks);
     // Other pairs than the true ones have answers of their own.
     if (!check.right) sets.checked.insert(sets.checked.end(), found.begin(), found.end());
@@ -145,10 +162,13 @@ NarrowInput check_broad_phases(const RunContext& context, const BlockInput& inpu
   return sets;
 }
 
-void run_block(const RunContext& context, bool checked, Progress& progress, ResultFiles& files) {
+void run_block(RunContext context, bool checked, Progress& progress, ResultFiles& files) {
+  const IsaGuard guard(*context.block);
   const Stopwatch watch;
   const double budget = context.block->group->seconds;
   const BlockInput input(*context.scene, context.block->boxes, has_narrow(context));
+  const BroadPhaseEntry limit = limit_entry(input);
+  if (context.block->group->limit) context.limit = &limit;
   NarrowInput narrow;
   if (checked) {
     // The rows are there; what the broad phases found has to be found again.
@@ -191,10 +211,11 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
       const Scenes::Loaded& loaded = scenes.of(block);
       progress.start(label(block, loaded.scene));
       if (static_cast<std::int64_t>(number) < at) continue;
-      run_block({campaign.name, campaign.seed, static_cast<std::int64_t>(number), &block,
-                 &loaded.scene, loaded.hash,
-                 folder / "reproductions" / fmt::format("block-{}", number), &result.findings},
-                static_cast<std::int64_t>(number) == at, progress, files);
+      run_block(
+          {campaign.name, campaign.seed, static_cast<std::int64_t>(number), &block, &loaded.scene,
+           loaded.hash, folder / "reproductions" / fmt::format("block-{}", number),
+           &result.findings, blocks},
+          static_cast<std::int64_t>(number) == at, progress, files);
     }
     result.interrupted = interrupt != 0;
   }
@@ -217,7 +238,9 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
                              &loaded.scene,
                              loaded.hash,
                              {},
-                             nullptr};
+                             nullptr,
+                             blocks};
+    const IsaGuard guard(block);
     PlannedBlock& planned = plan.emplace_back();
     planned.label = label(block, loaded.scene);
     planned.seconds = group.seconds;
@@ -225,10 +248,10 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
       if (!contestants.empty()) planned.sets.push_back({std::move(name), std::move(contestants)});
     };
     std::vector<std::string> broad;
-    for (const BroadPhaseEntry* entry : group.broad) {
-      if (context.admits(*entry)) broad.push_back(entry->info.name);
-    }
-    add("broad phases", broad);
+    for (const BroadPhaseEntry* entry : context.broad()) broad.push_back(entry->info.name);
+    std::vector<std::string> listed = broad;
+    if (group.limit && !broad.empty()) listed.emplace_back(stats::limit_label);
+    add("broad phases", listed);
     // Without narrow phases the first frames tell what all of them take.
     const bool has_pairs = has_narrow(context);
     Scene scene = loaded.scene;

@@ -27,7 +27,9 @@ struct GeneratorInput {
     velocity_stream,
     moving_stream,
     world_stream,
-    motion_stream
+    motion_stream,
+    order_stream,
+    arrival_stream
   };
   Random random(Stream stream) const { return Random(seed, stream); }
 };

@@ -52,6 +52,46 @@ Kinematics::Kinematics(const Scene& scene) : scene_(&scene) {
     poses_.push_back(body.pose);
     velocities_.push_back(body.velocity);
   }
+  const Motion& motion = scene.motion;
+  if (motion.teleports == 0 && motion.churn == 0) return;
+  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+    if (i >= scene.size()) {
+      absent_.push_back(i);
+    } else if (scene.bodies[i].moving) {
+      movers_.push_back(i);
+    }
+  }
+  if (motion.churn == 0) return;
+  present_.assign(scene.size(), 1);
+  present_.resize(scene.bodies.size(), 0);
+}
+
+void Kinematics::pick_movers(Random& random, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::swap(movers_[i], movers_[i + random.below(movers_.size() - i)]);
+  }
+}
+
+void Kinematics::exchange_places(Random& random) {
+  const std::size_t count = scene_->motion.teleports;
+  pick_movers(random, count);
+  const Vec3d first = poses_[movers_[0]].translation;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    poses_[movers_[i]].translation = poses_[movers_[i + 1]].translation;
+  }
+  poses_[movers_[count - 1]].translation = first;
+}
+
+void Kinematics::replace_some(Random& random) {
+  const std::size_t count = scene_->motion.churn;
+  pick_movers(random, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t &going = movers_[i], &coming = absent_[i];
+    poses_[coming].translation = poses_[going].translation;
+    present_[going] = 0;
+    present_[coming] = 1;
+    std::swap(going, coming);
+  }
 }
 
 // The bodies take turns, as in Broadmark: after a hundred frames each has had a new velocity.
@@ -87,6 +127,11 @@ void Kinematics::next() {
       poses_[i].rotation = product(rotation_over(w, frame_ * dt), body.pose.rotation);
     }
   }
+  if (movers_.empty()) return;
+  // Another seed than that of the kicks.
+  Random random(~motion.seed, static_cast<std::uint64_t>(frame_));
+  if (motion.teleports > 0) exchange_places(random);
+  if (motion.churn > 0) replace_some(random);
 }
 
 }  // namespace touchstone

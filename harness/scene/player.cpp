@@ -46,8 +46,8 @@ ScenePlayer::ScenePlayer(const Scene& scene, BoxKind kind)
     }
   }
   fill_world();
-  boxes_[0].resize(scene.bodies.size());
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) boxes_[0][i] = box_of(i);
+  boxes_[0].resize(scene.size());
+  for (std::size_t i = 0; i < scene.size(); ++i) boxes_[0][i] = box_of(i);
 }
 
 // Half-spaces need the whole region beforehand, so all frames are played once; other scenes do not.
@@ -100,16 +100,28 @@ bool ScenePlayer::next() {
     now = scene_->recording[static_cast<std::size_t>(frame_)];
   } else {
     kinematics_.next();
-    now.resize(before.size());
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      now[i] = scene_->bodies[i].moving ? box_of(i) : before[i];
+    now.resize(scene_->bodies.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      now[i] = !kinematics_.is_present(i) ? Aabb::empty()
+               : scene_->bodies[i].moving ? box_of(i)
+                                          : before[i];  // those that come move
     }
   }
-  moved_.clear();
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (!same_bits(before[i], now[i])) moved_.push_back(static_cast<std::uint32_t>(i));
-  }
+  list_changes(before, now);
   return true;
+}
+
+void ScenePlayer::list_changes(std::span<const Aabb> before, std::span<const Aabb> now) {
+  moved_.clear();
+  inserted_.clear();
+  removed_.clear();
+  for (std::uint32_t i = 0; i < now.size(); ++i) {
+    const bool was = i < before.size() && !before[i].is_empty();
+    const bool is = !now[i].is_empty();
+    if (was && !is) removed_.push_back(i);
+    if (!was && is) inserted_.push_back(i);
+    if (was && is && !same_bits(before[i], now[i])) moved_.push_back(i);
+  }
 }
 
 }  // namespace touchstone

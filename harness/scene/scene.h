@@ -45,11 +45,16 @@ struct Motion {
   // turned. Without walls, min > max.
   Vec3d wall_min = Vec3d::Constant(1);
   Vec3d wall_max = Vec3d::Constant(-1);
+  // Of the bodies that move, so many a frame exchange places at random, and so many go while as
+  // many others come into their places; from frame 1 on.
+  std::size_t teleports = 0;
+  std::size_t churn = 0;
 };
 
 struct Scene {
   std::string name;  // the file's stem, unless it says otherwise
   std::vector<Shape> shapes;
+  // The last Motion::churn of them are not there at frame 0.
   std::vector<Body> bodies;
   int frames = 1;  // at least one
   Motion motion;
@@ -60,7 +65,10 @@ struct Scene {
   // of leaving it to a broad phase; the same in every frame. Empty otherwise.
   std::vector<IndexPair> pairs;
 
-  std::size_t size() const { return recording.empty() ? bodies.size() : recording.front().size(); }
+  // Bodies that are there at a time: the same in every frame.
+  std::size_t size() const {
+    return recording.empty() ? bodies.size() - motion.churn : recording.front().size();
+  }
 };
 
 // What a user may change of a scene file from outside: a campaign's axes.

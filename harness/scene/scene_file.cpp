@@ -7,6 +7,7 @@
 
 #include "algorithms/core/bounds.h"
 #include "harness/io/aabbs.h"
+#include "harness/scene/generated_motion.h"
 #include "harness/scene/generators.h"
 #include "harness/scene/polytope.h"
 #include "harness/scene/rigid_ipc.h"
@@ -245,6 +246,9 @@ Scene generate(TomlTable& table, ShapeReader& shapes, const SceneOverrides& over
   Generated made = generator.make(input);
   made.scene.motion.seed = input.random(GeneratorInput::motion_stream).next();
   read_motion(table, made.side, made.scene.motion);
+  read_step(table, made.scene);
+  read_order(input, made.scene);
+  read_exchange(input, made.scene);
   return std::move(made.scene);
 }
 

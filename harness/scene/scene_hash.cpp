@@ -58,6 +58,9 @@ class Hash {
     add(motion.seed);
     add(motion.wall_min);
     add(motion.wall_max);
+    if (motion.teleports == 0 && motion.churn == 0) return;
+    add(std::uint64_t{motion.teleports});
+    add(std::uint64_t{motion.churn});
   }
   std::uint64_t value() const { return state_; }
 

@@ -10,7 +10,9 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t sampled_pairs = 16'384;
+// More where bodies are many: the fewer of all pairs overlap, the fewer of a sample do.
+constexpr std::size_t many_bodies = 200'000;
+constexpr std::size_t sampled_of_few = 16'384, sampled_of_many = 262'144;
 
 // P(X - Y <= x) for X and Y even on [0, 1].
 double triangle(double x) {
@@ -89,6 +91,7 @@ double expected_overlaps(std::span<const Aabb> boxes, const RegionOf& region, do
   if (n < 2) return 0;
   double sum = 0;
   std::size_t pairs = 0;
+  const std::size_t sampled_pairs = n > many_bodies ? sampled_of_many : sampled_of_few;
   const auto add = [&](std::size_t i, std::size_t j) {
     sum += overlap_probability(boxes[i], region(i, side), boxes[j], region(j, side));
     ++pairs;

@@ -21,7 +21,7 @@ using RegionOf = std::function<Region(std::size_t body, double side)>;
 std::vector<Aabb> boxes_at_origin(const Scene& scene);
 
 // The number of other boxes that a body's box is expected to overlap, from every pair of boxes, or
-// 16,384 random ones where there are more.
+// 16,384 random ones where there are more (262,144 from 200,000 boxes on).
 double expected_overlaps(std::span<const Aabb> boxes, const RegionOf& region, double side,
                          Random random);
 

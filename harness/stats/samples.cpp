@@ -26,10 +26,21 @@ const std::vector<std::string> required = {
     "phase",         "seconds",      "pair_count",    "pair_hash", "status",  "kind",  "block",
     "process",       "square",       "round",         "position",  "frames",  "twin",  "noise",
     "contact_count", "outcome_hash", "disagreements", "failures"};
-const std::vector<std::string> optional = {
-    "seed",           "stop",      "duality_gap", "compared",   "iterations", "iterations_squared",
-    "support_calls",  "box_tests", "node_visits", "candidates", "bytes",      "allocations",
-    "allocated_bytes"};
+const std::vector<std::string> optional = {"seed",
+                                           "stop",
+                                           "duality_gap",
+                                           "compared",
+                                           "iterations",
+                                           "iterations_squared",
+                                           "support_calls",
+                                           "box_tests",
+                                           "node_visits",
+                                           "candidates",
+                                           "bytes",
+                                           "allocations",
+                                           "allocated_bytes",
+                                           "rebuild",
+                                           "isa_limit"};
 
 // A row's fields by the columns' names.
 class Fields {
@@ -158,11 +169,14 @@ class Reader {
     key.boxes = row.text("boxes");
     key.seed = row.text("seed");
     key.threads = row.needed_count("threads");
+    key.isa_limit = row.text("isa_limit");
     if (row.has("narrow")) {
       key.task = row.text("task");
       if (key.task.empty()) row.fail("task", "expected the task of the narrow phase");
       key.pair_kind = row.text("pair_kind");
       key.pairs_of = row.text("broad");
+    } else {
+      key.rebuild = row.text("rebuild") == "1";
     }
     const auto [at, is_new] = places_.try_emplace(key, results_.sets.size());
     if (is_new) results_.sets.emplace_back().key = key;
@@ -208,6 +222,8 @@ std::string SetKey::words() const {
   std::string text = fmt::format("{}, {} bodies, {} boxes, {} thread{}", scene, bodies, boxes,
                                  threads, threads == 1 ? "" : "s");
   if (!seed.empty()) text += ", seed " + seed;
+  if (!isa_limit.empty()) text += ", " + isa_limit + " instructions";
+  if (rebuild) text += ", rebuilt";
   if (!narrow()) return text + ", broad phases";
   text += fmt::format(", {} {}", task, pair_kind);
   if (!pairs_of.empty()) text += " on the pairs of " + pairs_of;

@@ -26,6 +26,8 @@ struct SetKey {
   std::string task, pair_kind;  // of narrow phases; empty for broad phases
   std::string pairs_of;         // narrow phases: whose pairs; empty: the true ones
   std::string scene_hash;
+  bool rebuild = false;   // broad phases: every frame was built anew
+  std::string isa_limit;  // of the vector instructions, where the campaign set one
 
   bool narrow() const { return !task.empty(); }
   auto operator<=>(const SetKey&) const = default;
@@ -83,6 +85,10 @@ struct Check {
     return none;
   }
 };
+
+// Stands in a table for what no broad phase can do without (algorithms/limit.h): not one of the
+// contestants, though it was measured like them.
+inline constexpr const char* limit_label = "limit";
 
 // Whether the registry knows it as one of ours.
 bool is_ours(const SetKey& key, const std::string& label);

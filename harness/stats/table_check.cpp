@@ -16,7 +16,8 @@ std::vector<CheckedCell> read_bands(const std::filesystem::path& file) {
   std::vector<CheckedCell> cells;
   CsvReader(file,
             {"scene", "bodies", "seed", "boxes", "threads", "task", "pair_kind", "pairs_of",
-             "scene_hash", "algorithm", "baseline", "canary", "ratio", "band_low", "band_high"})
+             "scene_hash", "algorithm", "baseline", "canary", "ratio", "band_low", "band_high"},
+            {"rebuild", "isa_limit"})
       .read([&](const CsvReader::Row& row) {
         const auto text = [&](std::size_t column) { return std::string(row.text(column)); };
         const auto number = [&](std::size_t column) {
@@ -24,8 +25,8 @@ std::vector<CheckedCell> read_bands(const std::filesystem::path& file) {
         };
         if (row.text(11) == "1") return;
         CheckedCell cell;
-        cell.key = {text(0), row.integer(1), text(2), text(3), row.integer(4),
-                    text(5), text(6),        text(7), text(8)};
+        cell.key = {text(0), row.integer(1), text(2), text(3),         row.integer(4), text(5),
+                    text(6), text(7),        text(8), text(15) == "1", text(16)};
         cell.label = text(9);
         cell.baseline = text(10);
         cell.stated = number(12);

@@ -107,6 +107,7 @@ std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise) {
   std::vector<Entry> entries;
   for (const Contestant& contestant : set.contestants) {
     if (is_wrong(set, contestant) || !contestant.failure.empty()) continue;
+    if (!set.key.narrow() && contestant.label == limit_label) continue;
     const double ratio = median(to_baseline(set, contestant, noise));
     if (!std::isnan(ratio)) entries.push_back({&contestant, ratio});
   }
@@ -118,10 +119,21 @@ std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise) {
   return WinnerRow{set.key, winner.label, runner_up.label, tested.ratio, tested.p, 1, set.suspect};
 }
 
+struct Points {
+  std::vector<double> counts, seconds;
+};
+
+Points from(const Points& points, std::int64_t least) {
+  Points some;
+  for (std::size_t i = 0; i < points.counts.size(); ++i) {
+    if (points.counts[i] < static_cast<double>(least)) continue;
+    some.counts.push_back(points.counts[i]);
+    some.seconds.push_back(points.seconds[i]);
+  }
+  return some;
+}
+
 std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times) {
-  struct Points {
-    std::vector<double> counts, seconds;
-  };
   std::vector<ExponentRow> rows;
   std::vector<Points> points;
   for (const TimeRow& time : times) {
@@ -133,7 +145,7 @@ std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times) {
         rows, [&](const ExponentRow& row) { return row.key == key && row.label == time.label; });
     if (at == rows.end()) {
       points.emplace_back();
-      at = rows.insert(rows.end(), {key, time.label, {}, {}});
+      at = rows.insert(rows.end(), {key, time.label, {}, {}, {}});
     }
     at->counts.push_back(time.key.bodies);
     Points& own = points[static_cast<std::size_t>(at - rows.begin())];
@@ -142,6 +154,8 @@ std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times) {
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].law = fit_power_law(points[i].counts, points[i].seconds, confidence);
+    const Points many = from(points[i], many_bodies);
+    rows[i].law_of_many = fit_power_law(many.counts, many.seconds, confidence);
     std::ranges::sort(rows[i].counts);
     const auto repeated = std::ranges::unique(rows[i].counts);
     rows[i].counts.erase(repeated.begin(), repeated.end());
@@ -285,6 +299,7 @@ Tables make_tables(const Results& results, Noise noise) {
   correct(tables.winners, [](const WinnerRow&) { return true; });
   tables.exponents = exponent_rows(tables.times);
   tables.speed_ups = speed_up_rows(results, noise);
+  tables.broad_best = broad_best(results, noise, tables);
   return tables;
 }
 

@@ -48,8 +48,10 @@ struct ExponentRow {
   SetKey key;  // bodies 0, seed and scene_hash empty
   std::string label;
   std::vector<std::int64_t> counts;
-  PowerLaw law;  // of seconds over bodies
+  PowerLaw law;          // of seconds over bodies
+  PowerLaw law_of_many;  // of the counts from many_bodies on; NaN below two of them
 };
+inline constexpr std::int64_t many_bodies = 10'000;  // fewer may be in the caches
 
 // The time with the fewest threads over that with these.
 struct SpeedUpRow {
@@ -79,6 +81,24 @@ struct WorkRow {
   double allocations = 0, allocated_bytes = 0;
 };
 
+// The best of ours among the broad phases of a set, against the best of the others; those that
+// answer right. Empty names and NaN where there is none.
+struct BroadBestRow {
+  SetKey key;
+  struct Best {
+    std::string label;
+    double seconds;        // a frame
+    MedianInterval ratio;  // of its time over that of the best of ours
+  };
+  Best ours, peer;
+  Best bullet_or_fcl;         // those that every distribution has
+  MedianInterval over_limit;  // the time of ours over that of the limit
+  double bytes_a_body;        // that ours holds
+  std::int64_t base_threads;  // of the speed-up of ours; 0: none
+  MedianInterval speed_up;
+  double exponent;  // of the time of ours, from many_bodies on
+};
+
 struct Tables {
   std::string campaign;
   std::vector<std::string> machine;  // what tells the machine, "processor: ..."
@@ -89,6 +109,7 @@ struct Tables {
   std::vector<SpeedUpRow> speed_ups;
   std::vector<AgreementRow> agreement;
   std::vector<WorkRow> work;
+  std::vector<BroadBestRow> broad_best;
 };
 
 // The time of a over that of b, both of the set, with the p of its being 1: paired over the squares
@@ -102,6 +123,9 @@ TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Conte
 
 Tables make_tables(const Results& results, Noise noise);
 
+// Needs the other tables of the same results.
+std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const Tables& tables);
+
 // Whether a contestant found other pairs than the rest, or gave an answer that the exact one
 // contradicts.
 bool is_wrong(const SampleSet& set, const Contestant& contestant);
@@ -110,9 +134,9 @@ bool is_wrong(const SampleSet& set, const Contestant& contestant);
 std::string tables_markdown(const Tables& tables);
 
 // Writes tables.md and times.csv, ratios.csv, winners.csv, exponents.csv, speed_ups.csv,
-// agreement.csv, work.csv into the folder. `band`: ratios.csv states for each cell the band within
-// which its ratio holds: the interval, widened by this factor at both ends. InputError where a file
-// cannot be written.
+// agreement.csv, work.csv, broad_best.csv into the folder. `band`: ratios.csv states for each cell
+// the band within which its ratio holds: the interval, widened by this factor at both ends.
+// InputError where a file cannot be written.
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder);
 
 }  // namespace touchstone::stats

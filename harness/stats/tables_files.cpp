@@ -10,8 +10,9 @@
 namespace touchstone::stats {
 namespace {
 
-const std::vector<std::string> key_columns = {
-    "scene", "scene_hash", "bodies", "seed", "boxes", "threads", "task", "pair_kind", "pairs_of"};
+const std::vector<std::string> key_columns = {"scene",    "scene_hash", "bodies",   "seed",
+                                              "boxes",    "threads",    "task",     "pair_kind",
+                                              "pairs_of", "rebuild",    "isa_limit"};
 
 // A CSV file whose rows begin with a set's key.
 class TableFile {
@@ -26,7 +27,8 @@ class TableFile {
       csv_.field("");
     }
     csv_.field(key.seed).field(key.boxes).field(key.threads);
-    return csv_.field(key.task).field(key.pair_kind).field(key.pairs_of);
+    csv_.field(key.task).field(key.pair_kind).field(key.pairs_of);
+    return csv_.field(int{key.rebuild}).field(key.isa_limit);
   }
   void close() { csv_.close(); }
 
@@ -75,12 +77,14 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
     csv.field(row.p).field(row.p_corrected).field(int{row.suspect}).end_row();
   }
   winners.close();
-  TableFile exponents(folder / "exponents.csv", {"algorithm", "exponent", "exponent_low",
-                                                 "exponent_high", "factor", "counts"});
+  TableFile exponents(folder / "exponents.csv",
+                      {"algorithm", "exponent", "exponent_low", "exponent_high", "factor", "counts",
+                       "exponent_of_many"});
   for (const ExponentRow& row : tables.exponents) {
     CsvWriter& csv = exponents.row(row.key).field(row.label).field(row.law.exponent);
     csv.field(row.law.low).field(row.law.high).field(row.law.factor);
-    csv.field(fmt::format("{}", fmt::join(row.counts, " "))).end_row();
+    csv.field(fmt::format("{}", fmt::join(row.counts, " ")));
+    csv.field(row.law_of_many.exponent).end_row();
   }
   exponents.close();
   TableFile speed_ups(folder / "speed_ups.csv",
@@ -109,6 +113,40 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
     csv.field(row.allocated_bytes).end_row();
   }
   work.close();
+  TableFile best(folder / "broad_best.csv", {"ours",
+                                             "ours_seconds",
+                                             "peer",
+                                             "peer_seconds",
+                                             "peer_ratio",
+                                             "peer_ratio_low",
+                                             "peer_ratio_high",
+                                             "bullet_or_fcl",
+                                             "bullet_or_fcl_seconds",
+                                             "bullet_or_fcl_ratio",
+                                             "bullet_or_fcl_ratio_low",
+                                             "bullet_or_fcl_ratio_high",
+                                             "over_limit",
+                                             "over_limit_low",
+                                             "over_limit_high",
+                                             "bytes_a_body",
+                                             "base_threads",
+                                             "speed_up",
+                                             "speed_up_low",
+                                             "speed_up_high",
+                                             "exponent_of_many"});
+  for (const BroadBestRow& row : tables.broad_best) {
+    CsvWriter& csv = best.row(row.key).field(row.ours.label).field(row.ours.seconds);
+    for (const BroadBestRow::Best* other : {&row.peer, &row.bullet_or_fcl}) {
+      csv.field(other->label).field(other->seconds);
+      csv.field(other->ratio.median).field(other->ratio.low).field(other->ratio.high);
+    }
+    csv.field(row.over_limit.median).field(row.over_limit.low).field(row.over_limit.high);
+    csv.field(row.bytes_a_body);
+    csv.field(row.base_threads > 0 ? std::to_string(row.base_threads) : std::string());
+    csv.field(row.speed_up.median).field(row.speed_up.low).field(row.speed_up.high);
+    csv.field(row.exponent).end_row();
+  }
+  best.close();
   write_text(folder / "tables.md", tables_markdown(tables));
 }
 

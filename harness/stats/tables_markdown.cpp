@@ -175,6 +175,32 @@ std::string work_tables(const std::vector<WorkRow>& rows) {
          all;
 }
 
+// Where there are others to compare ours with.
+std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
+  std::string body;
+  const auto name = [](const std::string& label) { return label.empty() ? "-" : label; };
+  for (const BroadBestRow& row : rows) {
+    if (row.peer.label.empty() && std::isnan(row.over_limit.median)) continue;
+    body += markdown_row({row.key.words(), row.ours.label, name(row.peer.label),
+                          name(row.bullet_or_fcl.label), text(row.ours.seconds * 1e3),
+                          text(row.peer.seconds * 1e3), text(row.peer.ratio.median),
+                          interval(row.peer.ratio), text(row.bullet_or_fcl.seconds * 1e3),
+                          text(row.bullet_or_fcl.ratio.median), interval(row.bullet_or_fcl.ratio),
+                          text(row.over_limit.median), text(row.bytes_a_body),
+                          text(row.speed_up.median), text(row.exponent)});
+  }
+  if (body.empty()) return body;
+  return "## The best of our broad phases against the best of others\n\nMilliseconds a frame; "
+         "ratios are of the other's time over that of ours. The limit is a radix sort, a gather\n"
+         "of the boxes and the writing of the pairs. Speed-up is over the fewest threads, growth "
+         "the exponent of\ntime over bodies where there are many.\n\n" +
+         markdown_header({"input", "ours", "peer", "of Bullet and FCL", "ours, ms", "peer, ms",
+                          "peer / ours", "95 % interval", "Bullet or FCL, ms", "/ ours",
+                          "95 % interval", "ours / limit", "bytes / body", "speed-up", "growth"},
+                         4) +
+         body + "\n";
+}
+
 }  // namespace
 
 std::string tables_markdown(const Tables& tables) {
@@ -195,17 +221,24 @@ std::string tables_markdown(const Tables& tables) {
     }
     all += "\n";
   }
+  all += broad_best_table(tables.broad_best);
   if (!tables.exponents.empty()) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
-    all += markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts"}, 2);
+    all += markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts",
+                            fmt::format("from {} on", many_bodies)},
+                           2);
     for (const ExponentRow& row : tables.exponents) {
-      all += markdown_row({fmt::format("{}, {} boxes, {} thread{}", row.key.scene, row.key.boxes,
-                                       row.key.threads, row.key.threads == 1 ? "" : "s"),
-                           row.label, fmt::format("{:.2f}", row.law.exponent),
-                           std::isnan(row.law.low)
-                               ? std::string("-")
-                               : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
-                           fmt::format("{}", fmt::join(row.counts, ", "))});
+      all += markdown_row(
+          {fmt::format("{}, {} boxes, {} thread{}{}{}", row.key.scene, row.key.boxes,
+                       row.key.threads, row.key.threads == 1 ? "" : "s",
+                       row.key.isa_limit.empty() ? "" : ", " + row.key.isa_limit + " instructions",
+                       row.key.rebuild ? ", rebuilt" : ""),
+           row.label, fmt::format("{:.2f}", row.law.exponent),
+           std::isnan(row.law.low) ? std::string("-")
+                                   : fmt::format("{:.2f} to {:.2f}", row.law.low, row.law.high),
+           fmt::format("{}", fmt::join(row.counts, ", ")),
+           std::isnan(row.law_of_many.exponent) ? std::string("-")
+                                                : fmt::format("{:.2f}", row.law_of_many.exponent)});
     }
     all += "\n";
   }

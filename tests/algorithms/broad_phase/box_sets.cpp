@@ -35,6 +35,18 @@ std::vector<Aabb> clusters(Random& random) {
   return boxes;
 }
 
+// Around a corner, where they are denser and smaller by up to 2^depth.
+// these.
+std::vector<Aabb> ever_denser(Random& random, std::size_t count, float depth) {
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float scale = std::exp2(-uniform(random, 0, depth));
+    boxes.push_back(cube(scale * uniform(random, 0, 1), scale * uniform(random, 0, 1),
+                         scale * uniform(random, 0, 1), 0.2f * scale));
+  }
+  return boxes;
+}
+
 std::vector<Aabb> sizes_over_orders(Random& random, float orders) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < 900; ++i) {
@@ -171,6 +183,8 @@ std::vector<BoxSet> box_sets() {
     add("uniform, sides up to " + std::to_string(side), uniform_boxes(random, 1000, side));
   }
   add("clusters", clusters(random));
+  add("ever denser", ever_denser(random, 1000, 30));
+  add("dense cluster", with_outliers(shifted(uniform_boxes(random, 1000, 0.1f), 1e-4f, 0), 40, 1));
   add("sizes over 3 orders", sizes_over_orders(random, 3));
   add("sizes over 6 orders", sizes_over_orders(random, 6));
   auto flat = uniform_boxes(random, 1000, 0.05f);

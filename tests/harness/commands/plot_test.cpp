@@ -55,7 +55,8 @@ TEST(Plots, EveryFigureInTheSameBytesTwice) {
     const Ran ran = plot(results + " --out " + (folder.path() / out).string());
     ASSERT_EQ(ran.status, 0) << ran.text;
   }
-  for (const char* name : {"time_against_count", "speed_up", "phases", "winners", "agreement"}) {
+  for (const char* name :
+       {"time_against_count", "broad", "speed_up", "phases", "winners", "agreement"}) {
     for (const char* ending : {".svg", ".pdf", ".png"}) {
       const std::string one = folder.read(std::string("one/") + name + ending);
       EXPECT_GT(one.size(), 1000u) << name << ending;

@@ -49,6 +49,24 @@ TEST_F(Record, RecordingsAreTheSceneBoxes) {
   EXPECT_EQ(read_aabbs(path("r.aabbs")).scene, "s");
 }
 
+TEST_F(Record, BodiesThatComeAndGoAreRowsWithoutABox) {
+  const auto scene =
+      folder_.write("churn.toml", "generator = \"uniform\"\ncount = 30\nframes = 5\nchurn = 0.2\n");
+  run({scene.string(), "--out", path("r.csv")});
+  const std::vector<BoxFrame> frames = read_box_frames(path("r.csv"));
+  const Scene played = load_scene(scene);
+  ScenePlayer player(played, BoxKind::tight);
+  for (const BoxFrame& frame : frames) {
+    const FrameChange change = player.change();
+    EXPECT_TRUE(std::ranges::equal(frame.boxes, change.boxes));
+    EXPECT_TRUE(std::ranges::equal(frame.moved, change.moved));
+    EXPECT_TRUE(std::ranges::equal(frame.inserted, change.inserted));
+    EXPECT_TRUE(std::ranges::equal(frame.removed, change.removed));
+    player.next();
+  }
+  EXPECT_THROW(run({scene.string(), "--out", path("r.aabbs")}), InputError);
+}
+
 TEST_F(Record, TakesOverrides) {
   run({scene_.string(), "--out", path("r.aabbs"), "--count", "12", "--frames", "2", "--seed", "9",
        "--boxes", "loose"});

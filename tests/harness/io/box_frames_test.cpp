@@ -59,6 +59,25 @@ TEST_F(BoxFrames, ReadsFramesAndWhatIsNewInThem) {
   EXPECT_TRUE(frames[3].boxes[2].is_empty());
 }
 
+TEST_F(BoxFrames, IdsMayHaveNoBody) {
+  const auto frames =
+      read("0,0,,,,,,\n0,1,0,0,0,1,1,1\n1,0,0,0,0,1,1,1\n1,1,,,,,,\n2,0,0,0,0,1,1,1\n");
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_TRUE(frames[0].boxes[0].is_empty());
+  EXPECT_THAT(frames[1].inserted, ElementsAre(0));
+  EXPECT_THAT(frames[1].removed, ElementsAre(1));
+  EXPECT_THAT(frames[1].moved, IsEmpty());
+  EXPECT_THAT(frames[2].removed, IsEmpty()) << "gone already";
+  EXPECT_THAT(error("0,0,,,,1,1,1\n"), StartsWith("in.csv:2: column min_x"));
+  const std::vector<std::vector<Aabb>> written = {{Aabb::empty(), {{0, 0, 0}, {1, 1, 1}}},
+                                                  {{{0, 0, 0}, {1, 1, 1}}, Aabb::empty()}};
+  write_box_frames(written, folder.path() / "out.csv");
+  const auto again = read_box_frames(folder.path() / "out.csv");
+  ASSERT_EQ(again.size(), 2u);
+  EXPECT_EQ(again[0].boxes, written[0]);
+  EXPECT_EQ(again[1].boxes, written[1]);
+}
+
 TEST_F(BoxFrames, RoundsOutward) {
   const Aabb box = read("0,0,0.1,-0.1,1e-300,0.1,-0.1,1e-300\n")[0].boxes[0];
   EXPECT_LT(double{box.min[0]}, 0.1);

@@ -38,6 +38,26 @@ TEST_F(CampaignFile, HasDefaultsForEverythingButTheScenes) {
     EXPECT_TRUE(offers(*choice.entry, choice.settings.scalar));
 }
 
+TEST_F(CampaignFile, KeysOfLargeCells) {
+  const Campaign plain = read("scenes = 'a.toml'");
+  EXPECT_EQ(plain.groups[0].isa, std::vector<std::optional<Isa>>{std::nullopt});
+  EXPECT_FALSE(plain.groups[0].limit);
+  EXPECT_FALSE(plain.groups[0].rounds);
+  EXPECT_EQ(plain.groups[0].processes, 3);
+  const Campaign campaign = read(
+      "scenes = 'a.toml'\nisa = ['all', 'avx2', 'baseline']\nlimit = true\nrounds = 1\n"
+      "processes = 2");
+  const CampaignGroup& group = campaign.groups[0];
+  EXPECT_EQ(group.isa, (std::vector<std::optional<Isa>>{std::nullopt, Isa::avx2, Isa::baseline}));
+  EXPECT_TRUE(group.limit);
+  EXPECT_EQ(group.rounds, 1);
+  EXPECT_EQ(group.processes, 2);
+  EXPECT_NE(description(plain), description(campaign));
+  EXPECT_THAT(fault("scenes = 'a.toml'\nisa = 'sse'"), testing::HasSubstr("c.toml:2: isa"));
+  EXPECT_THAT(fault("scenes = 'a.toml'\nrounds = 5"), testing::HasSubstr("c.toml:2: rounds"));
+  EXPECT_THAT(fault("scenes = 'a.toml'\nprocesses = 0"), testing::HasSubstr("processes"));
+}
+
 TEST_F(CampaignFile, GroupsInheritAndOverride) {
   const Campaign campaign = read(R"(
 name = "n"

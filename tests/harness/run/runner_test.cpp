@@ -11,6 +11,7 @@
 #include "harness/io/csv.h"
 #include "harness/run/raw_row.h"
 #include "harness/run/report.h"
+#include "harness/stats/tables.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace {
@@ -91,6 +92,103 @@ TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
   }
   for (const auto& [cell, hashes] : by_cell) EXPECT_EQ(hashes.size(), 1u) << cell;
   EXPECT_GE(combinations.size(), 20u);
+}
+
+// What comes and goes, jumps or moves is checked frame by frame like everything else.
+TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
+  const Campaign c =
+      campaign("broad = ['ours', 'peers']\nnarrow = 'gjk'\nsquares = 6\nthreads = 2");
+  std::ofstream(folder_.path() / "scene.toml")
+      << "generator = 'uniform'\ncount = 120\noverlaps = 4\nframes = 7\nchurn = 0.1\n"
+         "teleports = 0.1\nmoving = 0.5\n";
+  const RunResult result = run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  std::map<std::int64_t, std::set<std::string>> hashes;
+  std::map<std::int64_t, std::set<std::string>> found_by;
+  for (const RawRow& row : result.findings.rows()) {
+    EXPECT_EQ(row.bodies, 120);
+    if (row.kind != RowKind::check || row.phase != Phase::find_pairs) continue;
+    const BroadPhaseEntry* const entry = find_broad_phase(row.broad);
+    if (!entry->info.known_defect.empty()) continue;
+    hashes[row.frame].insert(row.pair_hash);
+    found_by[row.frame].insert(row.broad);
+  }
+  ASSERT_EQ(hashes.size(), 7u);
+  std::set<std::string> all;
+  for (const auto& [frame, set] : hashes) {
+    EXPECT_EQ(set.size(), 1u) << frame;
+    EXPECT_GE(found_by[frame].size(), 8u);
+    all.insert(set.begin(), set.end());
+  }
+  EXPECT_EQ(all.size(), 7u) << "every frame has other pairs";
+}
+
+TEST_F(Runner, RebuildsHoldsInstructionsDownAndMeasuresTheLimit) {
+  const Campaign c = campaign(
+      "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = 1\nlimit = true\n"
+      "isa = ['all', 'baseline']\nsquares = 6\nrounds = 1\nprocesses = 1\n"
+      "[[group]]\nrebuild = true\n[[group]]\n");
+  const Isa before = isa();
+  const RunResult result = run_campaign(c, out());
+  EXPECT_EQ(isa(), before);
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  std::map<std::string, std::map<std::string, int>> samples;
+  for (const RawRow& row : read_raw_rows(out() / "raw.csv")) {
+    EXPECT_EQ(row.status, "ok");
+    EXPECT_EQ(row.isa, row.isa_limit.empty() ? to_string(before) : "baseline");
+    if (row.kind != RowKind::sample) continue;
+    EXPECT_EQ(row.process, 0);
+    EXPECT_EQ(row.round, 0);
+    EXPECT_NE(row.phase, row.rebuild == 1 ? Phase::update : Phase::build);
+    if (row.phase != Phase::find_pairs || row.twin == 1) continue;
+    ++samples[row.isa_limit + (row.rebuild == 1 ? " rebuilt" : "")][row.broad];
+  }
+  ASSERT_EQ(samples.size(), 4u);
+  const std::map<std::string, int> each = {{"naive", 6}, {"sweep-and-prune", 6}, {"limit", 6}};
+  for (const auto& [block, counts] : samples) EXPECT_EQ(counts, each) << block;
+  const std::string table = broad_table(result.findings, {.page_width = 200, .noisy = true});
+  EXPECT_THAT(table, testing::HasSubstr("baseline rebuilt"));
+  EXPECT_THAT(table, testing::ContainsRegex("limit +[0-9]"));
+  // Four sets, not one.
+  const stats::Results read = stats::read_results(out());
+  EXPECT_EQ(read.sets.size(), 4u);
+  const stats::Tables tables = stats::make_tables(read, stats::Noise::kept);
+  for (const auto& row : tables.winners) EXPECT_NE(row.winner, "limit");
+  ASSERT_EQ(tables.broad_best.size(), 4u);
+  for (const auto& row : tables.broad_best) {
+    EXPECT_NE(row.ours.label, "limit");
+    EXPECT_TRUE(row.peer.label.empty());
+    EXPECT_GT(row.over_limit.median, 0);
+  }
+}
+
+TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
+  const std::string text =
+      "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = [1, 2]\nsquares = 6\n"
+      "counts = [100, 200]\nframes = 2\n";
+  const RunResult all = run_campaign(campaign(text), out());
+  for (const RawRow& row : all.findings.rows()) EXPECT_FALSE(row.lost());
+  // Nobody is so fast.
+  const RunResult none = run_campaign(campaign(text + "time_limit = 1e-9"), out());
+  int tried = 0, left_out = 0;
+  for (const RawRow& row : none.findings.rows()) {
+    if (!row.lost()) continue;
+    EXPECT_EQ(row.status, "timed_out");
+    ++(row.words.empty() ? tried : left_out);
+    if (row.words.empty()) continue;
+    EXPECT_EQ(row.words, "not tried: over the limit of 1e-09 s with 100 bodies");
+  }
+  EXPECT_EQ(tried, 2);
+  EXPECT_EQ(left_out, 2 * 3) << "the same at two threads, and with more bodies";
+  // A limit that grows faster than the count is another question.
+  const RunResult more = run_campaign(
+      campaign("broad = 'naive'\nnarrow = 'none'\nthreads = 1\nsquares = 6\nframes = 2\n"
+               "[[group]]\ncounts = 100\ntime_limit = 1e-9\n"
+               "[[group]]\ncounts = 200\ntime_limit = 10\n"),
+      out());
+  int lost = 0;
+  for (const RawRow& row : more.findings.rows()) lost += row.lost();
+  EXPECT_EQ(lost, 1);
 }
 
 TEST_F(Runner, TablesNameEveryAlgorithm) {

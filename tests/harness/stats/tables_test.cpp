@@ -73,6 +73,59 @@ TEST_F(TablesOf, WhoIsWrongOrFailedDoesNotWin) {
   EXPECT_EQ(tables.agreement[2].unanswered, 0);
 }
 
+TEST_F(TablesOf, TheBestOfOursAgainstTheBestOfOthers) {
+  FakeRun run;
+  for (const int threads : {1, 2}) {
+    for (const int bodies : {1000, 10'000, 100'000}) {
+      FakeBlock block;
+      block.bodies = bodies;
+      block.threads = threads;
+      block.scene_hash = std::to_string(bodies);
+      const double ours = (bodies == 1000 ? 5e-6 : 1e-6 * bodies) / (threads == 2 ? 1.6 : 1);
+      block.contestants = {{"sweep-and-prune", 2 * ours},
+                           {"uniform-grid", ours},
+                           {"naive", 0.5 * ours, "00000000000000bb"},  // wrong
+                           {"limit", 0.25 * ours}};
+      if (threads == 1) {
+        block.contestants.push_back({"some-peer", 3 * ours});
+        block.contestants.push_back({"bullet-tree", 8 * ours});
+        block.contestants.push_back({"fcl-sap", 6 * ours});
+      }
+      block.contestants[1].work = ",,40,,,2400000,,";
+      run.blocks.push_back(block);
+    }
+  }
+  // 'naive' stands for the truth where it is there: here most are right.
+  for (FakeBlock& block : run.blocks) block.contestants[2].name = "loose-octree";
+  const Tables tables = make(run);
+  for (const WinnerRow& row : tables.winners) EXPECT_EQ(row.winner, "uniform-grid");
+  ASSERT_EQ(tables.broad_best.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const BroadBestRow& row = tables.broad_best[i];
+    EXPECT_EQ(row.ours.label, "uniform-grid");
+    EXPECT_NEAR(row.ours.ratio.median, 1, 1e-12);
+    EXPECT_NEAR(row.over_limit.median, 4, 0.05);
+    EXPECT_NEAR(row.bytes_a_body * static_cast<double>(row.key.bodies), 2'400'000, 1);
+    EXPECT_NEAR(row.exponent, 1, 0.05) << "without the thousand";
+    EXPECT_EQ(row.base_threads, i < 3 ? 0 : 1);
+    if (i >= 3) {
+      EXPECT_NEAR(row.speed_up.median, 1.6, 0.1);
+      EXPECT_TRUE(row.peer.label.empty());
+      continue;
+    }
+    EXPECT_TRUE(std::isnan(row.speed_up.median));
+    EXPECT_EQ(row.peer.label, "some-peer");
+    EXPECT_NEAR(row.peer.ratio.median, 3, 0.05);
+    EXPECT_LT(row.peer.ratio.low, row.peer.ratio.high);
+    EXPECT_EQ(row.bullet_or_fcl.label, "fcl-sap");
+    EXPECT_NEAR(row.bullet_or_fcl.ratio.median, 6, 0.1);
+  }
+  std::filesystem::create_directory(folder_.path() / "out");
+  write_tables(tables, 1.5, folder_.path() / "out");
+  EXPECT_THAT(folder_.read("out/broad_best.csv"), HasSubstr(",uniform-grid,"));
+  EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("| some-peer | fcl-sap |"));
+}
+
 TEST_F(TablesOf, NoiseIsLeftOutUnlessAskedForAndOutliersStay) {
   FakeRun run = fake_run();
   run.noisy_squares = 1;

@@ -1,0 +1,131 @@
+#include "algorithms/kernels/box_pyramid.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "algorithms/kernels/blocks.h"
+#include "algorithms/kernels/box_lanes.h"
+
+namespace touchstone {
+namespace {
+
+using box_lanes::Columns;
+using box_lanes::columns_of;
+
+constexpr std::size_t fan = BoxPyramid::fan;
+
+Columns columns_of(const ListedBoxes& list) {
+  return {{list.extent(0), list.extent(1), list.extent(2)},
+          {list.extent(3), list.extent(4), list.extent(5)},
+          list.ids()};
+}
+
+// How many nodes of a level of this size, not before `from`, the parents have.
+std::size_t children_of(const std::vector<std::uint32_t>& parents, std::size_t count,
+                        std::size_t size, std::size_t from) {
+  std::size_t children = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = parents[i] * fan;
+    children += std::min(first + fan, size) - std::max(first, from);
+  }
+  return children;
+}
+
+namespace baseline {
+using namespace box_lanes::baseline;
+#define TOUCHSTONE_TARGET
+#include "algorithms/kernels/box_pyramid.inl"
+#undef TOUCHSTONE_TARGET
+}  // namespace baseline
+
+#if defined(__x86_64__)
+namespace avx2 {
+using namespace box_lanes::avx2;
+#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
+#include "algorithms/kernels/box_pyramid.inl"
+#undef TOUCHSTONE_TARGET
+}  // namespace avx2
+
+namespace avx512 {
+using namespace box_lanes::avx512;
+#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
+#include "algorithms/kernels/box_pyramid.inl"
+#undef TOUCHSTONE_TARGET
+}  // namespace avx512
+#else
+namespace avx2 = baseline;
+namespace avx512 = baseline;
+#endif
+
+// The bounds of each 16 of `below`, which is padded with empty boxes.
+void bound(Executor& executor, const BoxArrays& below, BoxArrays& above) {
+  const std::size_t count = block_count(below.size(), fan);
+  above.resize(count);
+  for_each_block(executor, count, 256, [&](std::size_t, std::size_t first, std::size_t last) {
+    switch (isa()) {
+      case Isa::avx512: return avx512::bound(below, above, first, last);
+      case Isa::avx2: return avx2::bound(below, above, first, last);
+      case Isa::baseline: return baseline::bound(below, above, first, last);
+    }
+  });
+}
+
+}  // namespace
+
+void BoxPyramid::fit(Executor& executor) {
+  // Blocks and groups there are always.
+  for (used_ = 1; used_ < 3 || levels_[used_ - 1].size() > 1; ++used_) {
+    if (levels_.size() == used_) levels_.emplace_back();
+    bound(executor, levels_[used_ - 1], levels_[used_]);
+  }
+}
+
+double BoxPyramid::spread() const {
+  double sum = 0;
+  if (used_ < 2) return sum;
+  const BoxArrays& blocks = levels_[1];
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* const min = blocks.min(axis);
+    const float* const max = blocks.max(axis);
+    for (std::size_t i = 0; i < blocks.size(); ++i) sum += double{max[i]} - min[i];
+  }
+  return sum;
+}
+
+std::size_t BoxPyramid::held_bytes() const {
+  std::size_t bytes = 0;
+  for (const BoxArrays& level : levels_) bytes += level.held_bytes();
+  return bytes;
+}
+
+void ListedBoxes::grow(std::size_t more) {
+  const std::size_t capacity = std::max(size_ + more + BoxArrays::padding, 2 * capacity_);
+  auto extents = std::make_unique_for_overwrite<float[]>(6 * capacity);
+  auto ids = std::make_unique_for_overwrite<std::uint32_t[]>(capacity);
+  for (std::size_t i = 0; i < 6; ++i) {
+    std::copy_n(extents_.get() + i * capacity_, size_, extents.get() + i * capacity);
+  }
+  std::copy_n(ids_.get(), size_, ids.get());
+  extents_ = std::move(extents);
+  ids_ = std::move(ids);
+  capacity_ = capacity;
+}
+
+void pair_group(const BoxPyramid& pyramid, std::size_t group, PyramidScratch& scratch,
+                PairBuffer& out) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::search(pyramid, group, scratch, out);
+    case Isa::avx2: return avx2::search(pyramid, group, scratch, out);
+    case Isa::baseline: return baseline::search(pyramid, group, scratch, out);
+  }
+}
+
+std::size_t list_overlaps(const BoxPyramid& pyramid, const Aabb& box, PyramidScratch& scratch) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::list(pyramid, box, scratch);
+    case Isa::avx2: return avx2::list(pyramid, box, scratch);
+    default: return baseline::list(pyramid, box, scratch);
+  }
+}
+
+}  // namespace touchstone

@@ -1,0 +1,100 @@
+// The loops of hilbert.h. Included by hilbert.cpp once for each level of vector instructions,
+// inside that level's namespace, with TOUCHSTONE_TARGET set to its attribute and TOUCHSTONE_LANES
+// to the width of its vectors. No sums of products: the codes are the same at every level.
+//
+// Vectors are changed in place: none is passed by value, for how that is done depends on the level.
+
+constexpr std::size_t lanes = TOUCHSTONE_LANES;
+using Integers = std::uint32_t __attribute__((vector_size(4 * lanes)));
+using Signed = std::int32_t __attribute__((vector_size(4 * lanes)));
+using Floats = float __attribute__((vector_size(4 * lanes)));
+
+// Two at a time: what is done to the one does not wait for the other.
+constexpr std::size_t parts = 2;
+
+// Skilling's transpose of the cell numbers.
+template <int axes>
+TOUCHSTONE_TARGET inline void to_transpose(Integers (&x)[axes][parts], int bits) {
+  const std::uint32_t top = 1u << (bits - 1);
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+    const Integers below = Integers{} + (bit - 1);
+    for (int i = 0; i < axes; ++i) {
+      for (std::size_t k = 0; k < parts; ++k) {
+        const auto set = (x[i][k] & bit) != 0;
+        const Integers exchange = (x[0][k] ^ x[i][k]) & below;
+        if (i != 0) x[i][k] ^= set ? Integers{} : exchange;
+        x[0][k] ^= set ? below : exchange;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < parts; ++k) {
+    for (int i = 1; i < axes; ++i) x[i][k] ^= x[i - 1][k];
+    Integers turn{};
+    for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+      turn ^= (x[axes - 1][k] & bit) != 0 ? Integers{} + (bit - 1) : Integers{};
+    }
+    for (int i = 0; i < axes; ++i) x[i][k] ^= turn;
+  }
+}
+
+// Puts axes - 1 zeros between the bits.
+template <int axes>
+TOUCHSTONE_TARGET inline void spread(Integers& x) {
+  if constexpr (axes == 3) {  // 10 bits
+    x = (x | x << 16) & 0x030000ff;
+    x = (x | x << 8) & 0x0300f00f;
+    x = (x | x << 4) & 0x030c30c3;
+    x = (x | x << 2) & 0x09249249;
+  } else if constexpr (axes == 2) {  // 15 bits
+    x = (x | x << 8) & 0x00ff00ff;
+    x = (x | x << 4) & 0x0f0f0f0f;
+    x = (x | x << 2) & 0x33333333;
+    x = (x | x << 1) & 0x55555555;
+  }
+}
+
+// The numbers of the cells that the centres are in.
+TOUCHSTONE_TARGET inline void cell(const Numbering& numbering, std::size_t axis,
+                                   const float* centres, Integers& x) {
+  const auto last = static_cast<float>((1u << numbering.bits) - 1);
+  Floats place;
+  std::memcpy(&place, centres, sizeof place);
+  place = (place - numbering.low[axis]) * numbering.scale[axis];
+  // Sums that overflow are at the end of the curve, or at its beginning like a NaN of theirs.
+  place = place > 0.0f ? place : Floats{};
+  place = place < last ? place : Floats{} + last;
+  x = reinterpret_cast<Integers>(__builtin_convertvector(place, Signed));
+}
+
+template <int axes>
+TOUCHSTONE_TARGET inline void places_on(const Numbering& numbering, const Centres& centres,
+                                        std::uint32_t* codes) {
+  for (std::size_t first = 0; first < boxes_at_once; first += parts * lanes) {
+    Integers x[axes][parts];
+    for (int i = 0; i < axes; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      for (std::size_t k = 0; k < parts; ++k) {
+        cell(numbering, axis, centres[axis].data() + first + k * lanes, x[i][k]);
+      }
+    }
+    to_transpose<axes>(x, numbering.bits);
+    for (std::size_t k = 0; k < parts; ++k) {
+      Integers code{};
+      for (int i = 0; i < axes; ++i) {
+        spread<axes>(x[i][k]);
+        code |= x[i][k] << (axes - 1 - i);
+      }
+      std::memcpy(codes + first + k * lanes, &code, sizeof code);
+    }
+  }
+}
+
+// Places on the curve of as many centres.
+TOUCHSTONE_TARGET void places(const Numbering& numbering, const Centres& centres,
+                              std::uint32_t* codes) {
+  switch (numbering.axes) {
+    case 1: return places_on<1>(numbering, centres, codes);
+    case 2: return places_on<2>(numbering, centres, codes);
+    default: return places_on<3>(numbering, centres, codes);
+  }
+}

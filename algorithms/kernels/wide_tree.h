@@ -1,0 +1,94 @@
+// A tree of boxes with up to 16 children a node, whose bounds lie side by side and are tested at
+// once; all leaves are equally deep. Loaded in bulk, then changed body by body.
+// Papers:  Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", SIGMOD 1984;
+//          Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (the bulk); Bittner, Hapala, Havran,
+//          "Incremental BVH Construction for Ray Tracing", Computers & Graphics 47, 2015 (the
+//          surface that is added decides where a box goes).
+// Departs: a node that is full is split at the median along the longest axis. Nodes are not merged:
+//          whoever changes much loads anew.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/broad_phase_work.h"
+#include "algorithms/core/executor.h"
+#include "algorithms/kernels/box_arrays.h"
+
+namespace touchstone {
+
+// Lists that a search fills, and what it counts. One a worker.
+struct WideTreeScratch {
+  std::vector<std::uint32_t> nodes, children;
+  std::vector<IndexRange> partners;
+};
+
+class WideTree {
+ public:
+  static constexpr std::size_t fan = 16;
+
+  // Bodies get places 0, 1 ... in the order in which they are to be loaded. The caller sets box and
+  // id of each place, in any order, then calls `load`.
+  BoxArrays& start(std::size_t bodies);
+  // Ids are below `id_count`; 0: the tree is not to be changed.
+  void load(Executor& executor, std::size_t id_count);
+
+  // The boxes of the bodies, and of nodes; a leaf's are 16 places one behind the other.
+  const BoxArrays& boxes() const { return boxes_; }
+  std::uint32_t place_of(std::uint32_t id) const { return place_of_[id]; }
+  Aabb box_at(std::size_t place) const;
+
+  // Until the first change after a load: leaves are numbered as loaded, the last may not be full.
+  std::size_t leaves() const { return leaves_; }
+  IndexRange places_of(std::size_t leaf) const;
+  Aabb bounds_of_leaf(std::size_t leaf) const;
+  // Puts the places of the leaves behind this one that overlap its bounds into scratch.partners.
+  void find_partners(std::size_t leaf, WideTreeScratch& scratch, BroadPhaseWork& work) const;
+  // Sum over the leaves of the sums of their bounds' sides (metres): what a better order would make
+  // smaller.
+  double spread() const;
+
+  // Whether there are nodes enough for that many calls of insert and move: otherwise load anew.
+  bool has_room_for(std::size_t changes) const;
+  void insert(std::uint32_t id, const Aabb& box);
+  void remove(std::uint32_t id);
+  // Gives a body another box, in another leaf if its own would grow much.
+  void move(std::uint32_t id, const Aabb& box);
+  // For ids from load's `id_count` on.
+  void make_room_for_ids(std::size_t id_count) { place_of_.resize(id_count); }
+
+  // The ids of the bodies whose boxes overlap this one; valid until the scratch is used again.
+  std::span<const std::uint32_t> find(const Aabb& box, WideTreeScratch& scratch) const;
+  void make_room(WideTreeScratch& scratch) const;
+
+  std::size_t held_bytes() const;
+
+ private:
+  // 2^32 bodies in nodes that are half full have eleven.
+  static constexpr std::size_t most_heights = 12;
+  static constexpr std::uint32_t nobody = 0xffffffff;
+
+  bool is_leaf(std::size_t node) const { return height_of_[node] == 0; }
+  std::size_t new_node(std::size_t height);
+  void put(std::size_t place, const Aabb& box, std::uint32_t child);
+  std::size_t best_child(std::size_t node, const Aabb& box) const;
+  void add(std::size_t node, const Aabb& box, std::uint32_t child);
+  void split(std::size_t node, const Aabb& box, std::uint32_t child);
+  void fit_above(std::size_t node);
+
+  BoxArrays boxes_;                       // 16 places a node; their ids are bodies' or nodes'
+  std::vector<std::uint32_t> parent_of_;  // of each node: its place there
+  std::vector<std::uint8_t> height_of_;   // of each node: 0 for a leaf
+  std::vector<std::uint32_t> place_of_;   // of each body
+  std::size_t bodies_ = 0;                // that were loaded
+  std::size_t leaves_ = 0;
+  std::size_t node_count_ = 0, node_capacity_ = 0;
+  std::size_t root_ = 0;
+  std::array<std::size_t, most_heights + 1> begins_{};  // of the nodes of each height, as loaded
+};
+
+}  // namespace touchstone

@@ -1,0 +1,99 @@
+"""Time a body against the number of bodies: the best of ours against the best of each library, log-log, with 95 %
+intervals; a column a scene, the upper line rebuilt each frame and the lower one updated."""
+
+import sys
+
+from matplotlib.lines import Line2D
+
+import common
+
+LINES = [(1, "rebuilt"), (0, "updated")]
+OURS, LIMIT = "ours", "limit"
+
+
+def family(row):
+    """Whose it is: ours, the limit's, or a library's, by the first word of the name."""
+    if row["origin"] == "ours":
+        return OURS
+    return row["algorithm"].split("-")[0]
+
+
+def best_of(rows):
+    """The fastest right answer of each family at each count."""
+    best = {}
+    for row in rows:
+        if row["seconds"] is None or row["wrong"] or row["failure"]:
+            continue
+        place = (family(row), row["bodies"])
+        if place not in best or row["seconds"] < best[place]["seconds"]:
+            best[place] = row
+    return best
+
+
+def styles_of(families):
+    """Ours is thick and black; the limit a thin grey line; libraries dashed, in the order of the alphabet."""
+    styles = {}
+    others = sorted(name for name in families if name not in (OURS, LIMIT))
+    colours = [c for c in common.COLOURS if c != "#000000"]
+    for i, name in enumerate(others):
+        styles[name] = {"color": colours[i % len(colours)], "linestyle": "--",
+                        "marker": common.MARKERS[1 + i % (len(common.MARKERS) - 1)],
+                        "markerfacecolor": "white", "markeredgewidth": 0.8, "zorder": 2}
+    styles[OURS] = {"color": "#000000", "linestyle": "-", "marker": "o", "linewidth": 1.6, "zorder": 3}
+    styles[LIMIT] = {"color": "#999999", "linestyle": ":", "zorder": 1}
+    return {name: styles[name] for name in (OURS, *others, LIMIT) if name in families}
+
+
+def draw(tables):
+    rows = [r for r in tables["times"]
+            if not r["task"] and not r["isa_limit"] and r["threads"] == 1]
+    panels = {}
+    for row in rows:
+        panels.setdefault((row["scene"], row["rebuild"]), []).append(row)
+    # Only where ours meet others at several counts.
+    panels = {key: own for key, own in panels.items()
+              if len({r["bodies"] for r in own if r["origin"] == "ours"}) > 1
+              and any(r["origin"] == "peer" for r in own)}
+    if not panels:
+        return None
+    scenes = common.in_order(scene for scene, _ in panels)
+    lines = [(value, word) for value, word in LINES if any(r == value for _, r in panels)]
+    bests = {key: best_of(own) for key, own in panels.items()}
+    styles = styles_of({name for best in bests.values() for name, _ in best})
+    figure, grid = common.pyplot.subplots(
+        len(lines), len(scenes), squeeze=False, sharex=True, sharey=True, constrained_layout=True,
+        figsize=(common.PAGE_WIDTH, 0.4 + 1.45 * len(lines)))
+    for line, (value, word) in enumerate(lines):
+        for column, scene in enumerate(scenes):
+            axes = grid[line][column]
+            best = bests.get((scene, value))
+            if best is None:
+                axes.set_visible(False)
+                continue
+            for name, style in styles.items():
+                points = sorted((r for (own, _), r in best.items() if own == name),
+                                key=lambda r: r["bodies"])
+                if not points:
+                    continue
+                y = [r["seconds"] / r["bodies"] * 1e9 for r in points]
+                low, high = ([abs((r["seconds"] if r[end] is None else r[end]) - r["seconds"])
+                              / r["bodies"] * 1e9 for r in points]
+                             for end in ("seconds_low", "seconds_high"))
+                axes.errorbar([r["bodies"] for r in points], y, yerr=[low, high], capsize=1.2,
+                              elinewidth=0.6, capthick=0.6, **style)
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            axes.grid(True)
+            if line == 0:
+                axes.set_title(scene.replace("_", " "), loc="left")
+            if line + 1 == len(lines):
+                axes.set_xlabel("boxes")
+            if column == 0:
+                axes.set_ylabel(f"{word}: ns a box")
+    common.legend_below(figure, [Line2D([], [], label=name, **style)
+                                 for name, style in styles.items()], columns=9)
+    return figure
+
+
+if __name__ == "__main__":
+    sys.exit(common.run({"broad": draw}, __doc__))

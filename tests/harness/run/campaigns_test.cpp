@@ -1,0 +1,29 @@
+// The campaigns that come with the project can be read, and name scenes that are there.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "harness/run/campaign.h"
+
+namespace touchstone {
+namespace {
+
+TEST(Campaigns, AllAreReadAndTheirScenesAreThere) {
+  int count = 0;
+  const std::filesystem::path folder =
+      std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "datasets/campaigns";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    const Campaign campaign = read_campaign(entry.path());
+    ++count;
+    for (const CampaignGroup& group : campaign.groups) {
+      for (const auto& scene : group.scenes) {
+        EXPECT_TRUE(std::filesystem::exists(scene)) << entry.path() << " names " << scene;
+      }
+    }
+  }
+  EXPECT_GE(count, 8);
+}
+
+}  // namespace
+}  // namespace touchstone
