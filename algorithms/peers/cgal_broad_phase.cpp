@@ -30,20 +30,28 @@ class Box {
   using NT = float;
   using ID = std::uint32_t;
 
-  Box(const Aabb& box, std::uint32_t id) : box_(box), id_(id) {
-    constexpr float most = 0x1.fffffcp127F;
+  Box(const Aabb& box, std::uint32_t id) : box_(box), id_(id) {}
+  bool is_bounded() const {
+    bool bounded = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounded &= box_.min[axis] >= -most && box_.max[axis] <= most;
+    }
+    return bounded;
+  }
+  void bound() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       box_.min[axis] = std::clamp(box_.min[axis], -most, most);
       box_.max[axis] = std::clamp(box_.max[axis], -most, most);
     }
   }
-  bool is(const Aabb& box) const { return box_ == box; }
   static int dimension() { return 3; }
   NT min_coord(int axis) const { return box_.min[static_cast<std::size_t>(axis)]; }
   NT max_coord(int axis) const { return box_.max[static_cast<std::size_t>(axis)]; }
   ID id() const { return id_; }
 
  private:
+  static constexpr float most = 0x1.fffffcp127F;  // the greatest float but one
+
   Aabb box_;
   std::uint32_t id_;
 };
@@ -88,7 +96,10 @@ class CgalBoxIntersection final : public BroadPhase {
     for (std::uint32_t id = 0; id < boxes.size(); ++id) {
       if (boxes[id].is_empty()) continue;
       converted.emplace_back(boxes[id], id);
-      exact = exact && converted.back().is(boxes[id]);
+      exact &= converted.back().is_bounded();
+    }
+    if (!exact) {
+      for (Box& box : converted) box.bound();
     }
     return exact;
   }

@@ -40,6 +40,10 @@ float reach_of(const Aabb& box) {
   return reach;
 }
 
+// Embree builds four primitives and fewer in another way, which does not bear coincident points (an
+// assertion ends the process). Empty primitives, which it skips, make them more.
+constexpr std::size_t fewest = 5;
+
 RTCBounds to_embree(const Aabb& box, float scale) {
   return {scale * box.min[0], scale * box.min[1], scale * box.min[2], 0,
           scale * box.max[0], scale * box.max[1], scale * box.max[2], 0};
@@ -76,7 +80,7 @@ class EmbreeBroadPhase final : public BroadPhase {
       ids_.push_back(id);
     }
     scale_ = reach < largest ? 1.0F : std::ldexp(1.0F, 59 - std::ilogb(reach));
-    bounds_.resize(ids_.size());
+    bounds_.assign(std::max(ids_.size(), fewest), to_embree(Aabb::empty(), 1));
     for (std::size_t i = 0; i < ids_.size(); ++i) bounds_[i] = to_embree(boxes[ids_[i]], scale_);
     attach();
     rtcCommitScene(scene_);
@@ -155,7 +159,7 @@ class EmbreeBroadPhase final : public BroadPhase {
     if (geometry_ != nullptr) rtcDetachGeometry(scene_, 0);
     geometry_ = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryBuildQuality(geometry_, quality_);
-    rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<unsigned>(ids_.size()));
+    rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<unsigned>(bounds_.size()));
     rtcSetGeometryUserData(geometry_, this);
     rtcSetGeometryBoundsFunction(
         geometry_,

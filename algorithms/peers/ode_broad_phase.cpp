@@ -7,7 +7,9 @@
 //          pair of the callback is tested against the given boxes. ODE's manual leaves the settings
 //          to the scene:
 //          - the hash's cells go from the size of the smallest box to that of the greatest, but no
-//            cell is so small that a coordinate's cell is beyond an int, which ODE aborts on;
+//            cell is so small that a coordinate's cell is beyond an int, which ODE aborts on. ODE is
+//            given coordinates that are shifted to be positive: it loses pairs where the address of
+//            a cell changes sign, as about the origin;
 //          - the quadtree has the world (core/world.h) as its bounds, which is made anew when a box
 //            leaves it, and about as many leaves as there are bodies; bodies are put in with their
 //            boxes known, or all would first go through one list;
@@ -19,8 +21,7 @@
 //          across its middle lines are tested against everything: far from linear. The sweep is
 //          quadratic in the boxes that overlap on its axis.
 // Cost:    hash O(n levels + k) time beside clearing its table, quadtree O(n sqrt(n) + k) where
-// boxes
-//          are small, sweep O(n + pairs on the axis); O(n) memory but for the hash.
+//          boxes are small, sweep O(n + pairs on the axis); O(n) memory but for the hash.
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
 #if TOUCHSTONE_BUILT
@@ -44,10 +45,14 @@ struct Body {
 
 Body& body_of(dGeomID geom) { return *static_cast<Body*>(dGeomGetClassData(geom)); }
 
-void set_box(Body& body, const Aabb& box) {
+// What is added to all coordinates before ODE has them.
+using Shift = std::array<double, 3>;
+
+void set_box(Body& body, const Aabb& box, const Shift& by) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    body.box[2 * axis] = box.min[axis];
-    body.box[2 * axis + 1] = box.max[axis] < greatest ? dReal{box.max[axis]} : dInfinity;
+    body.box[2 * axis] = static_cast<dReal>(box.min[axis] + by[axis]);
+    body.box[2 * axis + 1] =
+        box.max[axis] < greatest ? static_cast<dReal>(box.max[axis] + by[axis]) : dInfinity;
   }
 }
 
@@ -83,46 +88,60 @@ class Hash {
   static constexpr std::size_t most_bodies = (std::size_t{1} << 17) - 1;
 
   dSpaceID start(std::span<const Aabb> boxes) {
-    least_ = std::numeric_limits<int>::max();
+    world_ = World::around(boxes);
+    int least = std::numeric_limits<int>::max();
     most_ = std::numeric_limits<int>::min();
-    reach_ = 0;
-    space_ = dHashSpaceCreate(nullptr);
     for (const Aabb& box : boxes) {
-      if (!box.is_empty()) take(box);
+      if (box.is_empty()) continue;
+      least = std::min(least, level_of(box));
+      most_ = std::max(most_, level_of(box));
     }
-    set();
-    return space_;
+    const dSpaceID space = dHashSpaceCreate(nullptr);
+    if (least > most_) return space;  // no body
+    least = std::max(least, finest(world_.widest()));
+    // A cell's address is 1000 level + 100 x + 10 y + z, unsigned; where that passes zero inside of
+    // a box, ODE looks for its cells in other places than where it has put them.
+    for (std::size_t axis = 0; axis < 3; ++axis) shift_[axis] = -world_.min[axis];
+    if (least < 0) {
+      const int worst = std::min(most_, -1);
+      const double room = std::ldexp(10.0 * -worst + 1, worst);
+      shift_[0] += room;
+      least = std::max(least, finest(world_.widest() + room));
+    }
+    dHashSpaceSetLevels(space, least, std::max(least, most_));
+    return space;
   }
 
-  bool takes(const FrameChange& change) {
-    for (const std::uint32_t id : change.moved) take(change.boxes[id]);
-    for (const std::uint32_t id : change.inserted) take(change.boxes[id]);
-    set();
-    return true;
+  bool takes(const FrameChange& change) const {
+    const auto held = [&](std::uint32_t id) {
+      return world_.holds(change.boxes[id]) && level_of(change.boxes[id]) <= most_;
+    };
+    return std::ranges::all_of(change.moved, held) && std::ranges::all_of(change.inserted, held);
   }
+
+  const Shift& shift() const { return shift_; }
 
  private:
-  void take(const Aabb& box) {
+  // The cells that ODE takes for a box are 2^level wide. A point's level is 0.
+  static int level_of(const Aabb& box) {
     double side = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       side = std::max(side, double{box.max[axis]} - box.min[axis]);
-      reach_ = std::max({reach_, std::abs(double{box.min[axis]}), std::abs(double{box.max[axis]})});
     }
-    int level = 0;  // of a point too, as ODE has it
-    std::frexp(side, &level);
-    least_ = std::min(least_, level);
-    most_ = std::max(most_, level);
-  }
-  void set() {
     int level = 0;
-    std::frexp(reach_, &level);
-    const int least = std::max(least_, level - 30);
-    if (least_ <= most_) dHashSpaceSetLevels(space_, least, std::max(least, most_));
+    std::frexp(side, &level);
+    return level;
+  }
+  // The level at which 2^30 cells reach that far.
+  static int finest(double reach) {
+    int level = 0;
+    std::frexp(reach, &level);
+    return level - 30;
   }
 
-  dSpaceID space_ = nullptr;
-  int least_ = 0, most_ = 0;  // cells are 2^level wide
-  double reach_ = 0;          // greatest coordinate without its sign
+  World world_;
+  Shift shift_{};
+  int most_ = 0;
 };
 
 class QuadTree {
@@ -146,6 +165,7 @@ class QuadTree {
     const auto held = [&](std::uint32_t id) { return world_.holds(change.boxes[id]); };
     return std::ranges::all_of(change.moved, held) && std::ranges::all_of(change.inserted, held);
   }
+  static Shift shift() { return {}; }
 
  private:
   World world_;
@@ -165,6 +185,7 @@ class Sweep {
     return dSweepAndPruneSpaceCreate(nullptr, axes[0] | axes[1] << 2 | axes[2] << 4);
   }
   static bool takes(const FrameChange&) { return true; }
+  static Shift shift() { return {}; }
 };
 
 template <class Rules>
@@ -197,7 +218,7 @@ class OdeBroadPhase final : public BroadPhase {
       geoms_[id] = nullptr;
     }
     for (const std::uint32_t id : change.moved) {
-      set_box(body_of(geoms_[id]), boxes_[id]);
+      set_box(body_of(geoms_[id]), boxes_[id], rules_.shift());
       tell(geoms_[id]);
     }
     for (const std::uint32_t id : change.inserted) insert(id);
@@ -216,7 +237,7 @@ class OdeBroadPhase final : public BroadPhase {
 
   bool convert(std::span<const Aabb> boxes) override {
     converted_.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) set_box(converted_[i], boxes[i]);
+    for (std::size_t i = 0; i < boxes.size(); ++i) set_box(converted_[i], boxes[i], rules_.shift());
     return true;
   }
 
@@ -260,7 +281,7 @@ class OdeBroadPhase final : public BroadPhase {
   void insert(std::uint32_t id) {
     dGeomID geom = dCreateGeom(library().kind);
     body_of(geom).id = id;
-    set_box(body_of(geom), boxes_[id]);
+    set_box(body_of(geom), boxes_[id], rules_.shift());
     dReal known[6];
     dGeomGetAABB(geom, known);
     dSpaceAdd(space_, geom);

@@ -134,7 +134,7 @@ class Reader {
       check.pair_hash = row.text("pair_hash");
       check.outcome_hash = row.text("outcome_hash");
       check.pair_count = row.count("pair_count");
-      check.seconds = row.seconds();
+      check.seconds = row.number("seconds");
       check.contact_count = row.count("contact_count");
       check.disagreements = row.count("disagreements");
       check.failures = row.count("failures");

@@ -25,6 +25,34 @@ TEST_P(OdeBroadPhaseTest, BearsDustFarAway) {
   EXPECT_EQ(sorted_pairs(*algorithm), closed_pairs(far));
 }
 
+// ODE's hash loses pairs where the address of a cell changes sign: at any place, by the level.
+TEST_P(OdeBroadPhaseTest, KeepsPairsAroundTheOrigin) {
+  std::mt19937_64 random(11);
+  const auto between = [&](float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random);
+  };
+  Executor executor(1);
+  const auto algorithm = entry_->make(executor);
+  std::size_t pairs = 0;
+  for (const float scale : {1e-3F, 0.1F, 1.0F, 30.0F}) {
+    for (const float smallest : {0.0F, 0.01F, 0.3F}) {
+      std::vector<Aabb> boxes(300);
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const float side = i % 8 == 0 ? 0.5F : smallest;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          boxes[i].min[axis] = scale * between(-0.4F, 0.3F);
+          boxes[i].max[axis] = boxes[i].min[axis] + scale * side;
+        }
+      }
+      const std::vector<IndexPair> truth = closed_pairs(boxes);
+      pairs += truth.size();
+      algorithm->build(boxes);
+      EXPECT_EQ(sorted_pairs(*algorithm) == truth, true) << scale << ' ' << smallest;
+    }
+  }
+  EXPECT_GT(pairs, 10'000U);
+}
+
 // The library has globals.
 TEST_P(OdeBroadPhaseTest, WorksInThreadsOfItsOwn) {
   std::vector<Aabb> boxes = Frames({.name = "moving", .count = 300}, 1).boxes();
