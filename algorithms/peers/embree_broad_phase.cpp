@@ -8,13 +8,13 @@
 //          quality counts. Embree gives leaves' boxes, each pair both ways: those with the smaller
 //          primitive first are tested against the given boxes. It drops boxes beyond 1.84e18, so
 //          larger worlds are scaled down by a power of two; rounding keeps the order of floats, so
-//          that no pair is lost. It has threads=<the executor's width>, in an arena of that width,
-//          so that one thread is one, whatever else the process has made of Embree.
+//          that no pair is lost. It has threads=<the executor's width> and, being built on oneTBB
+//          too, finds the pairs in the executor's arena, on the threads that ours have; on one
+//          thread in an arena of one, whatever else the process has made of Embree.
 // Fails:   on more than one thread the pairs come in another order each time. Refitting follows
-// what
-//          moves a little: where bodies mix, the tree becomes useless, until some come or go and it
-//          is built again. Threads=N limits oneTBB in the whole process to N while Embree is in
-//          use.
+//          what moves a little: where bodies mix, the tree becomes useless, until some come or go
+//          and it is built again. Threads=N limits oneTBB in the whole process to N while Embree is
+//          in use.
 // Cost:    O(n log n) time to build, O(n) to refit; O(n + k) to query where boxes are small; O(n)
 //          memory.
 #include "algorithms/broad_phase.h"
@@ -51,10 +51,10 @@ RTCBounds to_embree(const Aabb& box, float scale) {
 
 class EmbreeBroadPhase final : public BroadPhase {
  public:
-  EmbreeBroadPhase(const Executor& executor, RTCBuildQuality quality)
-      : quality_(quality),
+  EmbreeBroadPhase(Executor& executor, RTCBuildQuality quality)
+      : executor_(&executor),
+        quality_(quality),
         width_(static_cast<std::size_t>(executor.width())),
-        arena_(executor.width()),
         device_(rtcNewDevice(
             ("threads=" + std::to_string(executor.width()) + ",set_affinity=0").c_str())),
         scene_(rtcNewScene(device_)) {
@@ -108,7 +108,14 @@ class EmbreeBroadPhase final : public BroadPhase {
     candidates_ = 0;
     if (ids_.size() < 2) return Status::ok;
     Found found{*this, sink};
-    arena_.execute([&] { rtcCollide(scene_, scene_, &Found::add, &found); });
+    const auto collide = [&] { rtcCollide(scene_, scene_, &Found::add, &found); };
+    if (width_ == 1) {
+      alone_.execute(collide);
+    } else {  // the first task is all the work, and the others' threads take their share of it
+      executor_->run(width_, [&](std::size_t task, int) {
+        if (task == 0) collide();
+      });
+    }
     for (const Count& count : given_) candidates_ += count.pairs;
     switch (rtcGetDeviceError(device_)) {
       case RTC_ERROR_NONE: return Status::ok;
@@ -173,9 +180,10 @@ class EmbreeBroadPhase final : public BroadPhase {
     rtcReleaseGeometry(geometry_);  // the scene holds it
   }
 
+  Executor* executor_;
   RTCBuildQuality quality_;
   std::size_t width_;
-  oneapi::tbb::task_arena arena_;
+  oneapi::tbb::task_arena alone_{1};
   RTCDevice device_;
   RTCScene scene_;
   RTCGeometry geometry_ = nullptr;

@@ -7,9 +7,9 @@
 //          pair of the callback is tested against the given boxes. ODE's manual leaves the settings
 //          to the scene:
 //          - the hash's cells go from the size of the smallest box to that of the greatest, but no
-//            cell is so small that a coordinate's cell is beyond an int, which ODE aborts on. ODE is
-//            given coordinates that are shifted to be positive: it loses pairs where the address of
-//            a cell changes sign, as about the origin;
+//            cell is so small that a coordinate's cell is beyond an int, which ODE aborts on. ODE
+//            is given coordinates that are shifted to be positive: it loses pairs where the address
+//            of a cell changes sign, as about the origin;
 //          - the quadtree has the world (core/world.h) as its bounds, which is made anew when a box
 //            leaves it, and about as many leaves as there are bodies; bodies are put in with their
 //            boxes known, or all would first go through one list;
