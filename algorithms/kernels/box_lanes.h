@@ -1,6 +1,5 @@
 // Vectors of boxes at each level of vector instructions, for the files whose loops test many boxes
-// at a time. Such a file includes its loops once for each of the namespaces baseline, avx2 and
-// avx512, inside that namespace, with TOUCHSTONE_TARGET set to the level's attribute.
+// at a time. Such a file includes its loops once for each level, by every_level.inl.
 #pragma once
 
 #include <algorithm>

@@ -26,31 +26,8 @@ Places places_of(BoxList& list) {
       {list.min(0), list.min(1), list.min(2)}, {list.max(0), list.max(1), list.max(2)}, list.ids()};
 }
 
-namespace baseline {
-using namespace box_lanes::baseline;
-#define TOUCHSTONE_TARGET
-#include "algorithms/kernels/box_list.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace baseline
-
-#if defined(__x86_64__)
-namespace avx2 {
-using namespace box_lanes::avx2;
-#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
-#include "algorithms/kernels/box_list.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace avx2
-
-namespace avx512 {
-using namespace box_lanes::avx512;
-#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
-#include "algorithms/kernels/box_list.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace avx512
-#else
-namespace avx2 = baseline;
-namespace avx512 = baseline;
-#endif
+#define TOUCHSTONE_LOOPS "algorithms/kernels/box_list.inl"
+#include "algorithms/kernels/every_level.inl"
 
 std::size_t append_to(BoxList& list, const Aabb& bound, const Columns& from, IndexRange range) {
   switch (isa()) {

@@ -15,31 +15,8 @@ struct Marks {
   const std::uint32_t* wants;
 };
 
-namespace baseline {
-using namespace box_lanes::baseline;
-#define TOUCHSTONE_TARGET
-#include "algorithms/kernels/box_scan.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace baseline
-
-#if defined(__x86_64__)
-namespace avx2 {
-using namespace box_lanes::avx2;
-#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
-#include "algorithms/kernels/box_scan.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace avx2
-
-namespace avx512 {
-using namespace box_lanes::avx512;
-#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
-#include "algorithms/kernels/box_scan.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace avx512
-#else
-namespace avx2 = baseline;
-namespace avx512 = baseline;
-#endif
+#define TOUCHSTONE_LOOPS "algorithms/kernels/box_scan.inl"
+#include "algorithms/kernels/every_level.inl"
 
 }  // namespace
 

@@ -15,31 +15,8 @@ namespace {
 using box_lanes::Columns;
 using box_lanes::columns_of;
 
-namespace baseline {
-using namespace box_lanes::baseline;
-#define TOUCHSTONE_TARGET
-#include "algorithms/kernels/wide_tree.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace baseline
-
-#if defined(__x86_64__)
-namespace avx2 {
-using namespace box_lanes::avx2;
-#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
-#include "algorithms/kernels/wide_tree.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace avx2
-
-namespace avx512 {
-using namespace box_lanes::avx512;
-#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
-#include "algorithms/kernels/wide_tree.inl"
-#undef TOUCHSTONE_TARGET
-}  // namespace avx512
-#else
-namespace avx2 = baseline;
-namespace avx512 = baseline;
-#endif
+#define TOUCHSTONE_LOOPS "algorithms/kernels/wide_tree.inl"
+#include "algorithms/kernels/every_level.inl"
 
 auto descend_of_level() {
   switch (isa()) {

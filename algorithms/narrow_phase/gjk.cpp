@@ -2,10 +2,11 @@
 // Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; sub-distance of
 //          Montanari, Petrinic, Barbieri, ACM TOG 36(3), 2017; depth: van den Bergen, GDC 2001.
 // Departs: stops by the duality gap: the simplex bounds the distance from above, each support plane
-//          from below; relative to the size, or by NarrowPhaseSettings::duality_gap the absolute gap
-//          of the squared distance that Montaut et al. stop by. Round shapes are cores with a radius, so that shallow overlaps of theirs
-//          need no EPA. Where the origin is on the simplex, EPA decides: a verdict is `ok` only
-//          where a bound proves it beyond rounding. Never answers `touching`.
+//          from below; relative to the size, or by NarrowPhaseSettings::duality_gap the absolute
+//          gap of the squared distance that Montaut et al. stop by. Round shapes are cores with a
+//          radius, so that shallow overlaps of theirs need no EPA. Where the origin is on the
+//          simplex, EPA decides: a verdict is `ok` only where a bound proves it beyond rounding.
+//          Never answers `touching`.
 // Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a part of
 //          the pair's size. Depth of smooth, nearly round bodies far inside each other: EPA's cap
 //          comes first, not_converged with bounds.

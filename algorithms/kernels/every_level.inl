@@ -1,0 +1,31 @@
+// Loops over box_lanes.h, TOUCHSTONE_LOOPS by their file's name, once for each level of vector
+// instructions: in the namespaces baseline, avx2 and avx512, with TOUCHSTONE_TARGET set to the
+// level's attribute.
+
+namespace baseline {
+using namespace box_lanes::baseline;
+#define TOUCHSTONE_TARGET
+#include TOUCHSTONE_LOOPS
+#undef TOUCHSTONE_TARGET
+}  // namespace baseline
+
+#if defined(__x86_64__)
+namespace avx2 {
+using namespace box_lanes::avx2;
+#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
+#include TOUCHSTONE_LOOPS
+#undef TOUCHSTONE_TARGET
+}  // namespace avx2
+
+namespace avx512 {
+using namespace box_lanes::avx512;
+#define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
+#include TOUCHSTONE_LOOPS
+#undef TOUCHSTONE_TARGET
+}  // namespace avx512
+#else
+namespace avx2 = baseline;
+namespace avx512 = baseline;
+#endif
+
+#undef TOUCHSTONE_LOOPS
