@@ -11,7 +11,6 @@
 
 #include <optional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #if defined(TOUCHSTONE_THREAD_SANITIZER)
@@ -33,27 +32,28 @@ namespace touchstone {
 
 namespace {
 
-// The processors that this process may use; empty where the system does not tell.
-std::vector<int> allowed_processors() {
-  std::vector<int> processors;
+// The processors that this process may use; empty where the system does not tell. As they were
+// before the first pin: a pinned thread has one left, and so would those that it starts.
+const std::vector<int>& allowed_processors() {
+  static const std::vector<int> processors = [] {
+    std::vector<int> allowed;
 #if defined(__linux__)
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) {
-    for (int i = 0; i < CPU_SETSIZE; ++i) {
-      if (CPU_ISSET(i, &set)) processors.push_back(i);
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0) {
+      for (int i = 0; i < CPU_SETSIZE; ++i) {
+        if (CPU_ISSET(i, &set)) allowed.push_back(i);
+      }
     }
-  }
 #endif
+    return allowed;
+  }();
   return processors;
 }
 
 // Puts each thread that enters the arena on the processor of its place there.
 class Pins final : public oneapi::tbb::task_scheduler_observer {
  public:
-  Pins(oneapi::tbb::task_arena& arena, std::vector<int> processors)
-      : task_scheduler_observer(arena), processors_(std::move(processors)) {
-    observe(true);
-  }
+  explicit Pins(oneapi::tbb::task_arena& arena) : task_scheduler_observer(arena) { observe(true); }
   ~Pins() override { observe(false); }
   Pins(const Pins&) = delete;
   Pins& operator=(const Pins&) = delete;
@@ -62,7 +62,7 @@ class Pins final : public oneapi::tbb::task_scheduler_observer {
 #if defined(__linux__)
     thread_local int pinned = -1;
     const int place = oneapi::tbb::this_task_arena::current_thread_index();
-    const int processor = processors_[static_cast<std::size_t>(place)];
+    const int processor = allowed_processors()[static_cast<std::size_t>(place)];
     if (pinned == processor) return;
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -70,9 +70,6 @@ class Pins final : public oneapi::tbb::task_scheduler_observer {
     if (sched_setaffinity(0, sizeof set, &set) == 0) pinned = processor;
 #endif
   }
-
- private:
-  std::vector<int> processors_;
 };
 
 }  // namespace
@@ -81,9 +78,8 @@ struct Executor::Arena {
   Arena(int width, Pinning pinning) : arena(width) {
     arena.initialize();
     if (pinning == Pinning::none) return;
-    std::vector<int> processors = allowed_processors();
-    if (processors.size() < static_cast<std::size_t>(width)) return;
-    pins.emplace(arena, std::move(processors));
+    if (allowed_processors().size() < static_cast<std::size_t>(width)) return;
+    pins.emplace(arena);
   }
   oneapi::tbb::task_arena arena;
   std::optional<Pins> pins;

@@ -14,7 +14,6 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t block_size = 8192;
 constexpr std::size_t boxes_at_once = 1024;
 // Cells of the curve a body, as a power of two: more would make the sort longer, fewer the order
 // worse.
@@ -126,7 +125,6 @@ Classes make_classes(const Sample& sample) {
 void CurveOrder::make(Executor& executor, std::span<const Aabb> boxes) {
   const Sample sample = take_sample(boxes);
   used_ = 0;
-  order_.clear();
   if (sample.empty()) return;
   const Classes classes = make_classes(sample);
   order_.resize(boxes.size());
@@ -217,7 +215,7 @@ void CurveOrder::gather(Executor& executor, std::span<const Aabb> boxes, BoxArra
     for (; place % group != 0; ++place) arrays.set(place, Aabb::empty(), 0);
     const std::size_t begin = begins_[at];
     const std::size_t members = begins_[at + 1] - begin;
-    for_each_block(executor, members, block_size,
+    for_each_block(executor, members, boxes_at_once,
                    [&](std::size_t, std::size_t first, std::size_t last) {
                      // The boxes are anywhere in memory: they are asked for in good time.
                      constexpr std::size_t ahead = 24;

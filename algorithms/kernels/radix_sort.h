@@ -41,38 +41,57 @@ class RadixSort {
   }
 
  private:
-  static constexpr std::size_t block_size = 8192;
+  // Sixteen blocks of one size share well among 2, 4 or 8 threads; smaller ones would not pay for
+  // their histograms, larger ones leave the cache.
+  static std::size_t block_size_of(std::size_t items) {
+    return std::clamp(block_count(items, 16), std::size_t{2048}, std::size_t{8192});
+  }
 
   template <class Digit>
   void scatter(Executor& executor, std::vector<Item>& items, std::size_t digits,
                const Digit& digit) {
+    const std::size_t block_size = block_size_of(items.size());
     const std::size_t blocks = block_count(items.size(), block_size);
-    places_.assign(blocks * digits, 0);
+    places_.resize((blocks + 1) * digits);
     for_each_block(executor, items.size(), block_size,
                    [&](std::size_t block, std::size_t first, std::size_t last) {
                      std::uint32_t* counts = &places_[block * digits];
+                     std::fill_n(counts, digits, 0);
                      for (std::size_t i = first; i < last; ++i) ++counts[digit(items[i])];
                    });
+    // By rows, so that the compiler can make vectors of it: no thread waits long for this.
+    std::uint32_t* const next = &places_[blocks * digits];
+    std::fill_n(next, digits, 0);
+    for (std::size_t block = 0; block < blocks; ++block) {
+      const std::uint32_t* counts = &places_[block * digits];
+      for (std::size_t d = 0; d < digits; ++d) next[d] += counts[d];
+    }
     std::uint32_t place = 0;
     for (std::size_t d = 0; d < digits; ++d) {
-      const std::uint32_t before = place;
-      for (std::size_t block = 0; block < blocks; ++block) {
-        place += std::exchange(places_[block * digits + d], place);
+      if (next[d] == items.size()) return;  // one digit holds them all: nothing moves
+      place += std::exchange(next[d], place);
+    }
+    for (std::size_t block = 0; block < blocks; ++block) {
+      std::uint32_t* counts = &places_[block * digits];
+      for (std::size_t d = 0; d < digits; ++d) {
+        const std::uint32_t count = counts[d];
+        counts[d] = next[d];
+        next[d] += count;
       }
-      if (place - before == items.size()) return;  // one digit holds them all: nothing moves
     }
     for_each_block(executor, items.size(), block_size,
                    [&](std::size_t block, std::size_t first, std::size_t last) {
-                     std::uint32_t* next = &places_[block * digits];
+                     std::uint32_t* to = &places_[block * digits];
                      for (std::size_t i = first; i < last; ++i) {
-                       scratch_[next[digit(items[i])]++] = items[i];
+                       scratch_[to[digit(items[i])]++] = items[i];
                      }
                    });
     items.swap(scratch_);
   }
 
   std::vector<Item> scratch_;
-  std::vector<std::uint32_t> places_;  // [block][digit]: the count, then where the next item goes
+  // [block][digit]: the count, then where the next item goes; and a row for all blocks.
+  std::vector<std::uint32_t> places_;
 };
 
 }  // namespace touchstone

@@ -103,7 +103,7 @@ class Contender {
     bool built = false;
 
     Worker(const BroadPhaseEntry& entry, int threads)
-        : executor(threads), broad_phase(entry.make(executor)) {}
+        : executor(threads, Pinning::one_a_thread), broad_phase(entry.make(executor)) {}
   };
 
   void find_pairs(Worker& worker, const BoxFrame& frame, Result& result) {
