@@ -6,7 +6,9 @@
 //          gap of the squared distance that Montaut et al. stop by. Round shapes are cores with a
 //          radius, so that shallow overlaps of theirs need no EPA. Where the origin is on the
 //          simplex, EPA decides: a verdict is `ok` only where a bound proves it beyond rounding.
-//          Never answers `touching`.
+//          Never answers `touching`. A quick walk with plain products comes first (simplex_walk.h);
+//          this one makes its end good, or goes on from there. Bodies whose balls are apart are not
+//          walked between, but for their distance.
 // Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a part of
 //          the pair's size. Depth of smooth, nearly round bodies far inside each other: EPA's cap
 //          comes first, not_converged with bounds.
@@ -25,6 +27,7 @@
 #include "algorithms/kernels/halfspace.h"
 #include "algorithms/kernels/nesterov_direction.h"
 #include "algorithms/kernels/simplex.h"
+#include "algorithms/kernels/simplex_walk.h"
 #include "algorithms/kernels/support.h"
 #include "algorithms/narrow_phase.h"
 
@@ -78,6 +81,11 @@ class Gjk final : public NarrowPhase {
         solve_halfspaces(shape_a, batch.poses[a], shape_b, batch.poses[b], batch.task, outcomes[i]);
       } else if (batch.kind_b == ShapeKind::halfspace) {
         solve_halfspace(shape_a, batch.poses[a], shape_b, batch.poses[b], batch.task, outcomes[i]);
+      } else if (batch.task != Task::distance &&
+                 balls_are_apart(shape_a, batch.poses[a], shape_b, batch.poses[b])) {
+        outcomes[i].answer = Answer::separated;
+        outcomes[i].status = Status::ok;
+        outcomes[i].iterations = outcomes[i].support_calls = 0;
       } else {
         SupportPair<Scalar> pair(shape_a, batch.poses[a], shape_b, batch.poses[b]);
         solve_pair(pair, batch.task, outcomes[i]);
@@ -90,6 +98,8 @@ class Gjk final : public NarrowPhase {
 
   void solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
   Approach<Scalar> approach(SupportPair<Scalar>& pair, Task task, Scalar tolerance) const;
+  bool walk_first(SupportPair<Scalar>& pair, Task task, Scalar tolerance,
+                  Approach<Scalar>& found) const;
   // Whether a lower bound is too far below the nearest point's distance to stop, both of the cores.
   bool is_open(const SupportPair<Scalar>& pair, Scalar nearest, Scalar lower,
                Scalar tolerance) const {
@@ -130,6 +140,40 @@ void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scala
   outcome.witness_b = pair.to_world(b - pair.radius_b() * normal);
 }
 
+// Whether the quick walk is all that was needed; if not, how far it came.
+template <class Scalar>
+bool Gjk<Scalar>::walk_first(SupportPair<Scalar>& pair, Task task, Scalar tolerance,
+                             Approach<Scalar>& found) const {
+  using End = typename Approach<Scalar>::End;
+  const Walk<Scalar> quick =
+      walk(pair, {.only_apart = task != Task::distance, .most_iterations = gjk_cap_}, tolerance);
+  found.iterations = quick.iterations;
+  found.simplex = quick.simplex;
+  if (quick.end == WalkEnd::apart) {
+    found.lower = quick.lower;
+    found.end = End::decided;
+    return true;
+  }
+  found.upper = 0;
+  found.end = End::contact;
+  if (quick.end == WalkEnd::inside) {
+    found.nearest.inside = true;
+    found.nearest.distance = 2 * rounding;  // at least
+    return true;
+  }
+  if (found.simplex.size == 0) return false;
+  found.nearest = reduce_to_nearest(found.simplex);
+  if (found.nearest.inside || !(found.nearest.distance > rounding)) return true;
+  found.upper = found.nearest.distance;
+  found.end = End::cap;
+  if (quick.end != WalkEnd::near || is_open(pair, found.nearest.distance, quick.lower, tolerance)) {
+    return false;
+  }
+  found.lower = quick.lower;
+  found.end = End::decided;
+  return true;
+}
+
 template <class Scalar>
 Approach<Scalar> Gjk<Scalar>::approach(SupportPair<Scalar>& pair, Task task,
                                        Scalar tolerance) const {
@@ -144,6 +188,10 @@ Approach<Scalar> Gjk<Scalar>::approach(SupportPair<Scalar>& pair, Task task,
   const Scalar length = pair.centre_b().norm();
   Vec3<Scalar> direction =
       length > 0 ? Vec3<Scalar>(pair.centre_b() / length) : Vec3<Scalar>::UnitX();
+  if (momentum_ == Momentum::none && !duality_gap_) {
+    if (walk_first(pair, task, tolerance, found)) return found;
+    if (simplex.size > 0) direction = -found.nearest.direction;
+  }
   int stalled = 0;
   bool accelerated = momentum_ == Momentum::nesterov;
   NesterovDirection<Scalar> nesterov(pair.is_polytope(), -pair.centre_b());

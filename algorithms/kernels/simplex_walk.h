@@ -1,0 +1,37 @@
+// GJK's walk with plain products: quick, good to most digits, and no proof of anything but what its
+// support planes prove. What it finds is made good, or gone on from, with the care of simplex.h.
+#pragma once
+
+#include "algorithms/kernels/simplex.h"
+
+namespace touchstone {
+
+enum class WalkEnd : std::uint8_t {
+  apart,     // a support plane is further from the origin than the radius: proven
+  near,      // the simplex is as near as the tolerance asks for
+  inside,    // the origin is in the tetrahedron: proven
+  doubtful,  // rounding, or the cap
+};
+
+template <class Scalar>
+struct Walk {
+  WalkEnd end = WalkEnd::doubtful;
+  Simplex<Scalar> simplex;  // weights are not set
+  Scalar lower =
+      0;  // bound of the distance between the cores by the last plane, in the pair's unit
+  int iterations = 0;
+};
+
+struct WalkGoal {
+  bool only_apart = false;  // a plane that separates the bodies is enough
+  int most_iterations = 0;
+};
+
+// Walks from the difference of the centres. `tolerance` is of the distance, in the pair's unit.
+template <class Scalar>
+Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance);
+
+extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float);
+extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double);
+
+}  // namespace touchstone

@@ -1,0 +1,138 @@
+#include "algorithms/kernels/support_shape.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+// Where a hull has more vertices than this, climbing along its edges beats looking at all of them.
+constexpr std::size_t most_vertices_to_scan = 192;
+
+// How far the body's origin is inside the faces (metres); none where there are no faces.
+double origin_depth(const Hull& hull) {
+  double depth = hull.faces.empty() ? 0 : std::numeric_limits<double>::infinity();
+  for (const Hull::Face& face : hull.faces) {
+    depth = std::min(depth, face.normal.dot(hull.vertices[face.loop[0]]));
+  }
+  return depth;
+}
+
+template <class Scalar>
+void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
+  const std::vector<Vec3d>& vertices = hull.vertices;
+  // The mean is taken relative to the first vertex: exact enough wherever the hull lies.
+  Vec3d mean = Vec3d::Zero();
+  for (const Vec3d& vertex : vertices) mean += vertex - vertices[0];
+  shape.centre = vertices[0] + mean / static_cast<double>(vertices.size());
+  // Where the body's origin is well inside it is as good, and the pose says where it is.
+  if (origin_depth(hull) > 0.125 * (vertices[0] - shape.centre).stableNorm()) {
+    shape.centre = Vec3d::Zero();
+  }
+  for (const Vec3d& vertex : vertices) {
+    shape.size = std::max(shape.size, (vertex - shape.centre).stableNorm());
+  }
+  shape.unit = power_of_two_above(shape.size);
+
+  using Block = hull_scan::VertexBlock<Scalar>;
+  shape.vertices.resize((vertices.size() + Block::size - 1) / Block::size);
+  for (std::size_t i = 0; i < shape.vertices.size() * Block::size; ++i) {
+    const Vec3d& vertex = vertices[i < vertices.size() ? i : 0];
+    const Vec3<Scalar> point = ((vertex - shape.centre) / shape.unit).template cast<Scalar>();
+    Block& block = shape.vertices[i / Block::size];
+    block.x[i % Block::size] = point.x();
+    block.y[i % Block::size] = point.y();
+    block.z[i % Block::size] = point.z();
+  }
+
+  if (vertices.size() <= most_vertices_to_scan || hull.neighbours.size() != vertices.size()) return;
+  const auto has_some = [](const std::vector<std::uint32_t>& list) { return !list.empty(); };
+  const auto first = std::find_if(hull.neighbours.begin(), hull.neighbours.end(), has_some);
+  if (first == hull.neighbours.end()) return;
+  shape.climb_from = static_cast<std::uint32_t>(first - hull.neighbours.begin());
+  shape.neighbours_begin.push_back(0);
+  for (const std::vector<std::uint32_t>& list : hull.neighbours) {
+    shape.neighbour.insert(shape.neighbour.end(), list.begin(), list.end());
+    shape.neighbours_begin.push_back(static_cast<std::uint32_t>(shape.neighbour.size()));
+  }
+}
+
+}  // namespace
+
+double power_of_two_above(double length) {
+  // The exponent field, read from the bits: the numbers need no more care than that.
+  const auto field = static_cast<int>(std::bit_cast<std::uint64_t>(length) >> 52 & 0x7ff);
+  if (field == 0) return 1;
+  const int exponent = std::clamp(field + 1, 64, 1982);
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent) << 52);
+}
+
+template <class Scalar>
+SupportShape<Scalar>::SupportShape(const Shape& shape) {
+  const auto set = [&](Core kind, const Vec3d& metres, double greatest_distance) {
+    core = kind;
+    size = greatest_distance;
+    unit = power_of_two_above(size);
+    extents = (metres / unit).template cast<Scalar>();
+  };
+  const Vec3d round{shape.radius, shape.radius, shape.half_length};
+  switch (shape.kind) {
+    case ShapeKind::sphere: radius = shape.radius; break;
+    case ShapeKind::capsule:
+      set(Core::segment, {0, 0, shape.half_length}, shape.half_length);
+      radius = shape.radius;
+      break;
+    case ShapeKind::box: set(Core::box, shape.half_extents, shape.half_extents.stableNorm()); break;
+    case ShapeKind::cylinder:
+      set(Core::cylinder, round, std::hypot(shape.radius, shape.half_length));
+      break;
+    case ShapeKind::cone:
+      set(Core::cone, round, std::hypot(shape.radius, shape.half_length));
+      break;
+    case ShapeKind::ellipsoid: set(Core::ellipsoid, shape.radii, shape.radii.maxCoeff()); break;
+    case ShapeKind::hull:
+      core = Core::hull;
+      prepare_hull(*this, *shape.hull);
+      break;
+    case ShapeKind::halfspace:
+      core = Core::halfspace;
+      normal = shape.normal;
+      offset = shape.offset;
+      break;
+  }
+}
+
+template <class Scalar>
+std::vector<SupportShape<Scalar>> make_support_shapes(std::span<const Shape> shapes) {
+  std::vector<SupportShape<Scalar>> result;
+  result.reserve(shapes.size());
+  for (const Shape& shape : shapes) result.emplace_back(shape);
+  return result;
+}
+
+// From vertex to better neighbour: on a convex surface the last one is the best.
+template <class Scalar>
+std::uint32_t SupportShape<Scalar>::climb(const Vec3<Scalar>& d, std::uint32_t from) const {
+  const auto value = [&](std::uint32_t i) { return d.dot(vertex(i)); };
+  Scalar best = value(from);
+  for (std::uint32_t at = from;;) {
+    for (std::uint32_t k = neighbours_begin[at]; k < neighbours_begin[at + 1]; ++k) {
+      const Scalar candidate = value(neighbour[k]);
+      if (candidate > best) {
+        best = candidate;
+        from = neighbour[k];
+      }
+    }
+    if (from == at) return at;
+    at = from;
+  }
+}
+
+template struct SupportShape<float>;
+template struct SupportShape<double>;
+template std::vector<SupportShape<float>> make_support_shapes(std::span<const Shape>);
+template std::vector<SupportShape<double>> make_support_shapes(std::span<const Shape>);
+
+}  // namespace touchstone

@@ -1,0 +1,67 @@
+// A shape as the ball around a core: what a support map of it needs, made once for each scene.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/shape.h"
+#include "algorithms/kernels/hull_scan.h"
+
+namespace touchstone {
+
+// A shape made ready for one scalar type, once for each scene. The core is stored relative to
+// `centre` and divided by the power of two `unit`, so that its coordinates are at most 1.
+template <class Scalar>
+struct SupportShape {
+  enum class Core : std::uint8_t {
+    point,
+    segment,
+    box,
+    cylinder,
+    cone,
+    ellipsoid,
+    hull,
+    halfspace
+  };
+
+  explicit SupportShape(const Shape& shape);
+
+  Core core = Core::point;
+  double unit = 1;    // metres
+  double size = 0;    // metres: no point of the core is further from the centre
+  double radius = 0;  // metres: of the ball around the core
+  Vec3d centre =
+      Vec3d::Zero();  // body coordinates: inside the shape (relatively, where it is flat)
+  // Box: half extents; ellipsoid: semi-axes; segment, cylinder, cone: radius, radius, half length.
+  Vec3<Scalar> extents = Vec3<Scalar>::Zero();
+  std::vector<hull_scan::VertexBlock<Scalar>> vertices;  // hull
+  // Hull: neighbours of vertex i are neighbour[neighbours_begin[i]] up to neighbours_begin[i + 1].
+  // Empty where the vertices are few, or the hull does not know them.
+  std::vector<std::uint32_t> neighbours_begin, neighbour;
+  std::uint32_t climb_from = 0;  // a vertex that has neighbours
+  // Half-space: as in Shape.
+  Vec3d normal = Vec3d::UnitZ();
+  double offset = 0;
+
+  // About how far the turned body reaches from its centre (metres): within a factor of two.
+  double reach(const Mat3d& rotation) const {
+    return size * rotation.cwiseAbs().maxCoeff() + radius;
+  }
+  // Hull with neighbours: the vertex furthest in the direction, found from this one on.
+  std::uint32_t climb(const Vec3<Scalar>& direction, std::uint32_t from) const;
+  Vec3<Scalar> vertex(std::uint32_t i) const {
+    constexpr std::uint32_t lanes = hull_scan::VertexBlock<Scalar>::size;
+    return vertices[i / lanes].vertex(i % lanes);
+  }
+  bool is_polytope() const { return core <= Core::box || core == Core::hull; }
+};
+
+template <class Scalar>
+std::vector<SupportShape<Scalar>> make_support_shapes(std::span<const Shape> shapes);
+
+// The least power of two above a length, so that length / result is in [1/2, 1); 1 for zero. Held
+// to where the result and its inverse are normal numbers.
+double power_of_two_above(double length);
+
+}  // namespace touchstone

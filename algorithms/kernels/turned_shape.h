@@ -1,0 +1,87 @@
+// The support map of a shape that is turned as its body is.
+#pragma once
+
+#include <cmath>
+
+#include "algorithms/kernels/hull_scan.h"
+#include "algorithms/kernels/support_shape.h"
+
+namespace touchstone {
+
+struct ScanAtBest {
+  template <class Scalar>
+  static std::uint32_t furthest(const SupportShape<Scalar>& hull, const Vec3<Scalar>& d) {
+    return hull_scan::furthest(std::span(hull.vertices), d);
+  }
+};
+
+// A shape turned as its body is, about its centre, in the units of a query.
+template <class Scalar>
+class TurnedShape {
+ public:
+  // `unit` is the power of two, in metres, that the result is divided by.
+  TurnedShape(const SupportShape<Scalar>& shape, const Mat3d& rotation, double unit)
+      : shape_(&shape),
+        matrix_((rotation * (shape.unit / unit)).template cast<Scalar>()),
+        radius_(static_cast<Scalar>(shape.radius / unit)),
+        vertex_(shape.climb_from) {}
+
+  // The point of the core that lies furthest in the direction, relative to the centre. The
+  // direction need not have unit length, but its square must neither overflow nor vanish.
+  // `Scan` looks at all vertices of a hull: that of a level for a caller compiled for it.
+  template <class Scan = ScanAtBest>
+  Vec3<Scalar> support(const Vec3<Scalar>& direction);
+
+  Scalar radius() const { return radius_; }
+
+ private:
+  using Core = typename SupportShape<Scalar>::Core;
+
+  // The point of the disc of this radius, normal to z, furthest along (dx, dy); its centre where
+  // the direction is along z.
+  static Vec3<Scalar> disc_support(Scalar radius, const Vec3<Scalar>& d, Scalar z) {
+    const Scalar length = std::sqrt(d.x() * d.x() + d.y() * d.y());
+    const Scalar factor = length > 0 ? radius / length : Scalar{0};
+    return {factor * d.x(), factor * d.y(), z};
+  }
+
+  const SupportShape<Scalar>* shape_;
+  Mat3<Scalar> matrix_;
+  Scalar radius_;
+  std::uint32_t vertex_;  // hull: where the last support was found
+};
+
+template <class Scalar>
+template <class Scan>
+inline Vec3<Scalar> TurnedShape<Scalar>::support(const Vec3<Scalar>& direction) {
+  const Vec3<Scalar>& e = shape_->extents;
+  if (shape_->core == Core::point) return Vec3<Scalar>::Zero();
+  const Vec3<Scalar> d = matrix_.transpose() * direction;
+  switch (shape_->core) {
+    case Core::segment: return std::copysign(e.z(), d.z()) * matrix_.col(2);
+    case Core::box:
+      return matrix_ * Vec3<Scalar>{std::copysign(e.x(), d.x()), std::copysign(e.y(), d.y()),
+                                    std::copysign(e.z(), d.z())};
+    case Core::cylinder: return matrix_ * disc_support(e.x(), d, std::copysign(e.z(), d.z()));
+    case Core::cone: {
+      // The tip is further than the rim of the base where 2 h dz > r |(dx, dy)|.
+      const bool tip = 2 * e.z() * d.z() > e.x() * std::sqrt(d.x() * d.x() + d.y() * d.y());
+      return tip ? Vec3<Scalar>(e.z() * matrix_.col(2)) : matrix_ * disc_support(e.x(), d, -e.z());
+    }
+    case Core::ellipsoid: {
+      const Vec3<Scalar> stretched = e.cwiseProduct(d);
+      const Scalar length = stretched.norm();
+      if (!(length > 0)) return Vec3<Scalar>::Zero();
+      return matrix_ * e.cwiseProduct(stretched / length);
+    }
+    case Core::hull:
+      vertex_ =
+          shape_->neighbours_begin.empty() ? Scan::furthest(*shape_, d) : shape_->climb(d, vertex_);
+      return matrix_ * shape_->vertex(vertex_);
+    case Core::point:
+    case Core::halfspace: break;  // a half-space has no furthest point: see halfspace.h
+  }
+  return Vec3<Scalar>::Zero();
+}
+
+}  // namespace touchstone
