@@ -1,9 +1,13 @@
-// Loops over box_lanes.h, TOUCHSTONE_LOOPS by their file's name, once for each level of vector
-// instructions: in the namespaces baseline, avx2 and avx512, with TOUCHSTONE_TARGET set to the
-// level's attribute.
+// Loops over box_lanes.h, or over the lanes of the namespace TOUCHSTONE_LANES where that is set;
+// TOUCHSTONE_LOOPS by their file's name, once for each level of vector instructions: in the
+// namespaces baseline, avx2 and avx512, with TOUCHSTONE_TARGET set to the level's attribute.
+
+#ifndef TOUCHSTONE_LANES
+#define TOUCHSTONE_LANES box_lanes
+#endif
 
 namespace baseline {
-using namespace box_lanes::baseline;
+using namespace TOUCHSTONE_LANES::baseline;
 #define TOUCHSTONE_TARGET
 #include TOUCHSTONE_LOOPS
 #undef TOUCHSTONE_TARGET
@@ -11,14 +15,14 @@ using namespace box_lanes::baseline;
 
 #if defined(__x86_64__)
 namespace avx2 {
-using namespace box_lanes::avx2;
+using namespace TOUCHSTONE_LANES::avx2;
 #define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
 #include TOUCHSTONE_LOOPS
 #undef TOUCHSTONE_TARGET
 }  // namespace avx2
 
 namespace avx512 {
-using namespace box_lanes::avx512;
+using namespace TOUCHSTONE_LANES::avx512;
 #define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
 #include TOUCHSTONE_LOOPS
 #undef TOUCHSTONE_TARGET
@@ -29,3 +33,4 @@ namespace avx512 = baseline;
 #endif
 
 #undef TOUCHSTONE_LOOPS
+#undef TOUCHSTONE_LANES

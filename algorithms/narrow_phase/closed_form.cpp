@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "algorithms/kernels/box_box.h"
+#include "algorithms/kernels/box_pair_lanes.h"
 #include "algorithms/kernels/halfspace.h"
 #include "algorithms/kernels/segment.h"
 #include "algorithms/kernels/separating_axis.h"
@@ -123,26 +124,35 @@ class ClosedForm final : public NarrowPhase {
       polytopes_.push_back(box ? make_polytope<Scalar>(shape) : Polytope<Scalar>{});
     }
     support_shapes_ = make_support_shapes<Scalar>(shapes);
+    box_lanes_.bind(shapes);
   }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
-      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
-      Outcome& outcome = outcomes[i];
-      if (batch.kind_b == ShapeKind::halfspace) {
-        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task,
-                        outcome);
-      } else if (batch.kind_a == ShapeKind::box) {
-        solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, batch.task, outcome);
-      } else {
-        solve_round(shapes_[a], pose_a, shapes_[b], pose_b, batch.task, outcome);
-      }
+    if (batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box) {
+      left_.resize(batch.size());
+      const std::size_t left =
+          box_lanes_.solve({batch.first, batch.second, batch.shape_of, batch.poses}, batch.task,
+                           outcomes, left_.data());
+      for (std::size_t k = 0; k < left; ++k) solve_one(batch, left_[k], outcomes[left_[k]]);
+      return;
     }
+    for (std::size_t i = 0; i < batch.size(); ++i) solve_one(batch, i, outcomes[i]);
   }
 
  private:
+  void solve_one(const PairBatch& batch, std::size_t i, Outcome& outcome) const {
+    const std::uint32_t first = batch.first[i], second = batch.second[i];
+    const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
+    const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+    if (batch.kind_b == ShapeKind::halfspace) {
+      solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task, outcome);
+    } else if (batch.kind_a == ShapeKind::box) {
+      solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, batch.task, outcome);
+    } else {
+      solve_round(shapes_[a], pose_a, shapes_[b], pose_b, batch.task, outcome);
+    }
+  }
+
   static void solve_boxes(const PolytopePair<Scalar>& pair, Task task, Outcome& outcome) {
     int tested = 0;
     const Axis<Scalar> best = pair.far_apart() ? Axis<Scalar>{} : box_axis(pair, tested);
@@ -202,6 +212,8 @@ class ClosedForm final : public NarrowPhase {
   std::span<const Shape> shapes_;
   std::vector<Polytope<Scalar>> polytopes_;
   std::vector<SupportShape<Scalar>> support_shapes_;
+  BoxPairLanes<Scalar> box_lanes_;
+  std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave
 };
 
 bool takes(ShapeKind a, ShapeKind b, Task task) {

@@ -25,12 +25,11 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
 #if TOUCHSTONE_BUILT
-#include <ode/ode.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
+
+#include "algorithms/peers/ode_library.h"
 
 namespace touchstone {
 namespace {
@@ -56,31 +55,16 @@ void set_box(Body& body, const Aabb& box, const Shift& by) {
   }
 }
 
-// ODE's own state, and the lock for it. `kind` is the class of our geoms: ODE has room for four.
-struct Library {
-  std::mutex mutex;
-  int kind = 0;
-
-  Library() {
-    dInitODE2(0);
+// Of our geoms: ODE has room for four classes. To be asked for with the library's lock.
+int geom_class() {
+  static const int kind = [] {
     dGeomClass boxes{};
     boxes.bytes = sizeof(Body);
     boxes.collider = [](int) -> dColliderFn* { return nullptr; };
     boxes.aabb = [](dGeomID geom, dReal aabb[6]) { std::ranges::copy(body_of(geom).box, aabb); };
-    kind = dCreateGeomClass(&boxes);
-  }
-};
-
-Library& library() {
-  static Library the;
-  return the;
-}
-
-// Of ODE in this thread.
-std::unique_lock<std::mutex> enter() {
-  std::unique_lock lock(library().mutex);
-  dAllocateODEDataForThread(dAllocateMaskAll);
-  return lock;
+    return dCreateGeomClass(&boxes);
+  }();
+  return kind;
 }
 
 class Hash {
@@ -193,19 +177,19 @@ class OdeBroadPhase final : public BroadPhase {
  public:
   OdeBroadPhase() = default;
   ~OdeBroadPhase() override {
-    const auto lock = enter();
+    const auto lock = ode::enter();
     clear();
   }
   OdeBroadPhase(const OdeBroadPhase&) = delete;
   OdeBroadPhase& operator=(const OdeBroadPhase&) = delete;
 
   void build(std::span<const Aabb> boxes) override {
-    const auto lock = enter();
+    const auto lock = ode::enter();
     start(boxes);
   }
 
   void update(const FrameChange& change) override {
-    const auto lock = enter();
+    const auto lock = ode::enter();
     live_ += change.inserted.size();
     live_ -= change.removed.size();
     if (space_ == nullptr || live_ > Rules::most_bodies || !rules_.takes(change)) {
@@ -226,7 +210,7 @@ class OdeBroadPhase final : public BroadPhase {
   }
 
   Status find_pairs(PairSink& sink) override {
-    const auto lock = enter();
+    const auto lock = ode::enter();
     sink.start(1);
     if (space_ == nullptr) return Status::capacity;
     Found found{boxes_, sink.chunk(0)};
@@ -279,7 +263,7 @@ class OdeBroadPhase final : public BroadPhase {
   }
 
   void insert(std::uint32_t id) {
-    dGeomID geom = dCreateGeom(library().kind);
+    dGeomID geom = dCreateGeom(geom_class());
     body_of(geom).id = id;
     set_box(body_of(geom), boxes_[id], rules_.shift());
     dReal known[6];

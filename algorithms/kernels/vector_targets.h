@@ -1,0 +1,15 @@
+// The function attributes of each level of vector instructions, and the intrinsics.
+#pragma once
+
+#if defined(__x86_64__)
+#pragma GCC diagnostic push
+#if !defined(__clang__)
+// GCC 12 takes the header's own undefined vectors for mistakes of ours.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <immintrin.h>
+#pragma GCC diagnostic pop
+#endif
+
+#define TOUCHSTONE_TARGET_AVX2 __attribute__((target("avx2")))
+#define TOUCHSTONE_TARGET_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))

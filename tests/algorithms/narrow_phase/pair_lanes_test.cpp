@@ -1,0 +1,333 @@
+// The closed forms in vector lanes: batches of every length, the same bits at every level of vector
+// instructions, and no silent error against the exact oracle on input that is hard.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "algorithms/core/isa.h"
+#include "algorithms/kernels/box_pair_lanes.h"
+#include "algorithms/oracle/oracle.h"
+#include "algorithms/registry.h"
+#include "tests/algorithms/narrow_phase/bodies.h"
+
+namespace touchstone {
+namespace {
+
+using namespace test;
+
+constexpr std::array scalars{Precision::float32, Precision::float64};
+
+struct Kinds {
+  ShapeKind a, b;
+};
+constexpr std::array<Kinds, 1> kind_pairs = {{{ShapeKind::box, ShapeKind::box}}};
+
+struct Pairs {
+  std::vector<Shape> shapes;
+  std::vector<Pose> poses;
+  std::vector<std::uint32_t> shape_of, first, second;
+
+  void add(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+    for (const auto& [shape, pose] : {std::pair{a, pose_a}, std::pair{b, pose_b}}) {
+      (shapes.size() % 2 == 0 ? first : second)
+          .push_back(static_cast<std::uint32_t>(shapes.size()));
+      shape_of.push_back(static_cast<std::uint32_t>(shapes.size()));
+      shapes.push_back(shape);
+      poses.push_back(pose);
+    }
+  }
+  std::size_t size() const { return first.size(); }
+  PairBatch batch(Task task, std::size_t begin, std::size_t count) const {
+    return {.task = task,
+            .kind_a = shapes[0].kind,
+            .kind_b = shapes[1].kind,
+            .first = std::span(first).subspan(begin, count),
+            .second = std::span(second).subspan(begin, count),
+            .shape_of = shape_of,
+            .poses = poses};
+  }
+};
+
+std::vector<Outcome> solve(const NarrowPhaseEntry& entry, Precision scalar, Task task,
+                           const Pairs& pairs, std::size_t batch_size) {
+  const auto algorithm = entry.make(settings_of(scalar));
+  algorithm->bind(pairs.shapes);
+  std::vector<Outcome> outcomes(pairs.size());
+  for (std::size_t begin = 0; begin < pairs.size(); begin += batch_size) {
+    const std::size_t count = std::min(batch_size, pairs.size() - begin);
+    algorithm->solve(pairs.batch(task, begin, count), std::span(outcomes).subspan(begin, count));
+  }
+  return outcomes;
+}
+
+std::vector<std::uint64_t> bits_of(const Outcome& o) {
+  std::vector<std::uint64_t> bits = {static_cast<std::uint64_t>(o.answer),
+                                     static_cast<std::uint64_t>(o.status)};
+  for (const double x : {o.distance, o.lower, o.upper}) {
+    bits.push_back(std::bit_cast<std::uint64_t>(x));
+  }
+  for (const Vec3d& v : {o.normal, o.witness_a, o.witness_b}) {
+    for (const double x : v) bits.push_back(std::bit_cast<std::uint64_t>(x));
+  }
+  return bits;
+}
+
+void expect_same(const std::vector<Outcome>& a, const std::vector<Outcome>& b,
+                 const std::string& what) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(bits_of(a[i]), bits_of(b[i])) << what << ", pair " << i;
+  }
+}
+
+double power(Random& random, double low, double high) {
+  return std::pow(10.0, uniform(random, low, high));
+}
+
+Shape random_shape(Random& random, ShapeKind kind, bool hard) {
+  Shape shape;
+  shape.kind = kind;
+  const auto length = [&] {
+    if (!hard) return uniform(random, 0.2, 1);
+    return random() % 5 == 0 ? 0 : power(random, -5, 0);
+  };
+  shape.radius = length();
+  shape.half_length = length();
+  for (double& half : shape.half_extents) half = length();
+  return shape;
+}
+
+Mat3d turn(double angle, const Vec3d& axis) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+// What makes a pair hard.
+enum class Sort { plain, parallel, stacked, slivers, scaled, remote, skewed };
+constexpr std::array all_sorts{Sort::plain,  Sort::parallel, Sort::stacked, Sort::slivers,
+                               Sort::scaled, Sort::remote,   Sort::skewed};
+
+// Of random sizes and places; then b is moved until the signed distance is about one of a ladder
+// of lengths.
+void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort sort, Pairs& pairs) {
+  const bool slivers = sort == Sort::slivers;
+  Shape a = random_shape(random, kinds.a, slivers), b = random_shape(random, kinds.b, slivers);
+  Pose pose_a{random_rotation(random), random_direction(random)};
+  Pose pose_b{random_rotation(random), Vec3d::Zero()};
+  if (sort == Sort::parallel || sort == Sort::stacked) {
+    const Vec3d axis = Vec3d::Unit(static_cast<int>(random() % 3));
+    const double angle = random() % 3 == 0 ? 0 : power(random, -17, 0);
+    pose_b.rotation =
+        pose_a.rotation * turn(angle, random() % 2 == 0 ? axis : random_direction(random));
+    if (random() % 3 == 0) pose_b.rotation = pose_b.rotation * turn(M_PI / 2, axis);
+  }
+  Vec3d offset = uniform(random, 0.2, 2.2) * random_direction(random);
+  if (sort == Sort::stacked) {
+    if (random() % 2 == 0) b = a;
+    offset =
+        pose_a.rotation * (2 * uniform(random, 0.8, 1.1) * a.half_extents.x() * Vec3d::UnitX());
+    if (random() % 2 == 0) offset += pose_a.rotation.col(1) * uniform(random, -0.3, 0.3);
+  }
+  const double scale = sort == Sort::scaled ? power(random, -6, 6) : 1;
+  for (Shape* shape : {&a, &b}) {
+    shape->radius *= scale;
+    shape->half_length *= scale;
+    shape->half_extents *= scale;
+  }
+  pose_a.translation *= scale;
+  if (sort == Sort::remote) pose_a.translation = 1e7 * random_direction(random);
+  if (sort == Sort::skewed) {
+    for (Pose* pose : {&pose_a, &pose_b}) {
+      pose->rotation += power(random, -17, -0.5) * Mat3d::Random();
+      if (random() % 4 == 0) pose->rotation.col(0) *= -1;
+      if (random() % 16 == 0) pose->rotation *= power(random, -8, 8);
+    }
+  }
+  pose_b.translation = pose_a.translation + scale * offset;
+  const oracle::Solid solid_a(a), solid_b(b);
+  if (random() % 4 != 0) {
+    const double wanted = (random() % 2 == 0 ? 1 : -1) * scale * power(random, -14, -0.5);
+    for (int step = 0; step < 2; ++step) {
+      const oracle::Measure measure = oracle.measure({solid_a, pose_a}, {solid_b, pose_b});
+      if (!measure.normal.isZero()) {
+        pose_b.translation += (wanted - measure.middle()) * measure.normal.normalized();
+      }
+    }
+  }
+  pairs.add(a, pose_a, b, pose_b);
+}
+
+Pairs hard_pairs(std::uint64_t seed, Kinds kinds, Sort sort, std::size_t count) {
+  Random random(seed);
+  std::srand(static_cast<unsigned>(seed));  // for Eigen's random matrices
+  oracle::Oracle oracle;
+  Pairs pairs;
+  while (pairs.size() < count) add_pair(random, oracle, kinds, sort, pairs);
+  return pairs;
+}
+
+TEST(PairLanes, AnswerBatchesOfEveryLengthAlike) {
+  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  for (const Kinds kinds : kind_pairs) {
+    const Pairs pairs = hard_pairs(1, kinds, Sort::plain, 66);
+    for (const Precision scalar : scalars) {
+      for (const Task task : entry.tasks) {
+        if (!offers(entry, kinds.a, kinds.b, task)) continue;
+        const std::vector<Outcome> single = solve(entry, scalar, task, pairs, 1);
+        for (const std::size_t size : {2u, 7u, 8u, 9u, 16u, 17u, 33u, 66u}) {
+          expect_same(single, solve(entry, scalar, task, pairs, size), std::to_string(size));
+          if (HasFatalFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+TEST(PairLanes, HaveTheSameBitsAtEveryLevel) {
+  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  for (const Kinds kinds : kind_pairs) {
+    for (const Sort sort : all_sorts) {
+      const Pairs pairs = hard_pairs(2, kinds, sort, 200);
+      for (const Precision scalar : scalars) {
+        for (const Task task : entry.tasks) {
+          if (!offers(entry, kinds.a, kinds.b, task)) continue;
+          limit_isa(Isa::baseline);
+          const std::vector<Outcome> baseline = solve(entry, scalar, task, pairs, pairs.size());
+          for (const Isa level : {Isa::avx2, Isa::avx512}) {
+            limit_isa(level);
+            expect_same(baseline, solve(entry, scalar, task, pairs, pairs.size()),
+                        std::string(to_string(level)));
+            if (HasFatalFailure()) break;
+          }
+          limit_isa(isa_of_machine());
+          if (HasFatalFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+// Seen from the centre of a, in the axes of the world.
+double reach(const Shape& shape, const Pose& pose) {
+  const double round = shape.kind == ShapeKind::box ? 0 : shape.radius;
+  const double straight = shape.kind == ShapeKind::box       ? shape.half_extents.norm()
+                          : shape.kind == ShapeKind::capsule ? shape.half_length
+                                                             : 0;
+  return round + straight * pose.rotation.norm();
+}
+
+TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
+  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  oracle::Oracle oracle;
+  for (const Kinds kinds : kind_pairs) {
+    for (const Sort sort : all_sorts) {
+      const Pairs pairs = hard_pairs(3, kinds, sort, 400);
+      std::vector<oracle::Solid> solids;
+      for (const Shape& shape : pairs.shapes) solids.emplace_back(shape);
+      std::vector<oracle::Measure> truths;
+      std::size_t common = 0;
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const std::uint32_t a = pairs.first[i], b = pairs.second[i];
+        truths.push_back(oracle.measure({solids[a], pairs.poses[a]}, {solids[b], pairs.poses[b]}));
+        common += truths.back().answer == Answer::overlapping ? 1u : 0u;
+      }
+      EXPECT_GT(common, pairs.size() / 5);
+      EXPECT_LT(common, pairs.size() * 4 / 5);
+      for (const Precision scalar : scalars) {
+        const double epsilon = scalar == Precision::float32 ? 0x1p-23 : 0x1p-52;
+        for (const Task task : entry.tasks) {
+          if (!offers(entry, kinds.a, kinds.b, task)) continue;
+          const std::vector<Outcome> outcomes = solve(entry, scalar, task, pairs, pairs.size());
+          std::size_t given_up = 0;
+          for (std::size_t i = 0; i < pairs.size(); ++i) {
+            const std::uint32_t a = pairs.first[i], b = pairs.second[i];
+            const Pose &pose_a = pairs.poses[a], &pose_b = pairs.poses[b];
+            const oracle::Measure& truth = truths[i];
+            const Outcome& o = outcomes[i];
+            const double size = reach(pairs.shapes[a], pose_a) + reach(pairs.shapes[b], pose_b) +
+                                (pose_b.translation - pose_a.translation).norm();
+            SCOPED_TRACE(std::string(to_string(kinds.a)) + "-" + std::string(to_string(kinds.b)) +
+                         " " + std::string(to_string(scalar)) + " " + std::string(to_string(task)) +
+                         " sort " + std::to_string(static_cast<int>(sort)) + " pair " +
+                         std::to_string(i) + " truth " +
+                         std::to_string(truth.middle() / size / epsilon) + " epsilons of " +
+                         std::to_string(size));
+            if (o.status != Status::ok) {
+              ASSERT_EQ(o.answer, Answer::unknown);
+              given_up += std::abs(truth.middle()) > 200 * epsilon * size ? 1u : 0u;
+            } else {
+              ASSERT_EQ(o.answer, truth.answer);
+            }
+            if (std::isnan(o.distance)) continue;
+            // What the world's coordinates round away.
+            const double place = 0x1p-50 * (pose_a.translation.norm() + size);
+            const double error = 200 * epsilon * size;
+            ASSERT_LE(o.lower, truth.upper);
+            if (!std::isnan(o.upper)) {
+              ASSERT_GE(o.upper, truth.lower);
+              ASSERT_LE(o.upper - o.lower, 2 * error);
+            }
+            ASSERT_NEAR(o.distance, truth.middle(), error);
+            ASSERT_NEAR(o.normal.norm(), 1, 16 * epsilon);
+            ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(),
+                      8 * error + place);
+            for (const auto& [body, point] : {std::pair{a, o.witness_a}, {b, o.witness_b}}) {
+              Shape dot;  // a point
+              const oracle::Solid spot(dot);
+              const oracle::Measure off = oracle.measure({spot, Pose{Mat3d::Identity(), point}},
+                                                         {solids[body], pairs.poses[body]});
+              ASSERT_LE(off.middle(), error + place);
+            }
+          }
+          // What is no rotation may be said to be beyond it.
+          EXPECT_LE(given_up, sort == Sort::skewed ? pairs.size() / 10 : 0)
+              << to_string(scalar) << " sort " << static_cast<int>(sort);
+        }
+      }
+    }
+  }
+}
+
+// The lanes themselves: pairs are answered there, and not one by one.
+template <class Scalar>
+void expect_few_left() {
+  for (const Sort sort : {Sort::plain, Sort::stacked, Sort::scaled, Sort::remote}) {
+    Random random(4);
+    Pairs pairs;
+    for (int k = 0; k < 500; ++k) {
+      const Shape a = random_shape(random, ShapeKind::box, false);
+      const bool stacked = sort == Sort::stacked;
+      const Pose pose_a{random_rotation(random), random_direction(random)};
+      const Pose pose_b{stacked ? pose_a.rotation : random_rotation(random),
+                        pose_a.translation +
+                            uniform(random, 0.2, 1.6) * (stacked ? Vec3d(pose_a.rotation.col(k % 3))
+                                                                 : random_direction(random))};
+      pairs.add(a, pose_a, random_shape(random, ShapeKind::box, false), pose_b);
+    }
+    BoxPairLanes<Scalar> lanes;
+    lanes.bind(pairs.shapes);
+    std::vector<Outcome> outcomes(pairs.size());
+    std::vector<std::uint32_t> left(pairs.size());
+    for (const Task task : {Task::intersect, Task::penetration}) {
+      EXPECT_LE(lanes.solve({pairs.first, pairs.second, pairs.shape_of, pairs.poses}, task,
+                            outcomes, left.data()),
+                pairs.size() / 100)
+          << static_cast<int>(sort) << " " << to_string(task);
+      const auto common = std::ranges::count(outcomes, Answer::overlapping, &Outcome::answer);
+      EXPECT_GT(common, 100);
+      EXPECT_LT(common, 450);
+    }
+  }
+}
+
+TEST(PairLanes, LeaveFewPairsOfBoxes) {
+  expect_few_left<float>();
+  expect_few_left<double>();
+}
+
+}  // namespace
+}  // namespace touchstone
