@@ -19,6 +19,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_measures.h"
 #include "algorithms/kernels/cell_space.h"
+#include "algorithms/kernels/crowds.h"
 #include "algorithms/kernels/group_scan.h"
 #include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/ploughed_grid.h"
@@ -226,17 +227,12 @@ void HierarchicalGrid::split_crowds(std::span<const Aabb> boxes, std::size_t lev
 
 void HierarchicalGrid::list_crowds(std::span<const Aabb> boxes, IndexRange range) {
   crowds_.clear();
-  constexpr std::size_t step = least_crowd / 2;  // one of two steps begins and ends in a crowd
-  for (std::size_t i = range.first; i + step < range.last; i += step) {
-    if (cell(i) != cell(i + step)) continue;
-    IndexRange crowd{i, i + step};
-    while (crowd.first > range.first && cell(crowd.first - 1) == cell(i)) --crowd.first;
-    while (crowd.last < range.last && cell(crowd.last) == cell(i)) ++crowd.last;
-    i += (crowd.last - 1 - i) / step * step;
-    if (crowd.last - crowd.first < least_crowd) continue;
-    const Level level = level_of_crowd(boxes, crowd);
-    if (level.grid.cells() >= least_cells) crowds_.push_back(level);
-  }
+  visit_crowds(
+      range, least_crowd, [&](std::size_t i) { return cell(i); },
+      [&](IndexRange crowd) {
+        const Level level = level_of_crowd(boxes, crowd);
+        if (level.grid.cells() >= least_cells) crowds_.push_back(level);
+      });
 }
 
 HierarchicalGrid::Level HierarchicalGrid::level_of_crowd(std::span<const Aabb> boxes,
