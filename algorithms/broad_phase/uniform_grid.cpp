@@ -22,7 +22,6 @@
 #include "algorithms/kernels/cell_space.h"
 #include "algorithms/kernels/crowds.h"
 #include "algorithms/kernels/held_bytes.h"
-#include "algorithms/kernels/ordered_key.h"
 #include "algorithms/kernels/radix_sort.h"
 
 namespace touchstone {
@@ -88,8 +87,8 @@ class UniformGrid final : public BroadPhase {
                   });
     }
     add_scan(large_rows(arrays_.size()), {0, arrays_.size()});
-    sum.bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, crowds_, crowd_,
-                               crowd_order_, crowd_sort_, arrays_, marks_, wants_);
+    sum.bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, crowds_, crowd_sort_,
+                               arrays_, marks_, wants_);
     return sum;
   }
 
@@ -198,23 +197,10 @@ class UniformGrid final : public BroadPhase {
     visit_crowds(
         {0, entries_.size()}, least_crowd, [&](std::size_t i) { return entries_[i].cell; },
         [&](IndexRange run) {
-          crowds_.push_back({run, sort_crowd(boxes, run)});
+          const auto entries = std::span(entries_).subspan(run.first, run.last - run.first);
+          const auto id = [](const Entry& entry) { return entry.id; };
+          crowds_.push_back({run, crowd_sort_(executor_, boxes, entries, id)});
         });
-  }
-
-  int sort_crowd(std::span<const Aabb> boxes, IndexRange run) {
-    const auto begin = entries_.begin() + static_cast<std::ptrdiff_t>(run.first);
-    crowd_.assign(begin, entries_.begin() + static_cast<std::ptrdiff_t>(run.last));
-    const auto box_of = [&](std::size_t i) { return boxes[crowd_[i].id]; };
-    const std::size_t axis = longest_axis(crowd_.size(), box_of);
-    crowd_order_.resize(crowd_.size());
-    for (std::uint32_t i = 0; i < crowd_.size(); ++i) {
-      crowd_order_[i] = sort_item(ordered_key(box_of(i).min[axis]), i);
-    }
-    crowd_sort_(executor_, crowd_order_, 32, key_of);
-    std::ranges::transform(crowd_order_, begin,
-                           [&](std::uint64_t item) { return crowd_[index_of(item)]; });
-    return static_cast<int>(axis);
   }
 
   // The large boxes, then the entries. A cell is a pair's home when on each axis one of the two
@@ -281,9 +267,7 @@ class UniformGrid final : public BroadPhase {
   std::vector<std::uint32_t> large_;
   RadixSort<Entry> radix_sort_;
   std::vector<Crowd> crowds_;
-  std::vector<Entry> crowd_;  // one, while it is sorted
-  std::vector<std::uint64_t> crowd_order_;
-  RadixSort<std::uint64_t> crowd_sort_;
+  CrowdSort<Entry> crowd_sort_;
   BoxArrays arrays_;
   std::vector<std::uint32_t> marks_, wants_;
 };

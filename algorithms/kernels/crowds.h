@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "algorithms/core/aabb.h"
+#include "algorithms/core/executor.h"
 #include "algorithms/kernels/box_arrays.h"
+#include "algorithms/kernels/ordered_key.h"
+#include "algorithms/kernels/radix_sort.h"
 
 namespace touchstone {
 
@@ -49,5 +55,37 @@ std::size_t longest_axis(std::size_t count, const Box& box) {
   }
   return static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
 }
+
+// Puts a crowd in the order of its boxes' minima on the axis on which that tells most. Keeps its
+// memory.
+template <class Item>
+class CrowdSort {
+ public:
+  // The axis. `id(item)`: of its box.
+  template <class Id>
+  int operator()(Executor& executor, std::span<const Aabb> boxes, std::span<Item> crowd,
+                 const Id& id) {
+    before_.assign(crowd.begin(), crowd.end());
+    const auto box = [&](std::size_t i) { return boxes[id(before_[i])]; };
+    const std::size_t axis = longest_axis(crowd.size(), box);
+    order_.resize(crowd.size());
+    for (std::uint32_t i = 0; i < crowd.size(); ++i) {
+      order_[i] = sort_item(ordered_key(box(i).min[axis]), i);
+    }
+    radix_sort_(executor, order_, 32, key_of);
+    for (std::size_t i = 0; i < crowd.size(); ++i) crowd[i] = before_[index_of(order_[i])];
+    return static_cast<int>(axis);
+  }
+
+  std::size_t held_bytes() const {
+    return before_.capacity() * sizeof(Item) + order_.capacity() * sizeof(std::uint64_t) +
+           radix_sort_.held_bytes();
+  }
+
+ private:
+  std::vector<Item> before_;
+  std::vector<std::uint64_t> order_;
+  RadixSort<std::uint64_t> radix_sort_;
+};
 
 }  // namespace touchstone
