@@ -1,25 +1,25 @@
-// Loose octree: each box lies in one cell, at the level of its size; its partners lie nearby.
+// Loose octree: each box lies in one cell, at the level of its size, and reaches beyond it; cells
+// that overlap are paired from the root down, and boxes where no cell has more than sixteen.
 // Paper:   Ulrich, "Loose Octrees", Game Programming Gems, 2000; Gargantini, "An Effective Way to
-//          Represent Quadtrees", CACM 1982 (linear: sorted codes instead of nodes).
-// Departs: no nodes: the cells are runs of boxes sorted by level and Morton code, found through a
-//          hash table. Cells have the proportions of the usual box, and a level's are as wide as
-//          its largest boxes; the looseness is 2, so a box reaches at most half a cell beyond its
-//          own. Pairs are sought at the own level and at coarser ones only.
-// Fails:   crowds of boxes of a size within one cell (stacks), where it is quadratic; a few dozen
-//          look-ups for each box and level make it slow where sizes are of many orders.
-// Cost:    O(n log n + n l + k) time, O(n) memory beside the output; l = levels in use, at most 20,
-//          k = pairs in neighbouring cells.
+//          Represent Quadtrees", CACM 1982 (linear: sorted codes).
+// Departs: a cell is as loose as its boxes make it: its bounds are those of what lies in it. Cells
+//          have the proportions of the usual box. A cell ends where sixteen boxes are left, few
+//          parts side by side are one, and of cells with a single part only the last is kept. Where
+//          many boxes lie in one finest cell, or are large for the cell where they are, they get an
+//          octree of their own. Each cell is handed a list of those behind it that it overlaps, and
+//          picks from it what its parts overlap, a vector at a time.
+// Fails:   long thin boxes in all directions: the bounds of all cells overlap.
+// Cost:    O(n) time for keys and sort, O(n log n + k) to be expected for the search; k = pairs
+// that
+//          overlap. About 60 bytes a body.
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/kernels/box_scan.h"
-#include "algorithms/kernels/cell_space.h"
+#include "algorithms/kernels/group_scan.h"
 #include "algorithms/kernels/held_bytes.h"
-#include "algorithms/kernels/morton.h"
-#include "algorithms/kernels/radix_sort.h"
+#include "algorithms/kernels/octree_order.h"
+#include "algorithms/kernels/tree_join.h"
 
 namespace touchstone {
 namespace {
@@ -31,282 +31,187 @@ class LooseOctree final : public BroadPhase {
 
   void build(std::span<const Aabb> boxes) override {
     list_bodies(executor_, boxes, ids_);
-    choose_cells(boxes);
-    items_.resize(ids_.size());
-    for_each_block(executor_, ids_.size(), 4096,
-                   [&](std::size_t, std::size_t first, std::size_t last) {
-                     for (std::size_t i = first; i < last; ++i) {
-                       items_[i] = {cell_of(boxes[ids_[i]]), ids_[i]};
-                     }
-                   });
-    radix_sort_(executor_, items_, 3 * top_ + std::bit_width(static_cast<unsigned>(top_)),
-                [](const Item& item) { return item.cell; });
-    arrays_.gather(executor_, boxes, items_.size(), [&](std::size_t i) { return items_[i].id; });
-    list_cells();
+    status_ = ids_.size() < NodeRef::most_begins ? Status::ok : Status::capacity;
+    if (status_ != Status::ok) ids_.clear();
+    order_.sort(executor_, boxes, ids_);
+    grow(boxes);
+    boxes_.gather(executor_, boxes, order_.size(), [&](std::size_t i) { return order_.id(i); });
+    fit();
   }
 
   void update(const FrameChange& change) override { build(change.boxes); }
 
   Status find_pairs(PairSink& sink) override {
-    const std::size_t tasks = block_count(items_.size(), rows_a_task);
-    sink.start(tasks);
-    const auto scan = [&](std::size_t task, int worker) {
-      Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
-      const auto nothing = [](const Window&, const CellNumbers*) {};
-      visit_groups(rows_of(task), scratch, nothing, [&](IndexRange group) {
-        scan_boxes(arrays_, group, scratch.columns, sink.chunk(task));
-      });
+    sink.start(tasks_.size());
+    const auto task = [&](std::size_t i, int worker) {
+      join_block(tree_, boxes_, tasks_[i].block, tasks_[i].part,
+                 scratch_[static_cast<std::size_t>(worker)], sink.chunk(i));
     };
-    executor_.run(tasks, std::cref(scan));
-    return Status::ok;
+    executor_.run(tasks_.size(), std::cref(task));
+    return status_;
   }
 
   BroadPhaseWork work() const override {
-    Scratch scratch;
-    std::size_t tests = 0;
-    std::size_t visits = 0;
-    const auto count_cells = [&](const Window& window, const CellNumbers* own) {
-      visits += cells_of_runs(window, own);
-    };
-    for (std::size_t task = 0; task < block_count(items_.size(), rows_a_task); ++task) {
-      visit_groups(rows_of(task), scratch, count_cells, [&](IndexRange group) {
-        ++visits;
-        for (const IndexRange columns : scratch.columns) tests += pairs_of_scan(group, columns);
-      });
+    JoinScratch scratch;
+    PairBuffer pairs;
+    for (const Task& task : tasks_) {
+      pairs.clear();
+      join_block(tree_, boxes_, task.block, task.part, scratch, pairs);
     }
-    return {.box_tests = static_cast<std::int64_t>(tests),
-            .node_visits = static_cast<std::int64_t>(visits),
-            .candidates = static_cast<std::int64_t>(tests),
-            .bytes = sum_held_bytes(ids_, items_, radix_sort_, arrays_, cells_, table_, filter_)};
+    scratch.work.bytes = sum_held_bytes(ids_, order_, boxes_, cells_, refs_, tree_, tasks_);
+    return scratch.work;
   }
 
  private:
-  static constexpr int most_levels = 20;  // 3 * 19 bits of code, 5 of level
-  static constexpr std::size_t rows_a_task = 512;
-  static constexpr std::size_t filter_share = 8;  // bits a slot of the table
-  static constexpr std::uint64_t no_cell = ~std::uint64_t{0};
+  static constexpr std::uint32_t fan = NodeRef::fan;
+  // A cell of no more is the work of one task, with all that is below it.
+  static constexpr std::uint32_t boxes_a_task = 2048;
 
-  struct Item {
-    std::uint64_t cell;  // level above, Morton code in the level's own cells below
-    std::uint32_t id;
-  };
+  static constexpr NodeRef no_node{0};
+
+  // With more boxes than a leaf may have: those of a range. Its parts are a block of the tree's.
   struct Cell {
-    std::uint64_t cell = no_cell;
-    std::uint32_t first = 0, last = 0;  // its boxes
+    std::uint32_t first, last;
   };
-  // The cells of a level where partners of a group of boxes may be.
-  struct Window {
-    CellNumbers low, high;
-    friend bool operator==(const Window&, const Window&) = default;
+  struct Parts {
+    std::array<std::uint32_t, fan> ends;  // the first one's beginning comes before
+    std::uint32_t count = 0;
   };
-  struct Scratch {
-    std::vector<IndexRange> columns;
-    // The last window at each level and its runs of boxes: small boxes that are near each other in
-    // the order mostly share their windows at the coarser levels.
-    std::array<Window, most_levels> windows;
-    std::array<std::vector<IndexRange>, most_levels> runs;
+  struct Task {
+    std::uint32_t block;
+    JoinPart part;
   };
 
-  // Level l has cells of finest * 2^l usual boxes. Levels are set so that the usual box just fits
-  // in a cell. At the top there is one cell for all.
-  void choose_cells(std::span<const Aabb> boxes) {
-    const BoxSample sample = sample_boxes(boxes, ids_);
-    const double extent = sample.extent();
-    const double least = std::ldexp(extent, 1 - most_levels);
-    double finest = sample.usual * (1 + 1.0 / 64);  // boxes of one size differ by rounding
-    if (finest == 0) finest = extent > 0 ? least : 1;
-    for (int halvings = 0; halvings < most_levels; ++halvings) {
-      if (finest / 2 < std::max(sample.smallest, least)) break;
-      finest /= 2;
-    }
-    while (finest < least) finest *= 2;
-    top_ = 0;
-    while (std::ldexp(finest, top_) < extent && top_ < most_levels - 1) ++top_;
-    space_.origin = sample.low;
-    space_.last.fill((1u << top_) - 1);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      side_[axis] = finest * sample.side[axis];
-      space_.inverse_side[axis] = 1 / side_[axis];
-    }
-  }
-
-  std::uint64_t cell_of(const Aabb& box) const {
-    const int level = level_of(space_.size(box));
-    CellNumbers cell;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double centre = 0.5 * (double{box.min[axis]} + box.max[axis]);
-      cell[axis] = space_.cell(centre, axis) >> level;
-    }
-    return static_cast<std::uint64_t>(level) << (3 * top_) | morton_code(cell);
-  }
-
-  // The least level whose cells are at least as large, or the top. `size` is in finest cells.
-  int level_of(double size) const {
-    if (!(size > 1)) return 0;
-    const auto bits = std::bit_cast<std::uint64_t>(size);
-    const bool is_power = (bits & ((std::uint64_t{1} << 52) - 1)) == 0;
-    const int level = static_cast<int>(bits >> 52) - 1023 + (is_power ? 0 : 1);
-    return std::min(level, top_);
-  }
-
-  void list_cells() {
-    cells_.clear();
-    levels_ = 0;
-    for (std::size_t i = 0; i < items_.size(); ++i) {
-      const auto place = static_cast<std::uint32_t>(i);
-      if (cells_.empty() || items_[i].cell != cells_.back().cell) {
-        cells_.push_back({items_[i].cell, place, place});
-        levels_ |= 1u << (items_[i].cell >> (3 * top_));
-      }
-      cells_.back().last = place + 1;
-    }
-    table_bits_ = static_cast<int>(std::bit_width(2 * cells_.size()));
-    table_.assign(std::size_t{1} << table_bits_, {});
-    filter_.assign(block_count(table_.size() * filter_share, 64), 0);
-    for (const Cell& cell : cells_) {
-      table_[slot(cell.cell)] = cell;
-      const std::size_t bit = filter_bit(cell.cell);
-      filter_[bit / 64] |= std::uint64_t{1} << bit % 64;
-    }
-  }
-
-  // Multiplicative hashing (Knuth, The Art of Computer Programming, volume 3, section 6.4).
-  static std::uint64_t hash(std::uint64_t cell) { return cell * 0x9e3779b97f4a7c15; }
-
-  // Where a cell is in the table, or where it would go. Linear probing; the table is at most half
-  // full.
-  std::size_t slot(std::uint64_t cell) const {
-    std::size_t at = hash(cell) >> (64 - table_bits_);
-    while (table_[at].cell != cell && table_[at].cell != no_cell) {
-      at = (at + 1) & (table_.size() - 1);
-    }
-    return at;
-  }
-
-  // Set for each cell of the table. Most cells that are asked for are empty, and this many bits
-  // stay in the cache where the table does not.
-  std::size_t filter_bit(std::uint64_t cell) const {
-    return hash(cell) >> (64 - table_bits_ - std::countr_zero(filter_share));
-  }
-
-  IndexRange rows_of(std::size_t task) const {
-    const std::size_t first = task * rows_a_task;
-    return {first, std::min(first + rows_a_task, items_.size())};
-  }
-
-  // Calls visit(group) for the boxes of each cell: they are to meet those of scratch.columns, which
-  // are those behind them in their cell, in half of the cells around it and at the coarser levels.
-  // Calls look(window, own) for each window whose cells are looked up for that, as find_runs does.
-  template <class Look, class Visit>
-  void visit_groups(IndexRange rows, Scratch& scratch, const Look& look, const Visit& visit) const {
-    for (auto& runs : scratch.runs) runs.clear();
-    scratch.windows.fill({{1, 1, 1}, {0, 0, 0}});
-    auto cell = std::ranges::upper_bound(cells_, rows.first, {}, &Cell::first) - 1;
-    for (std::size_t first = rows.first; first < rows.last; ++cell) {
-      const IndexRange group{first, std::min<std::size_t>(cell->last, rows.last)};
-      scratch.columns.assign(1, {cell->first, cell->last});
-      add_partners(group, cell->cell, scratch, look);
-      visit(group);
-      first = cell->last;
-    }
-  }
-
-  template <class Look>
-  void add_partners(IndexRange group, std::uint64_t cell, Scratch& scratch,
-                    const Look& look) const {
-    std::array<double, 3> low, high;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<std::size_t>(axis);
-      const float* min = arrays_.min(axis);
-      const float* max = arrays_.max(axis);
-      low[k] = *std::min_element(min + group.first, min + group.last);
-      high[k] = *std::max_element(max + group.first, max + group.last);
-    }
-    const int own_level = static_cast<int>(cell >> (3 * top_));
-    for (unsigned levels = levels_ >> own_level << own_level; levels != 0; levels &= levels - 1) {
-      const int level = std::countr_zero(levels);
-      const auto l = static_cast<std::size_t>(level);
-      // The centre of a partner is at most half a cell away. The 64th part is for rounding; a box
-      // for which that is not enough has no length on the axis, and its centre is its end.
-      const double reach = (0.5 + 1.0 / 64) * (1u << level);
-      Window window;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        window.low[axis] = space_.cell(low[axis] - reach * side_[axis], axis) >> level;
-        window.high[axis] = space_.cell(high[axis] + reach * side_[axis], axis) >> level;
-      }
-      if (level == own_level) {
-        const std::uint64_t code = cell & ((std::uint64_t{1} << (3 * top_)) - 1);
-        const CellNumbers own = morton_cell(code);
-        look(window, &own);
-        find_runs(window, level, &own, scratch.columns);
-        continue;
-      }
-      if (window != scratch.windows[l]) {
-        scratch.windows[l] = window;
-        scratch.runs[l].clear();
-        look(window, nullptr);
-        find_runs(window, level, nullptr, scratch.runs[l]);
-      }
-      scratch.columns.insert(scratch.columns.end(), scratch.runs[l].begin(), scratch.runs[l].end());
-    }
-  }
-
-  // Adds the runs of boxes of the window's cells, and of those only that come behind `own` (by z,
-  // y, x) where the level is the boxes' own.
-  void find_runs(const Window& window, int level, const CellNumbers* own,
-                 std::vector<IndexRange>& runs) const {
-    const std::uint64_t prefix = static_cast<std::uint64_t>(level) << (3 * top_);
-    const std::uint64_t first_x = spread_bits(window.low[0]);
-    for (std::uint32_t z = own != nullptr ? (*own)[2] : window.low[2]; z <= window.high[2]; ++z) {
-      const bool own_slab = own != nullptr && z == (*own)[2];
-      for (std::uint32_t y = own_slab ? (*own)[1] : window.low[1]; y <= window.high[1]; ++y) {
-        const bool own_row = own_slab && y == (*own)[1];
-        const std::uint64_t row = prefix | spread_bits(y) << 1 | spread_bits(z) << 2;
-        std::uint64_t x_bits = own_row ? next_spread(spread_bits((*own)[0])) : first_x;
-        for (std::uint32_t x = own_row ? (*own)[0] + 1 : window.low[0]; x <= window.high[0]; ++x) {
-          add_run(row | x_bits, runs);
-          x_bits = next_spread(x_bits);
-        }
-      }
-    }
-  }
-
-  // How many cells that looks up.
-  static std::size_t cells_of_runs(const Window& window, const CellNumbers* own) {
-    const std::size_t row = window.high[0] + 1 - window.low[0];
-    const std::size_t slab = row * (window.high[1] + 1 - window.low[1]);
-    if (own == nullptr) return slab * (window.high[2] + 1 - window.low[2]);
-    return (window.high[0] - (*own)[0]) + row * (window.high[1] - (*own)[1]) +
-           slab * (window.high[2] - (*own)[2]);
-  }
-
-  void add_run(std::uint64_t cell, std::vector<IndexRange>& runs) const {
-    const std::size_t bit = filter_bit(cell);
-    if ((filter_[bit / 64] >> bit % 64 & 1) == 0) return;
-    const Cell& found = table_[slot(cell)];
-    if (found.cell == no_cell) return;
-    if (!runs.empty() && runs.back().last == found.first) {
-      runs.back().last = found.last;
-    } else {
-      runs.push_back({found.first, found.last});
-    }
-  }
+  void grow(std::span<const Aabb> boxes);
+  Parts divide(std::span<const Aabb> boxes, std::uint32_t first, std::uint32_t last);
+  static Parts divide_evenly(std::uint32_t first, std::uint32_t last);
+  void list_tasks();
+  void fit();
 
   Executor& executor_;
+  std::vector<JoinScratch> scratch_;
   std::vector<std::uint32_t> ids_;
-  CellSpace space_;               // the finest level's cells
-  std::array<double, 3> side_{};  // of a finest cell: metres
-  int top_ = 0;                   // the coarsest level
-  unsigned levels_ = 0;           // bit l: there are boxes at level l
-  std::vector<Item> items_;
-  RadixSort<Item> radix_sort_;
-  BoxArrays arrays_;
-  std::vector<Cell> cells_;  // in the boxes' order
-  std::vector<Cell> table_;
-  int table_bits_ = 0;
-  std::vector<std::uint64_t> filter_;
-  std::vector<Scratch> scratch_;  // of each worker
+  OctreeOrder order_;
+  BoxArrays boxes_;  // in that order
+  std::vector<Cell> cells_;
+  std::vector<NodeRef> refs_;  // of the tree's nodes
+  JoinTree tree_;
+  std::vector<Task> tasks_;
+  Status status_ = Status::ok;
 };
+
+// Breadth first, so that what is above comes first.
+void LooseOctree::grow(std::span<const Aabb> boxes) {
+  cells_.clear();
+  refs_.clear();
+  tree_.parent.clear();
+  const auto count = static_cast<std::uint32_t>(order_.size());
+  if (count > 0) {
+    cells_.push_back({0, count});
+    tree_.parent.push_back(0);
+  }
+  for (std::size_t block = 0; block < cells_.size(); ++block) {
+    const Cell cell = cells_[block];
+    const Parts parts = divide(boxes, cell.first, cell.last);
+    if (block > 0) {
+      refs_[tree_.parent[block]] = NodeRef::inner(static_cast<std::uint32_t>(block), parts.count);
+    }
+    std::uint32_t first = cell.first;
+    for (std::uint32_t part = 0; part < parts.count; ++part) {
+      const std::uint32_t last = parts.ends[part];
+      if (last - first <= fan) {
+        refs_.push_back(NodeRef::leaf(first, last - first));
+      } else {
+        cells_.push_back({first, last});
+        tree_.parent.push_back(static_cast<std::uint32_t>(refs_.size()));
+        refs_.push_back({});
+      }
+      first = last;
+    }
+    refs_.resize((block + 1) * fan, no_node);
+  }
+  list_tasks();
+}
+
+void LooseOctree::list_tasks() {
+  const auto is_large = [&](std::size_t block) {
+    return cells_[block].last - cells_[block].first > boxes_a_task;
+  };
+  tasks_.clear();
+  for (std::uint32_t block = 0; block < cells_.size(); ++block) {
+    if (is_large(block)) {
+      tasks_.push_back({block, JoinPart::leaves});
+    } else if (block == 0 || is_large(tree_.parent[block] / fan)) {
+      tasks_.push_back({block, JoinPart::all});
+    }
+  }
+}
+
+// Into two parts or more, where they are more than a leaf may have.
+LooseOctree::Parts LooseOctree::divide(std::span<const Aabb> boxes, std::uint32_t first,
+                                       std::uint32_t last) {
+  if (last - first <= fan) return divide_evenly(first, last);
+  while (order_.key(first) == order_.key(last - 1)) {
+    if (!order_.refine(executor_, boxes, first, last)) return divide_evenly(first, last);
+  }
+  Parts parts;
+  const std::uint32_t key = order_.key(first);
+  const int depth = OctreeOrder::common_levels(key, order_.key(last - 1));
+  // Those that are too large for a part; of one cell, those of the largest size.
+  const int own_depth = depth < OctreeOrder::most_levels ? depth : OctreeOrder::depth(key);
+  std::uint32_t end = first;
+  while (OctreeOrder::depth(order_.key(end)) <= own_depth) ++end;
+  if (end > first) parts.ends[parts.count++] = end;
+  if (depth == OctreeOrder::most_levels) {
+    parts.ends[parts.count++] = last;
+    return parts;
+  }
+  const std::uint32_t own_parts = parts.count;
+  std::uint32_t begin = end;  // of the part before
+  while (end < last) {
+    const std::uint32_t octant = OctreeOrder::octant(order_.key(end), depth);
+    const std::uint32_t from = end;
+    std::uint32_t behind = last;
+    while (end + 1 < behind) {
+      const std::uint32_t middle = end + (behind - end) / 2;
+      (OctreeOrder::octant(order_.key(middle), depth) == octant ? end : behind) = middle;
+    }
+    end = behind;
+    if (parts.count > own_parts && end - begin <= fan)
+      --parts.count;
+    else
+      begin = from;
+    parts.ends[parts.count++] = end;
+  }
+  return parts;
+}
+
+LooseOctree::Parts LooseOctree::divide_evenly(std::uint32_t first, std::uint32_t last) {
+  Parts parts;
+  std::uint32_t size = fan;
+  while (size * fan < last - first) size *= fan;
+  while (first < last) parts.ends[parts.count++] = first = std::min(first + size, last);
+  return parts;
+}
+
+void LooseOctree::fit() {
+  BoxArrays& nodes = tree_.nodes;
+  nodes.resize(refs_.size());
+  for_each_block(
+      executor_, refs_.size(), 512, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          const NodeRef ref = refs_[i];
+          const Aabb bounds = ref.packed != no_node.packed && ref.is_leaf()
+                                  ? bounds_of(boxes_, {ref.begin(), ref.begin() + ref.count()})
+                                  : Aabb::empty();
+          nodes.set(i, bounds, ref.packed);
+        }
+      });
+  for (std::size_t block = cells_.size(); block-- > 1;) {
+    const std::size_t node = tree_.parent[block];
+    nodes.set(node, bounds_of(nodes, {block * fan, block * fan + fan}), refs_[node].packed);
+  }
+}
 
 }  // namespace
 }  // namespace touchstone
@@ -314,7 +219,7 @@ class LooseOctree final : public BroadPhase {
 TOUCHSTONE_BROAD_PHASE {
   return {{.info = {.name = "loose-octree",
                     .citation = "Ulrich, \"Loose Octrees\", Game Programming Gems, 2000; "
-                                "Gargantini, CACM 1982 (linear)"},
+                                "Gargantini, CACM 1982 (linear); cells against cells"},
            .make = [](touchstone::Executor& executor) {
              return std::make_unique<touchstone::LooseOctree>(executor);
            }}};

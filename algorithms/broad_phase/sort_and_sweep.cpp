@@ -65,7 +65,7 @@ class SortAndSweep final : public BroadPhase {
 
   BroadPhaseWork work() const override {
     if (ids_.size() > most_boxes) return {};
-    BroadPhaseWork work = work_of_sweep(runs_, shortest_);
+    BroadPhaseWork work = work_of_sweep(runs_, shortest_, {0, runs_.size()}, runs_.size());
     work.bytes = sum_held_bytes(ids_, radix_sort_, runs_);
     for (const Axis& axis : axes_) work.bytes += sum_held_bytes(axis.ends, axis.rank, axis.end);
     return work;

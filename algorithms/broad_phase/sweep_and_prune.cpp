@@ -57,7 +57,8 @@ class SweepAndPrune final : public BroadPhase {
   }
 
   BroadPhaseWork work() const override {
-    BroadPhaseWork work = work_of_sweep(arrays_, static_cast<int>(axis_));
+    BroadPhaseWork work =
+        work_of_sweep(arrays_, static_cast<int>(axis_), {0, arrays_.size()}, arrays_.size());
     work.bytes = sum_held_bytes(ids_, sums_, order_, radix_sort_, arrays_);
     return work;
   }

@@ -5,12 +5,13 @@
 // Departs: the cells have the proportions of the usual box and twice its size. They are runs of
 //          sorted entries, so empty cells cost nothing. A pair is reported only in its home cell,
 //          which holds the component-wise greater of the two minimum corners, so there is nothing
-//          to sort out afterwards. Boxes that touch more than 64 cells are kept apart and tested
-//          against all.
+//          to sort out afterwards. A cell where boxes crowd is swept along its longest axis. Boxes
+//          that touch more than 64 cells are kept apart and tested against all.
 // Fails:   sizes of many orders: the cells suit nine boxes in ten, small boxes crowd in them, and
 //          many large ones each meet every box. A world more than 2^20 cells wide.
-// Cost:    O(n) for boxes of about one size, spread out; O(m^2) in a cell of m boxes, O(n) for each
-//          large box. O(n) memory beside the output.
+// Cost:    O(n) for boxes of about one size, spread out; about O(m^(5/3)) in a cell of m boxes,
+// O(n)
+//          for each large box. O(n) memory beside the output.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,6 +20,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_scan.h"
 #include "algorithms/kernels/cell_space.h"
+#include "algorithms/kernels/crowds.h"
 #include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/radix_sort.h"
 
@@ -36,6 +38,7 @@ class UniformGrid final : public BroadPhase {
     write_entries(boxes);
     radix_sort_(executor_, entries_, shift_[2] + std::bit_width(space_.last[2]),
                 [](const Entry& entry) { return entry.cell; });
+    list_crowds(boxes);
     gather(boxes);
   }
 
@@ -48,8 +51,13 @@ class UniformGrid final : public BroadPhase {
     sink.start(cell_tasks + large_tasks);
     for_each_block(executor_, entries_.size(), rows_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
-                     visit_cells(first, last, [&](IndexRange rows, IndexRange cell) {
-                       scan_marked_boxes(arrays_, marks_, wants_, rows, cell, sink.chunk(task));
+                     PairBuffer& out = sink.chunk(task);
+                     visit_cells(first, last, [&](IndexRange rows, IndexRange cell, int axis) {
+                       if (axis == no_axis) {
+                         scan_marked_boxes(arrays_, marks_, wants_, rows, cell, out);
+                       } else {
+                         sweep_marked_boxes(arrays_, marks_, wants_, axis, rows, cell.last, out);
+                       }
                      });
                    });
     if (large_.empty()) return Status::ok;
@@ -62,21 +70,26 @@ class UniformGrid final : public BroadPhase {
   }
 
   BroadPhaseWork work() const override {
-    std::size_t tests = 0;
-    std::size_t visits = 0;
+    BroadPhaseWork sum{.box_tests = 0, .node_visits = 0, .candidates = 0};
+    const auto add_scan = [&](IndexRange rows, IndexRange columns) {
+      const auto tests = static_cast<std::int64_t>(pairs_of_scan(rows, columns));
+      sum.box_tests += tests;
+      sum.candidates += tests;
+    };
     for (std::size_t first = 0; first < entries_.size(); first += rows_a_task) {
       visit_cells(first, std::min(first + rows_a_task, entries_.size()),
-                  [&](IndexRange rows, IndexRange cell) {
-                    tests += pairs_of_scan(rows, cell);
-                    ++visits;
+                  [&](IndexRange rows, IndexRange cell, int axis) {
+                    ++sum.node_visits;
+                    if (axis == no_axis) return add_scan(rows, cell);
+                    const BroadPhaseWork swept = work_of_sweep(arrays_, axis, rows, cell.last);
+                    sum.box_tests += swept.box_tests;
+                    sum.candidates += swept.candidates;
                   });
     }
-    tests += pairs_of_scan(large_rows(arrays_.size()), {0, arrays_.size()});
-    return {.box_tests = static_cast<std::int64_t>(tests),
-            .node_visits = static_cast<std::int64_t>(visits),
-            .candidates = static_cast<std::int64_t>(tests),
-            .bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, arrays_, marks_,
-                                    wants_)};
+    add_scan(large_rows(arrays_.size()), {0, arrays_.size()});
+    sum.bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, crowds_, crowd_sort_,
+                               arrays_, marks_, wants_);
+    return sum;
   }
 
  private:
@@ -86,6 +99,8 @@ class UniformGrid final : public BroadPhase {
   static constexpr std::size_t rows_a_task = 512;
   static constexpr std::size_t columns_a_task = 8192;
   static constexpr std::uint32_t all_axes = 7;
+  static constexpr std::size_t least_crowd = 512;
+  static constexpr int no_axis = -1;
 
   struct Entry {
     std::uint64_t cell;
@@ -176,6 +191,18 @@ class UniformGrid final : public BroadPhase {
     return at;
   }
 
+  // Cells with many entries, which are put in the order of their boxes' minima on an axis.
+  void list_crowds(std::span<const Aabb> boxes) {
+    crowds_.clear();
+    visit_crowds(
+        {0, entries_.size()}, least_crowd, [&](std::size_t i) { return entries_[i].cell; },
+        [&](IndexRange run) {
+          const auto entries = std::span(entries_).subspan(run.first, run.last - run.first);
+          const auto id = [](const Entry& entry) { return entry.id; };
+          crowds_.push_back({run, crowd_sort_(executor_, boxes, entries, id)});
+        });
+  }
+
   // The large boxes, then the entries. A cell is a pair's home when on each axis one of the two
   // starts in its slab: a row wants of the column what it does not bring itself. A large box counts
   // as starting in every slab, and wants all of the other, which just one entry of a box has.
@@ -200,20 +227,33 @@ class UniformGrid final : public BroadPhase {
   // The large boxes that are to meet those of the columns before `last`.
   IndexRange large_rows(std::size_t last) const { return {0, std::min(large_.size(), last)}; }
 
-  // Calls visit(rows, cell) for each cell of the entries of [first, last): they are to meet those
-  // behind them in their cell.
+  // Calls visit(rows, cell, axis) for each cell of the entries of [first, last): they are to meet
+  // those behind them in their cell, by a sweep along the axis if there is one.
   template <class Visit>
   void visit_cells(std::size_t first, std::size_t last, const Visit& visit) const {
-    const std::size_t offset = large_.size();
+    const auto places = [&](std::size_t from, std::size_t to) {
+      return IndexRange{large_.size() + from, large_.size() + to};
+    };
+    auto crowd = std::ranges::upper_bound(crowds_, first, {}, &Crowd::last);
     while (first < last) {
       std::size_t end = first + 1;
+      int axis = no_axis;
+      if (crowd != crowds_.end() && crowd->run.first <= first) {
+        end = crowd->run.last;
+        axis = crowd->axis;
+        ++crowd;
+      }
       while (end < entries_.size() && entries_[end].cell == entries_[first].cell) ++end;
-      visit(IndexRange{offset + first, offset + std::min(end, last)},
-            IndexRange{offset + first, offset + end});
+      visit(places(first, std::min(end, last)), places(first, end), axis);
       first = end;
     }
   }
 
+  struct Crowd {
+    IndexRange run;
+    int axis;
+    std::size_t last() const { return run.last; }
+  };
   struct Begin {
     std::size_t entries = 0, large = 0;
   };
@@ -226,6 +266,8 @@ class UniformGrid final : public BroadPhase {
   std::vector<Entry> entries_;  // in the order of the cells
   std::vector<std::uint32_t> large_;
   RadixSort<Entry> radix_sort_;
+  std::vector<Crowd> crowds_;
+  CrowdSort<Entry> crowd_sort_;
   BoxArrays arrays_;
   std::vector<std::uint32_t> marks_, wants_;
 };

@@ -28,6 +28,15 @@ TOUCHSTONE_TARGET inline unsigned overlaps(const Row& row, const Columns& boxes,
   return Lanes::bits(overlap_on(test, row, boxes, 2, j));
 }
 
+// The same of 16 boxes.
+TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxes, std::size_t j) {
+  unsigned lanes = 0;
+  for (std::size_t part = 0; part < 16; part += Lanes::width) {
+    lanes |= overlaps(row, boxes, j + part) << part;
+  }
+  return lanes;
+}
+
 // Sixteen boxes from j on, kept in registers where there are enough.
 struct Sixteen {
   static constexpr std::size_t parts = 16 / Lanes::width;

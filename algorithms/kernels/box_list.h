@@ -31,6 +31,11 @@ class BoxList {
   void append(const Aabb& bound, const BoxArrays& from, IndexRange range);
   void append(const Aabb& bound, IndexRange range);
 
+  // For whoever writes boxes behind the last one: room for `more` and a vector's width; how many it
+  // was. What lies behind is then undefined.
+  void reserve(std::size_t more);
+  void advance(std::size_t written) { end_ += written; }
+
   const float* min(int axis) const { return sides_[static_cast<std::size_t>(axis)].data(); }
   const float* max(int axis) const { return sides_[static_cast<std::size_t>(axis) + 3].data(); }
   float* min(int axis) { return sides_[static_cast<std::size_t>(axis)].data(); }
@@ -39,7 +44,6 @@ class BoxList {
   std::uint32_t* ids() { return ids_.data(); }
 
  private:
-  void reserve(std::size_t more);
   void close();
 
   std::array<std::vector<float>, 6> sides_;

@@ -1,15 +1,6 @@
 // The loops of box_list.h. Included by box_list.cpp once for each level of vector instructions,
 // inside that level's namespace.
 
-// Which of the 16 boxes from j on overlap the row's.
-TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxes, std::size_t j) {
-  unsigned lanes = 0;
-  for (std::size_t part = 0; part < 16; part += Lanes::width) {
-    lanes |= overlaps(row, boxes, j + part) << part;
-  }
-  return lanes;
-}
-
 // The first `count` of 16, all where there are more.
 inline unsigned first_lanes(std::size_t count) { return count < 16 ? (1u << count) - 1 : 0xffffu; }
 

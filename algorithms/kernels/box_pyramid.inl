@@ -2,16 +2,7 @@
 // instructions, inside that level's namespace. The lists are the same at every level, and so is the
 // order in which pairs are written.
 
-// Which of the 16 boxes from j on overlap the row's.
-TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxes, std::size_t j) {
-  unsigned lanes = 0;
-  for (std::size_t part = 0; part < fan; part += Lanes::width) {
-    lanes |= overlaps(row, boxes, j + part) << part;
-  }
-  return lanes;
-}
-
-// The same, of those before `end`.
+// Which of the 16 boxes from j on, and before `end`, overlap the row's.
 TOUCHSTONE_TARGET inline unsigned overlaps_before(const Row& row, const Columns& boxes,
                                                   std::size_t j, std::size_t end) {
   const unsigned lanes = overlaps16(row, boxes, j);

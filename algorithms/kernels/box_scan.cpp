@@ -48,6 +48,17 @@ void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& 
   }
 }
 
+void sweep_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> marks,
+                        std::span<const std::uint32_t> wants, int axis, IndexRange rows,
+                        std::size_t end, PairBuffer& out) {
+  const Marks m{marks.data(), wants.data()};
+  switch (isa()) {
+    case Isa::avx512: return avx512::sweep_marked(columns_of(boxes), m, axis, rows, end, out);
+    case Isa::avx2: return avx2::sweep_marked(columns_of(boxes), m, axis, rows, end, out);
+    case Isa::baseline: return baseline::sweep_marked(columns_of(boxes), m, axis, rows, end, out);
+  }
+}
+
 std::size_t pairs_of_scan(IndexRange rows, IndexRange columns) {
   const std::size_t first = std::max(rows.first, columns.first);
   const std::size_t last = std::max(first, std::min(rows.last, columns.last));
@@ -58,11 +69,11 @@ std::size_t pairs_of_scan(IndexRange rows, IndexRange columns) {
   return outside * (columns.last - columns.first) + behind;
 }
 
-BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis) {
-  const std::span min(boxes.min(axis), boxes.size());
+BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis, IndexRange rows, std::size_t last) {
+  const std::span min(boxes.min(axis), last);
   std::size_t candidates = 0;
   std::size_t ended = 0;
-  for (std::size_t row = 0; row < boxes.size(); ++row) {
+  for (std::size_t row = rows.first; row < rows.last; ++row) {
     const auto behind = min.subspan(row + 1);
     const auto end = std::ranges::upper_bound(behind, boxes.max(axis)[row]);
     candidates += static_cast<std::size_t>(end - behind.begin());

@@ -30,8 +30,13 @@ std::size_t pairs_of_scan(IndexRange rows, IndexRange columns);
 // those behind it that start before it ends, and writes the ids of those that overlap.
 void sweep_boxes(const BoxArrays& boxes, int axis, IndexRange rows, PairBuffer& out);
 
-// Its box tests and candidates, of all rows: a row's candidates are those behind it that start
-// before it ends, and one test more finds where they end, unless the array does.
-BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis);
+// The same with marks, for boxes that are in that order before `end`, and rows among these.
+void sweep_marked_boxes(const BoxArrays& boxes, std::span<const std::uint32_t> marks,
+                        std::span<const std::uint32_t> wants, int axis, IndexRange rows,
+                        std::size_t end, PairBuffer& out);
+
+// The box tests and candidates of both: a row's candidates are those behind it that start before it
+// ends, and one test more finds where they end, unless `end` does.
+BroadPhaseWork work_of_sweep(const BoxArrays& boxes, int axis, IndexRange rows, std::size_t end);
 
 }  // namespace touchstone

@@ -51,23 +51,41 @@ TOUCHSTONE_TARGET void scan_marked(const Columns boxes, const Marks marks, Index
   }
 }
 
-TOUCHSTONE_TARGET void sweep(const Columns boxes, int axis, IndexRange rows, PairBuffer& out) {
+template <bool marked>
+TOUCHSTONE_TARGET inline void sweep_rows(const Columns& boxes, int axis, const Marks& marks,
+                                         IndexRange rows, std::size_t end, PairBuffer& out) {
   const int second = (axis + 1) % 3;
   const int third = (axis + 2) % 3;
   const Columns turned{{boxes.min[axis], boxes.min[second], boxes.min[third]},
                        {boxes.max[axis], boxes.max[second], boxes.max[third]},
                        boxes.ids};
-  constexpr unsigned all = (1u << Lanes::width) - 1;
+  constexpr std::size_t width = Lanes::width;
+  constexpr unsigned all = (1u << width) - 1;
   for (std::size_t i = rows.first; i < rows.last; ++i) {
     const Row row = load_row(turned, i);
-    // The padding starts at infinity, so the sweep ends there at the latest.
-    for (std::size_t j = i + 1;; j += Lanes::width) {
+    for (std::size_t j = i + 1;; j += width) {
+      if constexpr (marked) {
+        if (j >= end) break;
+      }
       // min[i] <= min[j] <= max[j]: on this axis one comparison decides.
       const Lanes::Test near = Lanes::less_equal(Lanes::load(turned.min[0] + j), row.max[0]);
       const Lanes::Test test = overlap_on(overlap_on(near, row, turned, 1, j), row, turned, 2, j);
-      const unsigned lanes = Lanes::bits(test);
-      if (lanes != 0) Lanes::write(lanes, turned.ids[i], turned.ids + j, out);
+      unsigned lanes = Lanes::bits(test);
+      if constexpr (marked) {
+        if (end - j < width) lanes &= (1u << (end - j)) - 1;
+      }
+      write<marked>(lanes, i, j, turned, marks, out);
       if (Lanes::bits(near) != all) break;
     }
   }
+}
+
+// The padding starts at infinity, so the sweep ends there at the latest.
+TOUCHSTONE_TARGET void sweep(const Columns boxes, int axis, IndexRange rows, PairBuffer& out) {
+  sweep_rows<false>(boxes, axis, {}, rows, 0, out);
+}
+
+TOUCHSTONE_TARGET void sweep_marked(const Columns boxes, const Marks marks, int axis,
+                                    IndexRange rows, std::size_t end, PairBuffer& out) {
+  sweep_rows<true>(boxes, axis, marks, rows, end, out);
 }

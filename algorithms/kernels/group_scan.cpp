@@ -1,6 +1,7 @@
 #include "algorithms/kernels/group_scan.h"
 
-#include <limits>
+#include <algorithm>
+#include <utility>
 
 #include "algorithms/kernels/box_lanes.h"
 
@@ -13,19 +14,32 @@ using box_lanes::columns_of;
 #define TOUCHSTONE_LOOPS "algorithms/kernels/group_scan.inl"
 #include "algorithms/kernels/every_level.inl"
 
+// The least of some numbers and the greatest of as many others. Four at a time; the last four may
+// have been there before.
+std::pair<float, float> ends_of(const float* low, const float* high, std::size_t count) {
+  using Four = box_lanes::baseline::Lanes;
+  if (count < Four::width)
+    return {*std::min_element(low, low + count), *std::max_element(high, high + count)};
+  Four::Floats least = Four::load(low);
+  Four::Floats greatest = Four::load(high);
+  for (std::size_t i = Four::width; i < count; i += Four::width) {
+    const std::size_t at = std::min(i, count - Four::width);
+    const Four::Floats l = Four::load(low + at);
+    const Four::Floats h = Four::load(high + at);
+    least = l < least ? l : least;
+    greatest = h > greatest ? h : greatest;
+  }
+  return {box_lanes::least4(least), box_lanes::greatest4(greatest)};
+}
+
 }  // namespace
 
 Aabb bounds_of(const BoxArrays& boxes, IndexRange range) {
   Aabb bounds{};
   for (int axis = 0; axis < 3; ++axis) {
-    const float* const min = boxes.min(axis);
-    const float* const max = boxes.max(axis);
-    float low = std::numeric_limits<float>::infinity();
-    float high = -low;
-    for (std::size_t i = range.first; i < range.last; ++i) {
-      low = min[i] < low ? min[i] : low;
-      high = max[i] > high ? max[i] : high;
-    }
+    const std::size_t count = range.last - range.first;
+    const auto [low, high] =
+        ends_of(boxes.min(axis) + range.first, boxes.max(axis) + range.first, count);
     bounds.min[static_cast<std::size_t>(axis)] = low;
     bounds.max[static_cast<std::size_t>(axis)] = high;
   }

@@ -34,14 +34,6 @@ TOUCHSTONE_TARGET inline unsigned overlaps_of_group(const Row& row, const Group&
   return lanes;
 }
 
-TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxes, std::size_t j) {
-  unsigned lanes = 0;
-  for (std::size_t part = 0; part < group_size; part += Lanes::width) {
-    lanes |= overlaps(row, boxes, j + part) << part;
-  }
-  return lanes;
-}
-
 TOUCHSTONE_TARGET void scan(const Columns boxes, IndexRange group, const Aabb& bounds,
                             std::span<const IndexRange> others, std::uint32_t* near,
                             std::int64_t& near_count, PairBuffer& out) {

@@ -36,13 +36,39 @@ std::vector<Aabb> clusters(Random& random) {
 }
 
 // Around a corner, where they are denser and smaller by up to 2^depth.
-// these.
 std::vector<Aabb> ever_denser(Random& random, std::size_t count, float depth) {
   std::vector<Aabb> boxes;
   for (std::size_t i = 0; i < count; ++i) {
     const float scale = std::exp2(-uniform(random, 0, depth));
     boxes.push_back(cube(scale * uniform(random, 0, 1), scale * uniform(random, 0, 1),
                          scale * uniform(random, 0, 1), 0.2f * scale));
+  }
+  return boxes;
+}
+
+// Most in a cluster that is `width` times narrower than the world where the others are, in that
+// again a few hundred in one `width` times narrower, with sides to suit.
+std::vector<Aabb> crowd_in_crowd(Random& random, float width, float side_outside) {
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 2000; ++i) {
+    const float scale = i % 20 == 0 ? width * width : i % 5 == 0 ? 1 : width;
+    const float side = (scale > width ? side_outside : 0.1f) * scale;
+    boxes.push_back(cube(scale * uniform(random, 0, 1), scale * uniform(random, 0, 1),
+                         scale * uniform(random, 0, 1), side * uniform(random, 0.5f, 1)));
+  }
+  return boxes;
+}
+
+// Thin plates one above the other, and such turned to the other axes.
+std::vector<Aabb> piles_of_plates(Random& random) {
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 1800; ++i) {
+    Aabb box =
+        cube(uniform(random, 0, 0.1f), uniform(random, 0, 0.1f), uniform(random, 0, 0.1f), 10);
+    const std::size_t axis = static_cast<std::size_t>(i) / 600;
+    box.min[axis] = uniform(random, 0, 10) + 20 * static_cast<float>(axis);
+    box.max[axis] = box.min[axis] + 0.02f;
+    boxes.push_back(box);
   }
   return boxes;
 }
@@ -185,6 +211,9 @@ std::vector<BoxSet> box_sets() {
   add("clusters", clusters(random));
   add("ever denser", ever_denser(random, 1000, 30));
   add("dense cluster", with_outliers(shifted(uniform_boxes(random, 1000, 0.1f), 1e-4f, 0), 40, 1));
+  add("a crowd in a crowd", crowd_in_crowd(random, 3e3f, 1e-5f));
+  add("a crowd in a crowd among large ones", crowd_in_crowd(random, 1e2f, 0.2f));
+  add("piles of plates", piles_of_plates(random));
   add("sizes over 3 orders", sizes_over_orders(random, 3));
   add("sizes over 6 orders", sizes_over_orders(random, 6));
   auto flat = uniform_boxes(random, 1000, 0.05f);
