@@ -14,28 +14,23 @@
 //          O(n + k) memory; k = pairs of fat boxes. About 45 bytes a body, 16 more where many move,
 //          and 17 a pair.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/kernels/curve_keys.h"
-#include "algorithms/kernels/group_scan.h"
+#include "algorithms/kernels/curve_tree.h"
+#include "algorithms/kernels/fat_margin.h"
 #include "algorithms/kernels/held_bytes.h"
 #include "algorithms/kernels/kept_pairs.h"
-#include "algorithms/kernels/wide_tree.h"
 
 namespace touchstone {
 namespace {
 
 class DynamicBvh final : public BroadPhase {
  public:
-  explicit DynamicBvh(Executor& executor)
-      : executor_(executor), scratch_(static_cast<std::size_t>(executor.width())) {}
+  explicit DynamicBvh(Executor& executor) : executor_(executor), bulk_(executor) {}
 
   void build(std::span<const Aabb> boxes) override {
     boxes_ = boxes;
-    is_sorted_ = false;
+    bulk_.change_bodies();
     state_.assign(boxes.size(), 0);
     load(Pairs::searched);
   }
@@ -45,17 +40,15 @@ class DynamicBvh final : public BroadPhase {
   BroadPhaseWork work() const override;
 
  private:
-  static constexpr std::size_t leaves_a_task = 32;
   static constexpr std::size_t bodies_a_task = 64;
   static constexpr std::size_t nodes_a_task = 256;
-  // Of the bodies: if more leave their boxes than that, all is made anew.
+  // Of the bodies: if more leave their boxes than this part, all is made anew.
   static constexpr std::size_t few = 16;
-  static constexpr float most_margin = 0.1f;  // of a body's longest side
-  static constexpr float frames_ahead = 8;
+  // If more move than this part, all bodies and pairs are gone through in their order.
+  static constexpr std::size_t scattered = 5;
   static constexpr std::size_t least_frames = 3;  // that a load is to last
   static constexpr std::size_t most_pairs_a_body = 64;
   static constexpr std::size_t crowd_wait = 32;  // frames
-  static constexpr std::size_t sample_size = 256;
   // Of a body's state.
   static constexpr std::uint8_t is_leaver = 1;
   static constexpr std::uint8_t is_mover = 2;
@@ -63,74 +56,31 @@ class DynamicBvh final : public BroadPhase {
   // How pairs are had: looked for in a tree as it was loaded; the same, to be kept from then on;
   // or from those that were kept.
   enum class Pairs : std::uint8_t { searched, wanted, kept };
-  struct Scratch {
-    WideTreeScratch tree;
-    GroupScratch group;
-  };
-  struct Motion {
-    float usual = 0;       // what nine in ten move, of those that a margin can serve
-    std::size_t fast = 0;  // bodies that leave any margin within four frames
-  };
 
-  static float longest_side(const Aabb& box) {
-    return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
+  Aabb fat_box_of(std::uint32_t id) const {
+    const WideTree& tree = bulk_.tree();
+    return tree.box_at(tree.place_of(id));
   }
-  static bool contains(const Aabb& outer, const Aabb& inner) {
-    bool within = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      within &= outer.min[axis] <= inner.min[axis] && inner.max[axis] <= outer.max[axis];
-    }
-    return within;
-  }
-  // The most that a side of the one lies off the same side of the other.
-  static float distance(const Aabb& a, const Aabb& b) {
-    float most = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      most = std::max(
-          {most, std::abs(a.min[axis] - b.min[axis]), std::abs(a.max[axis] - b.max[axis])});
-    }
-    return most;
-  }
-  Aabb fat(const Aabb& box) const {
-    constexpr float most = std::numeric_limits<float>::max();
-    const float margin = std::min(margin_, most_margin * longest_side(box));
-    Aabb grown;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      grown.min[axis] = std::max(box.min[axis] - margin, -most);
-      grown.max[axis] = std::min(box.max[axis] + margin, most);
-    }
-    return grown;
-  }
-  Aabb fat_box_of(std::uint32_t id) const { return tree_.box_at(tree_.place_of(id)); }
 
-  Motion motion_of(std::span<const std::uint32_t> moved) const;
   void make_anew(const FrameChange& change);
   void load(Pairs pairs);
-  void fill_tree();
-  void search(std::size_t task, Scratch& scratch, PairBuffer& out) const;
-  void search_all(PairSink& sink);
   void keep_pairs(PairSink& sink);
   void drop_apart(PairSink& sink) const;
 
   bool list_leavers(std::span<const std::uint32_t> moved);
-  void follow_motion(std::size_t moved);
+  void mark_leavers();
   void change_tree(const FrameChange& change);
   void look_anew();
 
   Executor& executor_;
-  std::vector<Scratch> scratch_;
   std::span<const Aabb> boxes_;  // of the frame
-  std::vector<std::uint32_t> ids_;
-  CurveKeys order_;
-  bool is_sorted_ = false;     // the order is of the bodies that are there
-  double spread_at_sort_ = 0;  // of the tree's leaves
-  WideTree tree_;
-  float margin_ = 0;
-  std::size_t count_ = 0;   // of bodies
-  std::size_t frames_ = 0;  // since the tree was loaded
-  std::size_t wait_ = 0;    // frames in which pairs are not to be kept
+  CurveTree bulk_;
+  FatMargin margin_;
   Pairs how_ = Pairs::searched;
   KeptPairs pairs_;
+  std::size_t count_ = 0;               // of bodies
+  std::size_t frames_ = 0;              // since the tree was loaded
+  std::size_t wait_ = 0;                // frames in which pairs are not to be kept
   std::vector<std::uint8_t> state_;     // of each body
   std::vector<std::uint32_t> leavers_;  // that have left their boxes, or are new, in this frame
   PairSink found_;                      // by them
@@ -138,102 +88,32 @@ class DynamicBvh final : public BroadPhase {
 
 // --- all bodies ---
 
-// From a sample of those that moved; the tree is of the boxes before.
-DynamicBvh::Motion DynamicBvh::motion_of(std::span<const std::uint32_t> moved) const {
-  Motion motion;
-  const std::size_t count = std::min(moved.size(), sample_size);
-  std::array<float, sample_size> slow;
-  std::size_t slow_count = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t id = moved[i * moved.size() / count];
-    const float way = distance(boxes_[id], fat_box_of(id));
-    if (way <= 0.25f * most_margin * longest_side(boxes_[id])) slow[slow_count++] = way;
-  }
-  if (count > 0) motion.fast = (count - slow_count) * moved.size() / count;
-  if (slow_count > 0) {
-    const auto at = slow.begin() + static_cast<std::ptrdiff_t>((slow_count - 1) * 9 / 10);
-    std::nth_element(slow.begin(), at, slow.begin() + static_cast<std::ptrdiff_t>(slow_count));
-    motion.usual = *at;
-  }
-  return motion;
-}
-
 void DynamicBvh::make_anew(const FrameChange& change) {
   const std::size_t churn = change.inserted.size() + change.removed.size();
   const std::size_t most = count_ / few;
   bool keep = wait_ == 0 && churn <= most;
   wait_ -= wait_ > 0 ? 1 : 0;
   if (how_ == Pairs::searched) {
-    const Motion motion = motion_of(change.moved);
-    keep &= motion.fast + churn <= most;
-    margin_ = frames_ahead * motion.usual;
+    keep &= margin_.measure(boxes_, change.moved, bulk_.tree()) + churn <= most;
   } else {
-    // As long as it lasted, it was wide enough for.
     keep &= frames_ >= least_frames;
-    margin_ *= std::clamp(frames_ahead / static_cast<float>(frames_ + 1), 0.5f, 2.0f);
+    margin_.adapt(frames_);
   }
   state_.resize(boxes_.size());
   for (const std::uint32_t id : change.moved) state_[id] = is_mover;
-  if (churn > 0) is_sorted_ = false;
+  if (churn > 0) bulk_.change_bodies();
   load(keep ? Pairs::wanted : Pairs::searched);
-  if (!keep || change.moved.size() > most) return;
-  // There will be no need for it soon.
-  is_sorted_ = false;
-  order_ = {};
-  ids_ = {};
+  if (keep && change.moved.size() <= most) bulk_.forget_order();
 }
 
 void DynamicBvh::load(Pairs pairs) {
   how_ = pairs;
   frames_ = 0;
-  const bool was_sorted = is_sorted_;
-  if (!was_sorted) {
-    list_bodies(executor_, boxes_, ids_);
-    order_.sort(executor_, boxes_, ids_);
-  }
-  fill_tree();
-  // Written so that a NaN, of bounds that overflow, makes a new order.
-  if (was_sorted && !(tree_.spread() <= 1.25 * spread_at_sort_)) {
-    list_bodies(executor_, boxes_, ids_);
-    order_.sort(executor_, boxes_, ids_);
-    fill_tree();
-    is_sorted_ = false;
-  }
-  if (!is_sorted_) spread_at_sort_ = tree_.spread();
-  is_sorted_ = true;
-}
-
-void DynamicBvh::fill_tree() {
-  count_ = order_.size();
-  const bool are_fat = how_ == Pairs::wanted;
-  tree_.start(count_, boxes_.size());
-  for_each_block(executor_, count_, 4096, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t id = order_.id(i);
-      const bool is_fat = are_fat && state_[id] != 0;
-      tree_.set(i, is_fat ? fat(boxes_[id]) : boxes_[id], id);
-    }
+  const bool are_fat = pairs == Pairs::wanted;
+  bulk_.load(boxes_, are_fat, [&](std::uint32_t id) {
+    return are_fat && state_[id] != 0 ? margin_.around(boxes_[id]) : boxes_[id];
   });
-  tree_.load(executor_, are_fat);
-  for (Scratch& scratch : scratch_) tree_.make_room(scratch.tree);
-}
-
-void DynamicBvh::search(std::size_t task, Scratch& scratch, PairBuffer& out) const {
-  const std::size_t last = std::min((task + 1) * leaves_a_task, tree_.leaves());
-  for (std::size_t leaf = task * leaves_a_task; leaf < last; ++leaf) {
-    tree_.find_partners(leaf, scratch.tree, scratch.group.work);
-    scan_group(tree_.boxes(), tree_.places_of(leaf), tree_.bounds_of_leaf(leaf),
-               scratch.tree.partners, scratch.group, out);
-  }
-}
-
-void DynamicBvh::search_all(PairSink& sink) {
-  const std::size_t tasks = count_ == 0 ? 0 : block_count(tree_.leaves(), leaves_a_task);
-  sink.start(tasks);
-  const auto body = [&](std::size_t task, int worker) {
-    search(task, scratch_[static_cast<std::size_t>(worker)], sink.chunk(task));
-  };
-  executor_.run(tasks, std::cref(body));
+  count_ = bulk_.tree().loaded();
 }
 
 // --- some bodies ---
@@ -250,9 +130,9 @@ void DynamicBvh::update(const FrameChange& change) {
     return make_anew(change);
   }
   ++frames_;
-  follow_motion(change.moved.size());
+  margin_.widen(boxes_, change.moved.size(), leavers_, bulk_.tree());
   if (leavers_.size() + churn > 0) change_tree(change);
-  if (change.moved.size() > count_ / few) {
+  if (change.moved.size() > count_ / scattered) {
     pairs_.test(executor_, boxes_);
   } else {
     pairs_.test(change.moved, boxes_);
@@ -263,85 +143,64 @@ void DynamicBvh::update(const FrameChange& change) {
 // Those that moved and are no longer in their fat boxes; false where they are many.
 bool DynamicBvh::list_leavers(std::span<const std::uint32_t> moved) {
   leavers_.clear();
-  const std::size_t most = count_ / few;
-  if (moved.size() <= most) {
+  if (moved.size() <= count_ / scattered) {
     for (const std::uint32_t id : moved) {
-      if (!contains(fat_box_of(id), boxes_[id])) leavers_.push_back(id);
+      if (!FatMargin::holds(fat_box_of(id), boxes_[id])) leavers_.push_back(id);
     }
   } else {
-    // All in the order of the tree, which is kinder to memory. An empty box, of a body that goes,
-    // is within any; and new bodies are not in it yet.
-    const std::uint32_t* const ids = tree_.boxes().ids();
-    const auto mark = [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t node = first; node < last; ++node) {
-        if (!tree_.is_leaf(node)) continue;
-        for (std::size_t place = node * WideTree::fan; place < (node + 1) * WideTree::fan;
-             ++place) {
-          const std::uint32_t id = ids[place];
-          if (id == WideTree::nobody || contains(tree_.box_at(place), boxes_[id])) continue;
-          state_[id] |= is_leaver;
-        }
-      }
-    };
-    for_each_block(executor_, tree_.nodes(), nodes_a_task, mark);
+    mark_leavers();
     for (const std::uint32_t id : moved) {
       if ((state_[id] & is_leaver) != 0) leavers_.push_back(id);
     }
   }
   for (const std::uint32_t id : leavers_) state_[id] = is_mover | is_leaver;
-  return leavers_.size() <= most;
+  return leavers_.size() <= count_ / few;
 }
 
-// Where many of those that move leave their boxes, the margin is too small: what they are outside
-// by is no more than their way.
-void DynamicBvh::follow_motion(std::size_t moved) {
-  if (leavers_.empty() || 4 * leavers_.size() < moved) return;
-  std::array<float, sample_size> ways{};
-  const std::size_t count = std::min(leavers_.size(), sample_size);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t id = leavers_[i * leavers_.size() / count];
-    const Aabb then = fat_box_of(id);
-    const Aabb& now = boxes_[id];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      ways[i] = std::max({ways[i], then.min[axis] - now.min[axis], now.max[axis] - then.max[axis]});
+// All in the order of the tree, which is kinder to memory. An empty box, of a body that goes, is
+// within any; and new bodies are not there yet.
+void DynamicBvh::mark_leavers() {
+  const WideTree& tree = bulk_.tree();
+  const auto mark = [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t place = first * WideTree::fan; place < last * WideTree::fan; ++place) {
+      const std::uint32_t id = tree.boxes().ids()[place];
+      if (!tree.is_leaf(place / WideTree::fan) || id == WideTree::nobody) continue;
+      if (!FatMargin::holds(tree.box_at(place), boxes_[id])) state_[id] |= is_leaver;
     }
-  }
-  const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(ways.begin(), middle, ways.begin() + static_cast<std::ptrdiff_t>(count));
-  margin_ = std::max(margin_, frames_ahead * *middle);
+  };
+  for_each_block(executor_, tree.nodes(), nodes_a_task, mark);
 }
 
 void DynamicBvh::change_tree(const FrameChange& change) {
+  WideTree& tree = bulk_.tree();
   pairs_.remove(leavers_);
   pairs_.remove(change.removed);
-  for (const std::uint32_t id : leavers_) tree_.move(id, fat(boxes_[id]));
-  for (const std::uint32_t id : change.removed) tree_.remove(id);
-  tree_.make_room_for_ids(boxes_.size());
+  for (const std::uint32_t id : leavers_) tree.move(id, margin_.around(boxes_[id]));
+  for (const std::uint32_t id : change.removed) tree.remove(id);
+  tree.make_room_for_ids(boxes_.size());
   pairs_.make_room_for_ids(boxes_.size());
   state_.resize(boxes_.size());
   for (const std::uint32_t id : change.inserted) {
     state_[id] = is_mover | is_leaver;
     leavers_.push_back(id);
-    tree_.insert(id, fat(boxes_[id]));
+    tree.insert(id, margin_.around(boxes_[id]));
   }
-  tree_.rebuild_worn();
-  if (!change.inserted.empty() || !change.removed.empty()) is_sorted_ = false;
+  tree.rebuild_worn();
+  if (!change.inserted.empty() || !change.removed.empty()) bulk_.change_bodies();
   count_ += change.inserted.size();
   count_ -= change.removed.size();
 }
 
 // The new pairs of those that have left their boxes; two of them meet once.
 void DynamicBvh::look_anew() {
-  if (leavers_.empty()) return;
-  for (Scratch& scratch : scratch_) tree_.make_room(scratch.tree);
   const std::size_t tasks = block_count(leavers_.size(), bodies_a_task);
   found_.start(tasks);
   const auto look = [&](std::size_t task, int worker) {
-    WideTreeScratch& scratch = scratch_[static_cast<std::size_t>(worker)].tree;
+    WideTreeScratch& scratch = bulk_.scratch(worker);
     const std::size_t last = std::min((task + 1) * bodies_a_task, leavers_.size());
     for (std::size_t i = task * bodies_a_task; i < last; ++i) {
       const std::uint32_t id = leavers_[i];
-      for (const std::uint32_t other : tree_.find(fat_box_of(id), scratch)) {
+      for (const std::uint32_t other : bulk_.tree().find(fat_box_of(id), scratch)) {
         if ((state_[other] & is_leaver) == 0 || id < other) found_.chunk(task).push(id, other);
       }
     }
@@ -356,7 +215,7 @@ void DynamicBvh::look_anew() {
 // --- the pairs ---
 
 Status DynamicBvh::find_pairs(PairSink& sink) {
-  if (how_ != Pairs::kept) search_all(sink);
+  if (how_ != Pairs::kept) bulk_.find_pairs(sink);
   if (how_ == Pairs::wanted) keep_pairs(sink);
   if (how_ == Pairs::kept) pairs_.write(executor_, sink);
   return Status::ok;
@@ -388,20 +247,14 @@ void DynamicBvh::drop_apart(PairSink& sink) const {
 }
 
 BroadPhaseWork DynamicBvh::work() const {
-  Scratch scratch;
-  BroadPhaseWork& work = scratch.group.work;
+  BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
   if (how_ == Pairs::kept) {
     work.candidates = static_cast<std::int64_t>(pairs_.size());
     work.box_tests = work.candidates;
-  } else if (count_ > 0) {
-    tree_.make_room(scratch.tree);
-    PairBuffer pairs;
-    for (std::size_t task = 0; task < block_count(tree_.leaves(), leaves_a_task); ++task) {
-      pairs.clear();
-      search(task, scratch, pairs);
-    }
+  } else {
+    work = bulk_.work();
   }
-  work.bytes = sum_held_bytes(ids_, order_, tree_, pairs_, state_, leavers_, found_);
+  work.bytes = sum_held_bytes(bulk_, pairs_, state_, leavers_, found_);
   return work;
 }
 

@@ -43,6 +43,7 @@ class WideTree {
     place_of_[id] = static_cast<std::uint32_t>(place);
   }
   void load(Executor& executor, bool is_to_change);
+  std::size_t loaded() const { return bodies_; }
 
   // The boxes of the bodies, and of nodes; a leaf's are 16 places one behind the other.
   const BoxArrays& boxes() const { return boxes_; }
