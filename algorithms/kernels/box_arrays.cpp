@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace touchstone {
 
@@ -16,6 +17,21 @@ void BoxArrays::resize(std::size_t count) {
   }
   size_ = count;
   for (std::size_t place = count; place < count + padding; ++place) set(place, Aabb::empty(), 0);
+}
+
+void BoxArrays::grow(std::size_t count) {
+  if (count + padding > stride_) {
+    BoxArrays more;
+    more.resize(count);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::copy_n(min(axis), size_, more.min(axis));
+      std::copy_n(max(axis), size_, more.max(axis));
+    }
+    std::copy_n(ids(), size_, more.ids());
+    *this = std::move(more);
+  } else {
+    resize(count);
+  }
 }
 
 void list_bodies(Executor& executor, std::span<const Aabb> boxes, std::vector<std::uint32_t>& ids) {

@@ -27,6 +27,8 @@ class BoxArrays {
 
   // Makes room for `count` boxes, whose contents are whatever was there.
   void resize(std::size_t count);
+  // The same, but the boxes stay, and there is room for no more than `count` where there was less.
+  void grow(std::size_t count);
   std::size_t size() const { return size_; }
   std::size_t held_bytes() const { return stride_ * (6 * sizeof(float) + sizeof(std::uint32_t)); }
 

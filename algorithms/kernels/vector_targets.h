@@ -6,6 +6,7 @@
 #if !defined(__clang__)
 // GCC 12 takes the header's own undefined vectors for mistakes of ours.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
 #include <immintrin.h>
 #pragma GCC diagnostic pop

@@ -6,6 +6,7 @@
 
 #include "algorithms/kernels/blocks.h"
 #include "algorithms/kernels/box_lanes.h"
+#include "algorithms/kernels/box_surface.h"
 #include "algorithms/kernels/group_scan.h"
 #include "algorithms/kernels/held_bytes.h"
 
@@ -25,28 +26,26 @@ auto descend_of_level() {
     default: return baseline::descend;
   }
 }
-
-Aabb united(const Aabb& a, const Aabb& b) {
-  Aabb sum;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    sum.min[axis] = std::min(a.min[axis], b.min[axis]);
-    sum.max[axis] = std::max(a.max[axis], b.max[axis]);
+auto bounds16_of_level() {
+  switch (isa()) {
+    case Isa::avx512: return avx512::bounds16;
+    case Isa::avx2: return avx2::bounds16;
+    default: return baseline::bounds16;
   }
-  return sum;
 }
-
-// A quarter of the surface, and a little of the lengths, for boxes of a point or a line. In double,
-// in which no float overflows.
-double surface(const Aabb& box) {
-  const double x = double{box.max[0]} - box.min[0];
-  const double y = double{box.max[1]} - box.min[1];
-  const double z = double{box.max[2]} - box.min[2];
-  return x * y + y * z + z * x + 1e-6 * (x * x + y * y + z * z);
+auto surfaces16_of_level() {
+  switch (isa()) {
+    case Isa::avx512: return avx512::surfaces16;
+    case Isa::avx2: return avx2::surfaces16;
+    default: return baseline::surfaces16;
+  }
 }
 
 }  // namespace
 
-BoxArrays& WideTree::start(std::size_t bodies) {
+// --- in bulk ---
+
+void WideTree::start(std::size_t bodies, std::size_t id_count) {
   bodies_ = bodies;
   leaves_ = std::max<std::size_t>(1, block_count(bodies, fan));
   std::size_t height = 0;
@@ -58,43 +57,55 @@ BoxArrays& WideTree::start(std::size_t bodies) {
   }
   node_count_ = begins_[height + 1];
   root_ = node_count_ - 1;
-  node_capacity_ = 2 * node_count_ + leaves_ / 15 + 4 * most_heights;
-  boxes_.resize(node_capacity_ * fan);
-  parent_of_.resize(node_capacity_);
-  height_of_.resize(node_capacity_);
+  free_nodes_.clear();
+  marked_.clear();
+  make_node_capacity(node_count_);
   for (std::size_t h = 0; h <= height; ++h) {
-    for (std::size_t node = begins_[h]; node < begins_[h + 1]; ++node) {
-      height_of_[node] = static_cast<std::uint8_t>(h);
-    }
+    std::fill(height_of_.begin() + static_cast<std::ptrdiff_t>(begins_[h]),
+              height_of_.begin() + static_cast<std::ptrdiff_t>(begins_[h + 1]),
+              static_cast<std::uint8_t>(h));
   }
-  return boxes_;
+  place_of_.resize(id_count);
 }
 
-void WideTree::load(Executor& executor, std::size_t id_count) {
-  place_of_.resize(id_count);
+void WideTree::load(Executor& executor, bool is_to_change) {
   for (std::size_t place = bodies_; place < leaves_ * fan; ++place) {
     boxes_.set(place, Aabb::empty(), nobody);
   }
-  const std::size_t placed = id_count > 0 ? bodies_ : 0;
-  for_each_block(executor, placed, 8192, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      place_of_[boxes_.ids()[i]] = static_cast<std::uint32_t>(i);
-    }
-  });
   for (std::size_t height = 0; begins_[height + 1] < node_count_; ++height) {
     const std::size_t below = begins_[height];
     const std::size_t count = begins_[height + 1] - below;
     const std::size_t above = begins_[height + 1] * fan;
     for_each_block(executor, count, 1024, [&](std::size_t, std::size_t first, std::size_t last) {
+      const auto bounds = bounds16_of_level();
+      const Columns columns = columns_of(boxes_);
       for (std::size_t i = first; i < last; ++i) {
         const std::size_t node = below + i;
-        put(above + i, bounds_of(boxes_, {node * fan, node * fan + fan}),
-            static_cast<std::uint32_t>(node));
+        boxes_.set(above + i, bounds(columns, node * fan), static_cast<std::uint32_t>(node));
+        parent_of_[node] = static_cast<std::uint32_t>(above + i);
       }
     });
     const std::size_t end = begins_[height + 2] * fan;
     for (std::size_t i = above + count; i < end; ++i) boxes_.set(i, Aabb::empty(), nobody);
   }
+  if (!is_to_change) return;
+  std::ranges::fill(is_marked_, std::uint8_t{0});
+  for (std::size_t node = leaves_; node < node_count_; ++node) cost_of_[node] = cost(node);
+}
+
+void WideTree::make_node_capacity(std::size_t nodes) {
+  if (nodes <= node_capacity_) return;
+  const bool is_first = node_capacity_ == 0;
+  node_capacity_ = nodes + (is_first ? 0 : nodes / 16 + 4);
+  boxes_.grow(node_capacity_ * fan);
+  for (auto* const items : {&parent_of_, &free_nodes_, &marked_}) items->reserve(node_capacity_);
+  height_of_.reserve(node_capacity_);
+  is_marked_.reserve(node_capacity_);
+  cost_of_.reserve(node_capacity_);
+  parent_of_.resize(node_capacity_);
+  height_of_.resize(node_capacity_);
+  is_marked_.resize(node_capacity_);
+  cost_of_.resize(node_capacity_);
 }
 
 Aabb WideTree::box_at(std::size_t place) const {
@@ -104,6 +115,10 @@ Aabb WideTree::box_at(std::size_t place) const {
     box.max[static_cast<std::size_t>(axis)] = boxes_.max(axis)[place];
   }
   return box;
+}
+
+Aabb WideTree::bounds_of_node(std::size_t node) const {
+  return bounds16_of_level()(columns_of(boxes_), node * fan);
 }
 
 IndexRange WideTree::places_of(std::size_t leaf) const {
@@ -123,9 +138,11 @@ double WideTree::spread() const {
   return sum;
 }
 
+// --- searches ---
+
 void WideTree::make_room(WideTreeScratch& scratch) const {
   // A vector's width more, since whole vectors are written.
-  const std::size_t room = node_capacity_ * fan + fan;
+  const std::size_t room = node_capacity_ + fan;
   if (scratch.nodes.size() < room) scratch.nodes.resize(room);
   if (scratch.children.size() < room) scratch.children.resize(room);
 }
@@ -174,159 +191,52 @@ std::span<const std::uint32_t> WideTree::find(const Aabb& box, WideTreeScratch& 
   std::uint32_t* children = scratch.children.data();
   nodes[0] = static_cast<std::uint32_t>(root_);
   std::size_t count = 1;
-  for (std::size_t height = height_of_[root_] + std::size_t{1}; height > 0; --height) {
+  for (std::size_t height = height_of_[root_]; height > 0; --height) {
     count = down(columns, box, nodes, count, children);
     std::swap(nodes, children);
   }
-  return {nodes, count};
-}
-
-// Children of inner nodes know their parent, bodies their place.
-void WideTree::put(std::size_t place, const Aabb& box, std::uint32_t child) {
-  boxes_.set(place, box, child);
-  if (is_leaf(place / fan)) {
-    place_of_[child] = static_cast<std::uint32_t>(place);
-  } else {
-    parent_of_[child] = static_cast<std::uint32_t>(place);
-  }
-}
-
-std::size_t WideTree::new_node(std::size_t height) {
-  const std::size_t node = node_count_++;
-  height_of_[node] = static_cast<std::uint8_t>(height);
-  for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
-    boxes_.set(place, Aabb::empty(), nobody);
-  }
-  return node;
-}
-
-// A change splits a leaf at most. Of the nodes above, which were loaded full, each may split at the
-// first split below it, and again at each eighth: halves have at least eight children.
-bool WideTree::has_room_for(std::size_t changes) const {
-  const std::size_t above = leaves_ / 15 + changes / 7 + 2 * most_heights;
-  return node_count_ + changes + above <= node_capacity_;
+  const std::size_t room = (count + 1) * fan;
+  if (scratch.found.size() < room) scratch.found.resize(room);
+  return {scratch.found.data(), down(columns, box, nodes, count, scratch.found.data())};
 }
 
 // The child whose surface grows least.
 std::size_t WideTree::best_child(std::size_t node, const Aabb& box) const {
+  std::array<double, fan> growths, surfaces;
+  const std::size_t first = node * fan;
+  surfaces16_of_level()(columns_of(boxes_), first, box, growths.data(), surfaces.data());
   std::size_t best = nobody;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
-    if (boxes_.ids()[place] == nobody) continue;
-    if (best == nobody) best = place;
-    const Aabb child = box_at(place);
-    if (child.is_empty()) continue;  // where all bodies have left
-    const double growth = surface(united(child, box)) - surface(child);
-    if (growth < least) {
-      least = growth;
-      best = place;
+  for (std::size_t i = 0; i < fan; ++i) {
+    if (boxes_.ids()[first + i] == nobody) continue;
+    if (best == nobody) best = first + i;
+    // Empty ones are those that all bodies have left: they are taken where there is nothing else.
+    const bool is_empty = boxes_.min(0)[first + i] > boxes_.max(0)[first + i];
+    if (!is_empty && growths[i] < least) {
+      least = growths[i];
+      best = first + i;
     }
   }
   return boxes_.ids()[best];
 }
 
-void WideTree::insert(std::uint32_t id, const Aabb& box) {
-  std::size_t node = root_;
-  while (!is_leaf(node)) node = best_child(node, box);
-  add(node, box, id);
-}
-
-void WideTree::add(std::size_t node, const Aabb& box, std::uint32_t child) {
-  const std::uint32_t* const first = boxes_.ids() + node * fan;
-  const std::uint32_t* const free = std::find(first, first + fan, nobody);
-  if (free == first + fan) return split(node, box, child);
-  put(node * fan + static_cast<std::size_t>(free - first), box, child);
-  fit_above(node);
-}
-
-void WideTree::split(std::size_t node, const Aabb& box, std::uint32_t child) {
-  struct Entry {
-    Aabb box;
-    std::uint32_t child;
-  };
-  std::array<Entry, fan + 1> entries;
+// Of the children, together.
+double WideTree::cost(std::size_t node) const {
+  std::array<double, fan> growths, surfaces;
+  const std::size_t first = node * fan;
+  surfaces16_of_level()(columns_of(boxes_), first, Aabb{}, growths.data(), surfaces.data());
+  double sum = 0;
   for (std::size_t i = 0; i < fan; ++i) {
-    entries[i] = {box_at(node * fan + i), boxes_.ids()[node * fan + i]};
+    const bool is_empty = boxes_.min(0)[first + i] > boxes_.max(0)[first + i];
+    sum += is_empty ? 0 : surfaces[i];
   }
-  entries[fan] = {box, child};
-  // Empty children, of which the sums would not be numbers, go first.
-  const auto centre = [](const Entry& entry, std::size_t axis) {
-    return entry.box.is_empty() ? -std::numeric_limits<double>::infinity()
-                                : double{entry.box.min[axis]} + entry.box.max[axis];
-  };
-  std::size_t longest = 0;
-  double most = -1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const Entry& entry : entries) {
-      if (entry.box.is_empty()) continue;
-      low = std::min(low, centre(entry, axis));
-      high = std::max(high, centre(entry, axis));
-    }
-    if (high - low > most) {
-      most = high - low;
-      longest = axis;
-    }
-  }
-  std::ranges::sort(entries, [&](const Entry& a, const Entry& b) {
-    const double at = centre(a, longest);
-    const double bt = centre(b, longest);
-    return at < bt || (at == bt && a.child < b.child);
-  });
-  const std::size_t other = new_node(height_of_[node]);
-  constexpr std::size_t half = (fan + 1) / 2;
-  for (std::size_t i = 0; i < fan; ++i) boxes_.set(node * fan + i, Aabb::empty(), nobody);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const std::size_t place = i < half ? node * fan + i : other * fan + i - half;
-    put(place, entries[i].box, entries[i].child);
-  }
-  if (node == root_) {
-    root_ = new_node(height_of_[node] + std::size_t{1});
-    parent_of_[node] = static_cast<std::uint32_t>(root_ * fan);
-    put(root_ * fan, bounds_of(boxes_, {node * fan, node * fan + fan}),
-        static_cast<std::uint32_t>(node));
-  } else {
-    fit_above(node);
-  }
-  add(parent_of_[node] / fan, bounds_of(boxes_, {other * fan, other * fan + fan}),
-      static_cast<std::uint32_t>(other));
-}
-
-void WideTree::remove(std::uint32_t id) {
-  const std::size_t place = place_of_[id];
-  boxes_.set(place, Aabb::empty(), nobody);
-  fit_above(place / fan);
-}
-
-void WideTree::move(std::uint32_t id, const Aabb& box) {
-  const std::size_t place = place_of_[id];
-  const std::size_t node = place / fan;
-  if (node != root_) {
-    const Aabb bounds = box_at(parent_of_[node]);
-    if (!(surface(united(bounds, box)) <= 1.5 * surface(bounds))) {
-      remove(id);
-      return insert(id, box);
-    }
-  }
-  boxes_.set(place, box, id);
-  fit_above(node);
-}
-
-// Up to where nothing changes.
-void WideTree::fit_above(std::size_t node) {
-  while (node != root_) {
-    const Aabb bounds = bounds_of(boxes_, {node * fan, node * fan + fan});
-    const std::size_t place = parent_of_[node];
-    if (box_at(place) == bounds) return;
-    boxes_.set(place, bounds, static_cast<std::uint32_t>(node));
-    node = place / fan;
-  }
+  return sum;
 }
 
 std::size_t WideTree::held_bytes() const {
-  return boxes_.held_bytes() + touchstone::held_bytes(parent_of_) +
-         touchstone::held_bytes(height_of_) + touchstone::held_bytes(place_of_);
+  return static_cast<std::size_t>(sum_held_bytes(boxes_, place_of_, parent_of_, height_of_,
+                                                 cost_of_, is_marked_, marked_, free_nodes_,
+                                                 entries_));
 }
 
 }  // namespace touchstone

@@ -239,7 +239,9 @@ TEST_F(Work, IsOfTheFrameAtHand) {
     const BroadPhaseWork of_many = algorithm->work();
     algorithm->update({many, {}, {}, {}});
     algorithm->find_pairs(sink);
-    if (entry->info.name == "candidate-list") {  // once it has seen that nothing moves
+    const std::string& name = entry->info.name;
+    // Pairs are kept once it has been seen that nothing moves.
+    if (name == "candidate-list" || name == "dynamic-bvh") {
       EXPECT_LT(algorithm->work().box_tests, of_many.box_tests);
     } else {
       EXPECT_EQ(algorithm->work().box_tests, of_many.box_tests);

@@ -1,0 +1,30 @@
+// The surface of a box, as trees of boxes weigh it.
+#pragma once
+
+#include <algorithm>
+
+#include "algorithms/core/aabb.h"
+
+namespace touchstone {
+
+// A half of the surface, and a little of the lengths, for boxes that are a point or a line. In
+// double, in which no product of floats overflows.
+inline double surface(double x, double y, double z) {
+  return x * y + y * z + z * x + 1e-6 * (x * x + y * y + z * z);
+}
+// Of a box that is not empty.
+inline double surface(const Aabb& box) {
+  return surface(double{box.max[0]} - box.min[0], double{box.max[1]} - box.min[1],
+                 double{box.max[2]} - box.min[2]);
+}
+
+inline Aabb united(const Aabb& a, const Aabb& b) {
+  Aabb sum{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sum.min[axis] = std::min(a.min[axis], b.min[axis]);
+    sum.max[axis] = std::max(a.max[axis], b.max[axis]);
+  }
+  return sum;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,24 @@
+// The loop of kept_pairs.h. Included by kept_pairs.cpp once for each level of vector instructions,
+// inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its attribute.
+
+// Copies the pairs whose bits are set, 64 a word; where they end. Up to eight more are written to.
+TOUCHSTONE_TARGET IndexPair* copy_pairs(const IndexPair* pairs, const std::uint64_t* words,
+                                        std::size_t count, IndexPair* to) {
+  for (std::size_t word = 0; word < count; ++word, pairs += 64) {
+    if (words[word] == ~std::uint64_t{0}) {
+      std::memcpy(to, pairs, 64 * sizeof(IndexPair));
+      to += 64;
+      continue;
+    }
+    for (std::size_t part = 0; part < 64; part += 8) {
+      const auto bits = static_cast<unsigned>(words[word] >> part & 0xff);
+      if (bits == 0) continue;
+      // A pair is two lanes.
+      unsigned lanes = (bits | bits << 4) & 0x0f0f;
+      lanes = (lanes | lanes << 2) & 0x3333;
+      lanes = 3 * ((lanes | lanes << 1) & 0x5555);
+      to += Lanes::compress(lanes, &pairs[part].a, &to->a) / 2;
+    }
+  }
+  return to;
+}
