@@ -1,13 +1,19 @@
 // The loops of hull_scan.h. Included by it once for each level of vector instructions, inside that
-// level's namespace, where Floats and Doubles are its vectors.
+// level's namespace.
 
 // The best of at most `most_blocks`. First the greatest value, then where it is: no lane carries an
 // index along.
-template <class Lanes, class Scalar>
+template <class Scalar>
 TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks, std::size_t count,
                                                const Vec3<Scalar>& d) {
+  using Lanes = RealLanes<Scalar>;
+  using Vector = typename Lanes::Real;
   constexpr std::size_t parts = VertexBlock<Scalar>::size / Lanes::width;
-  using Vector = typename Lanes::Vector;
+  const auto load = [](const Scalar* x) TOUCHSTONE_TARGET {
+    Vector v;
+    std::memcpy(&v, x, sizeof v);
+    return v;
+  };
   Vector values[most_blocks * parts];
   const Vector dx = Lanes::broadcast(d.x());
   const Vector dy = Lanes::broadcast(d.y());
@@ -16,21 +22,23 @@ TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t k = part * Lanes::width;
-      const Vector value = dx * Lanes::load(blocks[i].x + k) + dy * Lanes::load(blocks[i].y + k) +
-                           dz * Lanes::load(blocks[i].z + k);
+      const Vector value =
+          dx * load(blocks[i].x + k) + dy * load(blocks[i].y + k) + dz * load(blocks[i].z + k);
       values[i * parts + part] = value;
-      best = Lanes::greater(best, value);
+      best = Lanes::max(best, value);
     }
   }
   const Scalar greatest = Lanes::greatest(best);
   const Vector all = Lanes::broadcast(greatest);
+  constexpr unsigned all_lanes = (1u << Lanes::width) - 1;
   constexpr std::size_t blocks_a_word = 64 / VertexBlock<Scalar>::size;
   for (std::size_t word = 0; word < count; word += blocks_a_word) {
     std::uint64_t places = 0;
     for (std::size_t i = word; i < std::min(word + blocks_a_word, count); ++i) {
       for (std::size_t part = 0; part < parts; ++part) {
         const std::size_t place = (i - word) * VertexBlock<Scalar>::size + part * Lanes::width;
-        places |= std::uint64_t{Lanes::equal(values[i * parts + part], all)} << place;
+        const unsigned less = Lanes::bits(Lanes::less(values[i * parts + part], all));
+        places |= std::uint64_t{~less & all_lanes} << place;
       }
     }
     if (places != 0) {
@@ -43,20 +51,19 @@ TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks
 }
 
 template <class Scalar>
-TOUCHSTONE_TARGET inline std::uint32_t furthest(std::span<const VertexBlock<Scalar>> blocks,
-                                                const Vec3<Scalar>& direction) {
-  using Lanes = std::conditional_t<sizeof(Scalar) == 8, Doubles, Floats>;
+TOUCHSTONE_TARGET inline Found<Scalar> furthest_at(std::span<const VertexBlock<Scalar>> blocks,
+                                                   const Vec3<Scalar>& direction) {
   if (blocks.size() <= most_blocks) {
-    return best_of<Lanes>(blocks.data(), blocks.size(), direction).index;
+    return best_of<Scalar>(blocks.data(), blocks.size(), direction);
   }
   Found<Scalar> best{-std::numeric_limits<Scalar>::infinity(), 0};
   for (std::size_t i = 0; i < blocks.size(); i += most_blocks) {
     const std::size_t count = std::min(most_blocks, blocks.size() - i);
-    const Found<Scalar> found = best_of<Lanes>(&blocks[i], count, direction);
+    const Found<Scalar> found = best_of<Scalar>(&blocks[i], count, direction);
     if (found.value > best.value) {
       const auto before = static_cast<std::uint32_t>(i * VertexBlock<Scalar>::size);
       best = {found.value, before + found.index};
     }
   }
-  return best.index;
+  return best;
 }

@@ -165,17 +165,10 @@ Polytope<Scalar> finish(const Builder& from) {
   Polytope<Scalar> to;
   to.complete = from.complete;
   to.count = from.vertices.size();
-  for (const Vec& v : from.vertices) {
-    to.x.push_back(static_cast<Scalar>(v.x()));
-    to.y.push_back(static_cast<Scalar>(v.y()));
-    to.z.push_back(static_cast<Scalar>(v.z()));
-    to.reach = std::max(to.reach, static_cast<Scalar>(v.norm()));
-  }
-  while (to.x.size() % Polytope<Scalar>::lanes != 0) {
-    to.x.push_back(to.x[0]);
-    to.y.push_back(to.y[0]);
-    to.z.push_back(to.z[0]);
-  }
+  for (const Vec& v : from.vertices) to.reach = std::max(to.reach, static_cast<Scalar>(v.norm()));
+  to.vertices = hull_scan::blocks_of<Scalar>(from.vertices.size(), [&](std::size_t k) {
+    return from.vertices[k].template cast<Scalar>().eval();
+  });
   for (const Vec& normal : from.normals) {
     Wide offset = normal.dot(from.vertices[0]);
     for (const Vec& v : from.vertices) offset = std::max(offset, normal.dot(v));
@@ -184,6 +177,8 @@ Polytope<Scalar> finish(const Builder& from) {
   for (const Builder::Edge& edge : from.edges) {
     to.edges.push_back({edge.direction.template cast<Scalar>(), edge.point.template cast<Scalar>(),
                         edge.left, edge.right});
+    to.arcs.add({edge.direction.cast<float>(), from.normals[edge.left].cast<float>(),
+                 from.normals[edge.right].cast<float>()});
   }
   return to;
 }

@@ -8,6 +8,8 @@
 
 #include "algorithms/core/shape.h"
 #include "algorithms/core/vec.h"
+#include "algorithms/kernels/gauss_arcs.h"
+#include "algorithms/kernels/hull_scan.h"
 
 namespace touchstone {
 
@@ -38,34 +40,22 @@ struct Polytope {
   Vec3d centre = Vec3d::Zero();
   double scale = 1;
   Scalar reach = 0;       // >= |v| of each stored vertex v
-  std::size_t count = 0;  // vertices; behind them the first is repeated up to whole lanes
-  std::vector<Scalar> x, y, z;
+  std::size_t count = 0;  // vertices; behind them the first is repeated up to a whole block
+  std::vector<hull_scan::VertexBlock<Scalar>> vertices;
   std::vector<Face> faces;
   std::vector<Edge> edges;
+  GaussArcs arcs;  // of the edges, in their order
   // False where a solid came without faces: then the axes do not prove that bodies overlap.
   bool complete = true;
 
-  static constexpr std::size_t lanes = 8;
-
-  Vec3<Scalar> vertex(std::size_t k) const { return {x[k], y[k], z[k]}; }
+  Vec3<Scalar> vertex(std::size_t k) const {
+    constexpr std::size_t block = hull_scan::VertexBlock<Scalar>::size;
+    return vertices[k / block].vertex(k % block);
+  }
   // The greatest direction . v over the stored vertices.
   Scalar support(const Vec3<Scalar>& direction) const {
-    const Scalar dx = direction.x(), dy = direction.y(), dz = direction.z();
-    Scalar best[lanes];
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      best[lane] = dx * x[lane] + dy * y[lane] + dz * z[lane];
-    }
-    for (std::size_t k = lanes; k < x.size(); k += lanes) {
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const Scalar value = dx * x[k + lane] + dy * y[k + lane] + dz * z[k + lane];
-        best[lane] = value > best[lane] ? value : best[lane];
-      }
-    }
-    Scalar greatest = best[0];
-    for (std::size_t lane = 1; lane < lanes; ++lane) {
-      greatest = best[lane] > greatest ? best[lane] : greatest;
-    }
-    return greatest;
+    return hull_scan::greatest(std::span<const hull_scan::VertexBlock<Scalar>>(vertices),
+                               direction);
   }
 };
 

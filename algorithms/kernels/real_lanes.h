@@ -4,9 +4,9 @@
 // correctly rounded, so a lane has the same bits at every level.
 //
 // RealLanes<Scalar> has `width` lanes, its vectors Real (with the operators of the language) and
-// Mask, and Quad, four scalars. Of quads 0, 4, 8... `join` makes a vector, and `transpose` turns
-// four such vectors, of the quads of all lanes, into four of their first numbers, their second and
-// so on.
+// Mask, and Quad, four scalars. `greatest` is of all lanes. Of quads 0, 4, 8... `join` makes a
+// vector, and `transpose` turns four such vectors, of the quads of all lanes, into four of their
+// first numbers, their second and so on.
 #pragma once
 
 #include <bit>
@@ -53,6 +53,10 @@ struct RealLanes {
   }
   static TOUCHSTONE_INLINE Real max(Real a, Real b) { return a > b ? a : b; }
   static TOUCHSTONE_INLINE Real min(Real a, Real b) { return a < b ? a : b; }
+  static TOUCHSTONE_INLINE Scalar greatest(Real x) {
+    const Scalar even = x[0] > x[2] ? x[0] : x[2], odd = x[1] > x[3] ? x[1] : x[3];
+    return even > odd ? even : odd;
+  }
   static TOUCHSTONE_INLINE Real sqrt(Real x) {
     return Real{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
   }
@@ -102,6 +106,11 @@ struct RealLanes<float> {
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm256_min_ps(a, b);
   }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE float greatest(Real x) {
+    const __m128 four = _mm_max_ps(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1));
+    const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+  }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real sqrt(Real x) { return _mm256_sqrt_ps(x); }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE unsigned bits(Mask m) {
     return static_cast<unsigned>(_mm256_movemask_ps(m));
@@ -147,6 +156,10 @@ struct RealLanes<double> {
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm256_min_pd(a, b);
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE double greatest(Real x) {
+    const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(x), _mm256_extractf128_pd(x, 1));
+    return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real sqrt(Real x) { return _mm256_sqrt_pd(x); }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE unsigned bits(Mask m) {
@@ -198,6 +211,10 @@ struct RealLanes<float> {
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm512_min_ps(a, b);
   }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE float greatest(Real x) {
+    return avx2::RealLanes<float>::greatest(
+        _mm256_max_ps(_mm512_castps512_ps256(x), _mm512_extractf32x8_ps(x, 1)));
+  }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real sqrt(Real x) { return _mm512_sqrt_ps(x); }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE unsigned bits(Mask m) { return m; }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Mask mask(unsigned bits) {
@@ -239,6 +256,10 @@ struct RealLanes<double> {
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm512_min_pd(a, b);
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE double greatest(Real x) {
+    return avx2::RealLanes<double>::greatest(
+        _mm256_max_pd(_mm512_castpd512_pd256(x), _mm512_extractf64x4_pd(x, 1)));
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real sqrt(Real x) { return _mm512_sqrt_pd(x); }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE unsigned bits(Mask m) { return m; }

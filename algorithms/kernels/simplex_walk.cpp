@@ -141,34 +141,9 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   return least > enough || most < -enough;
 }
 
-namespace baseline {
-#define TOUCHSTONE_LEVEL baseline
-#define TOUCHSTONE_TARGET
-#include "algorithms/kernels/simplex_walk.inl"
-#undef TOUCHSTONE_LEVEL
-#undef TOUCHSTONE_TARGET
-}  // namespace baseline
-
-#if defined(__x86_64__)
-namespace avx2 {
-#define TOUCHSTONE_LEVEL avx2
-#define TOUCHSTONE_TARGET __attribute__((target("avx2")))
-#include "algorithms/kernels/simplex_walk.inl"
-#undef TOUCHSTONE_LEVEL
-#undef TOUCHSTONE_TARGET
-}  // namespace avx2
-
-namespace avx512 {
-#define TOUCHSTONE_LEVEL avx512
-#define TOUCHSTONE_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
-#include "algorithms/kernels/simplex_walk.inl"
-#undef TOUCHSTONE_LEVEL
-#undef TOUCHSTONE_TARGET
-}  // namespace avx512
-#else
-namespace avx2 = baseline;
-namespace avx512 = baseline;
-#endif
+#define TOUCHSTONE_LANES hull_scan
+#define TOUCHSTONE_LOOPS "algorithms/kernels/simplex_walk.inl"
+#include "algorithms/kernels/every_level.inl"
 
 }  // namespace
 

@@ -5,7 +5,7 @@ struct Scan {
   template <class Scalar>
   TOUCHSTONE_TARGET static std::uint32_t furthest(const SupportShape<Scalar>& hull,
                                                   const Vec3<Scalar>& d) {
-    return hull_scan::TOUCHSTONE_LEVEL::furthest(std::span(hull.vertices), d);
+    return furthest_at(std::span<const hull_scan::VertexBlock<Scalar>>(hull.vertices), d).index;
   }
 };
 

@@ -36,16 +36,9 @@ void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
   }
   shape.unit = power_of_two_above(shape.size);
 
-  using Block = hull_scan::VertexBlock<Scalar>;
-  shape.vertices.resize((vertices.size() + Block::size - 1) / Block::size);
-  for (std::size_t i = 0; i < shape.vertices.size() * Block::size; ++i) {
-    const Vec3d& vertex = vertices[i < vertices.size() ? i : 0];
-    const Vec3<Scalar> point = ((vertex - shape.centre) / shape.unit).template cast<Scalar>();
-    Block& block = shape.vertices[i / Block::size];
-    block.x[i % Block::size] = point.x();
-    block.y[i % Block::size] = point.y();
-    block.z[i % Block::size] = point.z();
-  }
+  shape.vertices = hull_scan::blocks_of<Scalar>(vertices.size(), [&](std::size_t k) {
+    return ((vertices[k] - shape.centre) / shape.unit).template cast<Scalar>().eval();
+  });
 
   if (vertices.size() <= most_vertices_to_scan || hull.neighbours.size() != vertices.size()) return;
   const auto has_some = [](const std::vector<std::uint32_t>& list) { return !list.empty(); };

@@ -11,7 +11,7 @@ namespace touchstone {
 struct ScanAtBest {
   template <class Scalar>
   static std::uint32_t furthest(const SupportShape<Scalar>& hull, const Vec3<Scalar>& d) {
-    return hull_scan::furthest(std::span(hull.vertices), d);
+    return hull_scan::furthest(std::span<const hull_scan::VertexBlock<Scalar>>(hull.vertices), d);
   }
 };
 

@@ -25,28 +25,6 @@
 namespace touchstone {
 namespace {
 
-// Face normals and edges of a body, turned as the body is.
-template <class Scalar>
-struct TurnedFeatures {
-  struct Edge {
-    Vec3<Scalar> direction;  // about unit length
-    Vec3<Scalar> point;      // one end, in the pair's frame
-    std::uint32_t left, right;
-  };
-  std::vector<Vec3<Scalar>> normals;
-  std::vector<Edge> edges;
-
-  void turn(const PlacedPolytope<Scalar>& body) {
-    normals.clear();
-    edges.clear();
-    for (const auto& face : body.shape->faces) normals.push_back(body.normals * face.normal);
-    for (const auto& edge : body.shape->edges) {
-      edges.push_back({body.orientation * (body.matrix * edge.direction), body(edge.point),
-                       edge.left, edge.right});
-    }
-  }
-};
-
 template <class Scalar>
 class Sat final : public NarrowPhase {
  public:
@@ -59,6 +37,8 @@ class Sat final : public NarrowPhase {
   }
 
  private:
+  using Edge = typename Polytope<Scalar>::Edge;
+
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   // Unit vectors with a few roundings each: a product below this may have either sign.
   static constexpr Scalar uncertain = 16 * epsilon;
@@ -88,18 +68,24 @@ class Sat final : public NarrowPhase {
 
   // Raises `best` to the greatest gap over the edge pairs; ends where one separates.
   void test_edges(const PolytopePair<Scalar>& pair, Axis<Scalar>& best) {
-    turned_a_.turn(pair.a());
-    turned_b_.turn(pair.b());
-    against_.resize(turned_b_.normals.size());
-    for (const auto& of_a : turned_a_.edges) {
-      // An arc of b crosses the great circle of a's arc where its ends are on either side.
-      for (std::size_t k = 0; k < against_.size(); ++k) {
-        against_[k] = sign(turned_b_.normals[k].dot(of_a.direction));
-      }
-      const Vec3<Scalar>&left = turned_a_.normals[of_a.left],
-            &right = turned_a_.normals[of_a.right];
-      for (const auto& of_b : turned_b_.edges) {
-        const int b_left = against_[of_b.left], b_right = against_[of_b.right];
+    const PlacedPolytope<Scalar>&a = pair.a(), &b = pair.b();
+    // Normals go by the cofactors and edges by the matrix, so that edges of a go with stored
+    // normals of b, and normals of a with stored edges of b, by these.
+    const Mat3<Scalar> to_normals = a.orientation * (b.normals.transpose() * a.matrix);
+    const Mat3<Scalar> to_edges = b.orientation * (b.matrix.transpose() * a.normals);
+    for (const Edge& of_a : a.shape->edges) {
+      const Vec3<Scalar> along = to_normals * of_a.direction;
+      const Vec3<Scalar> left = to_edges * a.shape->faces[of_a.left].normal;
+      const Vec3<Scalar> right = to_edges * a.shape->faces[of_a.right].normal;
+      crossing_.clear();
+      b.shape->arcs.list_crossing(
+          {along.template cast<float>(), left.template cast<float>(), right.template cast<float>()},
+          crossing_);
+      for (const std::uint32_t k : crossing_) {
+        const Edge& of_b = b.shape->edges[k];
+        // An arc of b crosses the great circle of a's arc where its ends are on either side.
+        const int b_left = sign(b.shape->faces[of_b.left].normal.dot(along)),
+                  b_right = sign(b.shape->faces[of_b.right].normal.dot(along));
         if (b_left * b_right > 0) continue;
         const int a_left = sign(left.dot(of_b.direction)),
                   a_right = sign(right.dot(of_b.direction));
@@ -118,28 +104,29 @@ class Sat final : public NarrowPhase {
 
   // `side`: 1 where the outward axis is a's direction x b's, -1 where it is against that, 0 where
   // that is not known. `crossing`: the arcs certainly cross, so the edges support the bodies there.
-  void test_edge_pair(const PolytopePair<Scalar>& pair,
-                      const typename TurnedFeatures<Scalar>::Edge& of_a,
-                      const typename TurnedFeatures<Scalar>::Edge& of_b, int side, bool crossing,
-                      Axis<Scalar>& best) {
-    Vec3<Scalar> normal = of_a.direction.cross(of_b.direction);
+  void test_edge_pair(const PolytopePair<Scalar>& pair, const Edge& of_a, const Edge& of_b,
+                      int side, bool crossing, Axis<Scalar>& best) {
+    const PlacedPolytope<Scalar>&a = pair.a(), &b = pair.b();
+    const Vec3<Scalar> along_a = a.orientation * (a.matrix * of_a.direction);
+    const Vec3<Scalar> along_b = b.orientation * (b.matrix * of_b.direction);
+    Vec3<Scalar> normal = along_a.cross(along_b);
     const Scalar sine = normal.norm();
     if (sine < parallel) {
       // The facet is too narrow to matter, unless the facets beside it stand almost on edge: then
       // the middle of the arc stands in for it.
-      const auto& ends = turned_a_.normals;
-      const Vec3<Scalar> middle = ends[of_a.left] + ends[of_a.right];
+      const Vec3<Scalar> middle =
+          a.normals * (a.shape->faces[of_a.left].normal + a.shape->faces[of_a.right].normal);
       const Scalar length = middle.norm();
       if (length < Scalar{1.5} && length > 0) offer(pair.axis_along(middle / length), best);
       return;
     }
     normal /= side < 0 ? -sine : sine;
     if (sine < almost_parallel) {
-      normal -= normal.dot(of_a.direction) / of_a.direction.squaredNorm() * of_a.direction;
+      normal -= normal.dot(along_a) / along_a.squaredNorm() * along_a;
       normal.normalize();
     }
     if (crossing && sine >= almost_parallel) {
-      offer({normal.dot(of_b.point - of_a.point), normal}, best);
+      offer({normal.dot(b(of_b.point) - a(of_a.point)), normal}, best);
       return;
     }
     offer(pair.axis_along(normal), best);
@@ -152,8 +139,7 @@ class Sat final : public NarrowPhase {
   }
 
   FlatSidedShapes<Scalar> shapes_;
-  TurnedFeatures<Scalar> turned_a_, turned_b_;
-  std::vector<int> against_;  // sign of b's normals along an edge of a
+  std::vector<std::uint32_t> crossing_;  // edges of b whose arcs may cross that of one of a
   int tested_ = 0;
 };
 

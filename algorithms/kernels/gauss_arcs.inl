@@ -1,0 +1,33 @@
+// The loop of gauss_arcs.h. Included by gauss_arcs.cpp once for each level of vector instructions,
+// inside that level's namespace.
+
+// Which of the block's arcs may cross.
+TOUCHSTONE_TARGET unsigned crossing(const Rows& rows, const GaussArc& arc) {
+  using Lanes = RealLanes<float>;
+  using Real = Lanes::Real;
+  unsigned open = 0;
+  const Real most = Lanes::broadcast(uncertain), least = Lanes::broadcast(-uncertain);
+  for (std::size_t part = 0; part < 16; part += Lanes::width) {
+    const auto product = [&](std::size_t row, const Vec3<float>& v) TOUCHSTONE_TARGET {
+      Real x, y, z;
+      std::memcpy(&x, rows[row].data() + part, sizeof x);
+      std::memcpy(&y, rows[row + 1].data() + part, sizeof y);
+      std::memcpy(&z, rows[row + 2].data() + part, sizeof z);
+      return x * Lanes::broadcast(v.x()) + y * Lanes::broadcast(v.y()) +
+             z * Lanes::broadcast(v.z());
+    };
+    const Real b_left = product(3, arc.direction), b_right = product(6, arc.direction);
+    const Real a_left = product(0, arc.left), a_right = product(0, arc.right);
+    // Both ends of one arc on one side of the other's circle.
+    const unsigned same_side = Lanes::bits(Lanes::less(most, Lanes::min(b_left, b_right))) |
+                               Lanes::bits(Lanes::less(Lanes::max(b_left, b_right), least)) |
+                               Lanes::bits(Lanes::less(most, Lanes::min(a_left, a_right))) |
+                               Lanes::bits(Lanes::less(Lanes::max(a_left, a_right), least));
+    // The circles meet in two points, and the arcs are at opposite ones.
+    const unsigned opposite =
+        (Lanes::bits(Lanes::less(most, a_left)) & Lanes::bits(Lanes::less(b_left, least))) |
+        (Lanes::bits(Lanes::less(a_left, least)) & Lanes::bits(Lanes::less(most, b_left)));
+    open |= (~(same_side | opposite) & ((1u << Lanes::width) - 1)) << part;
+  }
+  return open;
+}
