@@ -67,7 +67,7 @@ class LooseOctree final : public BroadPhase {
   // A cell of no more is the work of one task, with all that is below it.
   static constexpr std::uint32_t boxes_a_task = 2048;
 
-  static constexpr NodeRef no_node{0};
+  static constexpr NodeRef no_node{0};  // not a leaf, and below the root
 
   // With more boxes than a leaf may have: those of a range. Its parts are a block of the tree's.
   struct Cell {
@@ -177,10 +177,12 @@ LooseOctree::Parts LooseOctree::divide(std::span<const Aabb> boxes, std::uint32_
       (OctreeOrder::octant(order_.key(middle), depth) == octant ? end : behind) = middle;
     }
     end = behind;
-    if (parts.count > own_parts && end - begin <= fan)
+    // Few: one with the part before.
+    if (parts.count > own_parts && end - begin <= fan) {
       --parts.count;
-    else
+    } else {
       begin = from;
+    }
     parts.ends[parts.count++] = end;
   }
   return parts;
@@ -201,7 +203,7 @@ void LooseOctree::fit() {
       executor_, refs_.size(), 512, [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
           const NodeRef ref = refs_[i];
-          const Aabb bounds = ref.packed != no_node.packed && ref.is_leaf()
+          const Aabb bounds = ref.is_leaf()
                                   ? bounds_of(boxes_, {ref.begin(), ref.begin() + ref.count()})
                                   : Aabb::empty();
           nodes.set(i, bounds, ref.packed);

@@ -30,8 +30,13 @@ void GridLevels::make_levels(Executor& executor, std::span<const Aabb> boxes,
   const BoxMeasures measures = measure_boxes(executor, boxes, ids, measures_);
   const double crowd = crowding(boxes, ids, sample);
   axes_ = {0, 1, 2};
-  std::ranges::stable_sort(axes_, std::greater(), [&](std::size_t axis) {
+  const auto cells_wide = [&](std::size_t axis) {
     return (sample.high[axis] - sample.low[axis]) / sample.side[axis];
+  };
+  std::ranges::sort(axes_, [&](std::size_t a, std::size_t b) {
+    const double of_a = cells_wide(a);
+    const double of_b = cells_wide(b);
+    return of_a > of_b || (of_a == of_b && a < b);
   });
   // From the smallest up. A level is closed when it has members enough; the largest few have one of
   // their own, however few they are.
