@@ -17,7 +17,7 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/kernels/box_lanes.h"
-#include "algorithms/kernels/curve_keys.h"
+#include "algorithms/kernels/curve_order.h"
 #include "algorithms/kernels/group_scan.h"
 #include "algorithms/kernels/held_bytes.h"
 
@@ -30,8 +30,7 @@ class LinearBvh final : public BroadPhase {
       : executor_(executor), scratch_(static_cast<std::size_t>(executor.width())) {}
 
   void build(std::span<const Aabb> boxes) override {
-    list_bodies(executor_, boxes, ids_);
-    order_.sort(executor_, boxes, ids_);
+    order_.make(executor_, boxes);
     fit(boxes);
     spread_at_build_ = spread();
   }
@@ -65,7 +64,7 @@ class LinearBvh final : public BroadPhase {
       pairs.clear();
       pair_leaf(leaf, scratch, pairs);
     }
-    scratch.group.work.bytes = sum_held_bytes(ids_, order_, boxes_, leaves_, nodes_, arrivals_);
+    scratch.group.work.bytes = sum_held_bytes(order_, boxes_, leaves_, nodes_, arrivals_);
     return scratch.group.work;
   }
 
@@ -77,7 +76,7 @@ class LinearBvh final : public BroadPhase {
   // splits of a node the one at the higher bit comes first; so bits fall on the way down, and no
   // leaf is deeper than there are bits.
   static constexpr int leaf_number_bits = 28;
-  static constexpr std::size_t most_levels = CurveKeys::key_bits + leaf_number_bits;
+  static constexpr std::size_t most_levels = CurveOrder::key_bits + leaf_number_bits;
 
   using Lanes = box_lanes::baseline::Lanes;
   using Corner = std::array<float, 4>;  // of which three are used: a vector's worth
@@ -198,8 +197,7 @@ class LinearBvh final : public BroadPhase {
 
   Executor& executor_;
   std::vector<Scratch> scratch_;
-  std::vector<std::uint32_t> ids_;
-  CurveKeys order_;
+  CurveOrder order_;
   BoxArrays boxes_;           // in that order
   std::vector<Aabb> leaves_;  // their bounds
   std::vector<Node> nodes_;

@@ -161,23 +161,24 @@ void CurveOrder::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
   runs_.clear();
   std::size_t from = 0;
   for (std::size_t i = stride; i < order_.size(); i += stride) {
-    if (i < from || code(i - stride) != code(i)) continue;
+    if (i < from || key(i - stride) != key(i)) continue;
     std::size_t first = i - stride;
-    while (first > from && code(first - 1) == code(i)) --first;
+    while (first > from && key(first - 1) == key(i)) --first;
     from = i + 1;
-    while (from < order_.size() && code(from) == code(i)) ++from;
+    while (from < order_.size() && key(from) == key(i)) ++from;
     if (from - first > most_in_cell) runs_.push_back({first, from});
   }
   const auto task = [&](std::size_t i, int) { refine(boxes, runs_[i].first, runs_[i].last, 0); };
   executor.run(runs_.size(), std::cref(task));
 }
 
-// Draws a curve through boxes first <= i < last of the order.
+// Draws a curve through boxes first <= i < last of the order, which have one key and keep it.
 void CurveOrder::refine(std::span<const Aabb> boxes, std::size_t first, std::size_t last,
                         int depth) {
   Region region;
   for (std::size_t i = first; i < last; ++i) region.add(boxes[id(i)]);
   if (region.low == region.high) return;
+  const std::uint64_t key_of_all = key(first);
   const HilbertGrid grid(region.low, region.high,
                          std::min((bits_of(last - first) + cells_a_body_log2 + 2) / 3 * 3, 30));
   std::array<Aabb, 64> some;
@@ -196,10 +197,11 @@ void CurveOrder::refine(std::span<const Aabb> boxes, std::size_t first, std::siz
   constexpr int deepest = 64;
   for (std::size_t i = first; depth < deepest && i < last;) {
     std::size_t end = i + 1;
-    while (end < last && code(end) == code(i)) ++end;
+    while (end < last && key(end) == key(i)) ++end;
     if (end - i > most_in_cell) refine(boxes, i, end, depth + 1);
     i = end;
   }
+  for (std::size_t i = first; i < last; ++i) order_[i] = key_of_all << id_bits_ | id(i);
 }
 
 void CurveOrder::gather(Executor& executor, std::span<const Aabb> boxes, BoxArrays& arrays) const {

@@ -28,6 +28,15 @@ class CurveOrder {
   void make(Executor& executor, std::span<const Aabb> boxes);
   bool empty() const { return used_ == 0; }
 
+  // Bodies, in their order.
+  std::size_t size() const { return used_ == 0 ? 0 : begins_[used_]; }
+  std::uint32_t id(std::size_t i) const {
+    return static_cast<std::uint32_t>(order_[i] & ((std::uint64_t{1} << id_bits_) - 1));
+  }
+  // Class above, place on the curve below; ascending. Smaller than 2^key_bits.
+  static constexpr int key_bits = 35;
+  std::uint64_t key(std::size_t i) const { return order_[i] >> id_bits_; }
+
   // The boxes, with their ids, at their places; empty ones, with id 0, at those that are left free.
   void gather(Executor& executor, std::span<const Aabb> boxes, BoxArrays& arrays) const;
 
@@ -36,10 +45,6 @@ class CurveOrder {
  private:
   void refine(std::span<const Aabb> boxes, std::size_t first, std::size_t last, int depth);
   void refine_runs(Executor& executor, std::span<const Aabb> boxes);
-  std::uint32_t id(std::size_t i) const {
-    return static_cast<std::uint32_t>(order_[i] & ((std::uint64_t{1} << id_bits_) - 1));
-  }
-  std::uint64_t code(std::size_t i) const { return order_[i] >> id_bits_; }
 
   std::vector<std::uint64_t> order_;  // class and place on the curve above, id below
   int id_bits_ = 0;

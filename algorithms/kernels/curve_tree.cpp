@@ -10,14 +10,12 @@ namespace touchstone {
 void CurveTree::forget_order() {
   is_sorted_ = false;
   order_ = {};
-  ids_ = {};
 }
 
 void CurveTree::sort_if_needed(std::span<const Aabb> boxes) {
   is_new_ = !is_sorted_;
   if (is_sorted_) return;
-  list_bodies(executor_, boxes, ids_);
-  order_.sort(executor_, boxes, ids_);
+  order_.make(executor_, boxes);
   is_sorted_ = true;
 }
 
@@ -59,7 +57,7 @@ BroadPhaseWork CurveTree::work() const {
 }
 
 std::size_t CurveTree::held_bytes() const {
-  return static_cast<std::size_t>(sum_held_bytes(ids_, order_, tree_));
+  return static_cast<std::size_t>(sum_held_bytes(order_, tree_));
 }
 
 }  // namespace touchstone

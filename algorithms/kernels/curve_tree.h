@@ -15,7 +15,7 @@
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/blocks.h"
-#include "algorithms/kernels/curve_keys.h"
+#include "algorithms/kernels/curve_order.h"
 #include "algorithms/kernels/group_scan.h"
 #include "algorithms/kernels/wide_tree.h"
 
@@ -88,8 +88,7 @@ class CurveTree {
 
   Executor& executor_;
   std::vector<CurveTreeScratch> scratch_;
-  std::vector<std::uint32_t> ids_;
-  CurveKeys order_;
+  CurveOrder order_;
   bool is_sorted_ = false, is_new_ = false;  // the order; by the last load
   double spread_at_sort_ = 0;                // of the tree's leaves
   WideTree tree_;
