@@ -2,12 +2,12 @@
 // frame, and a set of pairs that changes only where a minimum and a maximum pass each other.
 // Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992;
 //          Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE", I3D 1995.
-// Departs: the three axes are repaired at the same time: each lists its own changes as if those
-//          before it had been repaired, and those behind it had not, and the lists are carried out
-//          in the order of the axes. Bodies that come, go or move far are taken out of the end
-//          points and merged in again, in one pass, and meet all boxes a vector at a time. When the
-//          end points pass each other more often than a sweep of the best axis would take, they are
-//          sorted afresh, and the set is made by that sweep.
+// Departs: the three axes are repaired at the same time, and each looks only at those that moved
+//          along it, see kernels/sorted_axis.h. Bodies that come, go or move far are taken out of
+//          the end points and merged in again, in one pass, and meet all boxes a vector at a time.
+//          When the end points pass each other more often than a sweep of the best axis would take,
+//          they are sorted afresh, and the set is made by that sweep; for some frames then, twice
+//          as many each time, no more than that is tried, with that one axis.
 // Fails:   dense or fast scenes in which all move: an end point passes others in proportion to
 //          n^(2/3) times its way, and in flat or stacked scenes to n. The sweep that is then made
 //          goes like n^(5/3), and n^2 where most boxes overlap on every axis.
@@ -37,20 +37,25 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   }
 
   void update(const FrameChange& change) override {
-    if (!repair(change)) rebuild(change.boxes);
+    if (repair(change)) return;
+    if (skipped_ < wait_) {
+      resort_axis(change.boxes);
+    } else {
+      rebuild(change.boxes);
+    }
   }
 
   Status find_pairs(PairSink& sink) override;
 
   // What a sweep of the end points as they stand takes; of pairs that have been kept, too.
   BroadPhaseWork work() const override {
-    const SortedAxis::Overlaps best = axes_[best_axis()].count_overlaps();
-    return {.box_tests = best.candidates + best.ended,
-            .node_visits = 0,
-            .candidates = best.candidates,
-            .bytes = sum_held_bytes(found_, ids_, before_, axes_[0], axes_[1], axes_[2],
-                                    radix_sort_, arrays_, set_, mark_, jumpers_, walkers_,
-                                    changed_[0], changed_[1], changed_[2])};
+    const SortedAxis::Overlaps best = axes_[are_all_sorted_ ? best_axis() : axis_].count_overlaps();
+    return {
+        .box_tests = best.candidates + best.ended,
+        .node_visits = 0,
+        .candidates = best.candidates,
+        .bytes = sum_held_bytes(found_, ids_, before_, axes_[0], axes_[1], axes_[2], radix_sort_,
+                                arrays_, set_, mark_, jumpers_, walkers_, motion_)};
   }
 
  private:
@@ -58,13 +63,14 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   static constexpr std::size_t rows_a_task = 512;
 
   void rebuild(std::span<const Aabb> boxes);
+  void resort_axis(std::span<const Aabb> boxes);
+  void take_boxes(std::span<const Aabb> boxes);
   std::size_t best_axis() const;
   void sweep(PairSink& sink);
   void keep(const PairSink& sink);
 
   bool repair(const FrameChange& change);
   void classify(const FrameChange& change);
-  void list_changed();
   bool is_far(const Aabb& now, std::uint32_t id) const;
   void take_jumpers_out();
   void put_jumpers_in(std::span<const Aabb> boxes);
@@ -77,11 +83,11 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   RadixSort<EndPoint> radix_sort_;
   BoxArrays arrays_;  // by minimum on the best axis, for a sweep; by id, for bodies that come
   std::size_t axis_ = 0;
-  bool swept_ = false;  // the pairs are yet to be found, by a sweep
+  bool swept_ = false;           // the pairs are yet to be found, by a sweep
+  bool are_all_sorted_ = false;  // all axes, and not only the one for a sweep
   PairSink found_;
   PairSet set_;
   AxisMotion motion_;  // of the walkers
-  std::array<std::vector<std::uint32_t>, 3> changed_;
   std::vector<std::uint32_t> jumpers_, walkers_;
   std::vector<std::uint8_t> mark_;  // by id: it is a jumper
   std::size_t most_passes_ = 0;     // on an axis, in a frame
@@ -89,15 +95,27 @@ class IncrementalSweepAndPrune final : public BroadPhase {
 };
 
 void IncrementalSweepAndPrune::rebuild(std::span<const Aabb> boxes) {
-  before_.assign(boxes.begin(), boxes.end());
-  mark_.assign(boxes.size(), 0);  // some are left where a repair was given up
-  list_bodies(executor_, boxes, ids_);
+  take_boxes(boxes);
+  are_all_sorted_ = true;
   for (SortedAxis& axis : axes_) axis.sort(executor_, boxes, ids_, radix_sort_);
   axis_ = best_axis();
   // Measured: all three axes are repaired as fast as the sweep is made when each takes a pass for
   // every hundred of the sweep's candidates, or so.
   const auto candidates = static_cast<std::size_t>(axes_[axis_].count_overlaps().candidates);
   most_passes_ = 2 * ids_.size() + candidates / 96 + 256;
+}
+
+// Where the next frame is to be swept, too, the other axes can wait.
+void IncrementalSweepAndPrune::resort_axis(std::span<const Aabb> boxes) {
+  take_boxes(boxes);
+  are_all_sorted_ = false;
+  axes_[axis_].sort(executor_, boxes, ids_, radix_sort_);
+}
+
+void IncrementalSweepAndPrune::take_boxes(std::span<const Aabb> boxes) {
+  before_.assign(boxes.begin(), boxes.end());
+  mark_.assign(boxes.size(), 0);  // some are left where a repair was given up
+  list_bodies(executor_, boxes, ids_);
   swept_ = true;
 }
 
@@ -116,7 +134,7 @@ std::size_t IncrementalSweepAndPrune::best_axis() const {
 Status IncrementalSweepAndPrune::find_pairs(PairSink& sink) {
   if (swept_) {
     sweep(sink);
-    keep(sink);
+    if (are_all_sorted_) keep(sink);
     return Status::ok;
   }
   const std::span<const IndexPair> pairs = set_.pairs();
@@ -195,8 +213,7 @@ void IncrementalSweepAndPrune::classify(const FrameChange& change) {
   jumpers_.assign(change.removed.begin(), change.removed.end());
   jumpers_.insert(jumpers_.end(), change.inserted.begin(), change.inserted.end());
   walkers_.clear();
-  const std::size_t moved = change.moved.size();
-  if (moved <= before_.size() / 16) {
+  if (change.moved.size() <= before_.size() / 16) {
     for (const std::uint32_t id : change.moved) {
       (is_far(change.boxes[id], id) ? jumpers_ : walkers_).push_back(id);
     }
@@ -204,28 +221,7 @@ void IncrementalSweepAndPrune::classify(const FrameChange& change) {
     // Those that move far are told by the passes that they take.
     walkers_.assign(change.moved.begin(), change.moved.end());
   }
-  motion_ = {before_, change.boxes, {walkers_, walkers_, walkers_}};
-  if (moved <= before_.size() / 8 * 5) list_changed();
-}
-
-// For each axis the walkers whose extents there are others: each goes into one list or more.
-void IncrementalSweepAndPrune::list_changed() {
-  std::array<std::uint32_t*, 3> ends;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    changed_[axis].resize(walkers_.size() + 1);  // one more is written to
-    ends[axis] = changed_[axis].data();
-  }
-  for (const std::uint32_t id : walkers_) {
-    const Aabb& then = motion_.before[id];
-    const Aabb& now = motion_.now[id];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      *ends[axis] = id;
-      ends[axis] += (then.min[axis] != now.min[axis]) | (then.max[axis] != now.max[axis]);
-    }
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    motion_.changed[axis] = {changed_[axis].data(), ends[axis]};
-  }
+  motion_.start(before_, change.boxes, walkers_);
 }
 
 // True when its minima pass many others.

@@ -16,17 +16,11 @@
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
+#include "algorithms/kernels/axis_motion.h"
 #include "algorithms/kernels/end_point.h"
 #include "algorithms/kernels/radix_sort.h"
 
 namespace touchstone {
-
-// Bodies that have moved a little: for each axis those whose extent there is another. More may be
-// listed.
-struct AxisMotion {
-  std::span<const Aabb> before, now;  // of all
-  std::array<std::span<const std::uint32_t>, 3> changed;
-};
 
 class SortedAxis {
  public:
@@ -99,7 +93,7 @@ class SortedAxis {
   void look_at_passes(std::size_t listed, const AxisMotion& motion);
 
   std::size_t axis_;
-  std::vector<EndPoint> points_, fresh_;
+  std::vector<EndPoint> points_, fresh_;  // the sorted ones; those that are to go to their places
   // By id: where the box lies on the two other axes, minima and maxima with the sign turned, as
   // they are when this axis is repaired: those before it already are.
   std::vector<Shadow> shadows_;

@@ -14,11 +14,11 @@ bool overlap_on(const Aabb& a, const Aabb& b, std::size_t axis) {
 }  // namespace
 
 bool SortedAxis::repair(const AxisMotion& motion, std::size_t most_passes) {
-  make_shadows(motion.before);
+  make_shadows(motion.before());
   cast_shadows(motion, 0, axis_);
   changes_.clear();
   // Measured: to go through all end points takes as long as to find those of a third of the bodies.
-  const std::size_t changed = motion.changed[axis_].size();
+  const std::size_t changed = motion.on(axis_).size();
   const bool are_few = 6 * changed <= points_.size();
   if (changed > 0 &&
       !(are_few ? repair_few(motion, most_passes) : repair_all(motion, most_passes))) {
@@ -30,12 +30,12 @@ bool SortedAxis::repair(const AxisMotion& motion, std::size_t most_passes) {
 
 // Of these axes.
 void SortedAxis::cast_shadows(const AxisMotion& motion, std::size_t first, std::size_t last) {
-  if (last - first == 2 && motion.changed[first].data() == motion.changed[last - 1].data()) {
-    for (const std::uint32_t id : motion.changed[first]) set_shadows(id, motion.now[id]);
+  if (last - first == 2 && motion.is_common()) {
+    for (const std::uint32_t id : motion.on(first)) set_shadows(id, motion.now()[id]);
     return;
   }
   for (std::size_t other = first; other < last; ++other) {
-    for (const std::uint32_t id : motion.changed[other]) set_shadow(id, other, motion.now[id]);
+    for (const std::uint32_t id : motion.on(other)) set_shadow(id, other, motion.now()[id]);
   }
 }
 
@@ -48,7 +48,7 @@ bool SortedAxis::repair_all(const AxisMotion& motion, std::size_t most_passes) {
   std::size_t listed = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t id = body_of(points[i]);
-    points[i] = end_point(motion.now[id], axis, is_max(points[i]), id);
+    points[i] = end_point(motion.now()[id], axis, is_max(points[i]), id);
     passes += move<down, false>(points, i, listed, motion);
     if (passes > most_passes) return false;
   }
@@ -56,22 +56,37 @@ bool SortedAxis::repair_all(const AxisMotion& motion, std::size_t most_passes) {
   return true;
 }
 
-// The same, where most end points stay where they are.
+// The same, where most end points stay where they are. Those that stay between their neighbours, as
+// most do, are told without a branch; the others then move one by one, among others in order.
 bool SortedAxis::repair_few(const AxisMotion& motion, std::size_t most_passes) {
-  make_places(motion.now.size());
+  make_places(motion.now().size());
   const std::span<EndPoint> points = points_;
-  std::size_t passes = 0;
-  std::size_t listed = 0;
-  for (const std::uint32_t id : motion.changed[axis_]) {
+  const std::size_t axis = axis_;
+  const std::span<const std::uint32_t> changed = motion.on(axis);
+  fresh_.resize(2 * changed.size() + 1);  // one more is written to
+  std::size_t count = 0;
+  for (const std::uint32_t id : changed) {
     for (const bool max : {false, true}) {
-      const EndPoint now = end_point(motion.now[id], axis_, max, id);
+      const EndPoint now = end_point(motion.now()[id], axis, max, id);
       const std::size_t at = place(now);
       const EndPoint then = points[at];
-      points[at] = now;
-      passes += now < then ? move<down, true>(points, at, listed, motion)
-                           : move<up, true>(points, at, listed, motion);
-      if (passes > most_passes) return false;
+      const EndPoint below = points[at - (at > 0 ? 1 : 0)];
+      const EndPoint above = points[at + (at + 1 < points.size() ? 1 : 0)];
+      const bool stays = (below <= now) & (now <= above);
+      points[at] = stays ? now : then;
+      fresh_[count] = now;
+      count += stays ? 0 : 1;
     }
+  }
+  std::size_t passes = 0;
+  std::size_t listed = 0;
+  for (const EndPoint now : std::span(fresh_).first(count)) {
+    const std::size_t at = place(now);
+    const EndPoint then = points[at];
+    points[at] = now;
+    passes += now < then ? move<down, true>(points, at, listed, motion)
+                         : move<up, true>(points, at, listed, motion);
+    if (passes > most_passes) return false;
   }
   look_at_passes(listed, motion);
   return true;
@@ -117,8 +132,8 @@ void SortedAxis::look_at_passes(std::size_t listed, const AxisMotion& motion) {
     const Lanes::Floats reach{-own[1], -own[0], -own[3], -own[2]};
     if (Lanes::bits(Lanes::less_equal(Lanes::load(shadows_[b].data()), reach)) != 0xf) continue;
     const bool comes = is_max(pass.upper);
-    const bool now = overlap_on(motion.now[a], motion.now[b], axis_);
-    const bool then = overlap_on(motion.before[a], motion.before[b], axis_);
+    const bool now = overlap_on(motion.now()[a], motion.now()[b], axis_);
+    const bool then = overlap_on(motion.before()[a], motion.before()[b], axis_);
     if (now != comes || then == comes) continue;
     changes_.push_back({{std::min(a, b), std::max(a, b)}, comes});
   }
