@@ -11,7 +11,7 @@
 //          and pairs are not kept but looked for.
 // Fails:   a body that overlaps most others and moves: its pairs are all made anew.
 // Cost:    O(n + k) to be expected where most move; O(m log n) and copying the k pairs where m do.
-//          O(n + k) memory; k = pairs of fat boxes. About 45 bytes a body, 16 more where many move,
+//          O(n + k) memory; k = pairs of fat boxes. About 45 bytes a body, 20 more where many move,
 //          and 17 a pair.
 #include <algorithm>
 
