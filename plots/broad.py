@@ -5,43 +5,10 @@ import sys
 
 from matplotlib.lines import Line2D
 
+import best
 import common
 
 LINES = [(1, "rebuilt"), (0, "updated")]
-OURS, LIMIT = "ours", "limit"
-
-
-def family(row):
-    """Whose it is: ours, the limit's, or a library's, by the first word of the name."""
-    if row["origin"] == "ours":
-        return OURS
-    return row["algorithm"].split("-")[0]
-
-
-def best_of(rows):
-    """The fastest right answer of each family at each count."""
-    best = {}
-    for row in rows:
-        if row["seconds"] is None or row["wrong"] or row["failure"]:
-            continue
-        place = (family(row), row["bodies"])
-        if place not in best or row["seconds"] < best[place]["seconds"]:
-            best[place] = row
-    return best
-
-
-def styles_of(families):
-    """Ours is thick and black; the limit a thin grey line; libraries dashed, in the order of the alphabet."""
-    styles = {}
-    others = sorted(name for name in families if name not in (OURS, LIMIT))
-    colours = [c for c in common.COLOURS if c != "#000000"]
-    for i, name in enumerate(others):
-        styles[name] = {"color": colours[i % len(colours)], "linestyle": "--",
-                        "marker": common.MARKERS[1 + i % (len(common.MARKERS) - 1)],
-                        "markerfacecolor": "white", "markeredgewidth": 0.8, "zorder": 2}
-    styles[OURS] = {"color": "#000000", "linestyle": "-", "marker": "o", "linewidth": 1.6, "zorder": 3}
-    styles[LIMIT] = {"color": "#999999", "linestyle": ":", "zorder": 1}
-    return {name: styles[name] for name in (OURS, *others, LIMIT) if name in families}
 
 
 def draw(tables):
@@ -58,20 +25,20 @@ def draw(tables):
         return None
     scenes = common.in_order(scene for scene, _ in panels)
     lines = [(value, word) for value, word in LINES if any(r == value for _, r in panels)]
-    bests = {key: best_of(own) for key, own in panels.items()}
-    styles = styles_of({name for best in bests.values() for name, _ in best})
+    bests = {key: best.of(own, "bodies") for key, own in panels.items()}
+    styles = best.styles_of({name for found in bests.values() for name, _ in found})
     figure, grid = common.pyplot.subplots(
         len(lines), len(scenes), squeeze=False, sharex=True, sharey=True, constrained_layout=True,
         figsize=(common.PAGE_WIDTH, 0.4 + 1.45 * len(lines)))
     for line, (value, word) in enumerate(lines):
         for column, scene in enumerate(scenes):
             axes = grid[line][column]
-            best = bests.get((scene, value))
-            if best is None:
+            found = bests.get((scene, value))
+            if found is None:
                 axes.set_visible(False)
                 continue
             for name, style in styles.items():
-                points = sorted((r for (own, _), r in best.items() if own == name),
+                points = sorted((r for (own, _), r in found.items() if own == name),
                                 key=lambda r: r["bodies"])
                 if not points:
                     continue

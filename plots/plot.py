@@ -5,6 +5,7 @@ import sys
 import agreement
 import broad
 import common
+import narrow
 import phases
 import speed_up
 import time_against_count
@@ -13,6 +14,7 @@ import winners
 FIGURES = {
     "time_against_count": time_against_count.draw,
     "broad": broad.draw,
+    "narrow": narrow.draw,
     "speed_up": speed_up.draw,
     "phases": phases.draw,
     "winners": winners.draw,

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "algorithms/oracle/oracle.h"
 #include "harness/scene/convex_hull.h"
 #include "harness/scene/polytope.h"
+#include "harness/scene/settle.h"
 
 namespace touchstone {
 namespace {
@@ -101,25 +101,6 @@ constexpr std::array<PairRegime, 5> all_pair_regimes = {{
     {"depth-1e-3", -1e-3},
     {"deep", -0.2},
 }};
-
-// --- pairs --------------------------------------------------------------------------------------
-
-// Moves b along the shortest connection, or separating translation, until the distance is right;
-// on the way another feature may become the nearest. False where that does not settle.
-bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
-            const oracle::Solid& b, Pose& at_b, double distance) {
-  constexpr int most_steps = 30;
-  // What doubles of the size of the translations can place.
-  const double tolerance = std::max(1e-6 * std::abs(distance), 4e-16);
-  for (int step = 0; step < most_steps; ++step) {
-    const oracle::Measure measure = oracle.measure({a, at_a}, {b, at_b});
-    const double off = distance - measure.middle();
-    if (std::abs(off) <= tolerance) return true;
-    if (measure.normal.isZero()) return false;
-    at_b.translation += off * measure.normal.normalized();
-  }
-  return false;
-}
 
 }  // namespace
 

@@ -69,6 +69,18 @@ class Settings {
     if (values.empty()) values.push_back(fallback);
     return values;
   }
+  // Numbers of -`greatest` to `greatest`.
+  std::vector<double> numbers(std::string_view key, double greatest) {
+    std::vector<double> values;
+    for (const toml::node* node : elements(key)) {
+      const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
+      if (!value || !(std::abs(*value) <= greatest)) {
+        of(key).fail(key, fmt::format("expected numbers from -{} to {}", greatest, greatest));
+      }
+      values.push_back(*value);
+    }
+    return values;
+  }
   template <class Value, std::size_t size>
   std::vector<Value> choices(std::string_view key, const std::array<std::string_view, size>& names,
                              std::vector<Value> fallback) {
@@ -213,6 +225,8 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
     settings.of("scenes").fail("scenes", "missing; expected scene files");
   group.counts = settings.integers("counts", 1, greatest_count, -1);
   group.seeds = settings.integers("seeds", 0, std::numeric_limits<std::int64_t>::max(), -1);
+  const std::vector<double> gaps = settings.numbers("gaps", 1e6);
+  if (!gaps.empty()) group.gaps.assign(gaps.begin(), gaps.end());
   group.frames = static_cast<int>(settings.of("frames").integer("frames", 1, 1'000'000, -1));
   group.boxes = settings.choices<BoxKind>("boxes", box_names, {BoxKind::tight});
   group.threads.clear();
@@ -291,6 +305,9 @@ std::string description(const Campaign& campaign) {
                         fmt::join(group.counts, ","), fmt::join(group.seeds, ","), group.frames,
                         fmt::join(group.threads, ","), group.rebuild,
                         pairing_names[static_cast<std::size_t>(group.pairing)]);
+    for (const auto& gap : group.gaps) {
+      if (gap) text += fmt::format(" gap {}", *gap);
+    }
     for (const BoxKind boxes : group.boxes) text += fmt::format(" boxes {}", to_string(boxes));
     for (const auto& limit : group.isa) {
       if (limit) text += fmt::format(" isa {}", to_string(*limit));

@@ -53,12 +53,13 @@ struct CampaignCell {
   std::string pair_kind;
 };
 
-// A grid: every scene x count x seed x boxes x threads x isa is a block, in which every algorithm
-// of the group meets the same frames.
+// A grid: every scene x count x seed x gap x boxes x threads x isa is a block, in which every
+// algorithm of the group meets the same frames.
 struct CampaignGroup {
   std::vector<std::filesystem::path> scenes;
   std::vector<std::int64_t> counts = {-1};  // -1: as the scene says
   std::vector<std::int64_t> seeds = {-1};
+  std::vector<std::optional<double>> gaps = {std::nullopt};  // metres; none: as the scene says
   int frames = -1;
   std::vector<BoxKind> boxes = {BoxKind::tight};
   std::vector<int> threads = {2};

@@ -50,10 +50,13 @@ std::vector<Block> blocks_of(const Campaign& campaign) {
     for (const std::filesystem::path& scene : group.scenes) {
       for (const std::int64_t count : group.counts) {
         for (const std::int64_t seed : group.seeds) {
-          for (const BoxKind boxes : group.boxes) {
-            for (const int threads : group.threads) {
-              for (const auto& isa : group.isa) {
-                blocks.push_back({&group, scene, {count, seed, group.frames}, boxes, threads, isa});
+          for (const auto& gap : group.gaps) {
+            const SceneOverrides overrides{count, seed, group.frames, gap};
+            for (const BoxKind boxes : group.boxes) {
+              for (const int threads : group.threads) {
+                for (const auto& isa : group.isa) {
+                  blocks.push_back({&group, scene, overrides, boxes, threads, isa});
+                }
               }
             }
           }
@@ -114,9 +117,11 @@ class Scenes {
   }
 
  private:
-  using Key = std::tuple<std::filesystem::path, std::int64_t, std::int64_t, int>;
+  using Key =
+      std::tuple<std::filesystem::path, std::int64_t, std::int64_t, int, std::optional<double>>;
   static Key key(const Block& block) {
-    return {block.scene_file, block.overrides.count, block.overrides.seed, block.overrides.frames};
+    const SceneOverrides& overrides = block.overrides;
+    return {block.scene_file, overrides.count, overrides.seed, overrides.frames, overrides.gap};
   }
   std::map<Key, Loaded> loaded_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -17,6 +18,7 @@ struct GeneratorInput {
   ShapeReader& shapes;
   std::int64_t count;  // bodies, at least one
   std::uint64_t seed;
+  std::optional<double> gap = {};  // of all pairs, instead of the file's gaps (metres)
 
   // Independent random numbers for each thing that is drawn, so that a change of one parameter
   // leaves the others' draws as they were.

@@ -7,6 +7,7 @@
 #include "algorithms/core/bounds.h"
 #include "harness/scene/generators.h"
 #include "harness/scene/portable_math.h"
+#include "harness/scene/settle.h"
 
 namespace touchstone {
 namespace {
@@ -53,7 +54,11 @@ Vec3d world_support(const Scene& scene, const Body& body, const Vec3d& n) {
   return times(r, support_point(scene.shapes[body.shape], transposed_times(r, n)));
 }
 
-std::vector<double> read_gaps(TomlTable& table) {
+constexpr std::string_view placement_names[] = {"facing", "settled"};
+enum class Placement : std::uint8_t { facing, settled };
+
+std::vector<double> read_gaps(GeneratorInput& input) {
+  TomlTable& table = input.table;
   std::vector<double> gaps;
   if (const toml::node* node = table.node("gaps")) {
     const toml::array* array = node->as_array();
@@ -66,6 +71,7 @@ std::vector<double> read_gaps(TomlTable& table) {
       table.fail("gaps", "expected an array of signed distances in metres, between -1e6 and 1e6");
     }
   }
+  if (input.gap) return {*input.gap};
   if (gaps.empty()) gaps.push_back(0.1);
   return gaps;
 }
@@ -76,7 +82,9 @@ std::vector<double> read_gaps(TomlTable& table) {
 // direction n the support points of the two, as seen from each other, are put that far apart on a
 // line along n. The planes through them then have nothing of either body between them, so that a
 // gap is the distance, exactly; a depth is that along n, and no greater than the bodies are deep
-// there. Pairs stand on a grid, clear of each other.
+// there. `settled`, body 2 i + 1 is then moved along the shortest connection until the distance, or
+// depth, is the gap by the exact answer: the nearest features are those of bodies that meet by
+// chance. Pairs stand on a grid, clear of each other.
 Generated make_pairs(GeneratorInput& input) {
   if (input.count % 2 != 0) {
     throw InputError(input.table.file(), 0,
@@ -84,7 +92,9 @@ Generated make_pairs(GeneratorInput& input) {
                                  "come in pairs",
                                  input.count));
   }
-  const std::vector<double> gaps = read_gaps(input.table);
+  const std::vector<double> gaps = read_gaps(input);
+  const auto placement =
+      static_cast<Placement>(input.table.choice("placement", placement_names, 0));
   Generated made;
   Scene& scene = made.scene;
   scene = make_bodies(input, {}, true, input.count);
@@ -98,14 +108,32 @@ Generated make_pairs(GeneratorInput& input) {
   std::uint32_t side = 1;
   while (std::uint64_t{side} * side * side < pairs) ++side;
   Random places = input.random(GeneratorInput::place_stream);
+  oracle::Oracle oracle;
   for (std::uint32_t i = 0; i < pairs; ++i) {
     Body& a = scene.bodies[2 * i];
     Body& b = scene.bodies[2 * i + 1];
+    const double gap = gaps[i % gaps.size()];
     a.pose.translation = cell * Vec3d(i % side, i / side % side, i / side / side);
-    const Vec3d n = places.on_sphere();
-    b.pose.translation =
-        a.pose.translation +
-        (world_support(scene, a, n) + gaps[i % gaps.size()] * n - world_support(scene, b, -n));
+    const auto face = [&] {
+      const Vec3d n = places.on_sphere();
+      b.pose.translation =
+          a.pose.translation + (world_support(scene, a, n) + gap * n - world_support(scene, b, -n));
+    };
+    face();
+    if (placement == Placement::settled) {
+      const oracle::Solid solid_a(scene.shapes[a.shape]), solid_b(scene.shapes[b.shape]);
+      constexpr int most_tries = 100;
+      int tries = 1;
+      while (!settle(oracle, solid_a, a.pose, solid_b, b.pose, gap)) {
+        if (++tries > most_tries) {
+          throw InputError(input.table.file(), 0,
+                           fmt::format("no place found for bodies {} and {} at the distance {}: "
+                                       "expected one that these shapes can have",
+                                       2 * i, 2 * i + 1, gap));
+        }
+        face();
+      }
+    }
     a.moving = b.moving = false;
     scene.pairs.push_back({2 * i, 2 * i + 1});
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -76,6 +77,8 @@ struct SceneOverrides {
   std::int64_t count = -1;  // bodies, of a generated scene; -1: as the file says
   std::int64_t seed = -1;   // of a generated scene; -1: as the file says
   int frames = -1;          // -1: as the file says
+  // Metres, signed: of the pairs of the generator `pairs`; it becomes part of the scene's name.
+  std::optional<double> gap = {};
 };
 
 // Reads a scene file: TOML (a generator, bodies, or an import), rigid-ipc's JSON, or Broadmark's

@@ -40,6 +40,15 @@ void refuse_seed(const std::string& file, const SceneOverrides& overrides) {
   throw InputError(file, 0, "a seed was asked for; expected none, as nothing is random");
 }
 
+void refuse_gap(const std::string& file, const SceneOverrides& overrides) {
+  if (!overrides.gap) return;
+  throw InputError(
+      file, 0,
+      fmt::format("a gap of {} was asked for, but only scenes of the generator `pairs` "
+                  "have gaps",
+                  *overrides.gap));
+}
+
 std::uint64_t read_seed(TomlTable& table, const SceneOverrides& overrides) {
   const std::int64_t seed = table.integer("seed", 0, INT64_MAX, 1);
   const std::int64_t used = overrides.seed == -1 ? seed : overrides.seed;
@@ -242,7 +251,8 @@ Scene generate(TomlTable& table, ShapeReader& shapes, const SceneOverrides& over
         table.file(), 0,
         fmt::format("a count of {} was asked for; expected 1 to {}", count, most_bodies));
   }
-  GeneratorInput input{table, shapes, count, read_seed(table, overrides)};
+  if (generator.name != "pairs") refuse_gap(table.file(), overrides);
+  GeneratorInput input{table, shapes, count, read_seed(table, overrides), overrides.gap};
   Generated made = generator.make(input);
   made.scene.motion.seed = input.random(GeneratorInput::motion_stream).next();
   read_motion(table, made.side, made.scene.motion);
@@ -310,6 +320,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
       frames = scene.frames;
     }
     refuse_count(file, overrides);
+    refuse_gap(file, overrides);
     if (scene.recording.empty()) {
       read_motion_of_listed(table, overrides, scene);
     } else {
@@ -393,8 +404,13 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     scene = import_scene(path);
     refuse_count(file, overrides);
     refuse_seed(file, overrides);
+    refuse_gap(file, overrides);
     scene.name = path.stem().string();
     if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
+  }
+  if (overrides.gap) {
+    const double gap = *overrides.gap;
+    scene.name += fmt::format(" {} {}", gap < 0 ? "depth" : "gap", std::abs(gap));
   }
   if (scene.size() == 0) throw InputError(file, 0, "no bodies; expected at least one");
   check_range(file, lines, scene);

@@ -1,0 +1,79 @@
+"""Time a query by the distance or depth of the pairs: the best of ours against the best of each library, with 95 %
+intervals; a column a kind of pairs, a line a task."""
+
+import re
+import sys
+
+from matplotlib.lines import Line2D
+
+import best
+import common
+
+TASKS = ["intersect", "distance", "penetration"]
+PLACED = re.compile(r"(?P<shapes>.+) (?P<side>gap|depth) (?P<size>[-+.e0-9]+)$")
+
+
+def placed(row):
+    """What the scene's name says: the shapes, and the signed distance; nothing for other scenes."""
+    found = PLACED.match(row["scene"])
+    if found is None or not row["task"] or row["threads"] != 1:
+        return None
+    size = float(found["size"])
+    shapes = found["shapes"].replace("_", " ")
+    # A scene of one kind of shapes is known by its name, of several by the kinds of the pair.
+    kinds = row["pair_kind"]
+    return (kinds if shapes == "primitives" else shapes), size if found["side"] == "gap" else -size
+
+
+def draw(tables):
+    panels = {}
+    for row in tables["times"]:
+        place = placed(row)
+        if place is None:
+            continue
+        shapes, distance = place
+        panels.setdefault((row["task"], shapes), []).append({**row, "distance": distance})
+    if not panels:
+        return None
+    tasks = [task for task in TASKS if any(t == task for t, _ in panels)]
+    columns = common.in_order(shapes for _, shapes in panels)
+    bests = {key: best.of(rows, "distance") for key, rows in panels.items()}
+    styles = best.styles_of({name for found in bests.values() for name, _ in found})
+    figure, grid = common.pyplot.subplots(
+        len(tasks), len(columns), squeeze=False, sharey=True, constrained_layout=True,
+        figsize=(common.PAGE_WIDTH * 1.5, 0.4 + 1.5 * len(tasks)))
+    for line, task in enumerate(tasks):
+        for column, shapes in enumerate(columns):
+            axes = grid[line][column]
+            found = bests.get((task, shapes))
+            if found is None:
+                axes.set_visible(False)
+                continue
+            # Regimes stand side by side, from far apart to deep.
+            distances = sorted({distance for _, distance in found}, reverse=True)
+            for name, style in styles.items():
+                points = sorted((distances.index(distance), row)
+                                for (own, distance), row in found.items() if own == name)
+                if not points:
+                    continue
+                y = [row["seconds"] * 1e9 for _, row in points]
+                low, high = ([abs((row["seconds"] if row[end] is None else row[end]) - row["seconds"]) * 1e9
+                              for _, row in points] for end in ("seconds_low", "seconds_high"))
+                axes.errorbar([x for x, _ in points], y, yerr=[low, high], capsize=1.2,
+                              elinewidth=0.6, capthick=0.6, **style)
+            axes.set_yscale("log")
+            axes.grid(True)
+            axes.set_xticks(range(len(distances)), [f"{distance:g}" for distance in distances])
+            if line == 0:
+                axes.set_title(shapes, loc="left")
+            if column == 0:
+                axes.set_ylabel(f"{task}: ns a query")
+            if line + 1 == len(tasks):
+                axes.set_xlabel("distance (m)")
+    common.legend_below(figure, [Line2D([], [], label=name, **style)
+                                 for name, style in styles.items()], columns=9)
+    return figure
+
+
+if __name__ == "__main__":
+    sys.exit(common.run({"narrow": draw}, __doc__))
