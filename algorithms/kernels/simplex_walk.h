@@ -19,6 +19,7 @@ struct Walk {
   Simplex<Scalar> simplex;  // weights are not set
   Scalar lower =
       0;  // bound of the distance between the cores by the last plane, in the pair's unit
+  Vec3<Scalar> way = Vec3<Scalar>::Zero();  // that plane's normal, away from the origin; any length
   int iterations = 0;
 };
 
@@ -31,6 +32,12 @@ struct WalkGoal {
 template <class Scalar>
 Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance);
 
+// Whether the origin is inside a tetrahedron whatever rounding did to its corners.
+template <class Scalar>
+bool is_surely_inside(const Simplex<Scalar>& simplex);
+
+extern template bool is_surely_inside(const Simplex<float>&);
+extern template bool is_surely_inside(const Simplex<double>&);
 extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float);
 extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double);
 

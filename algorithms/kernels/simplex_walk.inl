@@ -2,6 +2,7 @@
 // instructions, inside that level's namespace; the same at every level.
 
 struct Scan {
+  static constexpr bool climbs = true;
   template <class Scalar>
   TOUCHSTONE_TARGET static std::uint32_t furthest(const SupportShape<Scalar>& hull,
                                                   const Vec3<Scalar>& d) {
@@ -28,6 +29,7 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     found.lower = way.dot(point.difference) / length;
     if (found.lower > apart && (goal.only_apart || nearest - found.lower <= tolerance)) {
       found.end = goal.only_apart ? WalkEnd::apart : WalkEnd::near;
+      found.way = way;
       return found;
     }
     for (int i = 0; i < simplex.size; ++i) {
