@@ -16,6 +16,7 @@ struct Way {
 };
 
 constexpr unsigned all_corners = 0xf;
+constexpr std::size_t side_by_side = 2;  // walks
 
 // Features that the newest corner is on, as a step of the walk cannot end on others: w[0] of all.
 template <class Scalar>
@@ -121,17 +122,20 @@ Vec3<Scalar> reduce_quickly(Simplex<Scalar>& simplex) {
   return way.vector;
 }
 
-// Whether the origin is inside a tetrahedron whatever rounding did to its corners: the determinants
-// of its corners by threes, each with the origin, keep their signs. Those of corners no longer than
-// m that are off by `rounding` are off by 3 rounding m^2 and by a few units in the last place of
-// m^3, which is 16 times less a unit; so it is twice as much that is asked for.
+}  // namespace
+
+// The determinants of its corners by threes, each with the origin, keep their signs. With corners
+// no longer than m that are off by r = 107 u (proven_rounding says why; u is half of epsilon) they
+// are off by 3 r m^2
+// + 3 r^2 m + r^3, and by 50 u m^3 of their own rounding; none exceeds m^3. So 512 u m^2 (1 + m) is
+// enough.
 template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex) {
-  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  constexpr Scalar factor = 256 * std::numeric_limits<Scalar>::epsilon();
   const auto w = [&](int i) -> const Vec3<Scalar>& { return simplex.points[i].difference; };
   Scalar longest = 0;
   for (int i = 0; i < 4; ++i) longest = std::max(longest, w(i).squaredNorm());
-  const Scalar enough = 8 * rounding * longest * (1 + std::sqrt(longest));
+  const Scalar enough = factor * longest * (1 + std::sqrt(longest));
   const auto determinant = [&](int i, int j, int k) {
     return w(i).dot((w(j) - w(i)).cross(w(k) - w(i)));
   };
@@ -141,6 +145,8 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   return least > enough || most < -enough;
 }
 
+namespace {
+
 #define TOUCHSTONE_LANES hull_scan
 #define TOUCHSTONE_LOOPS "algorithms/kernels/simplex_walk.inl"
 #include "algorithms/kernels/every_level.inl"
@@ -148,14 +154,25 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
 }  // namespace
 
 template <class Scalar>
-Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance) {
+void walk_together(std::span<WalkTask<Scalar>> tasks, const WalkGoal& goal) {
   switch (isa()) {
-    case Isa::avx512: return avx512::walk_at(pair, goal, tolerance);
-    case Isa::avx2: return avx2::walk_at(pair, goal, tolerance);
-    default: return baseline::walk_at(pair, goal, tolerance);
+    case Isa::avx512: return avx512::walk_all(tasks, goal);
+    case Isa::avx2: return avx2::walk_all(tasks, goal);
+    case Isa::baseline: return baseline::walk_all(tasks, goal);
   }
 }
 
+template <class Scalar>
+Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance) {
+  WalkTask<Scalar> task{&pair, tolerance, {}};
+  walk_together(std::span(&task, 1), goal);
+  return task.found;
+}
+
+template bool is_surely_inside(const Simplex<float>&);
+template bool is_surely_inside(const Simplex<double>&);
+template void walk_together(std::span<WalkTask<float>>, const WalkGoal&);
+template void walk_together(std::span<WalkTask<double>>, const WalkGoal&);
 template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float);
 template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double);
 

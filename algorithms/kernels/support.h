@@ -17,11 +17,17 @@
 
 namespace touchstone {
 
-// From the centre of a to the centre of b (metres, world axes), good to its own rounding even far
-// from the world's origin and from the shapes' own.
+// From the centre of a to the centre of b: metres, world axes. Each component is off by a few units
+// in the last place of the greatest of them and of the sizes of the turned bodies, and by `doubt`,
+// which is not zero only where a hull is far from its own origin.
+struct CentreOffset {
+  Vec3d vector;
+  double doubt;
+};
+
 template <class Scalar>
-Vec3d centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
-                    const SupportShape<Scalar>& b, const Pose& pose_b);
+CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
+                           const SupportShape<Scalar>& b, const Pose& pose_b);
 
 // Whether balls around the two bodies are apart, beyond rounding.
 template <class Scalar>
@@ -40,8 +46,35 @@ template <class Scalar>
 class SupportPair {
  public:
   // Coordinates of the pair's cores, and `centre_b`, are at most about 2. What rounding does to
-  // a point of the difference stays below this (length, in the pair's unit).
+  // a point of the difference stays below this (length, in the pair's unit) in all that was ever
+  // tried; what can be proven is `proven_rounding`.
   static constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
+
+  // The proof, for poses of any matrix as it stands. Let u be half of epsilon, M a core's matrix,
+  // v a point of the core, both as stored; (..)_i a component, |..| taken of each. As unit_ is
+  // above the offset and the reach of both bodies, (|M| |v|)_i <= sqrt(3), and summed with the
+  // components of a unit vector n it is at most 3. A support point w = p - q, for any direction n:
+  //                                              each component      along n
+  //   stored v (hulls: centre subtracted)         sqrt(3) u           3 u   a body
+  //   ... or computed v of a curved core           6 sqrt(3) u        in `furthest`
+  //   product M v                                 3 sqrt(3) u         9 u   a body
+  //   offset of the centres                       32 u               55 u
+  //   q = M v + offset, and p - q                 2.8 u, 4.5 u        5 u, 8 u
+  //   furthest: n turned (9 u, and again for the furthest itself), each product with a vertex (9 u)
+  //     or curved support (18 u); a cone's choice of tip or rim (27 u)     36 u to 63 u a body
+  //   the product n . w, of |w| <= 8                                 23 u
+  //   the length of n and the division by it                         31 u
+  //   both radii and their sum                                        4 u
+  // As only hulls have a centre off their origin (otherwise the offset is good to u), no pair of
+  // kinds comes to more than 107 u for the length by which w is off a point of the difference, and
+  // to more than 248 u for its plane as a bound of the difference. What underflows is 2^-1074 of
+  // the unit or less. Sums of weighted points, of weights >= 0, and their length: 90 u more than w.
+  static constexpr Scalar proven_rounding = 128 * std::numeric_limits<Scalar>::epsilon();
+
+  // What the proof asks for: lengths that are below the unit. (`power_of_two_above` ends there.)
+  // Support points that are found by climbing may not be the furthest; `support<ScanAll>` are.
+  bool is_in_range() const { return unit_ < 0x1p959; }
+  bool climbs() const { return climbs_; }
 
   SupportPair(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
               const Pose& pose_b);
@@ -72,12 +105,14 @@ class SupportPair {
   }
 
  private:
-  Vec3d offset_;  // metres
+  SupportPair(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
+              const SupportShape<Scalar>& b, const Pose& pose_b);
+
   double unit_;
   TurnedShape<Scalar> a_, b_;
   Vec3<Scalar> centre_b_;
   Vec3d origin_;  // body a's centre in the world, metres
-  bool is_polytope_;
+  bool is_polytope_, climbs_;
   int support_calls_ = 0;
 };
 

@@ -1,18 +1,26 @@
 // The support map of a shape that is turned as its body is.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithms/kernels/hull_scan.h"
 #include "algorithms/kernels/support_shape.h"
 
 namespace touchstone {
 
+// How a hull's furthest vertex is found: by looking at all, or by climbing where it has neighbours.
 struct ScanAtBest {
+  static constexpr bool climbs = true;
   template <class Scalar>
   static std::uint32_t furthest(const SupportShape<Scalar>& hull, const Vec3<Scalar>& d) {
     return hull_scan::furthest(std::span<const hull_scan::VertexBlock<Scalar>>(hull.vertices), d);
   }
+};
+
+struct ScanAll : ScanAtBest {
+  static constexpr bool climbs = false;
 };
 
 // A shape turned as its body is, about its centre, in the units of a query.
@@ -40,10 +48,19 @@ class TurnedShape {
   // The point of the disc of this radius, normal to z, furthest along (dx, dy); its centre where
   // the direction is along z.
   static Vec3<Scalar> disc_support(Scalar radius, const Vec3<Scalar>& d, Scalar z) {
-    const Scalar length = std::sqrt(d.x() * d.x() + d.y() * d.y());
-    const Scalar factor = length > 0 ? radius / length : Scalar{0};
+    const Scalar square = d.x() * d.x() + d.y() * d.y();
+    if (!(square > least_square)) {
+      const Scalar greatest = std::max(std::abs(d.x()), std::abs(d.y()));
+      if (!(greatest > 0)) return {0, 0, z};
+      return disc_support(radius, d / greatest, z);
+    }
+    const Scalar factor = radius / std::sqrt(square);
     return {factor * d.x(), factor * d.y(), z};
   }
+
+  // Squares below this have lost digits: their root would put points outside of the core.
+  static constexpr Scalar least_square =
+      std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
 
   const SupportShape<Scalar>* shape_;
   Mat3<Scalar> matrix_;
@@ -69,14 +86,19 @@ inline Vec3<Scalar> TurnedShape<Scalar>::support(const Vec3<Scalar>& direction) 
       return tip ? Vec3<Scalar>(e.z() * matrix_.col(2)) : matrix_ * disc_support(e.x(), d, -e.z());
     }
     case Core::ellipsoid: {
-      const Vec3<Scalar> stretched = e.cwiseProduct(d);
-      const Scalar length = stretched.norm();
-      if (!(length > 0)) return Vec3<Scalar>::Zero();
-      return matrix_ * e.cwiseProduct(stretched / length);
+      Vec3<Scalar> stretched = e.cwiseProduct(d);
+      Scalar square = stretched.squaredNorm();
+      if (!(square > least_square)) {
+        const Scalar greatest = stretched.cwiseAbs().maxCoeff();
+        if (!(greatest > 0)) return Vec3<Scalar>::Zero();
+        stretched /= greatest;
+        square = stretched.squaredNorm();
+      }
+      return matrix_ * e.cwiseProduct(stretched / std::sqrt(square));
     }
     case Core::hull:
-      vertex_ =
-          shape_->neighbours_begin.empty() ? Scan::furthest(*shape_, d) : shape_->climb(d, vertex_);
+      vertex_ = !Scan::climbs || shape_->neighbours_begin.empty() ? Scan::furthest(*shape_, d)
+                                                                  : shape_->climb(d, vertex_);
       return matrix_ * shape_->vertex(vertex_);
     case Core::point:
     case Core::halfspace: break;  // a half-space has no furthest point: see halfspace.h

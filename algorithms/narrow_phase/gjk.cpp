@@ -6,9 +6,8 @@
 //          gap of the squared distance that Montaut et al. stop by. Round shapes are cores with a
 //          radius, so that shallow overlaps of theirs need no EPA. Where the origin is on the
 //          simplex, EPA decides: a verdict is `ok` only where a bound proves it beyond rounding.
-//          Never answers `touching`. A quick walk with plain products comes first (simplex_walk.h);
-//          this one makes its end good, or goes on from there. Bodies whose balls are apart are not
-//          walked between, but for their distance.
+//          Never answers `touching`. The loop is in gjk_approach.h, with a quick walk before it.
+//          Bodies whose balls are apart are not walked between, but for their distance.
 // Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a part of
 //          the pair's size. Depth of smooth, nearly round bodies far inside each other: EPA's cap
 //          comes first, not_converged with bounds.
@@ -24,11 +23,8 @@
 #include <limits>
 
 #include "algorithms/kernels/expanding_polytope.h"
+#include "algorithms/kernels/gjk_approach.h"
 #include "algorithms/kernels/halfspace.h"
-#include "algorithms/kernels/nesterov_direction.h"
-#include "algorithms/kernels/simplex.h"
-#include "algorithms/kernels/simplex_walk.h"
-#include "algorithms/kernels/support.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -36,26 +32,6 @@ namespace {
 
 constexpr int default_gjk_cap = 128;
 constexpr int default_epa_cap = 256;
-
-// What GJK knows of the distance between the cores, in the pair's unit.
-template <class Scalar>
-struct Approach {
-  enum class End {
-    decided,    // as far as the task needs
-    contact,    // the origin is inside the simplex, or on it up to rounding
-    no_better,  // rounding
-    cap,
-  };
-  End end = End::cap;
-  Simplex<Scalar> simplex;
-  NearestPoint<Scalar> nearest;
-  Scalar lower = 0;
-  Scalar upper = std::numeric_limits<Scalar>::infinity();
-  int iterations = 0;
-};
-
-// Where to look for the next support point.
-enum class Momentum : std::uint8_t { none, nesterov };
 
 template <class Scalar>
 class Gjk final : public NarrowPhase {
@@ -87,28 +63,21 @@ class Gjk final : public NarrowPhase {
         outcomes[i].status = Status::ok;
         outcomes[i].iterations = outcomes[i].support_calls = 0;
       } else {
-        SupportPair<Scalar> pair(shape_a, batch.poses[a], shape_b, batch.poses[b]);
-        solve_pair(pair, batch.task, outcomes[i]);
+        pairs_.emplace_back(shape_a, batch.poses[a], shape_b, batch.poses[b]);
+        answers_.push_back(&outcomes[i]);
+        if (pairs_.size() == together) solve_pairs(batch.task);
       }
     }
+    solve_pairs(batch.task);
   }
 
  private:
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
-  void solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
-  Approach<Scalar> approach(SupportPair<Scalar>& pair, Task task, Scalar tolerance) const;
-  bool walk_first(SupportPair<Scalar>& pair, Task task, Scalar tolerance,
-                  Approach<Scalar>& found) const;
-  // Whether a lower bound is too far below the nearest point's distance to stop, both of the cores.
-  bool is_open(const SupportPair<Scalar>& pair, Scalar nearest, Scalar lower,
-               Scalar tolerance) const {
-    const Scalar difference = nearest - lower;
-    if (!duality_gap_) return difference > tolerance;
-    const double area = pair.unit() * pair.unit();
-    return difference > rounding &&
-           2 * area * static_cast<double>(nearest * difference) > *duality_gap_;
-  }
+  // Those that wait, and none does then.
+  void solve_pairs(Task task);
+  void solve_pair(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                  const Walk<Scalar>* walked, Outcome& outcome);
   void solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
                      Scalar tolerance, Outcome& outcome);
   Scalar tolerance_for(const SupportPair<Scalar>& pair) const {
@@ -123,6 +92,11 @@ class Gjk final : public NarrowPhase {
   int gjk_cap_;
   ExpandingPolytope<Scalar> polytope_;
   std::vector<SupportShape<Scalar>> shapes_;
+
+  static constexpr std::size_t together = 16;  // pairs that are walked in side by side
+  std::vector<SupportPair<Scalar>> pairs_;
+  std::vector<Outcome*> answers_;  // theirs
+  std::vector<WalkTask<Scalar>> walks_;
 };
 
 // Writes a distance between the bodies, all in the pair's unit: `distance` and its bounds signed;
@@ -140,138 +114,34 @@ void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scala
   outcome.witness_b = pair.to_world(b - pair.radius_b() * normal);
 }
 
-// Whether the quick walk is all that was needed; if not, how far it came.
 template <class Scalar>
-bool Gjk<Scalar>::walk_first(SupportPair<Scalar>& pair, Task task, Scalar tolerance,
-                             Approach<Scalar>& found) const {
-  using End = typename Approach<Scalar>::End;
-  const Walk<Scalar> quick =
-      walk(pair, {.only_apart = task != Task::distance, .most_iterations = gjk_cap_}, tolerance);
-  found.iterations = quick.iterations;
-  found.simplex = quick.simplex;
-  if (quick.end == WalkEnd::apart) {
-    found.lower = quick.lower;
-    found.end = End::decided;
-    return true;
+void Gjk<Scalar>::solve_pairs(Task task) {
+  ApproachGoal<Scalar> goal{.task = task,
+                            .duality_gap = duality_gap_,
+                            .most_iterations = gjk_cap_,
+                            .momentum = momentum_};
+  walks_.clear();
+  if (goal.may_walk()) {
+    for (auto& pair : pairs_) walks_.push_back({&pair, tolerance_for(pair), {}});
+    walk_together(std::span(walks_), goal.walk_goal());
   }
-  found.upper = 0;
-  found.end = End::contact;
-  if (quick.end == WalkEnd::inside) {
-    found.nearest.inside = true;
-    found.nearest.distance = 2 * rounding;  // at least
-    return true;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    goal.tolerance = tolerance_for(pairs_[i]);
+    solve_pair(pairs_[i], goal, walks_.empty() ? nullptr : &walks_[i].found, *answers_[i]);
   }
-  if (found.simplex.size == 0) return false;
-  found.nearest = reduce_to_nearest(found.simplex);
-  if (found.nearest.inside || !(found.nearest.distance > rounding)) return true;
-  found.upper = found.nearest.distance;
-  found.end = End::cap;
-  if (quick.end != WalkEnd::near || is_open(pair, found.nearest.distance, quick.lower, tolerance)) {
-    return false;
-  }
-  found.lower = quick.lower;
-  found.end = End::decided;
-  return true;
+  pairs_.clear();
+  answers_.clear();
 }
 
 template <class Scalar>
-Approach<Scalar> Gjk<Scalar>::approach(SupportPair<Scalar>& pair, Task task,
-                                       Scalar tolerance) const {
+void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                             const Walk<Scalar>* walked, Outcome& outcome) {
   using End = typename Approach<Scalar>::End;
-  // Steps that do not come nearer may still turn the plane; but not for ever.
-  constexpr int patience = 8;
-  const Scalar radius = pair.radius();
-  Approach<Scalar> found;
-  found.lower = -std::numeric_limits<Scalar>::infinity();
-  Simplex<Scalar>& simplex = found.simplex;
-
-  const Scalar length = pair.centre_b().norm();
-  Vec3<Scalar> direction =
-      length > 0 ? Vec3<Scalar>(pair.centre_b() / length) : Vec3<Scalar>::UnitX();
-  if (momentum_ == Momentum::none && !duality_gap_) {
-    if (walk_first(pair, task, tolerance, found)) return found;
-    if (simplex.size > 0) direction = -found.nearest.direction;
-  }
-  int stalled = 0;
-  bool accelerated = momentum_ == Momentum::nesterov;
-  NesterovDirection<Scalar> nesterov(pair.is_polytope(), -pair.centre_b());
-  while (found.iterations < gjk_cap_) {
-    ++found.iterations;
-    const DifferencePoint<Scalar> point = pair.support(direction);
-    const Scalar lower = -direction.dot(point.difference);
-    const bool of_normal = task == Task::penetration && !accelerated;
-    found.lower = of_normal ? lower : std::max(found.lower, lower);
-    const bool apart = found.lower - radius > rounding;
-    // Comparisons are written so that NaN ends the loop.
-    const bool open =
-        is_open(pair, found.nearest.distance, found.lower, tolerance) || simplex.size == 0;
-    switch (task) {
-      case Task::intersect:
-        if (apart) found.end = End::decided;
-        break;
-      case Task::distance:
-        if (apart && !open) found.end = End::decided;
-        break;
-      case Task::penetration:
-        if (apart || (!open && found.lower > rounding)) found.end = End::decided;
-        break;
-    }
-    bool known = false;
-    for (int i = 0; i < simplex.size; ++i) {
-      known = known || simplex.points[i].difference == point.difference;
-    }
-    // The paper's stop: the support point is no nearer to the origin along the nearest point.
-    const bool spent = accelerated && simplex.size > 0 &&
-                       !is_open(pair, found.nearest.distance,
-                                found.nearest.direction.dot(point.difference), tolerance);
-    // A shallow overlap of round shapes: the bound is to hold along the normal that is reported.
-    const bool oblique = accelerated && task == Task::penetration && !apart && !open;
-    if (accelerated && (found.end != End::decided || oblique) && (known || spent || oblique)) {
-      accelerated = false;
-      found.end = End::cap;
-      direction = -found.nearest.direction;
-      continue;
-    }
-    if (found.end == End::decided) return found;
-    if (known) {
-      found.end = End::no_better;
-      return found;
-    }
-
-    simplex.points[simplex.size++] = point;
-    found.nearest = reduce_to_nearest(simplex);
-    if (found.nearest.inside || !(found.nearest.distance > rounding)) {
-      found.upper = 0;
-      found.end = End::contact;
-      return found;
-    }
-    if (!(found.nearest.distance < found.upper) && ++stalled > patience) {
-      found.end = End::no_better;
-      return found;
-    }
-    found.upper = std::min(found.upper, found.nearest.distance);
-    if (task != Task::penetration && found.upper - radius < -rounding) {
-      found.end = End::decided;
-      return found;
-    }
-    direction = -found.nearest.direction;
-    if (accelerated) {
-      const Vec3<Scalar> nearest = found.nearest.distance * found.nearest.direction;
-      const Vec3<Scalar> ahead = nesterov.next(nearest, point.difference);
-      if (ahead.squaredNorm() > Scalar{0.5}) direction = ahead;
-    }
-  }
-  return found;
-}
-
-template <class Scalar>
-void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome) {
-  using End = typename Approach<Scalar>::End;
-  const Scalar tolerance = tolerance_for(pair);
-  const Approach<Scalar> found = approach(pair, task, tolerance);
+  const Task task = goal.task;
+  const Approach<Scalar> found = approach(pair, goal, walked);
   outcome.iterations = found.iterations;
   if (found.end == End::contact) {
-    solve_contact(pair, found, task, tolerance, outcome);
+    solve_contact(pair, found, task, goal.tolerance, outcome);
   } else {
     const Scalar lower = found.lower - pair.radius();
     const Scalar upper = found.upper - pair.radius();
@@ -282,7 +152,7 @@ void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outc
                        (task == Task::penetration && outcome.answer != Answer::separated);
     // A bound that the answer did not need may be open.
     const bool known = outcome.answer != Answer::unknown &&
-                       (!asked || !is_open(pair, found.nearest.distance, found.lower, tolerance));
+                       (!asked || !goal.is_open(pair, found.nearest.distance, found.lower));
     outcome.status = known ? Status::ok : Status::not_converged;
     if (asked) {
       Vec3<Scalar> a = Vec3<Scalar>::Zero();
@@ -296,14 +166,6 @@ void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outc
     }
   }
   outcome.support_calls = pair.support_calls();
-}
-
-// How far the nearest point, as its weights have it, is from the origin.
-template <class Scalar>
-Scalar off_core(const Simplex<Scalar>& simplex) {
-  Vec3<Scalar> sum = Vec3<Scalar>::Zero();
-  for (int i = 0; i < simplex.size; ++i) sum += simplex.weights[i] * simplex.points[i].difference;
-  return sum.norm();
 }
 
 // The cores share a point, up to rounding.
