@@ -27,10 +27,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load_boxes(const PairTable<Scalar>& tab
   // Quads of the matrices' first eight numbers; the ninth of a beside the offset; half extents,
   // those of b beside the ninth of its matrix.
   alignas(64) Quad<Scalar> quads[7][width];
-  const std::size_t last = table.pairs.first.size() - 1;
+  Group<Scalar> group;
+  start_group<Scalar>(table, begin, group);
   for (std::size_t lane = 0; lane < width; ++lane) {
-    const std::size_t i = std::min(begin + lane, last);
-    const std::uint32_t first = table.pairs.first[i], second = table.pairs.second[i];
+    const std::uint32_t first = group.first[lane], second = group.second[lane];
     const Pose &a = table.pairs.poses[first], &b = table.pairs.poses[second];
     quads[0][lane] = convert<Scalar>(pose_quad(a, 0));
     quads[1][lane] = convert<Scalar>(pose_quad(a, 4));

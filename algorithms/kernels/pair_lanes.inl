@@ -1,6 +1,30 @@
 // What loops over pairs of bodies share. Included by their loops once for each level of vector
 // instructions.
 
+// The bodies of as many pairs as there are lanes, from `begin` on; behind the last pair it is
+// repeated, for which there are the arrays.
+template <class Scalar>
+struct Group {
+  const std::uint32_t *first, *second;
+  std::uint32_t padded_first[RealLanes<Scalar>::width], padded_second[RealLanes<Scalar>::width];
+};
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void start_group(const PairTable<Scalar>& table,
+                                                     std::size_t begin, Group<Scalar>& group) {
+  constexpr std::size_t width = RealLanes<Scalar>::width;
+  const BodyPairs& pairs = table.pairs;
+  group.first = pairs.first.data() + begin;
+  group.second = pairs.second.data() + begin;
+  if (pairs.first.size() - begin >= width) return;
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    const std::size_t i = std::min(begin + lane, pairs.first.size() - 1);
+    group.padded_first[lane] = pairs.first[i];
+    group.padded_second[lane] = pairs.second[i];
+  }
+  group.first = group.padded_first;
+  group.second = group.padded_second;
+}
+
 // The numbers from `first` on of a pose: its matrix by columns, then the translation.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> pose_quad(const Pose& pose, std::size_t first) {
   Quad<double> q;
@@ -82,6 +106,15 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_numbers(const PairTable<Scalar>& 
   }
 }
 
+// By the lowest bit.
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_answer(unsigned apart, Outcome& outcome) {
+  static_assert(static_cast<int>(Answer::separated) == 0);
+  constexpr auto common = static_cast<unsigned>(Answer::overlapping);
+  outcome.answer = static_cast<Answer>(common - common * (apart & 1));
+  outcome.status = Status::ok;
+  outcome.iterations = 0;
+}
+
 // Writes the answers of the pairs from `begin` on that have one, and the places of the others
 // behind the `left` that are there; how many those are then.
 template <class Scalar>
@@ -89,16 +122,21 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::size_t write_answers(const PairTable<Sc
                                                               std::size_t begin, unsigned apart,
                                                               unsigned overlapping,
                                                               std::size_t left) {
-  const std::size_t end = std::min(RealLanes<Scalar>::width, table.pairs.first.size() - begin);
-  for (std::size_t lane = 0; lane < end; ++lane) {
-    Outcome& outcome = table.outcomes[begin + lane];
-    if (((apart | overlapping) >> lane & 1) == 0) {
-      table.left[left++] = static_cast<std::uint32_t>(begin + lane);
-      continue;
+  constexpr std::size_t width = RealLanes<Scalar>::width;
+  const std::size_t end = std::min(width, table.pairs.first.size() - begin);
+  const unsigned answered = apart | overlapping;
+  if (end == width && (~answered & ((1u << width) - 1)) == 0) {
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      write_answer(apart >> lane, table.outcomes[begin + lane]);
     }
-    outcome.answer = (apart >> lane & 1) != 0 ? Answer::separated : Answer::overlapping;
-    outcome.status = Status::ok;
-    outcome.iterations = 0;
+    return left;
+  }
+  for (std::size_t lane = 0; lane < end; ++lane) {
+    if ((answered >> lane & 1) != 0) {
+      write_answer(apart >> lane, table.outcomes[begin + lane]);
+    } else {
+      table.left[left++] = static_cast<std::uint32_t>(begin + lane);
+    }
   }
   return left;
 }

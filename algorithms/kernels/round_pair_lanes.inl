@@ -71,10 +71,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
   using Real = typename Lanes::Real;
   constexpr std::size_t width = Lanes::width;
   alignas(64) Quad<Scalar> offsets[width], sizes[width], axes_a[width], axes_b[width];
-  const std::size_t last = table.pairs.first.size() - 1;
+  Group<Scalar> group;
+  start_group<Scalar>(table, begin, group);
   for (std::size_t lane = 0; lane < width; ++lane) {
-    const std::size_t i = std::min(begin + lane, last);
-    const std::uint32_t first = table.pairs.first[i], second = table.pairs.second[i];
+    const std::uint32_t first = group.first[lane], second = group.second[lane];
     const Pose &a = table.pairs.poses[first], &b = table.pairs.poses[second];
     offsets[lane] = convert<Scalar>(pose_quad(b, 8) - pose_quad(a, 8));
     sizes[lane] = __builtin_shufflevector(shape_quad<Scalar>(table, first),
@@ -149,10 +149,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
   using Real = typename Lanes::Real;
   constexpr std::size_t width = Lanes::width;
   alignas(64) Quad<Scalar> quads[4][width];
-  const std::size_t last = table.pairs.first.size() - 1;
+  Group<Scalar> group;
+  start_group<Scalar>(table, begin, group);
   for (std::size_t lane = 0; lane < width; ++lane) {
-    const std::size_t i = std::min(begin + lane, last);
-    const std::uint32_t first = table.pairs.first[i], second = table.pairs.second[i];
+    const std::uint32_t first = group.first[lane], second = group.second[lane];
     const Pose &a = table.pairs.poses[first], &b = table.pairs.poses[second];
     const Quad<double> end = pose_quad(b, 8), between = end - pose_quad(a, 8);
     quads[0][lane] = convert<Scalar>(pose_quad(b, 0));

@@ -84,6 +84,8 @@ CoreGap<Scalar> segment_gap(const Segment<Scalar>& a, const Segment<Scalar>& b) 
   }
   const Scalar length = normal.norm();
   normal = length > rounding<Scalar> ? Vec3<Scalar>(normal / length) : across(a.along, b.along);
+  // Points that meet may lie on either side of a direction that they do not give.
+  if (normal.dot(between) < 0) normal = -normal;
   const Scalar gap = normal.dot(between);
   return {gap, gap, gap, normal, closest.first, closest.second};
 }
