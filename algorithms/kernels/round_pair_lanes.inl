@@ -3,8 +3,8 @@
 #include "algorithms/kernels/pair_lanes.inl"
 
 // What the cores of two bodies are to each other; metres, world axes, as seen from the centre of
-// a. The distance is `gap` up to `error`, or less than nothing is known of it where `certain` has
-// no bit; in any case it is between `lower` and `upper` up to the error.
+// a. The distance, signed where a point is in a box, is between `lower` and `upper` up to `error`;
+// `gap` is what it is along the normal.
 template <class Scalar>
 struct Cores {
   using Real = typename RealLanes<Scalar>::Real;
@@ -133,8 +133,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
   Vectors<Scalar> straight = between;
   if constexpr (long_a) straight = part_across<Scalar>(straight, half_a, square_a, s);
   if constexpr (long_b) straight = part_across<Scalar>(straight, half_b, square_b, t);
-  const Real length = Lanes::sqrt(dot<Scalar>(straight, straight));
-  cores.normal = {straight.x / length, straight.y / length, straight.z / length};
+  const Real scale = Lanes::broadcast(1) / Lanes::sqrt(dot<Scalar>(straight, straight));
+  cores.normal = {straight.x * scale, straight.y * scale, straight.z * scale};
   cores.gap = dot<Scalar>(cores.normal, between);
   cores.upper = Lanes::sqrt(dot<Scalar>(between, between));
   cores.lower = dot<Scalar>(cores.normal, offset) - Lanes::abs(dot<Scalar>(cores.normal, half_a)) -
@@ -208,7 +208,6 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
   cores.on_b = moved<Scalar>({zero, zero, zero}, cores.gap, normal);
 }
 
-// `look` sees the cores of the pairs from a place on.
 template <class Scalar, bool long_a, bool long_b, bool box>
 TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task task) {
   using Lanes = RealLanes<Scalar>;
