@@ -222,7 +222,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> to_world(
 // Writes all numbers of the outcomes of those lanes that are known to overlap; the lanes of which
 // that was possible.
 template <class Scalar>
-TOUCHSTONE_TARGET unsigned write_depths(const BoxTable<Scalar>& table, std::size_t begin,
+TOUCHSTONE_TARGET unsigned write_depths(const PairTable<Scalar>& table, std::size_t begin,
                                         const BoxColumns<Scalar>& boxes,
                                         const BoxProducts<Scalar>& seen, unsigned overlapping) {
   using Lanes = RealLanes<Scalar>;
@@ -235,23 +235,7 @@ TOUCHSTONE_TARGET unsigned write_depths(const BoxTable<Scalar>& table, std::size
   // Any axis has a depth that is not less than the least; it takes all of them to know that.
   const Real lower = -contact.depth - GapError<Scalar>::coarse * seen.size;
   const Real upper = GapError<Scalar>::fine * seen.size - contact.depth;
-  Real columns[3][4] = {{-contact.depth, lower, upper, normal.x},
-                        {normal.y, normal.z, on_a.x, on_a.y},
-                        {on_a.z, on_b.x, on_b.y, on_b.z}};
-  alignas(64) Quad<Scalar> quads[3][Lanes::width];
-  for (std::size_t k = 0; k < 3; ++k) quads_of<Scalar>(columns[k], quads[k]);
-  for (unsigned lanes = overlapping; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-    const std::size_t i = std::min(begin + lane, table.pairs.first.size() - 1);
-    const Pose& pose_a = table.pairs.poses[table.pairs.first[i]];
-    const Quad<double> origin = load_quad(reinterpret_cast<const double*>(&pose_a) + 8);
-    const Quad<double> none{};
-    const std::size_t at = place<Lanes>(lane);
-    const Quad<double> numbers[3] = {
-        widen<Scalar>(quads[0][at]),
-        widen<Scalar>(quads[1][at]) + __builtin_shufflevector(none, origin, 0, 0, 5, 6),
-        widen<Scalar>(quads[2][at]) + __builtin_shufflevector(origin, origin, 3, 1, 2, 3)};
-    std::memcpy(&table.outcomes[i].distance, numbers, sizeof numbers);
-  }
+  write_numbers<Scalar>(table, begin, overlapping,
+                        {-contact.depth, lower, upper, normal, on_a, on_b});
   return overlapping;
 }

@@ -6,32 +6,19 @@
 #include <limits>
 #include <type_traits>
 
-#include "algorithms/kernels/real_lanes.h"
+#include "algorithms/kernels/pair_lanes.h"
 
 namespace touchstone {
 namespace {
 
 using real_lanes::Quad;
 
-// Four numbers of it from the first one on are loaded at a time.
-static_assert(sizeof(Pose) == 12 * sizeof(double));
-// Its twelve numbers are written at a time.
-static_assert(offsetof(Outcome, witness_b) == offsetof(Outcome, distance) + 9 * sizeof(double));
-
-template <class Scalar>
-struct BoxTable {
-  BodyPairs pairs;
-  const Scalar* halves;  // four a shape
-  Outcome* outcomes;
-  std::uint32_t* left;
-};
-
 // Forward bounds on what rounding does to a gap along an axis, as parts of the size of the pair:
 // the sum of the half extents and of the offset's coordinates. u is half an epsilon. A matrix is
-// taken for orthonormal where its columns' products are off by no more than `skew`; a product is
-// off by 3 u more, the matrix in float by another u. So the normals of the faces, which are the
-// columns of the inverse, are off from the columns by no more than
-//     n = sqrt(3) (skew + 3 u) + 3 u, 19 u in float and 36 u in double,
+// taken for orthonormal where its columns' products are off by no more than greatest_skew; a
+// product is off by 3 u more, the matrix in float by another u. So the normals of the faces, which
+// are the columns of the inverse, are off from the columns by no more than
+//     n = sqrt(3) (greatest_skew + 3 u) + 3 u, 19 u in float and 36 u in double,
 // a product of the one matrix with the other, or with the offset, by n + 4 u, and along the product
 // of two edges, which is two such products of the offset and four of half extents, the gap is off
 // by no more than 2.4 (n + 4 u) + 6 u times the size: this is `coarse`. It holds along the axis
@@ -41,13 +28,12 @@ struct BoxTable {
 // Where edges are almost parallel, their product is almost zero, and so is the gap along it. There
 // the pair is replaced by one whose first box is at rest and whose second has the rounded products
 // for its matrix: its bodies are off by n + 4 u, its matrix's columns as normals by
-// sqrt(3) (3 skew + skew + 20 u), and each product of edges is known to its last digit but one.
+// sqrt(3) (4 greatest_skew + 20 u), and each product of edges is known to its last digit but one.
 // `fine` is the sum of all that, for a gap as a part of the axis' length.
 template <class Scalar>
 struct GapError {
   static constexpr bool is_float = std::is_same_v<Scalar, float>;
-  static constexpr Scalar u = std::numeric_limits<Scalar>::epsilon() / 2;
-  static constexpr Scalar skew = (is_float ? 6 : 16) * u;
+  static constexpr Scalar u = unit_roundoff<Scalar>;
   static constexpr Scalar coarse = (is_float ? 64 : 128) * u;
   static constexpr Scalar fine = (is_float ? 160 : 320) * u;
 };
@@ -72,7 +58,7 @@ void BoxPairLanes<Scalar>::bind(std::span<const Shape> shapes) {
 template <class Scalar>
 std::size_t BoxPairLanes<Scalar>::solve(const BodyPairs& pairs, Task task,
                                         std::span<Outcome> outcomes, std::uint32_t* left) const {
-  const BoxTable<Scalar> table{pairs, halves_.data(), outcomes.data(), left};
+  const PairTable<Scalar> table{pairs, halves_.data(), outcomes.data(), left};
   const bool depth = task == Task::penetration;
   switch (isa()) {
     case Isa::avx512: return avx512::solve_boxes(table, depth);

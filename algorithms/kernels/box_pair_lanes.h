@@ -2,7 +2,7 @@
 // Paper: Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996.
 //
 // Lanes are for pairs whose matrices are orthonormal up to rounding and whose sizes are within
-// 1e-12 to 1e12 metres. Those, and all whose sign or witness points the lanes leave open, are
+// 1e-10 to 1e12 metres. Those, and all whose sign or witness points the lanes leave open, are
 // handed back for a test that takes its time.
 #pragma once
 
@@ -12,18 +12,10 @@
 #include <vector>
 
 #include "algorithms/core/outcome.h"
-#include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
+#include "algorithms/kernels/body_pairs.h"
 
 namespace touchstone {
-
-// Pair i is of bodies first[i] and second[i]; body k has the shape shape_of[k] and the pose
-// poses[k].
-struct BodyPairs {
-  std::span<const std::uint32_t> first, second;
-  std::span<const std::uint32_t> shape_of;
-  std::span<const Pose> poses;
-};
 
 template <class Scalar>
 class BoxPairLanes {

@@ -1,6 +1,8 @@
 // The loops of box_pair_lanes.h. Included by box_pair_lanes.cpp once for each level of vector
 // instructions, inside that level's namespace.
 
+#include "algorithms/kernels/pair_lanes.inl"
+
 // One pair a lane. Columns of the matrices, offset from a to b, half extents; metres, world axes.
 template <class Scalar>
 struct BoxColumns {
@@ -18,31 +20,28 @@ struct BoxProducts {
 
 // The pairs from `begin` on, as many as there are lanes; behind the last it is repeated.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load_boxes(const BoxTable<Scalar>& table,
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load_boxes(const PairTable<Scalar>& table,
                                                     std::size_t begin, BoxColumns<Scalar>& boxes) {
   using Lanes = RealLanes<Scalar>;
   constexpr std::size_t width = Lanes::width;
   // Quads of the matrices' first eight numbers; the ninth of a beside the offset; half extents,
   // those of b beside the ninth of its matrix.
   alignas(64) Quad<Scalar> quads[7][width];
-  const std::size_t last = table.pairs.first.size() - 1;
+  Group<Scalar> group;
+  start_group<Scalar>(table, begin, group);
   for (std::size_t lane = 0; lane < width; ++lane) {
-    const std::size_t i = std::min(begin + lane, last);
-    const std::uint32_t first = table.pairs.first[i], second = table.pairs.second[i];
-    const auto* const a = reinterpret_cast<const double*>(&table.pairs.poses[first]);
-    const auto* const b = reinterpret_cast<const double*>(&table.pairs.poses[second]);
-    quads[0][lane] = convert<Scalar>(load_quad(a));
-    quads[1][lane] = convert<Scalar>(load_quad(a + 4));
-    quads[2][lane] = convert<Scalar>(load_quad(b));
-    quads[3][lane] = convert<Scalar>(load_quad(b + 4));
-    const Quad<double> end_a = load_quad(a + 8), end_b = load_quad(b + 8);
+    const std::uint32_t first = group.first[lane], second = group.second[lane];
+    const Pose &a = table.pairs.poses[first], &b = table.pairs.poses[second];
+    quads[0][lane] = convert<Scalar>(pose_quad(a, 0));
+    quads[1][lane] = convert<Scalar>(pose_quad(a, 4));
+    quads[2][lane] = convert<Scalar>(pose_quad(b, 0));
+    quads[3][lane] = convert<Scalar>(pose_quad(b, 4));
+    const Quad<double> end_a = pose_quad(a, 8), end_b = pose_quad(b, 8);
     const Quad<double> between = end_b - end_a;
     quads[4][lane] = convert<Scalar>(__builtin_shufflevector(end_a, between, 0, 5, 6, 7));
-    Quad<Scalar> half_a, half_b;
-    std::memcpy(&half_a, table.halves + 4 * table.pairs.shape_of[first], sizeof half_a);
-    std::memcpy(&half_b, table.halves + 4 * table.pairs.shape_of[second], sizeof half_b);
-    quads[5][lane] = half_a;
-    quads[6][lane] = __builtin_shufflevector(half_b, convert<Scalar>(end_b), 0, 1, 2, 4);
+    quads[5][lane] = shape_quad<Scalar>(table, first);
+    quads[6][lane] = __builtin_shufflevector(shape_quad<Scalar>(table, second),
+                                             convert<Scalar>(end_b), 0, 1, 2, 4);
   }
   typename Lanes::Real columns[7][4];
   for (std::size_t k = 0; k < 7; ++k) columns_of<Scalar>(quads[k], columns[k]);
@@ -174,8 +173,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
   using Real = typename Lanes::Real;
   const auto& [a, b, offset, half_a, half_b] = boxes;
   const Real sizes = half_a.x + half_a.y + half_a.z + half_b.x + half_b.y + half_b.z;
-  const unsigned sized = Lanes::bits(Lanes::less(Lanes::broadcast(Scalar(1e-12)), sizes)) &
-                         Lanes::bits(Lanes::less(sizes, Lanes::broadcast(Scalar(1e12))));
+  const unsigned sized = sized_lanes<Scalar>(sizes);
   const Real squares_a[3] = {dot<Scalar>(a[0], a[0]), dot<Scalar>(a[1], a[1]),
                              dot<Scalar>(a[2], a[2])};
   const Real squares_b[3] = {dot<Scalar>(b[0], b[0]), dot<Scalar>(b[1], b[1]),
@@ -198,7 +196,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
   }
   // The traces are there for infinities and what is not a number, which a maximum may lose.
   const unsigned orthonormal =
-      Lanes::bits(Lanes::less(skew, Lanes::broadcast(GapError<Scalar>::skew))) &
+      Lanes::bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
       Lanes::bits(Lanes::less(trace_a, four)) & Lanes::bits(Lanes::less(trace_b, four));
   seen.size = sizes + Lanes::abs(offset.x) + Lanes::abs(offset.y) + Lanes::abs(offset.z);
   return {far, sized & orthonormal & ~far};
@@ -207,7 +205,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
 #include "algorithms/kernels/box_pair_depth.inl"
 
 template <class Scalar>
-TOUCHSTONE_TARGET std::size_t solve_boxes(const BoxTable<Scalar> table, bool depth) {
+TOUCHSTONE_TARGET std::size_t solve_boxes(const PairTable<Scalar> table, bool depth) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   constexpr std::size_t width = Lanes::width;
@@ -239,17 +237,7 @@ TOUCHSTONE_TARGET std::size_t solve_boxes(const BoxTable<Scalar> table, bool dep
         }
       }
     }
-    const std::size_t lanes = std::min(width, count - begin);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const bool is_apart = (apart >> lane & 1) != 0;
-      if (((apart | overlapping) >> lane & 1) == 0) {
-        table.left[left++] = static_cast<std::uint32_t>(begin + lane);
-        continue;
-      }
-      Outcome& outcome = table.outcomes[begin + lane];
-      outcome.answer = is_apart ? Answer::separated : Answer::overlapping;
-      outcome.status = Status::ok;
-    }
+    left = write_answers<Scalar>(table, begin, apart, overlapping, left);
   }
   return left;
 }

@@ -1,11 +1,6 @@
 // What every loop over real_lanes.h begins with: quads, and vectors of three dimensions. Included
 // by it once for each level of vector instructions.
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> load_quad(const double* from) {
-  Quad<double> q;
-  std::memcpy(&q, from, sizeof q);
-  return q;
-}
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<Scalar> convert(const Quad<double>& q) {
   return __builtin_convertvector(q, Quad<Scalar>);

@@ -5,11 +5,15 @@
 // Departs: a capsule is a segment with a radius, a sphere a point with one. Where two cores meet or
 //          nearly so, the normal is made orthogonal to the segments that they meet inside of, so
 //          that the depth stays exact. The box is turned by its matrix as it stands: a point is
-//          brought into it by the inverse.
+//          brought into it by the inverse. Pairs of boxes, spheres and capsules go through vector
+//          lanes, one pair a lane (box_pair_lanes.h, round_pair_lanes.h); what these leave open is
+//          asked again one by one.
 // Answers: sphere or capsule with sphere or capsule, sphere with box, anything bounded with a
 //          half-space: all tasks. Box with box: intersect and penetration; 15 axes know no
 //          distance.
-// Fails:   says not_converged where the sign of the distance is below its rounding error.
+// Fails:   says not_converged where the sign of the distance is below its rounding error, and
+//          degenerate of a sphere near a box that its matrix skews, where the two bounds that it
+//          has do not tell, or are apart by more than 1e-10 of the size.
 // Cost:    O(1); for a hull over a half-space one support call.
 #include <algorithm>
 #include <cmath>
@@ -18,6 +22,7 @@
 #include "algorithms/kernels/box_box.h"
 #include "algorithms/kernels/box_pair_lanes.h"
 #include "algorithms/kernels/halfspace.h"
+#include "algorithms/kernels/round_pair_lanes.h"
 #include "algorithms/kernels/segment.h"
 #include "algorithms/kernels/separating_axis.h"
 #include "algorithms/kernels/support.h"
@@ -27,10 +32,11 @@ namespace touchstone {
 namespace {
 
 // The cores of two bodies (what is left of them without their radius), seen from the centre of body
-// a in the pair's unit. The gap is signed; on_b - on_a is gap * normal.
+// a in the pair's unit. The gap is signed; on_b - on_a is gap * normal. It is between the bounds,
+// which are apart by more than rounding where a box is turned by no rotation.
 template <class Scalar>
 struct CoreGap {
-  Scalar gap;
+  Scalar gap, lower, upper;
   Vec3<Scalar> normal;  // unit vector from a to b
   Vec3<Scalar> on_a, on_b;
 };
@@ -78,7 +84,10 @@ CoreGap<Scalar> segment_gap(const Segment<Scalar>& a, const Segment<Scalar>& b) 
   }
   const Scalar length = normal.norm();
   normal = length > rounding<Scalar> ? Vec3<Scalar>(normal / length) : across(a.along, b.along);
-  return {normal.dot(between), normal, closest.first, closest.second};
+  // Points that meet may lie on either side of a direction that they do not give.
+  if (normal.dot(between) < 0) normal = -normal;
+  const Scalar gap = normal.dot(between);
+  return {gap, gap, gap, normal, closest.first, closest.second};
 }
 
 // A point, which is body a's centre, and a box of these half extents about `centre`.
@@ -96,17 +105,22 @@ CoreGap<Scalar> point_box_gap(const Vec3<Scalar>& centre, const Mat3<Scalar>& ma
   const Scalar distance = outward.norm();
   if (distance > 0) {
     const Vec3<Scalar> normal = -outward / distance;
-    return {distance, normal, Vec3<Scalar>::Zero(), distance * normal};
+    // Not the closest one where the matrix skews the box, but a point of it; and a side.
+    const Scalar upper = std::max(distance, (centre + matrix * closest).norm());
+    const Scalar lower = normal.dot(centre) - (matrix.transpose() * normal).cwiseAbs().dot(half);
+    return {distance, std::min(distance, lower), upper,
+            normal,   Vec3<Scalar>::Zero(),      distance * normal};
   }
   // Inside: the way out through the nearest face.
-  CoreGap<Scalar> best{-std::numeric_limits<Scalar>::infinity(), Vec3<Scalar>::Zero(),
-                       Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero()};
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  const Vec3<Scalar> none = Vec3<Scalar>::Zero();
+  CoreGap<Scalar> best{-infinity, -infinity, -infinity, none, none, none};
   for (int k = 0; k < 3; ++k) {
     const Scalar length = normals.col(k).norm();
     const Scalar gap = (std::abs(point[k]) - half[k]) * std::abs(determinant) / length;
     if (!(gap > best.gap)) continue;
     const Scalar sign = (point[k] < 0) == (determinant < 0) ? Scalar{-1} : Scalar{1};
-    best.gap = gap;
+    best.gap = best.lower = best.upper = gap;
     best.normal = sign * normals.col(k) / length;
   }
   best.on_b = best.gap * best.normal;
@@ -125,18 +139,22 @@ class ClosedForm final : public NarrowPhase {
     }
     support_shapes_ = make_support_shapes<Scalar>(shapes);
     box_lanes_.bind(shapes);
+    round_lanes_.bind(shapes);
   }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    if (batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box) {
-      left_.resize(batch.size());
-      const std::size_t left =
-          box_lanes_.solve({batch.first, batch.second, batch.shape_of, batch.poses}, batch.task,
-                           outcomes, left_.data());
-      for (std::size_t k = 0; k < left; ++k) solve_one(batch, left_[k], outcomes[left_[k]]);
+    const BodyPairs pairs{batch.first, batch.second, batch.shape_of, batch.poses};
+    const bool boxes = batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box;
+    const bool round = RoundPairLanes<Scalar>::takes(batch.kind_a, batch.kind_b);
+    if (!boxes && !round) {
+      for (std::size_t i = 0; i < batch.size(); ++i) solve_one(batch, i, outcomes[i]);
       return;
     }
-    for (std::size_t i = 0; i < batch.size(); ++i) solve_one(batch, i, outcomes[i]);
+    left_.resize(batch.size());
+    const std::size_t left = boxes ? box_lanes_.solve(pairs, batch.task, outcomes, left_.data())
+                                   : round_lanes_.solve(batch.kind_a, batch.kind_b, pairs,
+                                                        batch.task, outcomes, left_.data());
+    for (std::size_t k = 0; k < left; ++k) solve_one(batch, left_[k], outcomes[left_[k]]);
   }
 
  private:
@@ -157,14 +175,16 @@ class ClosedForm final : public NarrowPhase {
     int tested = 0;
     const Axis<Scalar> best = pair.far_apart() ? Axis<Scalar>{} : box_axis(pair, tested);
     pair.report(best, task, true, outcome);
-    outcome.iterations = tested;
+    outcome.iterations = 0;
   }
 
-  // Metres, the greatest of its measures.
-  static double size(const Shape& shape) {
+  // Metres, the greatest of its measures in the world.
+  static double size(const Shape& shape, const Pose& pose) {
+    const Mat3d& matrix = pose.rotation;
     switch (shape.kind) {
-      case ShapeKind::box: return shape.half_extents.maxCoeff();
-      case ShapeKind::capsule: return std::max(shape.radius, shape.half_length);
+      case ShapeKind::box: return (matrix.cwiseAbs() * shape.half_extents).maxCoeff();
+      case ShapeKind::capsule:
+        return std::max(shape.radius, shape.half_length * matrix.col(2).cwiseAbs().maxCoeff());
       default: return shape.radius;
     }
   }
@@ -173,8 +193,8 @@ class ClosedForm final : public NarrowPhase {
   static void solve_round(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                           Task task, Outcome& outcome) {
     const Vec3d offset = pose_b.translation - pose_a.translation;
-    const double unit =
-        power_of_two_above(std::max({offset.cwiseAbs().maxCoeff(), size(a), size(b)}));
+    const double unit = power_of_two_above(
+        std::max({offset.cwiseAbs().maxCoeff(), size(a, pose_a), size(b, pose_b)}));
     const auto scaled = [&](double length) { return static_cast<Scalar>(length / unit); };
     const Vec3<Scalar> centre_b = (offset / unit).template cast<Scalar>();
     const auto core = [&](const Shape& shape, const Pose& pose, const Vec3<Scalar>& centre) {
@@ -190,20 +210,31 @@ class ClosedForm final : public NarrowPhase {
     const Scalar radius_a = scaled(a.radius), radius_b = box ? Scalar{0} : scaled(b.radius);
     const Scalar gap = cores.gap - radius_a - radius_b;
 
-    const bool apart = gap > rounding<Scalar>, common = gap < -rounding<Scalar>;
+    const Scalar lower = cores.lower - radius_a - radius_b;
+    const Scalar upper = cores.upper - radius_a - radius_b;
+    // Where the bounds are far apart the answer is all that can be given.
+    const bool skewed = upper - lower > std::max(rounding<Scalar>, Scalar(1e-10));
+    const bool apart = lower > rounding<Scalar>, common = upper < -rounding<Scalar>;
     outcome.answer = apart ? Answer::separated : common ? Answer::overlapping : Answer::unknown;
-    outcome.status = apart || common ? Status::ok : Status::not_converged;
+    outcome.status = apart || common ? Status::ok
+                     : skewed        ? Status::degenerate
+                                     : Status::not_converged;
     outcome.iterations = 0;
     if (task == Task::intersect || (task == Task::distance && common) ||
         (task == Task::penetration && apart)) {
+      return;
+    }
+    if (skewed) {
+      outcome.answer = Answer::unknown;
+      outcome.status = Status::degenerate;
       return;
     }
     const auto world = [&](const Vec3<Scalar>& point) {
       return Vec3d(pose_a.translation + unit * point.template cast<double>());
     };
     outcome.distance = unit * static_cast<double>(gap);
-    outcome.lower = unit * static_cast<double>(gap - rounding<Scalar>);
-    outcome.upper = unit * static_cast<double>(gap + rounding<Scalar>);
+    outcome.lower = unit * static_cast<double>(lower - rounding<Scalar>);
+    outcome.upper = unit * static_cast<double>(upper + rounding<Scalar>);
     outcome.normal = cores.normal.template cast<double>().normalized();
     outcome.witness_a = world(cores.on_a + radius_a * cores.normal);
     outcome.witness_b = world(cores.on_b - radius_b * cores.normal);
@@ -213,6 +244,7 @@ class ClosedForm final : public NarrowPhase {
   std::vector<Polytope<Scalar>> polytopes_;
   std::vector<SupportShape<Scalar>> support_shapes_;
   BoxPairLanes<Scalar> box_lanes_;
+  RoundPairLanes<Scalar> round_lanes_;
   std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave
 };
 

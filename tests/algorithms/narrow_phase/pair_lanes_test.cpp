@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@
 #include "algorithms/kernels/box_pair_lanes.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
-#include "tests/algorithms/narrow_phase/bodies.h"
+#include "tests/algorithms/narrow_phase/hard_pairs.h"
 
 namespace touchstone {
 namespace {
@@ -22,36 +23,11 @@ using namespace test;
 
 constexpr std::array scalars{Precision::float32, Precision::float64};
 
-struct Kinds {
-  ShapeKind a, b;
-};
-constexpr std::array<Kinds, 1> kind_pairs = {{{ShapeKind::box, ShapeKind::box}}};
-
-struct Pairs {
-  std::vector<Shape> shapes;
-  std::vector<Pose> poses;
-  std::vector<std::uint32_t> shape_of, first, second;
-
-  void add(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-    for (const auto& [shape, pose] : {std::pair{a, pose_a}, std::pair{b, pose_b}}) {
-      (shapes.size() % 2 == 0 ? first : second)
-          .push_back(static_cast<std::uint32_t>(shapes.size()));
-      shape_of.push_back(static_cast<std::uint32_t>(shapes.size()));
-      shapes.push_back(shape);
-      poses.push_back(pose);
-    }
-  }
-  std::size_t size() const { return first.size(); }
-  PairBatch batch(Task task, std::size_t begin, std::size_t count) const {
-    return {.task = task,
-            .kind_a = shapes[0].kind,
-            .kind_b = shapes[1].kind,
-            .first = std::span(first).subspan(begin, count),
-            .second = std::span(second).subspan(begin, count),
-            .shape_of = shape_of,
-            .poses = poses};
-  }
-};
+constexpr std::array<Kinds, 5> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sphere},
+                                              {ShapeKind::sphere, ShapeKind::capsule},
+                                              {ShapeKind::sphere, ShapeKind::box},
+                                              {ShapeKind::capsule, ShapeKind::capsule},
+                                              {ShapeKind::box, ShapeKind::box}}};
 
 std::vector<Outcome> solve(const NarrowPhaseEntry& entry, Precision scalar, Task task,
                            const Pairs& pairs, std::size_t batch_size) {
@@ -83,91 +59,6 @@ void expect_same(const std::vector<Outcome>& a, const std::vector<Outcome>& b,
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(bits_of(a[i]), bits_of(b[i])) << what << ", pair " << i;
   }
-}
-
-double power(Random& random, double low, double high) {
-  return std::pow(10.0, uniform(random, low, high));
-}
-
-Shape random_shape(Random& random, ShapeKind kind, bool hard) {
-  Shape shape;
-  shape.kind = kind;
-  const auto length = [&] {
-    if (!hard) return uniform(random, 0.2, 1);
-    return random() % 5 == 0 ? 0 : power(random, -5, 0);
-  };
-  shape.radius = length();
-  shape.half_length = length();
-  for (double& half : shape.half_extents) half = length();
-  return shape;
-}
-
-Mat3d turn(double angle, const Vec3d& axis) {
-  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
-
-// What makes a pair hard.
-enum class Sort { plain, parallel, stacked, slivers, scaled, remote, skewed };
-constexpr std::array all_sorts{Sort::plain,  Sort::parallel, Sort::stacked, Sort::slivers,
-                               Sort::scaled, Sort::remote,   Sort::skewed};
-
-// Of random sizes and places; then b is moved until the signed distance is about one of a ladder
-// of lengths.
-void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort sort, Pairs& pairs) {
-  const bool slivers = sort == Sort::slivers;
-  Shape a = random_shape(random, kinds.a, slivers), b = random_shape(random, kinds.b, slivers);
-  Pose pose_a{random_rotation(random), random_direction(random)};
-  Pose pose_b{random_rotation(random), Vec3d::Zero()};
-  if (sort == Sort::parallel || sort == Sort::stacked) {
-    const Vec3d axis = Vec3d::Unit(static_cast<int>(random() % 3));
-    const double angle = random() % 3 == 0 ? 0 : power(random, -17, 0);
-    pose_b.rotation =
-        pose_a.rotation * turn(angle, random() % 2 == 0 ? axis : random_direction(random));
-    if (random() % 3 == 0) pose_b.rotation = pose_b.rotation * turn(M_PI / 2, axis);
-  }
-  Vec3d offset = uniform(random, 0.2, 2.2) * random_direction(random);
-  if (sort == Sort::stacked) {
-    if (random() % 2 == 0) b = a;
-    offset =
-        pose_a.rotation * (2 * uniform(random, 0.8, 1.1) * a.half_extents.x() * Vec3d::UnitX());
-    if (random() % 2 == 0) offset += pose_a.rotation.col(1) * uniform(random, -0.3, 0.3);
-  }
-  const double scale = sort == Sort::scaled ? power(random, -6, 6) : 1;
-  for (Shape* shape : {&a, &b}) {
-    shape->radius *= scale;
-    shape->half_length *= scale;
-    shape->half_extents *= scale;
-  }
-  pose_a.translation *= scale;
-  if (sort == Sort::remote) pose_a.translation = 1e7 * random_direction(random);
-  if (sort == Sort::skewed) {
-    for (Pose* pose : {&pose_a, &pose_b}) {
-      pose->rotation += power(random, -17, -0.5) * Mat3d::Random();
-      if (random() % 4 == 0) pose->rotation.col(0) *= -1;
-      if (random() % 16 == 0) pose->rotation *= power(random, -8, 8);
-    }
-  }
-  pose_b.translation = pose_a.translation + scale * offset;
-  const oracle::Solid solid_a(a), solid_b(b);
-  if (random() % 4 != 0) {
-    const double wanted = (random() % 2 == 0 ? 1 : -1) * scale * power(random, -14, -0.5);
-    for (int step = 0; step < 2; ++step) {
-      const oracle::Measure measure = oracle.measure({solid_a, pose_a}, {solid_b, pose_b});
-      if (!measure.normal.isZero()) {
-        pose_b.translation += (wanted - measure.middle()) * measure.normal.normalized();
-      }
-    }
-  }
-  pairs.add(a, pose_a, b, pose_b);
-}
-
-Pairs hard_pairs(std::uint64_t seed, Kinds kinds, Sort sort, std::size_t count) {
-  Random random(seed);
-  std::srand(static_cast<unsigned>(seed));  // for Eigen's random matrices
-  oracle::Oracle oracle;
-  Pairs pairs;
-  while (pairs.size() < count) add_pair(random, oracle, kinds, sort, pairs);
-  return pairs;
 }
 
 TEST(PairLanes, AnswerBatchesOfEveryLengthAlike) {
@@ -220,6 +111,21 @@ double reach(const Shape& shape, const Pose& pose) {
   return round + straight * pose.rotation.norm();
 }
 
+// The places of those pairs of boxes that the lanes leave to be asked one by one.
+std::set<std::size_t> boxes_left(Precision scalar, Task task, const Pairs& pairs) {
+  if (pairs.shapes[0].kind != ShapeKind::box) return {};
+  std::vector<Outcome> outcomes(pairs.size());
+  std::vector<std::uint32_t> left(pairs.size());
+  const auto ask = [&](auto lanes) {
+    lanes.bind(pairs.shapes);
+    return lanes.solve({pairs.first, pairs.second, pairs.shape_of, pairs.poses}, task, outcomes,
+                       left.data());
+  };
+  const std::size_t count =
+      scalar == Precision::float32 ? ask(BoxPairLanes<float>()) : ask(BoxPairLanes<double>());
+  return {left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
   oracle::Oracle oracle;
@@ -242,6 +148,7 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
         for (const Task task : entry.tasks) {
           if (!offers(entry, kinds.a, kinds.b, task)) continue;
           const std::vector<Outcome> outcomes = solve(entry, scalar, task, pairs, pairs.size());
+          const std::set<std::size_t> left = boxes_left(scalar, task, pairs);
           std::size_t given_up = 0;
           for (std::size_t i = 0; i < pairs.size(); ++i) {
             const std::uint32_t a = pairs.first[i], b = pairs.second[i];
@@ -265,16 +172,20 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
             if (std::isnan(o.distance)) continue;
             // What the world's coordinates round away.
             const double place = 0x1p-50 * (pose_a.translation.norm() + size);
-            const double error = 200 * epsilon * size;
+            // A sphere's distance to a skewed box is known between bounds.
+            const double error = (200 * epsilon + (sort == Sort::skewed ? 1e-9 : 0)) * size;
             ASSERT_LE(o.lower, truth.upper);
             if (!std::isnan(o.upper)) {
               ASSERT_GE(o.upper, truth.lower);
               ASSERT_LE(o.upper - o.lower, 2 * error);
             }
             ASSERT_NEAR(o.distance, truth.middle(), error);
+            // The points of what hardly touches are those of features that meet within the error.
+            if (std::abs(truth.middle()) < 5 * error) continue;
             ASSERT_NEAR(o.normal.norm(), 1, 16 * epsilon);
-            ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(),
-                      8 * error + place);
+            // Asked one by one, boxes that are almost parallel have points that are farther off.
+            if (left.contains(i)) continue;
+            ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(), error + place);
             for (const auto& [body, point] : {std::pair{a, o.witness_a}, {b, o.witness_b}}) {
               Shape dot;  // a point
               const oracle::Solid spot(dot);
@@ -284,7 +195,7 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
             }
           }
           // What is no rotation may be said to be beyond it.
-          EXPECT_LE(given_up, sort == Sort::skewed ? pairs.size() / 10 : 0)
+          EXPECT_LE(given_up, sort == Sort::skewed ? pairs.size() / 2 : 0)
               << to_string(scalar) << " sort " << static_cast<int>(sort);
         }
       }

@@ -1,0 +1,132 @@
+// Pairs of spheres, capsules and boxes that are hard to tell apart, at random.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "algorithms/narrow_phase.h"
+#include "algorithms/oracle/oracle.h"
+#include "tests/algorithms/narrow_phase/bodies.h"
+
+namespace touchstone::test {
+
+struct Kinds {
+  ShapeKind a, b;
+};
+struct Pairs {
+  std::vector<Shape> shapes;
+  std::vector<Pose> poses;
+  std::vector<std::uint32_t> shape_of, first, second;
+
+  void add(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+    for (const auto& [shape, pose] : {std::pair{a, pose_a}, std::pair{b, pose_b}}) {
+      (shapes.size() % 2 == 0 ? first : second)
+          .push_back(static_cast<std::uint32_t>(shapes.size()));
+      shape_of.push_back(static_cast<std::uint32_t>(shapes.size()));
+      shapes.push_back(shape);
+      poses.push_back(pose);
+    }
+  }
+  std::size_t size() const { return first.size(); }
+  PairBatch batch(Task task, std::size_t begin, std::size_t count) const {
+    return {.task = task,
+            .kind_a = shapes[0].kind,
+            .kind_b = shapes[1].kind,
+            .first = std::span(first).subspan(begin, count),
+            .second = std::span(second).subspan(begin, count),
+            .shape_of = shape_of,
+            .poses = poses};
+  }
+};
+
+inline double power(Random& random, double low, double high) {
+  return std::pow(10.0, uniform(random, low, high));
+}
+
+inline Shape random_shape(Random& random, ShapeKind kind, bool hard) {
+  Shape shape;
+  shape.kind = kind;
+  const auto length = [&] {
+    if (!hard) return uniform(random, 0.2, 1);
+    return random() % 5 == 0 ? 0 : power(random, -5, 0);
+  };
+  shape.radius = length();
+  shape.half_length = length();
+  for (double& half : shape.half_extents) half = length();
+  return shape;
+}
+
+inline Mat3d turn(double angle, const Vec3d& axis) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+// What makes a pair hard.
+enum class Sort { plain, parallel, stacked, slivers, scaled, remote, skewed };
+inline constexpr std::array all_sorts{Sort::plain,  Sort::parallel, Sort::stacked, Sort::slivers,
+                                      Sort::scaled, Sort::remote,   Sort::skewed};
+
+// Of random sizes and places; then b is moved until the signed distance is about one of a ladder
+// of lengths.
+inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort sort, Pairs& pairs) {
+  const bool slivers = sort == Sort::slivers;
+  Shape a = random_shape(random, kinds.a, slivers), b = random_shape(random, kinds.b, slivers);
+  Pose pose_a{random_rotation(random), random_direction(random)};
+  Pose pose_b{random_rotation(random), Vec3d::Zero()};
+  if (sort == Sort::parallel || sort == Sort::stacked) {
+    const Vec3d axis = Vec3d::Unit(static_cast<int>(random() % 3));
+    const double angle = random() % 3 == 0 ? 0 : power(random, -17, 0);
+    pose_b.rotation =
+        pose_a.rotation * turn(angle, random() % 2 == 0 ? axis : random_direction(random));
+    if (random() % 3 == 0) pose_b.rotation = pose_b.rotation * turn(M_PI / 2, axis);
+  }
+  Vec3d offset = uniform(random, 0.2, 2.2) * random_direction(random);
+  if (sort == Sort::stacked) {
+    if (kinds.a == kinds.b && random() % 2 == 0) b = a;
+    offset =
+        pose_a.rotation * (2 * uniform(random, 0.8, 1.1) * a.half_extents.x() * Vec3d::UnitX());
+    if (random() % 2 == 0) offset += pose_a.rotation.col(1) * uniform(random, -0.3, 0.3);
+  }
+  const double scale = sort == Sort::scaled ? power(random, -6, 6) : 1;
+  for (Shape* shape : {&a, &b}) {
+    shape->radius *= scale;
+    shape->half_length *= scale;
+    shape->half_extents *= scale;
+  }
+  pose_a.translation *= scale;
+  if (sort == Sort::remote) pose_a.translation = 1e7 * random_direction(random);
+  if (sort == Sort::skewed) {
+    for (Pose* pose : {&pose_a, &pose_b}) {
+      pose->rotation += power(random, -17, -0.5) * Mat3d::Random();
+      if (random() % 4 == 0) pose->rotation.col(0) *= -1;
+      if (random() % 16 == 0) pose->rotation *= power(random, -8, 8);
+    }
+  }
+  pose_b.translation = pose_a.translation + scale * offset;
+  const oracle::Solid solid_a(a), solid_b(b);
+  if (random() % 4 != 0) {
+    const double wanted = (random() % 2 == 0 ? 1 : -1) * scale * power(random, -14, -0.5);
+    for (int step = 0; step < 2; ++step) {
+      const oracle::Measure measure = oracle.measure({solid_a, pose_a}, {solid_b, pose_b});
+      if (!measure.normal.isZero()) {
+        pose_b.translation += (wanted - measure.middle()) * measure.normal.normalized();
+      }
+    }
+  }
+  pairs.add(a, pose_a, b, pose_b);
+}
+
+inline Pairs hard_pairs(std::uint64_t seed, Kinds kinds, Sort sort, std::size_t count) {
+  Random random(seed);
+  std::srand(static_cast<unsigned>(seed));  // for Eigen's random matrices
+  oracle::Oracle oracle;
+  Pairs pairs;
+  while (pairs.size() < count) add_pair(random, oracle, kinds, sort, pairs);
+  return pairs;
+}
+
+}  // namespace touchstone::test
