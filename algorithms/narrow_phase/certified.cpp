@@ -63,7 +63,8 @@ bool write(const ProvenGap& gap, double size, Task task, Outcome& outcome) {
                                         : Answer::unknown;
   if (answer == Answer::unknown) return false;
   if (is_asked(task, answer)) {
-    const double magnitude = std::max(std::abs(gap.lower), std::abs(gap.upper));
+    // The nearer end: the other may be infinite.
+    const double magnitude = std::min(std::abs(gap.lower), std::abs(gap.upper));
     const double enough =
         std::max(widest * size, 2 * std::numeric_limits<double>::epsilon() * magnitude);
     if (!(gap.upper - gap.lower <= enough)) return false;
