@@ -20,6 +20,7 @@
 
 #include "algorithms/kernels/gjk_approach.h"
 #include "algorithms/kernels/proven_gap.h"
+#include "algorithms/kernels/proven_height.h"
 #include "algorithms/kernels/simplex_walk.h"
 #include "algorithms/kernels/support.h"
 #include "algorithms/narrow_phase.h"
@@ -35,13 +36,13 @@ constexpr double widest = 4e-15;  // of the size: an interval that is good enoug
 
 // A shape as each stage wants it.
 struct Prepared {
-  explicit Prepared(const Shape& s) : support(s), proven(s), solid(s) {}
+  explicit Prepared(const Shape& s) : proven(s), solid(s) {}
 
-  SupportShape<double> support;
   ProvenShape proven;
   oracle::Solid solid;
 
-  double size() const { return support.size + support.radius; }
+  const SupportShape<double>& support() const { return proven.support; }
+  double size() const { return support().size + support().radius; }
 };
 
 struct PlacedBody {
@@ -62,7 +63,8 @@ bool write(const ProvenGap& gap, double size, Task task, Outcome& outcome) {
                                         : Answer::unknown;
   if (answer == Answer::unknown) return false;
   if (is_asked(task, answer)) {
-    const double magnitude = std::max(std::abs(gap.lower), std::abs(gap.upper));
+    // The nearer end: the other may be infinite.
+    const double magnitude = std::min(std::abs(gap.lower), std::abs(gap.upper));
     const double enough =
         std::max(widest * size, 2 * std::numeric_limits<double>::epsilon() * magnitude);
     if (!(gap.upper - gap.lower <= enough)) return false;
@@ -109,7 +111,8 @@ class Certified final : public NarrowPhase {
   bool on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome);
 
   std::vector<Prepared> shapes_;
-  GapProver prover_;
+  GapProver gaps_;
+  HeightProver heights_;
   oracle::Oracle oracle_;
 };
 
@@ -120,10 +123,11 @@ bool say(Answer answer, Outcome& outcome) {
 }
 
 bool Certified::filter(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome) {
-  if (task != Task::distance && balls_are_apart(a.shape.support, a.pose, b.shape.support, b.pose)) {
+  if (task != Task::distance &&
+      balls_are_apart(a.shape.support(), a.pose, b.shape.support(), b.pose)) {
     return say(Answer::separated, outcome);
   }
-  Pair pair(a.shape.support, a.pose, b.shape.support, b.pose);
+  Pair pair(a.shape.support(), a.pose, b.shape.support(), b.pose);
   const bool decided =
       pair.is_in_range() && ((task == Task::intersect && walk_decides(pair, outcome)) ||
                              approach_decides(pair, a, b, task, outcome));
@@ -181,8 +185,7 @@ bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBo
   }
   const Vec3d normal = -found.nearest.direction;
   const ProvenGap gap =
-      prover_.between(a.shape.proven, a.pose, b.shape.proven, b.pose, normal, pair, simplex,
-                      a.shape.support.centre, b.shape.support.centre);
+      gaps_.between(a.shape.proven, a.pose, b.shape.proven, b.pose, pair, simplex, normal);
   if (!write(gap, std::max(a.shape.size(), b.shape.size()), task, outcome)) return false;
   if (is_asked(task, outcome.answer)) {
     Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
@@ -199,13 +202,17 @@ bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBo
 
 // Body b is a half-space.
 bool Certified::on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome) {
-  Vec3d outward;
-  const ProvenGap gap =
-      prover_.above_plane(a.shape.proven, a.pose, b.shape.proven, b.pose, outward);
   outcome.support_calls = 1;
+  if (task == Task::intersect &&
+      write(HeightProver::roughly(a.shape.proven, a.pose, b.shape.proven, b.pose), a.shape.size(),
+            task, outcome)) {
+    return true;
+  }
+  Vec3d outward;
+  const ProvenGap gap = heights_.closely(a.shape.proven, a.pose, b.shape.proven, b.pose, outward);
   if (!write(gap, a.shape.size(), task, outcome)) return false;
   if (is_asked(task, outcome.answer)) {
-    const SupportShape<double>& shape = a.shape.support;
+    const SupportShape<double>& shape = a.shape.support();
     const double unit = power_of_two_above(shape.reach(a.pose.rotation));
     TurnedShape<double> turned(shape, a.pose.rotation, unit);
     outcome.normal = -outward;
