@@ -3,16 +3,20 @@
 #include <algorithm>
 
 #include "algorithms/kernels/nesterov_direction.h"
+#include "algorithms/kernels/simplex_walk.h"
 
 namespace touchstone {
 namespace {
 
 // Whether the quick walk is all that was needed; if not, how far it came.
 template <class Scalar>
-bool go_on_from(const Walk<Scalar>& quick, const SupportPair<Scalar>& pair,
-                const ApproachGoal<Scalar>& goal, Approach<Scalar>& found) {
+bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                Approach<Scalar>& found) {
   using End = typename Approach<Scalar>::End;
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  const WalkGoal first{.only_apart = goal.task != Task::distance,
+                       .most_iterations = goal.most_iterations};
+  const Walk<Scalar> quick = walk(pair, first, goal.tolerance);
   found.iterations = quick.iterations;
   found.simplex = quick.simplex;
   if (quick.end == WalkEnd::apart) {
@@ -43,8 +47,7 @@ bool go_on_from(const Walk<Scalar>& quick, const SupportPair<Scalar>& pair,
 }  // namespace
 
 template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                          const Walk<Scalar>* walked) {
+Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal) {
   using End = typename Approach<Scalar>::End;
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const Task task = goal.task;
@@ -58,8 +61,8 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
   const Scalar length = pair.centre_b().norm();
   Vec3<Scalar> direction =
       length > 0 ? Vec3<Scalar>(pair.centre_b() / length) : Vec3<Scalar>::UnitX();
-  if (walked != nullptr) {
-    if (go_on_from(*walked, pair, goal, found)) return found;
+  if (goal.momentum == Momentum::none && !goal.duality_gap) {
+    if (walk_first(pair, goal, found)) return found;
     if (simplex.size > 0) direction = -found.nearest.direction;
   }
   int stalled = 0;
@@ -133,17 +136,6 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
   return found;
 }
 
-template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal) {
-  if (!goal.may_walk()) return approach<Scalar>(pair, goal, nullptr);
-  const Walk<Scalar> walked = walk(pair, goal.walk_goal(), goal.tolerance);
-  return approach(pair, goal, &walked);
-}
-
-template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
-                                  const Walk<float>*);
-template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
-                                   const Walk<double>*);
 template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&);
 template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&);
 

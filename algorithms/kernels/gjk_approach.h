@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "algorithms/core/outcome.h"
-#include "algorithms/kernels/simplex_walk.h"
+#include "algorithms/kernels/simplex.h"
 
 namespace touchstone {
 
@@ -28,11 +28,6 @@ struct ApproachGoal {
   int most_iterations = 0;
   Momentum momentum = Momentum::none;
 
-  // A quick walk is of plain GJK, and knows no duality gap.
-  bool may_walk() const { return momentum == Momentum::none && !duality_gap; }
-  WalkGoal walk_goal() const {
-    return {.only_apart = task != Task::distance, .most_iterations = most_iterations};
-  }
   // Whether a lower bound is too far below the nearest point's distance to stop, both of the cores.
   bool is_open(const SupportPair<Scalar>& pair, Scalar nearest, Scalar lower) const {
     const Scalar difference = nearest - lower;
@@ -60,18 +55,9 @@ struct Approach {
   int iterations = 0;
 };
 
-// `walked`: from the end of this walk; without it, from the difference of the centres.
-template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                          const Walk<Scalar>* walked);
-// After a walk of its own, where the goal allows one.
 template <class Scalar>
 Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal);
 
-extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
-                                         const Walk<float>*);
-extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
-                                          const Walk<double>*);
 extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&);
 extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&);
 

@@ -16,7 +16,6 @@ struct Way {
 };
 
 constexpr unsigned all_corners = 0xf;
-constexpr std::size_t side_by_side = 2;  // walks
 
 // Features that the newest corner is on, as a step of the walk cannot end on others: w[0] of all.
 template <class Scalar>
@@ -154,25 +153,16 @@ namespace {
 }  // namespace
 
 template <class Scalar>
-void walk_together(std::span<WalkTask<Scalar>> tasks, const WalkGoal& goal) {
-  switch (isa()) {
-    case Isa::avx512: return avx512::walk_all(tasks, goal);
-    case Isa::avx2: return avx2::walk_all(tasks, goal);
-    case Isa::baseline: return baseline::walk_all(tasks, goal);
-  }
-}
-
-template <class Scalar>
 Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance) {
-  WalkTask<Scalar> task{&pair, tolerance, {}};
-  walk_together(std::span(&task, 1), goal);
-  return task.found;
+  switch (isa()) {
+    case Isa::avx512: return avx512::walk_at(pair, goal, tolerance);
+    case Isa::avx2: return avx2::walk_at(pair, goal, tolerance);
+    default: return baseline::walk_at(pair, goal, tolerance);
+  }
 }
 
 template bool is_surely_inside(const Simplex<float>&);
 template bool is_surely_inside(const Simplex<double>&);
-template void walk_together(std::span<WalkTask<float>>, const WalkGoal&);
-template void walk_together(std::span<WalkTask<double>>, const WalkGoal&);
 template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float);
 template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double);
 

@@ -2,8 +2,6 @@
 // support planes prove. What it finds is made good, or gone on from, with the care of simplex.h.
 #pragma once
 
-#include <span>
-
 #include "algorithms/kernels/simplex.h"
 
 namespace touchstone {
@@ -33,26 +31,12 @@ struct WalkGoal {
 template <class Scalar>
 Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance);
 
-// A walk among others.
-template <class Scalar>
-struct WalkTask {
-  SupportPair<Scalar>* pair;
-  Scalar tolerance;
-  Walk<Scalar> found;
-};
-// The same walks, side by side: a step is a chain of numbers that each wait for the one before, and
-// in the meantime another walk's step is made.
-template <class Scalar>
-void walk_together(std::span<WalkTask<Scalar>> tasks, const WalkGoal& goal);
-
 // Whether the origin is inside a tetrahedron whatever rounding did to its corners.
 template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex);
 
 extern template bool is_surely_inside(const Simplex<float>&);
 extern template bool is_surely_inside(const Simplex<double>&);
-extern template void walk_together(std::span<WalkTask<float>>, const WalkGoal&);
-extern template void walk_together(std::span<WalkTask<double>>, const WalkGoal&);
 extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float);
 extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double);
 

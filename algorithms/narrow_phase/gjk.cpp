@@ -63,21 +63,16 @@ class Gjk final : public NarrowPhase {
         outcomes[i].status = Status::ok;
         outcomes[i].iterations = outcomes[i].support_calls = 0;
       } else {
-        pairs_.emplace_back(shape_a, batch.poses[a], shape_b, batch.poses[b]);
-        answers_.push_back(&outcomes[i]);
-        if (pairs_.size() == together) solve_pairs(batch.task);
+        SupportPair<Scalar> pair(shape_a, batch.poses[a], shape_b, batch.poses[b]);
+        solve_pair(pair, batch.task, outcomes[i]);
       }
     }
-    solve_pairs(batch.task);
   }
 
  private:
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
-  // Those that wait, and none does then.
-  void solve_pairs(Task task);
-  void solve_pair(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                  const Walk<Scalar>* walked, Outcome& outcome);
+  void solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
   void solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
                      Scalar tolerance, Outcome& outcome);
   Scalar tolerance_for(const SupportPair<Scalar>& pair) const {
@@ -92,11 +87,6 @@ class Gjk final : public NarrowPhase {
   int gjk_cap_;
   ExpandingPolytope<Scalar> polytope_;
   std::vector<SupportShape<Scalar>> shapes_;
-
-  static constexpr std::size_t together = 16;  // pairs that are walked in side by side
-  std::vector<SupportPair<Scalar>> pairs_;
-  std::vector<Outcome*> answers_;  // theirs
-  std::vector<WalkTask<Scalar>> walks_;
 };
 
 // Writes a distance between the bodies, all in the pair's unit: `distance` and its bounds signed;
@@ -115,33 +105,18 @@ void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scala
 }
 
 template <class Scalar>
-void Gjk<Scalar>::solve_pairs(Task task) {
-  ApproachGoal<Scalar> goal{.task = task,
-                            .duality_gap = duality_gap_,
-                            .most_iterations = gjk_cap_,
-                            .momentum = momentum_};
-  walks_.clear();
-  if (goal.may_walk()) {
-    for (auto& pair : pairs_) walks_.push_back({&pair, tolerance_for(pair), {}});
-    walk_together(std::span(walks_), goal.walk_goal());
-  }
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    goal.tolerance = tolerance_for(pairs_[i]);
-    solve_pair(pairs_[i], goal, walks_.empty() ? nullptr : &walks_[i].found, *answers_[i]);
-  }
-  pairs_.clear();
-  answers_.clear();
-}
-
-template <class Scalar>
-void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                             const Walk<Scalar>* walked, Outcome& outcome) {
+void Gjk<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome) {
   using End = typename Approach<Scalar>::End;
-  const Task task = goal.task;
-  const Approach<Scalar> found = approach(pair, goal, walked);
+  const Scalar tolerance = tolerance_for(pair);
+  const ApproachGoal<Scalar> goal{.task = task,
+                                  .tolerance = tolerance,
+                                  .duality_gap = duality_gap_,
+                                  .most_iterations = gjk_cap_,
+                                  .momentum = momentum_};
+  const Approach<Scalar> found = approach(pair, goal);
   outcome.iterations = found.iterations;
   if (found.end == End::contact) {
-    solve_contact(pair, found, task, goal.tolerance, outcome);
+    solve_contact(pair, found, task, tolerance, outcome);
   } else {
     const Scalar lower = found.lower - pair.radius();
     const Scalar upper = found.upper - pair.radius();
