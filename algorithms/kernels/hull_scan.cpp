@@ -5,10 +5,11 @@ namespace {
 
 template <class Scalar>
 Found<Scalar> find(std::span<const VertexBlock<Scalar>> blocks, const Vec3<Scalar>& direction) {
+  const Scalar x = direction.x(), y = direction.y(), z = direction.z();
   switch (isa()) {
-    case Isa::avx512: return avx512::furthest_at(blocks, direction);
-    case Isa::avx2: return avx2::furthest_at(blocks, direction);
-    default: return baseline::furthest_at(blocks, direction);
+    case Isa::avx512: return avx512::furthest_at(blocks, x, y, z);
+    case Isa::avx2: return avx2::furthest_at(blocks, x, y, z);
+    default: return baseline::furthest_at(blocks, x, y, z);
   }
 }
 

@@ -47,7 +47,7 @@ struct Found {
 
 inline constexpr std::size_t most_blocks = 16;  // that are looked at together
 
-// At each level `furthest_at(blocks, direction)` is the index of the vertex with the greatest d.v;
+// At each level `furthest_at(blocks, x, y, z)` is the index of the vertex with the greatest d.v;
 // of several the first: the same at every level. NaN is nobody's greatest: then it is vertex 0.
 #define TOUCHSTONE_LANES real_lanes
 #define TOUCHSTONE_LOOPS "algorithms/kernels/hull_scan.inl"

@@ -5,19 +5,19 @@
 // index along.
 template <class Scalar>
 TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks, std::size_t count,
-                                               const Vec3<Scalar>& d) {
+                                               Scalar x, Scalar y, Scalar z) {
   using Lanes = RealLanes<Scalar>;
   using Vector = typename Lanes::Real;
   constexpr std::size_t parts = VertexBlock<Scalar>::size / Lanes::width;
-  const auto load = [](const Scalar* x) TOUCHSTONE_TARGET {
+  const auto load = [](const Scalar* from) TOUCHSTONE_TARGET {
     Vector v;
-    std::memcpy(&v, x, sizeof v);
+    std::memcpy(&v, from, sizeof v);
     return v;
   };
   Vector values[most_blocks * parts];
-  const Vector dx = Lanes::broadcast(d.x());
-  const Vector dy = Lanes::broadcast(d.y());
-  const Vector dz = Lanes::broadcast(d.z());
+  const Vector dx = Lanes::broadcast(x);
+  const Vector dy = Lanes::broadcast(y);
+  const Vector dz = Lanes::broadcast(z);
   Vector best = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t part = 0; part < parts; ++part) {
@@ -52,14 +52,12 @@ TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks
 
 template <class Scalar>
 TOUCHSTONE_TARGET inline Found<Scalar> furthest_at(std::span<const VertexBlock<Scalar>> blocks,
-                                                   const Vec3<Scalar>& direction) {
-  if (blocks.size() <= most_blocks) {
-    return best_of<Scalar>(blocks.data(), blocks.size(), direction);
-  }
+                                                   Scalar x, Scalar y, Scalar z) {
+  if (blocks.size() <= most_blocks) return best_of<Scalar>(blocks.data(), blocks.size(), x, y, z);
   Found<Scalar> best{-std::numeric_limits<Scalar>::infinity(), 0};
   for (std::size_t i = 0; i < blocks.size(); i += most_blocks) {
     const std::size_t count = std::min(most_blocks, blocks.size() - i);
-    const Found<Scalar> found = best_of<Scalar>(&blocks[i], count, direction);
+    const Found<Scalar> found = best_of<Scalar>(&blocks[i], count, x, y, z);
     if (found.value > best.value) {
       const auto before = static_cast<std::uint32_t>(i * VertexBlock<Scalar>::size);
       best = {found.value, before + found.index};

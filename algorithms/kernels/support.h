@@ -90,6 +90,11 @@ class SupportPair {
     return point;
   }
 
+  // For those that find support points themselves, as vectors: see simplex_walk.inl.
+  TurnedShape<Scalar>& a() { return a_; }
+  TurnedShape<Scalar>& b() { return b_; }
+  void count_support() { ++support_calls_; }
+
   // Inside body b; body a's is the origin. So the difference has -centre_b() inside.
   const Vec3<Scalar>& centre_b() const { return centre_b_; }
   Scalar radius_a() const { return a_.radius(); }

@@ -41,6 +41,8 @@ class TurnedShape {
   Vec3<Scalar> support(const Vec3<Scalar>& direction);
 
   Scalar radius() const { return radius_; }
+  const SupportShape<Scalar>& shape() const { return *shape_; }
+  const Mat3<Scalar>& matrix() const { return matrix_; }
 
  private:
   using Core = typename SupportShape<Scalar>::Core;
