@@ -110,8 +110,7 @@ void measure(Oracle& oracle, const Body& a, const Body& b, Task task, Outcome& o
   const bool asked = task == Task::distance ? found.answer != Answer::overlapping
                                             : found.answer != Answer::separated;
   if (!asked) return;
-  // The depth of an enclosure is that of the translation that is known to separate.
-  outcome.distance = task == Task::penetration && !found.exact ? found.lower : found.middle();
+  outcome.distance = found.middle();
   outcome.lower = found.lower;
   outcome.upper = found.upper;
   outcome.normal = found.normal;

@@ -6,10 +6,9 @@
 
 namespace touchstone::oracle {
 
-// Writes what the task asks for: a distance rounded once (of an enclosure its middle; the depth of
-// an enclosure is its greatest, at which the translation separates for sure), witness points
-// (metres, world) that are sums of the bodies' own points, rounded as doubles are. Where an
-// enclosure of curved cores holds zero the answer is unknown, and the status not_converged.
+// Writes what the task asks for: a distance rounded once, witness points (metres, world) that are
+// sums of the bodies' own points, rounded as doubles are. Where an enclosure of curved cores holds
+// zero the answer is unknown, and the status not_converged.
 void answer(Oracle& oracle, const Body& a, const Body& b, Task task, Outcome& outcome);
 
 }  // namespace touchstone::oracle
