@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace touchstone {
 namespace {
@@ -12,12 +13,28 @@ using Wide3 = Eigen::Matrix<Wide, 3, 1>;
 
 Wide3 wide(const Vec3d& x) { return x.cast<Wide>(); }
 
+// The points y of the moved half-space are those with normal . (y - t) <= height. What maps planes
+// is the inverse transpose of the matrix: the matrix of its cofactors, over the determinant.
+struct WorldPlane {
+  Wide3 normal;  // unit
+  Wide height;
+};
+
 template <class Scalar>
-Wide3 world_normal(const SupportShape<Scalar>& halfspace, const Pose& pose, Wide& length) {
-  const Wide3 normal = pose.rotation.cast<Wide>() * wide(halfspace.normal);
-  length = normal.stableNorm();
-  return normal / length;
+WorldPlane world_plane(const SupportShape<Scalar>& halfspace, const Pose& pose) {
+  const Mat3<Wide> matrix = pose.rotation.cast<Wide>();
+  Mat3<Wide> cofactors;
+  for (int i = 0; i < 3; ++i) {
+    cofactors.row(i) = matrix.row((i + 1) % 3).cross(matrix.row((i + 2) % 3));
+  }
+  const Wide determinant = matrix.row(0).dot(cofactors.row(0));
+  const Wide3 normal = cofactors * wide(halfspace.normal);
+  const Wide length = std::copysign(normal.norm(), determinant);
+  return {normal / length, halfspace.offset * (determinant / length)};
 }
+
+// What is left of lengths that cancel.
+constexpr Wide wide_rounding = 64 * std::numeric_limits<Wide>::epsilon();
 
 // Writes what the task asks for. Lengths in metres; `normal` from a to b; `on_a` is the witness
 // point on a.
@@ -45,11 +62,14 @@ template <class Scalar>
 void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
                      Outcome& outcome) {
-  Wide length = 0;
-  const Wide3 plane = world_normal(b, pose_b, length);
+  const auto [plane, plane_height] = world_plane(b, pose_b);
   const Wide3 turned_centre = pose_a.rotation.cast<Wide>() * wide(a.centre);
   const Wide3 from_b = turned_centre + (wide(pose_a.translation) - wide(pose_b.translation));
-  const auto height = static_cast<double>(plane.dot(from_b) - b.offset / length);
+  const auto height = static_cast<double>(plane.dot(from_b) - plane_height);
+  const Wide lengths = (turned_centre.cwiseAbs() + wide(pose_a.translation).cwiseAbs() +
+                        wide(pose_b.translation).cwiseAbs())
+                           .sum() +
+                       std::abs(plane_height);
 
   const double unit = power_of_two_above(std::max(std::abs(height), a.reach(pose_a.rotation)));
   TurnedShape<Scalar> turned(a, pose_a.rotation, unit);
@@ -62,7 +82,8 @@ void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
   const Vec3d on_a = pose_a(a.centre) + unit * (lowest.template cast<double>() +
                                                 static_cast<double>(turned.radius()) * normal);
   constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
-  answer(task, static_cast<double>(distance) * unit, rounding * unit, normal, on_a, outcome);
+  answer(task, static_cast<double>(distance) * unit,
+         rounding * unit + static_cast<double>(wide_rounding * lengths), normal, on_a, outcome);
   outcome.iterations = 0;
   outcome.support_calls = 1;
 }
@@ -71,10 +92,8 @@ template <class Scalar>
 void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
                       const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
                       Outcome& outcome) {
-  Wide length_a = 0;
-  Wide length_b = 0;
-  const Wide3 normal_a = world_normal(a, pose_a, length_a);
-  const Wide3 normal_b = world_normal(b, pose_b, length_b);
+  const auto [normal_a, height_a] = world_plane(a, pose_a);
+  const auto [normal_b, own_height_b] = world_plane(b, pose_b);
   constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
   outcome.iterations = 0;
   outcome.support_calls = 0;
@@ -84,9 +103,8 @@ void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
     return;
   }
   // Heights of the two planes along a's normal, over the origin of body a.
-  const Wide height_a = a.offset / length_a;
   const Wide place_b = normal_a.dot(wide(pose_b.translation) - wide(pose_a.translation));
-  const Wide height_b = place_b - b.offset / length_b;
+  const Wide height_b = place_b - own_height_b;
   const double size =
       static_cast<double>(std::max({std::abs(height_a), std::abs(place_b), std::abs(height_b)}));
   const Vec3d normal = normal_a.template cast<double>();

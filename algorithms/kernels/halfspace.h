@@ -1,8 +1,7 @@
 // A half-space against anything else: one support call, or none.
 //
-// The half-space is {x : m . (x - t) <= offset} with m = R n: R is taken to be a rotation, as far
-// as its rounding goes. For a matrix that is none this is another plane than that of the moved
-// points, whose normal is the inverse transpose of R times n.
+// The plane is that of the moved points, whatever the matrix: its normal is the inverse transpose
+// times n.
 // Paper: Ericson, "Real-Time Collision Detection", 2005, section 5.2.3 (a box and a half-space).
 #pragma once
 

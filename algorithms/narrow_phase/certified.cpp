@@ -10,7 +10,8 @@
 //          is left is the oracle's: always the depth of cores that share a point.
 //          Outcome::support_calls is -1 where the oracle answered, and counted where the filter
 //          did.
-// Fails:   unknown / not_converged where the oracle's enclosure of curved cores holds zero. Never
+// Fails:   unknown / not_converged where the oracle's enclosure of curved cores holds zero, and
+//          not_converged with bounds where that of a depth is wider than 1e-9 of the size. Never
 //          wrong. Tolerance and iteration cap are not heeded: they would only make it slower.
 // Cost:    GJK's at gaps that are not rounding; the oracle's 10 to 100 us, or some ms for distances
 //          of curved cores that GJK does not settle and all their depths.
@@ -33,6 +34,8 @@ using Pair = SupportPair<double>;
 
 constexpr int most_iterations = 128;
 constexpr double widest = 4e-15;  // of the size: an interval that is good enough
+
+constexpr double least_digits = 1e-9;  // of the size: an enclosure that is wider is no number
 
 // A shape as each stage wants it.
 struct Prepared {
@@ -100,6 +103,13 @@ class Certified final : public NarrowPhase {
       outcome.support_calls = -1;
       oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, batch.task,
                      outcome);
+      // Of round cores deep in each other the enclosure may be wide: a bound, and not a depth.
+      const double size = std::max(a.shape.size(), b.shape.size());
+      const bool curved = a.shape.solid.is_curved() || b.shape.solid.is_curved();
+      if (batch.task == Task::penetration && curved &&
+          outcome.upper - outcome.lower > least_digits * size) {
+        outcome.status = Status::not_converged;
+      }
     }
   }
 
