@@ -17,6 +17,8 @@ using Block = typename PolytopeSurface<Scalar>::Block;
 template <class Scalar>
 using Columns = typename PolytopeSurface<Scalar>::Columns;
 template <class Scalar>
+using Planes = typename PolytopeSurface<Scalar>::Planes;
+template <class Scalar>
 struct Triangles {
   const Columns<Scalar>&a, &b, &c;
 };
@@ -24,9 +26,12 @@ struct Triangles {
 template <class Scalar>
 struct Loops {
   int (*least_key)(const Block<Scalar>*, std::size_t);
-  void (*seen_from)(const Block<Scalar>*, std::size_t, const Vec3<Scalar>&, Scalar, std::uint32_t*);
-  void (*planes_through)(const Triangles<Scalar>&, std::size_t, Columns<Scalar>&, Scalar*);
+  void (*seen_from)(const Block<Scalar>*, std::size_t, const Vec3<Scalar>&, Scalar, std::uint64_t*);
+  bool (*planes_through)(const Triangles<Scalar>&, std::size_t, Scalar, Scalar, Planes<Scalar>&);
 };
+
+// A word has a bit for each face of so many.
+constexpr std::size_t blocks_a_word = 4;
 
 #define TOUCHSTONE_LANES real_lanes
 #define TOUCHSTONE_LOOPS "algorithms/kernels/polytope_surface.inl"
@@ -42,6 +47,10 @@ const Loops<Scalar>& loops() {
     default: return baseline::loops<Scalar>;
   }
 }
+
+// The origin is beyond a plane with such a distance.
+template <class Scalar>
+constexpr Scalar outside = -2 * SupportPair<Scalar>::rounding;
 
 template <class Scalar>
 void set(Columns<Scalar>& columns, std::size_t i, const Vec3<Scalar>& v) {
@@ -64,18 +73,20 @@ PolytopeSurface<Scalar>::PolytopeSurface(std::size_t most_vertices) {
   blocks_.assign(blocks, empty);
   edges_.resize(4 * faces);
   unused_.reserve(faces);
-  visible_.resize(blocks);
-  reached_.resize(blocks);
-  beyond_.resize(most_vertices);
-  ring_.reserve(3 * faces);
-  ring_vertex_.reserve(3 * faces);
-  places_.reserve(faces);
-  for (Columns* columns : {&tails_, &heads_, &tips_, &normals_}) {
+  visible_.resize(blocks / blocks_a_word + 1);
+  reached_.resize(visible_.size());
+  head_.resize(most_vertices + 1);
+  beyond_.resize(most_vertices + 1);
+  ring_.resize(most_vertices);
+  places_.resize(faces);
+  for (Columns* columns : {&tails_, &heads_, &tips_, &planes_.normals}) {
     for (std::vector<Scalar>* column : {&columns->x, &columns->y, &columns->z}) {
       column->resize(most_vertices + widest);
     }
   }
-  distances_.resize(most_vertices + widest);
+  planes_.distances.resize(most_vertices + widest);
+  planes_.keys.resize(most_vertices + widest);
+  planes_.weights.resize(most_vertices + widest);
 }
 
 template <class Scalar>
@@ -96,13 +107,13 @@ bool PolytopeSurface<Scalar>::start(const std::array<DifferencePoint<Scalar>, 4>
     set(heads_, f, corners[faces[f][1].tail].difference);
     set(tips_, f, corners[faces[f][2].tail].difference);
   }
-  loops<Scalar>().planes_through({tails_, heads_, tips_}, 4, normals_, distances_.data());
-  constexpr Scalar outside = -2 * SupportPair<Scalar>::rounding;
   first_fresh_ = 4;
-  for (int f = 0; f < 4; ++f) {
-    if (!(distances_[f] >= outside)) return false;
-    write_plane(f, f, std::numeric_limits<Scalar>::infinity());
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  if (!loops<Scalar>().planes_through({tails_, heads_, tips_}, 4, outside<Scalar>, infinity,
+                                      planes_)) {
+    return false;
   }
+  for (int f = 0; f < 4; ++f) write_plane(f, f);
   return true;
 }
 
@@ -112,23 +123,19 @@ typename PolytopeSurface<Scalar>::Nearest PolytopeSurface<Scalar>::nearest_face(
     const int face = loops<Scalar>().least_key(blocks_.data(), blocks_in_use());
     const Scalar distance = key(face);
     if (!(distance < std::numeric_limits<Scalar>::infinity())) return {};
-    const Scalar measured = distance_of_triangle(face);
-    if (!(measured > distance)) return {face, distance};
-    key(face) = measured;
+    bool& measured = block(face).measured[lane_of(face)];
+    if (measured) return {face, distance};
+    measured = true;
+    key(face) = std::max(distance, distance_of_triangle(face));
   }
 }
 
 template <class Scalar>
 Scalar PolytopeSurface<Scalar>::distance_of_triangle(int face) const {
-  const std::array<Vec3<Scalar>, 3> p = points(corners(face));
-  // Twice the areas of the triangles that the origin's projection makes with the edges.
-  const Vec3<Scalar> n = normal(face);
-  const bool falls_inside =
-      n.dot(p[0].cross(p[1])) > 0 && n.dot(p[1].cross(p[2])) > 0 && n.dot(p[2].cross(p[0])) > 0;
-  if (falls_inside) return distance(face);
+  const std::array<Vec3<Scalar>, 3> corners = points(this->corners(face));
   Simplex<Scalar> triangle;
   triangle.size = 3;
-  for (int i = 0; i < 3; ++i) triangle.points[i].difference = p[i];
+  for (int i = 0; i < 3; ++i) triangle.points[i].difference = corners[i];
   return reduce_to_nearest(triangle).distance;
 }
 
@@ -137,98 +144,111 @@ bool PolytopeSurface<Scalar>::add(const DifferencePoint<Scalar>& point, int face
   constexpr Scalar seen_above = SupportPair<Scalar>::rounding / 4;
   loops<Scalar>().seen_from(blocks_.data(), blocks_in_use(), point.difference, seen_above,
                             visible_.data());
-  if (!find_horizon()) {
+  if (!find_horizon(point.difference)) {
     keep_connected(face);
-    if (!find_horizon()) return false;
+    if (!find_horizon(point.difference)) return false;
   }
-  if (!find_planes(point.difference)) return false;
+  if (!find_planes(furthest)) return false;
   choose_places();
   const int tip = static_cast<int>(vertices_.size());
   vertices_.push_back(point);
-  const int count = static_cast<int>(ring_.size());
+  const int count = ring_size_;
+  int last = places_[count - 1];
+  int place = places_[0];
   for (int i = 0; i < count; ++i) {
-    const int next = i + 1 < count ? i + 1 : 0;
-    const int last = i > 0 ? i - 1 : count - 1;
-    const int first_edge = 4 * places_[i];
-    edges_[first_edge] = {ring_vertex_[i], ring_[i]};
-    edges_[first_edge + 1] = {ring_vertex_[next], 4 * places_[next] + 2};
-    edges_[first_edge + 2] = {tip, 4 * places_[last] + 1};
-    edges_[ring_[i]].twin = first_edge;
-    write_plane(places_[i], i, furthest);
+    const int next = places_[i + 1 < count ? i + 1 : 0];
+    const int tail = ring_[i];
+    const int twin = beyond_[tail];
+    edges_[4 * place] = {tail, twin};
+    edges_[4 * place + 1] = {head_[tail], 4 * next + 2};
+    edges_[4 * place + 2] = {tip, 4 * last + 1};
+    edges_[twin].twin = 4 * place;
+    write_plane(place, i);
+    last = place;
+    place = next;
   }
   return true;
 }
 
-// The edges where the point sees no further, in turn. True where they form one ring, which meets
-// no vertex twice and not the point.
+// The edges where the point sees no further, in turn, and the triangles over them. True where they
+// form one ring, which meets no vertex twice.
 template <class Scalar>
-bool PolytopeSurface<Scalar>::find_horizon() {
-  int count = 0;
-  int first = -1;
-  for (std::size_t i = 0; i < blocks_in_use(); ++i) {
-    for (std::uint32_t left = visible_[i]; left != 0; left &= left - 1) {
-      const int face = face_at(i, std::countr_zero(left));
+bool PolytopeSurface<Scalar>::find_horizon(const Vec3<Scalar>& point) {
+  int faces = 0;
+  int size = 0;
+  int first = 0;
+  const int elsewhere = static_cast<int>(vertices_.size());
+  const std::size_t words = (blocks_in_use() + blocks_a_word - 1) / blocks_a_word;
+  for (std::size_t i = 0; i < words; ++i) {
+    for (std::uint64_t left = visible_[i]; left != 0; left &= left - 1) {
+      const int face = static_cast<int>(64 * i) + std::countr_zero(left);
+      places_[faces++] = face;
       for (int edge = 4 * face; edge < 4 * face + 3; ++edge) {
-        if (is_visible(edges_[edge].twin / 4)) continue;
-        first = edges_[edge].tail;
-        beyond_[first] = edges_[edge].twin;
-        ++count;
+        // Without a branch, as there is no telling.
+        const auto [tail, twin] = edges_[edge];
+        const bool on_horizon = !is_visible(face_of(twin));
+        const int to = on_horizon ? tail : elsewhere;
+        head_[to] = edges_[twin].tail;
+        beyond_[to] = twin;
+        first = on_horizon ? tail : first;
+        size += on_horizon ? 1 : 0;
       }
     }
   }
-  if (count < 3) return false;
-  ring_.clear();
-  ring_vertex_.clear();
+  visible_count_ = faces;
+  ring_size_ = size;
+  if (size < 3 || size > elsewhere) return false;
   int at = first;
-  do {
-    ring_vertex_.push_back(at);
-    ring_.push_back(beyond_[at]);
-    at = edges_[beyond_[at]].tail;
-  } while (at != first && --count > 0);
-  return at == first && count == 1;
+  bool early = false;
+  for (int i = 0; i < size; ++i) {
+    early |= i > 0 && at == first;
+    ring_[i] = at;
+    set(tails_, i, vertices_[at].difference);
+    at = head_[at];
+    set(heads_, i, vertices_[at].difference);
+    set(tips_, i, point);
+  }
+  return at == first && !early;
 }
 
 // Leaves in `visible_` what is connected with the face.
 template <class Scalar>
 void PolytopeSurface<Scalar>::keep_connected(int face) {
   std::ranges::fill(reached_, 0);
+  int waiting = 0;
   const auto reach = [&](int f) {
-    std::uint32_t& bits = reached_[block_of(f)];
-    const std::uint32_t bit = 1u << lane_of(f);
+    std::uint64_t& bits = reached_[f >> 6];
+    const std::uint64_t bit = std::uint64_t{1} << (f & 63);
     if (!is_visible(f) || (bits & bit) != 0) return;
     bits |= bit;
-    places_.push_back(f);
+    places_[waiting++] = f;
   };
-  places_.clear();
   reach(face);
-  while (!places_.empty()) {
-    const int edge = 4 * places_.back();
-    places_.pop_back();
-    for (int k = 0; k < 3; ++k) reach(edges_[edge + k].twin / 4);
+  while (waiting > 0) {
+    const int edge = 4 * places_[--waiting];
+    for (int k = 0; k < 3; ++k) reach(face_of(edges_[edge + k].twin));
   }
   visible_.swap(reached_);
 }
 
-// The planes of the cone from the point over the horizon. False where one has the origin outside.
+// The planes of the cone over the horizon. False where one has the origin outside, or the point is
+// on the horizon.
 template <class Scalar>
-bool PolytopeSurface<Scalar>::find_planes(const Vec3<Scalar>& point) {
-  const std::size_t count = ring_.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3<Scalar>& tail = vertices_[ring_vertex_[i]].difference;
-    if (tail == point) return false;
-    set(tails_, i, tail);
-    set(heads_, i > 0 ? i - 1 : count - 1, tail);
-    set(tips_, i, point);
-  }
-  loops<Scalar>().planes_through({tails_, heads_, tips_}, count, normals_, distances_.data());
-  constexpr Scalar outside = -2 * SupportPair<Scalar>::rounding;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std::isnan(distances_[i])) {
-      const int behind = ring_[i] / 4;
-      set(normals_, i, normal(behind));
-      distances_[i] = distance(behind);
+bool PolytopeSurface<Scalar>::find_planes(Scalar furthest) {
+  const bool good = loops<Scalar>().planes_through({tails_, heads_, tips_}, ring_size_,
+                                                   outside<Scalar>, furthest, planes_);
+  if (good) return true;
+  for (int i = 0; i < ring_size_; ++i) {
+    if (std::isnan(planes_.distances[i])) {
+      const bool meets =
+          tails_.x[i] == tips_.x[i] && tails_.y[i] == tips_.y[i] && tails_.z[i] == tips_.z[i];
+      if (meets) return false;
+      const int behind = face_of(beyond_[ring_[i]]);
+      set(planes_.normals, i, normal(behind));
+      planes_.distances[i] = planes_.keys[i] = distance(behind);
+      planes_.weights[i] = 0;
     }
-    if (!(distances_[i] >= outside)) return false;
+    if (!(planes_.distances[i] > outside<Scalar>)) return false;
   }
   return true;
 }
@@ -236,39 +256,32 @@ bool PolytopeSurface<Scalar>::find_planes(const Vec3<Scalar>& point) {
 // For the faces of the cone: first those of the faces that go.
 template <class Scalar>
 void PolytopeSurface<Scalar>::choose_places() {
-  places_.clear();
-  for (std::size_t i = 0; i < blocks_in_use(); ++i) {
-    for (std::uint32_t left = visible_[i]; left != 0; left &= left - 1) {
-      places_.push_back(face_at(i, std::countr_zero(left)));
-    }
-  }
-  while (places_.size() > ring_.size()) {
-    const int gone = places_.back();
-    places_.pop_back();
+  for (int i = ring_size_; i < visible_count_; ++i) {
+    const int gone = places_[i];
     unused_.push_back(gone);
     block(gone).distance[lane_of(gone)] = std::numeric_limits<Scalar>::infinity();
     set_aside(gone);
   }
-  while (places_.size() < ring_.size()) {
+  for (int i = visible_count_; i < ring_size_; ++i) {
     if (unused_.empty()) {
-      places_.push_back(first_fresh_++);
+      places_[i] = first_fresh_++;
     } else {
-      places_.push_back(unused_.back());
+      places_[i] = unused_.back();
       unused_.pop_back();
     }
   }
 }
 
 template <class Scalar>
-void PolytopeSurface<Scalar>::write_plane(int face, int i, Scalar furthest) {
+void PolytopeSurface<Scalar>::write_plane(int face, int i) {
   Block& to = block(face);
   const std::size_t k = lane_of(face);
-  to.x[k] = normals_.x[i];
-  to.y[k] = normals_.y[i];
-  to.z[k] = normals_.z[i];
-  to.distance[k] = distances_[i];
-  const bool needless = distances_[i] > furthest;
-  to.key[k] = needless ? std::numeric_limits<Scalar>::infinity() : distances_[i];
+  to.x[k] = planes_.normals.x[i];
+  to.y[k] = planes_.normals.y[i];
+  to.z[k] = planes_.normals.z[i];
+  to.distance[k] = planes_.distances[i];
+  to.key[k] = planes_.keys[i];
+  to.measured[k] = planes_.weights[i] > 0;
 }
 
 template class PolytopeSurface<float>;

@@ -68,13 +68,21 @@ class PolytopeSurface {
   // The planes of sixteen faces. Where there is no face, the distance and the key are infinite.
   struct Block {
     alignas(64) Scalar x[block_size], y[block_size], z[block_size], distance[block_size];
-    Scalar key[block_size];  // the distance that the face is chosen by; infinite: set aside
+    Scalar key[block_size];     // the distance that the face is chosen by; infinite: set aside
+    bool measured[block_size];  // it is that of the triangle, not only of its plane
 
     Vec3<Scalar> normal(std::size_t i) const { return {x[i], y[i], z[i]}; }
   };
   // Columns of coordinates, with room for a whole vector behind the last one.
   struct Columns {
     std::vector<Scalar> x, y, z;
+  };
+  // Of triangles. The distance of a flat one is NaN. The key is the distance, infinite where it is
+  // not needed. The weight is the least that the origin's projection has in the triangle, of any
+  // scale.
+  struct Planes {
+    Columns normals;
+    std::vector<Scalar> distances, keys, weights;
   };
 
  private:
@@ -86,35 +94,36 @@ class PolytopeSurface {
 
   static std::size_t block_of(int face) { return static_cast<unsigned>(face) / block_size; }
   static std::size_t lane_of(int face) { return static_cast<unsigned>(face) % block_size; }
-  static int face_at(std::size_t block, int lane) {
-    return static_cast<int>(block * block_size) + lane;
-  }
   Block& block(int face) { return blocks_[block_of(face)]; }
   const Block& block(int face) const { return blocks_[block_of(face)]; }
   Scalar& key(int face) { return block(face).key[lane_of(face)]; }
-  bool is_visible(int face) const { return (visible_[block_of(face)] >> lane_of(face) & 1) != 0; }
+  static int face_of(int edge) { return edge >> 2; }
+  bool is_visible(int face) const { return (visible_[face >> 6] >> (face & 63) & 1) != 0; }
   std::size_t blocks_in_use() const {
     return (static_cast<std::size_t>(first_fresh_) + block_size - 1) / block_size;
   }
   Scalar distance_of_triangle(int face) const;
-  bool find_horizon();
+  bool find_horizon(const Vec3<Scalar>& point);
   void keep_connected(int face);
-  bool find_planes(const Vec3<Scalar>& point);
+  bool find_planes(Scalar furthest);
   void choose_places();
-  void write_plane(int face, int i, Scalar furthest);
+  void write_plane(int face, int i);
 
   std::vector<DifferencePoint<Scalar>> vertices_;
   std::vector<Block> blocks_;
   std::vector<Edge> edges_;
   int first_fresh_ = 0;      // this face and those behind it were never used
   std::vector<int> unused_;  // faces before it
-  // Of the point that is being added: bits of the faces in each block that it sees; for each
-  // vertex on the horizon the edge beyond that ends there; those edges in turn, and the vertices
-  // where they end; the triangles over them, and their planes; where to put these.
-  std::vector<std::uint32_t> visible_, reached_;
-  std::vector<int> beyond_, ring_, ring_vertex_, places_;
-  Columns tails_, heads_, tips_, normals_;
-  std::vector<Scalar> distances_;
+  // Of the point that is being added: bits of the faces that it sees, and where the cone's faces
+  // go, first in their places; for each vertex on the horizon where the edge leads that begins
+  // there, and its twin, of a face that stays; the vertices in turn; the triangles over the edges,
+  // and their planes.
+  std::vector<std::uint64_t> visible_, reached_;
+  std::vector<int> places_, head_, beyond_, ring_;
+  int visible_count_ = 0;
+  int ring_size_ = 0;
+  Columns tails_, heads_, tips_;
+  Planes planes_;
 };
 
 }  // namespace touchstone

@@ -8,6 +8,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real load(const 
   return v;
 }
 
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void store(Scalar* to, typename RealLanes<Scalar>::Real v) {
+  std::memcpy(to, &v, sizeof v);
+}
+
 // The first of the faces with the least key.
 template <class Scalar>
 TOUCHSTONE_TARGET int least_key(const Block<Scalar>* blocks, std::size_t count) {
@@ -21,35 +26,42 @@ TOUCHSTONE_TARGET int least_key(const Block<Scalar>* blocks, std::size_t count) 
     }
   }
   const Real least = Lanes::broadcast(-Lanes::greatest(-best));
-  for (std::size_t i = 0; i < count; ++i) {
-    unsigned greater = 0;
-    for (std::size_t k = 0; k < size; k += Lanes::width) {
-      greater |= Lanes::bits(Lanes::less(least, load(blocks[i].key + k))) << k;
+  for (std::size_t first = 0; first < count; first += blocks_a_word) {
+    std::uint64_t found = 0;
+    for (std::size_t i = first; i < std::min(first + blocks_a_word, count); ++i) {
+      for (std::size_t k = 0; k < size; k += Lanes::width) {
+        const unsigned greater = Lanes::bits(Lanes::less(least, load(blocks[i].key + k)));
+        constexpr unsigned all = (1u << Lanes::width) - 1;
+        found |= std::uint64_t{~greater & all} << ((i - first) * size + k);
+      }
     }
-    const unsigned found = ~greater & ((1u << size) - 1);
-    if (found != 0) return static_cast<int>(i * size) + std::countr_zero(found);
+    if (found != 0) return static_cast<int>(first * size) + std::countr_zero(found);
   }
   return 0;
 }
 
-// Bits of the faces in each block whose plane is further than `above` below the point.
+// Bits of the faces whose plane is further than `above` below the point.
 template <class Scalar>
 TOUCHSTONE_TARGET void seen_from(const Block<Scalar>* blocks, std::size_t count,
-                                 const Vec3<Scalar>& point, Scalar above, std::uint32_t* seen) {
+                                 const Vec3<Scalar>& point, Scalar above, std::uint64_t* seen) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
+  constexpr std::size_t size = PolytopeSurface<Scalar>::block_size;
   const Real px = Lanes::broadcast(point.x());
   const Real py = Lanes::broadcast(point.y());
   const Real pz = Lanes::broadcast(point.z());
   const Real least = Lanes::broadcast(above);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Block<Scalar>& b = blocks[i];
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < PolytopeSurface<Scalar>::block_size; k += Lanes::width) {
-      const Real height = load(b.x + k) * px + load(b.y + k) * py + load(b.z + k) * pz;
-      bits |= Lanes::bits(Lanes::less(least, height - load(b.distance + k))) << k;
+  for (std::size_t first = 0; first < count; first += blocks_a_word) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = first; i < std::min(first + blocks_a_word, count); ++i) {
+      const Block<Scalar>& b = blocks[i];
+      for (std::size_t k = 0; k < size; k += Lanes::width) {
+        const Real height = load(b.x + k) * px + load(b.y + k) * py + load(b.z + k) * pz;
+        const auto mask = Lanes::less(least, height - load(b.distance + k));
+        bits |= std::uint64_t{Lanes::bits(mask)} << ((i - first) * size + k);
+      }
     }
-    seen[i] = bits;
+    seen[first / blocks_a_word] = bits;
   }
 }
 
@@ -69,14 +81,15 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> vectors_at(const Columns<Sca
   return {load(columns.x.data() + i), load(columns.y.data() + i), load(columns.z.data() + i)};
 }
 
-// triangle_plane of simplex.h for all triangles a, b, c, with unit normals. The distance of a flat
-// one is NaN.
+// triangle_plane of simplex.h for the triangles a, b, c. Whether all planes are more than
+// `inside` away from the origin.
 template <class Scalar>
-TOUCHSTONE_TARGET void planes_through(const Triangles<Scalar>& triangles, std::size_t count,
-                                      Columns<Scalar>& normals, Scalar* distances) {
+TOUCHSTONE_TARGET bool planes_through(const Triangles<Scalar>& triangles, std::size_t count,
+                                      Scalar inside, Scalar furthest, Planes<Scalar>& planes) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   constexpr Scalar flat = flat_height<Scalar> * flat_height<Scalar>;
+  bool all_inside = true;
   for (std::size_t i = 0; i < count; i += Lanes::width) {
     const Vectors<Scalar> a = vectors_at<Scalar>(triangles.a, i);
     const Vectors<Scalar> b = vectors_at<Scalar>(triangles.b, i);
@@ -91,30 +104,42 @@ TOUCHSTONE_TARGET void planes_through(const Triangles<Scalar>& triangles, std::s
     const auto c_over_both = Lanes::less(of_two, opposite_c);
     const auto choose = [&](const Vectors<Scalar>& of_a, const Vectors<Scalar>& of_b,
                             const Vectors<Scalar>& of_c) TOUCHSTONE_TARGET {
-      const auto one = [&](Real x, Real y, Real z) TOUCHSTONE_TARGET {
+      const auto of = [&](Real x, Real y, Real z) TOUCHSTONE_TARGET {
         return Lanes::select(c_over_both, z, Lanes::select(b_over_a, y, x));
       };
-      return Vectors<Scalar>{one(of_a.x, of_b.x, of_c.x), one(of_a.y, of_b.y, of_c.y),
-                             one(of_a.z, of_b.z, of_c.z)};
+      return Vectors<Scalar>{of(of_a.x, of_b.x, of_c.x), of(of_a.y, of_b.y, of_c.y),
+                             of(of_a.z, of_b.z, of_c.z)};
     };
+    const Real one = Lanes::broadcast(1);
     const Real length = Lanes::select(c_over_both, opposite_c, of_two);
+    const Real inverse = one / length;
     const Vectors<Scalar> longest = choose(bc, ca, ab);
     const Vectors<Scalar> base = choose(a, b, c);
     Vectors<Scalar> normal = cross<Scalar>(choose(ca, ab, bc), choose(ab, bc, ca));
-    const Real along = dot<Scalar>(normal, longest) / length;
+    const Real along = dot<Scalar>(normal, longest) * inverse;
     normal = {normal.x - along * longest.x, normal.y - along * longest.y,
               normal.z - along * longest.z};
     const Real squared = dot<Scalar>(normal, normal);
-    const Real norm = Lanes::sqrt(squared);
-    normal = {normal.x / norm, normal.y / norm, normal.z / norm};
+    const Real scale = Lanes::sqrt(squared) * (one / squared);
     const Real distance = Lanes::select(Lanes::less(Lanes::broadcast(flat) * length, squared),
-                                        dot<Scalar>(normal, base),
+                                        dot<Scalar>(normal, base) * scale,
                                         Lanes::broadcast(std::numeric_limits<Scalar>::quiet_NaN()));
-    std::memcpy(normals.x.data() + i, &normal.x, sizeof normal.x);
-    std::memcpy(normals.y.data() + i, &normal.y, sizeof normal.y);
-    std::memcpy(normals.z.data() + i, &normal.z, sizeof normal.z);
-    std::memcpy(distances + i, &distance, sizeof distance);
+    const Real weight = Lanes::min(Lanes::min(dot<Scalar>(normal, cross<Scalar>(a, b)),
+                                              dot<Scalar>(normal, cross<Scalar>(b, c))),
+                                   dot<Scalar>(normal, cross<Scalar>(c, a)));
+    store(planes.normals.x.data() + i, normal.x * scale);
+    store(planes.normals.y.data() + i, normal.y * scale);
+    store(planes.normals.z.data() + i, normal.z * scale);
+    store(planes.distances.data() + i, distance);
+    store(planes.weights.data() + i, weight);
+    const auto needless = Lanes::less(Lanes::broadcast(furthest), distance);
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    store(planes.keys.data() + i, Lanes::select(needless, Lanes::broadcast(infinity), distance));
+    const unsigned good = Lanes::bits(Lanes::less(Lanes::broadcast(inside), distance));
+    const unsigned used = (1u << std::min(Lanes::width, count - i)) - 1;
+    all_inside = all_inside && (~good & used) == 0;
   }
+  return all_inside;
 }
 
 template <class Scalar>
