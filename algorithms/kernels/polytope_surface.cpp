@@ -30,6 +30,12 @@ struct Loops {
   bool (*planes_through)(const Triangles<Scalar>&, std::size_t, Scalar, Scalar, Planes<Scalar>&);
 };
 
+// A plane through corners that rounding r moves tilts by r / h where h is the triangle's least
+// height. So it moves the nearest point, and that point's distance is off by r^2 / h^2: no more
+// than rounding where h^2 exceeds this.
+template <class Scalar>
+constexpr Scalar uncertain = 16 * SupportPair<Scalar>::rounding;
+
 // A word has a bit for each face of so many.
 constexpr std::size_t blocks_a_word = 4;
 
@@ -86,7 +92,7 @@ PolytopeSurface<Scalar>::PolytopeSurface(std::size_t most_vertices) {
   }
   planes_.distances.resize(most_vertices + widest);
   planes_.keys.resize(most_vertices + widest);
-  planes_.weights.resize(most_vertices + widest);
+  planes_.margins.resize(most_vertices + widest);
 }
 
 template <class Scalar>
@@ -246,7 +252,7 @@ bool PolytopeSurface<Scalar>::find_planes(Scalar furthest) {
       const int behind = face_of(beyond_[ring_[i]]);
       set(planes_.normals, i, normal(behind));
       planes_.distances[i] = planes_.keys[i] = distance(behind);
-      planes_.weights[i] = 0;
+      planes_.margins[i] = 0;
     }
     if (!(planes_.distances[i] > outside<Scalar>)) return false;
   }
@@ -281,7 +287,7 @@ void PolytopeSurface<Scalar>::write_plane(int face, int i) {
   to.z[k] = planes_.normals.z[i];
   to.distance[k] = planes_.distances[i];
   to.key[k] = planes_.keys[i];
-  to.measured[k] = planes_.weights[i] > 0;
+  to.measured[k] = planes_.margins[i] > 0;
 }
 
 template class PolytopeSurface<float>;

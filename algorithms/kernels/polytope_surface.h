@@ -78,11 +78,11 @@ class PolytopeSurface {
     std::vector<Scalar> x, y, z;
   };
   // Of triangles. The distance of a flat one is NaN. The key is the distance, infinite where it is
-  // not needed. The weight is the least that the origin's projection has in the triangle, of any
-  // scale.
+  // not needed. The margin is positive where the plane is so certain that, were the face the
+  // nearest, the origin's projection would be in the triangle.
   struct Planes {
     Columns normals;
-    std::vector<Scalar> distances, keys, weights;
+    std::vector<Scalar> distances, keys, margins;
   };
 
  private:

@@ -124,14 +124,12 @@ TOUCHSTONE_TARGET bool planes_through(const Triangles<Scalar>& triangles, std::s
     const Real distance = Lanes::select(Lanes::less(Lanes::broadcast(flat) * length, squared),
                                         dot<Scalar>(normal, base) * scale,
                                         Lanes::broadcast(std::numeric_limits<Scalar>::quiet_NaN()));
-    const Real weight = Lanes::min(Lanes::min(dot<Scalar>(normal, cross<Scalar>(a, b)),
-                                              dot<Scalar>(normal, cross<Scalar>(b, c))),
-                                   dot<Scalar>(normal, cross<Scalar>(c, a)));
+    const Real margin = squared - Lanes::broadcast(uncertain<Scalar>) * length;
     store(planes.normals.x.data() + i, normal.x * scale);
     store(planes.normals.y.data() + i, normal.y * scale);
     store(planes.normals.z.data() + i, normal.z * scale);
     store(planes.distances.data() + i, distance);
-    store(planes.weights.data() + i, weight);
+    store(planes.margins.data() + i, margin);
     const auto needless = Lanes::less(Lanes::broadcast(furthest), distance);
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     store(planes.keys.data() + i, Lanes::select(needless, Lanes::broadcast(infinity), distance));
