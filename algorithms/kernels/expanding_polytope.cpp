@@ -29,7 +29,7 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
   result.upper = infinity;
   Simplex<Scalar> tetrahedron = simplex;
   if (simplex.size < 4 && !grow_to_tetrahedron(pair, tetrahedron, result)) return result;
-  if (!start(tetrahedron)) return result;
+  if (!surface_.start(tetrahedron.points)) return result;
 
   std::array<int, 3> best{};  // the corners of the last face to lower the upper bound
   Scalar held = infinity;     // the nearest of the faces that cannot be expanded
@@ -144,16 +144,6 @@ bool ExpandingPolytope<Scalar>::grow_to_tetrahedron(SupportPair<Scalar>& pair,
     result.upper = std::numeric_limits<Scalar>::infinity();
   }
   return true;
-}
-
-template <class Scalar>
-bool ExpandingPolytope<Scalar>::start(Simplex<Scalar>& tetrahedron) {
-  auto& p = tetrahedron.points;
-  const TrianglePlane<Scalar> base =
-      triangle_plane<Scalar>({p[0].difference, p[1].difference, p[2].difference});
-  const Vec3<Scalar> side = p[3].difference - p[base.base].difference;
-  if (base.normal.dot(side) > 0) std::swap(p[1], p[2]);
-  return surface_.start(p);
 }
 
 // True where the origin is on the inner side of every face, beyond doubt.

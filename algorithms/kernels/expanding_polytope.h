@@ -63,7 +63,6 @@ class ExpandingPolytope {
  private:
   bool grow_to_tetrahedron(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex,
                            Expansion<Scalar>& result);
-  bool start(Simplex<Scalar>& tetrahedron);
   bool encloses_origin() const;
   void find_witnesses(const std::array<int, 3>& best, Expansion<Scalar>& result) const;
 

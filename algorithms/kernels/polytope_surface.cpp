@@ -12,22 +12,28 @@
 namespace touchstone {
 namespace {
 
+using real_lanes::Quad;
+
 template <class Scalar>
 using Block = typename PolytopeSurface<Scalar>::Block;
 template <class Scalar>
-using Columns = typename PolytopeSurface<Scalar>::Columns;
-template <class Scalar>
 using Planes = typename PolytopeSurface<Scalar>::Planes;
+
+// The triangles from a point to the edges of a ring; its vertices and then the first again, and
+// more to fill up a vector.
 template <class Scalar>
-struct Triangles {
-  const Columns<Scalar>&a, &b, &c;
+struct Cone {
+  const DifferencePoint<Scalar>* points;
+  const int* ring;
+  std::size_t size;
+  const Vec3<Scalar>& tip;
 };
 
 template <class Scalar>
 struct Loops {
   int (*least_key)(const Block<Scalar>*, std::size_t);
   void (*seen_from)(const Block<Scalar>*, std::size_t, const Vec3<Scalar>&, Scalar, std::uint64_t*);
-  bool (*planes_through)(const Triangles<Scalar>&, std::size_t, Scalar, Scalar, Planes<Scalar>&);
+  bool (*planes_through)(const Cone<Scalar>&, Scalar, Scalar, Planes<Scalar>&);
 };
 
 // A plane through corners that rounding r moves tilts by r / h where h is the triangle's least
@@ -58,13 +64,6 @@ const Loops<Scalar>& loops() {
 template <class Scalar>
 constexpr Scalar outside = -2 * SupportPair<Scalar>::rounding;
 
-template <class Scalar>
-void set(Columns<Scalar>& columns, std::size_t i, const Vec3<Scalar>& v) {
-  columns.x[i] = v.x();
-  columns.y[i] = v.y();
-  columns.z[i] = v.z();
-}
-
 }  // namespace
 
 template <class Scalar>
@@ -72,7 +71,7 @@ PolytopeSurface<Scalar>::PolytopeSurface(std::size_t most_vertices) {
   // A closed surface of v vertices has 2 v - 4 triangles.
   const std::size_t blocks = 2 * most_vertices / block_size + 1;
   const std::size_t faces = blocks * block_size;
-  vertices_.reserve(most_vertices);
+  vertices_.resize(most_vertices);
   Block empty{};
   std::ranges::fill(empty.distance, std::numeric_limits<Scalar>::infinity());
   std::ranges::fill(empty.key, std::numeric_limits<Scalar>::infinity());
@@ -83,16 +82,12 @@ PolytopeSurface<Scalar>::PolytopeSurface(std::size_t most_vertices) {
   reached_.resize(visible_.size());
   head_.resize(most_vertices + 1);
   beyond_.resize(most_vertices + 1);
-  ring_.resize(most_vertices);
+  ring_.resize(most_vertices + 1 + widest);
   places_.resize(faces);
-  for (Columns* columns : {&tails_, &heads_, &tips_, &planes_.normals}) {
-    for (std::vector<Scalar>* column : {&columns->x, &columns->y, &columns->z}) {
-      column->resize(most_vertices + widest);
-    }
+  Planes& p = planes_;
+  for (std::vector<Scalar>* column : {&p.x, &p.y, &p.z, &p.distances, &p.keys, &p.margins}) {
+    column->resize(most_vertices + widest);
   }
-  planes_.distances.resize(most_vertices + widest);
-  planes_.keys.resize(most_vertices + widest);
-  planes_.margins.resize(most_vertices + widest);
 }
 
 template <class Scalar>
@@ -102,24 +97,43 @@ bool PolytopeSurface<Scalar>::start(const std::array<DifferencePoint<Scalar>, 4>
     std::ranges::fill(blocks_[i].key, std::numeric_limits<Scalar>::infinity());
   }
   unused_.clear();
-  vertices_.assign(corners.begin(), corners.end());
-  static constexpr std::array<std::array<Edge, 3>, 4> faces = {{{{{0, 6}, {1, 10}, {2, 14}}},
-                                                                {{{0, 13}, {3, 8}, {1, 0}}},
-                                                                {{{1, 5}, {3, 12}, {2, 1}}},
-                                                                {{{2, 9}, {3, 4}, {0, 2}}}}};
-  for (int f = 0; f < 4; ++f) {
-    std::copy(faces[f].begin(), faces[f].end(), edges_.begin() + 4 * f);
-    set(tails_, f, corners[faces[f][0].tail].difference);
-    set(heads_, f, corners[faces[f][1].tail].difference);
-    set(tips_, f, corners[faces[f][2].tail].difference);
-  }
-  first_fresh_ = 4;
+  std::ranges::copy(corners, vertices_.begin());
+  vertex_count_ = first_fresh_ = 4;
+  static constexpr std::array<Edge, 16> edges = {{{0, 14},
+                                                  {1, 6},
+                                                  {2, 9},
+                                                  {},
+                                                  {1, 13},
+                                                  {3, 10},
+                                                  {2, 1},
+                                                  {},
+                                                  {3, 12},
+                                                  {0, 2},
+                                                  {2, 5},
+                                                  {},
+                                                  {0, 8},
+                                                  {3, 4},
+                                                  {1, 0},
+                                                  {}}};
+  std::ranges::copy(edges, edges_.begin());
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-  if (!loops<Scalar>().planes_through({tails_, heads_, tips_}, 4, outside<Scalar>, infinity,
-                                      planes_)) {
-    return false;
+  ring_size_ = 1;
+  ring_[0] = 0;
+  ring_[1] = 3;
+  find_planes(vertices_[1].difference, infinity);
+  const Vec3<Scalar> base{planes_.x[0], planes_.y[0], planes_.z[0]};
+  if (base.dot(vertices_[2].difference) > planes_.distances[0]) {
+    std::swap(vertices_[0], vertices_[1]);
+    for (auto* column : {&planes_.x, &planes_.y, &planes_.z, &planes_.distances, &planes_.keys}) {
+      column->front() = -column->front();
+    }
   }
-  for (int f = 0; f < 4; ++f) write_plane(f, f);
+  if (!(planes_.distances[0] > outside<Scalar>)) return false;
+  write_plane(3, 0);
+  ring_size_ = 3;
+  std::ranges::copy(std::array{0, 1, 3, 0}, ring_.begin());
+  if (!find_planes(vertices_[2].difference, infinity)) return false;
+  for (int f = 0; f < 3; ++f) write_plane(f, f);
   return true;
 }
 
@@ -150,14 +164,14 @@ bool PolytopeSurface<Scalar>::add(const DifferencePoint<Scalar>& point, int face
   constexpr Scalar seen_above = SupportPair<Scalar>::rounding / 4;
   loops<Scalar>().seen_from(blocks_.data(), blocks_in_use(), point.difference, seen_above,
                             visible_.data());
-  if (!find_horizon(point.difference)) {
+  if (!find_horizon()) {
     keep_connected(face);
-    if (!find_horizon(point.difference)) return false;
+    if (!find_horizon()) return false;
   }
-  if (!find_planes(furthest)) return false;
+  if (!find_planes(point.difference, furthest) && !mend_planes(point.difference)) return false;
   choose_places();
-  const int tip = static_cast<int>(vertices_.size());
-  vertices_.push_back(point);
+  const int tip = vertex_count_++;
+  vertices_[tip] = point;
   const int count = ring_size_;
   int last = places_[count - 1];
   int place = places_[0];
@@ -176,14 +190,14 @@ bool PolytopeSurface<Scalar>::add(const DifferencePoint<Scalar>& point, int face
   return true;
 }
 
-// The edges where the point sees no further, in turn, and the triangles over them. True where they
-// form one ring, which meets no vertex twice.
+// The edges where the point sees no further, in turn. True where they form one ring, which meets
+// no vertex twice.
 template <class Scalar>
-bool PolytopeSurface<Scalar>::find_horizon(const Vec3<Scalar>& point) {
+bool PolytopeSurface<Scalar>::find_horizon() {
   int faces = 0;
   int size = 0;
   int first = 0;
-  const int elsewhere = static_cast<int>(vertices_.size());
+  const int elsewhere = vertex_count_;
   const std::size_t words = (blocks_in_use() + blocks_a_word - 1) / blocks_a_word;
   for (std::size_t i = 0; i < words; ++i) {
     for (std::uint64_t left = visible_[i]; left != 0; left &= left - 1) {
@@ -209,11 +223,9 @@ bool PolytopeSurface<Scalar>::find_horizon(const Vec3<Scalar>& point) {
   for (int i = 0; i < size; ++i) {
     early |= i > 0 && at == first;
     ring_[i] = at;
-    set(tails_, i, vertices_[at].difference);
     at = head_[at];
-    set(heads_, i, vertices_[at].difference);
-    set(tips_, i, point);
   }
+  ring_[size] = first;
   return at == first && !early;
 }
 
@@ -237,20 +249,27 @@ void PolytopeSurface<Scalar>::keep_connected(int face) {
   visible_.swap(reached_);
 }
 
-// The planes of the cone over the horizon. False where one has the origin outside, or the point is
-// on the horizon.
+// The planes of the cone over the horizon. False where one does not exist or has the origin
+// outside.
 template <class Scalar>
-bool PolytopeSurface<Scalar>::find_planes(Scalar furthest) {
-  const bool good = loops<Scalar>().planes_through({tails_, heads_, tips_}, ring_size_,
-                                                   outside<Scalar>, furthest, planes_);
-  if (good) return true;
+bool PolytopeSurface<Scalar>::find_planes(const Vec3<Scalar>& tip, Scalar furthest) {
+  const auto size = static_cast<std::size_t>(ring_size_);
+  return loops<Scalar>().planes_through({vertices_.data(), ring_.data(), size, tip},
+                                        outside<Scalar>, furthest, planes_);
+}
+
+// Puts faces without an area in the plane behind. False where one has the origin outside, or the
+// tip is on the horizon.
+template <class Scalar>
+bool PolytopeSurface<Scalar>::mend_planes(const Vec3<Scalar>& tip) {
   for (int i = 0; i < ring_size_; ++i) {
     if (std::isnan(planes_.distances[i])) {
-      const bool meets =
-          tails_.x[i] == tips_.x[i] && tails_.y[i] == tips_.y[i] && tails_.z[i] == tips_.z[i];
-      if (meets) return false;
+      if (vertices_[ring_[i]].difference == tip) return false;
       const int behind = face_of(beyond_[ring_[i]]);
-      set(planes_.normals, i, normal(behind));
+      const Vec3<Scalar> n = normal(behind);
+      planes_.x[i] = n.x();
+      planes_.y[i] = n.y();
+      planes_.z[i] = n.z();
       planes_.distances[i] = planes_.keys[i] = distance(behind);
       planes_.margins[i] = 0;
     }
@@ -282,9 +301,9 @@ template <class Scalar>
 void PolytopeSurface<Scalar>::write_plane(int face, int i) {
   Block& to = block(face);
   const std::size_t k = lane_of(face);
-  to.x[k] = planes_.normals.x[i];
-  to.y[k] = planes_.normals.y[i];
-  to.z[k] = planes_.normals.z[i];
+  to.x[k] = planes_.x[i];
+  to.y[k] = planes_.y[i];
+  to.z[k] = planes_.z[i];
   to.distance[k] = planes_.distances[i];
   to.key[k] = planes_.keys[i];
   to.measured[k] = planes_.margins[i] > 0;

@@ -25,9 +25,8 @@ class PolytopeSurface {
   // Memory for that many vertices is taken here, and none later on.
   explicit PolytopeSurface(std::size_t most_vertices);
 
-  // Begins with a tetrahedron that has the origin inside or, up to rounding, on it. Its first three
-  // corners are anticlockwise seen from outside. False where a face has no plane or the origin is
-  // outside of it.
+  // Begins with a tetrahedron that has the origin inside or, up to rounding, on it. False where a
+  // face has no plane or the origin is outside of it.
   bool start(const std::array<DifferencePoint<Scalar>, 4>& corners);
 
   struct Nearest {
@@ -73,16 +72,12 @@ class PolytopeSurface {
 
     Vec3<Scalar> normal(std::size_t i) const { return {x[i], y[i], z[i]}; }
   };
-  // Columns of coordinates, with room for a whole vector behind the last one.
-  struct Columns {
-    std::vector<Scalar> x, y, z;
-  };
-  // Of triangles. The distance of a flat one is NaN. The key is the distance, infinite where it is
-  // not needed. The margin is positive where the plane is so certain that, were the face the
-  // nearest, the origin's projection would be in the triangle.
+  // Of the triangles from a ring's edges to a tip; with room for a whole vector behind the last.
+  // The distance of a flat one is NaN. The key is the distance, infinite where it is not needed.
+  // The margin is positive where the plane is so certain that, were the face the nearest, the
+  // origin's projection would be in the triangle.
   struct Planes {
-    Columns normals;
-    std::vector<Scalar> distances, keys, margins;
+    std::vector<Scalar> x, y, z, distances, keys, margins;
   };
 
  private:
@@ -103,26 +98,27 @@ class PolytopeSurface {
     return (static_cast<std::size_t>(first_fresh_) + block_size - 1) / block_size;
   }
   Scalar distance_of_triangle(int face) const;
-  bool find_horizon(const Vec3<Scalar>& point);
+  bool find_horizon();
   void keep_connected(int face);
-  bool find_planes(Scalar furthest);
+  bool find_planes(const Vec3<Scalar>& tip, Scalar furthest);
+  bool mend_planes(const Vec3<Scalar>& tip);
   void choose_places();
   void write_plane(int face, int i);
 
   std::vector<DifferencePoint<Scalar>> vertices_;
+  int vertex_count_ = 0;
   std::vector<Block> blocks_;
   std::vector<Edge> edges_;
   int first_fresh_ = 0;      // this face and those behind it were never used
   std::vector<int> unused_;  // faces before it
   // Of the point that is being added: bits of the faces that it sees, and where the cone's faces
   // go, first in their places; for each vertex on the horizon where the edge leads that begins
-  // there, and its twin, of a face that stays; the vertices in turn; the triangles over the edges,
-  // and their planes.
+  // there, and its twin, of a face that stays; the vertices in turn, the first of them also last;
+  // the cone's planes.
   std::vector<std::uint64_t> visible_, reached_;
   std::vector<int> places_, head_, beyond_, ring_;
   int visible_count_ = 0;
   int ring_size_ = 0;
-  Columns tails_, heads_, tips_;
   Planes planes_;
 };
 

@@ -75,25 +75,35 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> minus(const Vectors<Scalar>&
                                                           const Vectors<Scalar>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+// The differences of a vector of points.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> vectors_at(const Columns<Scalar>& columns,
-                                                               std::size_t i) {
-  return {load(columns.x.data() + i), load(columns.y.data() + i), load(columns.z.data() + i)};
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> differences(
+    const DifferencePoint<Scalar>* points, const int* places) {
+  using Lanes = RealLanes<Scalar>;
+  Quad<Scalar> quads[Lanes::width];
+  for (std::size_t k = 0; k < Lanes::width; ++k) {
+    // With a number of what follows in the point.
+    std::memcpy(&quads[k], &points[places[k]], sizeof quads[k]);
+  }
+  typename Lanes::Real columns[4];
+  columns_of<Scalar>(quads, columns);
+  return {columns[0], columns[1], columns[2]};
 }
 
-// triangle_plane of simplex.h for the triangles a, b, c. Whether all planes are more than
+// triangle_plane of simplex.h for the triangles of a cone. Whether all planes are more than
 // `inside` away from the origin.
 template <class Scalar>
-TOUCHSTONE_TARGET bool planes_through(const Triangles<Scalar>& triangles, std::size_t count,
-                                      Scalar inside, Scalar furthest, Planes<Scalar>& planes) {
+TOUCHSTONE_TARGET bool planes_through(const Cone<Scalar>& cone, Scalar inside, Scalar furthest,
+                                      Planes<Scalar>& planes) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   constexpr Scalar flat = flat_height<Scalar> * flat_height<Scalar>;
   bool all_inside = true;
-  for (std::size_t i = 0; i < count; i += Lanes::width) {
-    const Vectors<Scalar> a = vectors_at<Scalar>(triangles.a, i);
-    const Vectors<Scalar> b = vectors_at<Scalar>(triangles.b, i);
-    const Vectors<Scalar> c = vectors_at<Scalar>(triangles.c, i);
+  const Vectors<Scalar> c = {Lanes::broadcast(cone.tip.x()), Lanes::broadcast(cone.tip.y()),
+                             Lanes::broadcast(cone.tip.z())};
+  for (std::size_t i = 0; i < cone.size; i += Lanes::width) {
+    const Vectors<Scalar> a = differences(cone.points, cone.ring + i);
+    const Vectors<Scalar> b = differences(cone.points, cone.ring + i + 1);
     const Vectors<Scalar> bc = minus<Scalar>(c, b), ca = minus<Scalar>(a, c),
                           ab = minus<Scalar>(b, a);
     const Real opposite_a = dot<Scalar>(bc, bc);
@@ -125,16 +135,16 @@ TOUCHSTONE_TARGET bool planes_through(const Triangles<Scalar>& triangles, std::s
                                         dot<Scalar>(normal, base) * scale,
                                         Lanes::broadcast(std::numeric_limits<Scalar>::quiet_NaN()));
     const Real margin = squared - Lanes::broadcast(uncertain<Scalar>) * length;
-    store(planes.normals.x.data() + i, normal.x * scale);
-    store(planes.normals.y.data() + i, normal.y * scale);
-    store(planes.normals.z.data() + i, normal.z * scale);
+    store(planes.x.data() + i, normal.x * scale);
+    store(planes.y.data() + i, normal.y * scale);
+    store(planes.z.data() + i, normal.z * scale);
     store(planes.distances.data() + i, distance);
     store(planes.margins.data() + i, margin);
     const auto needless = Lanes::less(Lanes::broadcast(furthest), distance);
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     store(planes.keys.data() + i, Lanes::select(needless, Lanes::broadcast(infinity), distance));
     const unsigned good = Lanes::bits(Lanes::less(Lanes::broadcast(inside), distance));
-    const unsigned used = (1u << std::min(Lanes::width, count - i)) - 1;
+    const unsigned used = (1u << std::min(Lanes::width, cone.size - i)) - 1;
     all_inside = all_inside && (~good & used) == 0;
   }
   return all_inside;
