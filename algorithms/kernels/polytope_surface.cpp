@@ -3,62 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
-#include "algorithms/core/isa.h"
-#include "algorithms/kernels/real_lanes.h"
 #include "algorithms/kernels/simplex.h"
 
 namespace touchstone {
 namespace {
 
-using real_lanes::Quad;
-
-template <class Scalar>
-using Block = typename PolytopeSurface<Scalar>::Block;
-template <class Scalar>
-using Planes = typename PolytopeSurface<Scalar>::Planes;
-
-// The triangles from a point to the edges of a ring; its vertices and then the first again, and
-// more to fill up a vector.
-template <class Scalar>
-struct Cone {
-  const DifferencePoint<Scalar>* points;
-  const int* ring;
-  std::size_t size;
-  const Vec3<Scalar>& tip;
-};
-
-template <class Scalar>
-struct Loops {
-  int (*least_key)(const Block<Scalar>*, std::size_t);
-  void (*seen_from)(const Block<Scalar>*, std::size_t, const Vec3<Scalar>&, Scalar, std::uint64_t*);
-  bool (*planes_through)(const Cone<Scalar>&, Scalar, Scalar, Planes<Scalar>&);
-};
-
-// A plane through corners that rounding r moves tilts by r / h where h is the triangle's least
-// height. So it moves the nearest point, and that point's distance is off by r^2 / h^2: no more
-// than rounding where h^2 exceeds this.
-template <class Scalar>
-constexpr Scalar uncertain = 16 * SupportPair<Scalar>::rounding;
-
-// A word has a bit for each face of so many.
-constexpr std::size_t blocks_a_word = 4;
-
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/kernels/polytope_surface.inl"
-#include "algorithms/kernels/every_level.inl"
-
-constexpr std::size_t widest = 16;  // lanes
-
-template <class Scalar>
-const Loops<Scalar>& loops() {
-  switch (isa()) {
-    case Isa::avx512: return avx512::loops<Scalar>;
-    case Isa::avx2: return avx2::loops<Scalar>;
-    default: return baseline::loops<Scalar>;
-  }
-}
+using face_planes::faces_a_word;
 
 // The origin is beyond a plane with such a distance.
 template <class Scalar>
@@ -67,10 +18,10 @@ constexpr Scalar outside = -2 * SupportPair<Scalar>::rounding;
 }  // namespace
 
 template <class Scalar>
-PolytopeSurface<Scalar>::PolytopeSurface(std::size_t most_vertices) {
+PolytopeSurface<Scalar>::PolytopeSurface(std::size_t most_vertices) : planes_(most_vertices) {
   // A closed surface of v vertices has 2 v - 4 triangles.
-  const std::size_t blocks = 2 * most_vertices / block_size + 1;
-  const std::size_t faces = blocks * block_size;
+  const std::size_t blocks = 2 * most_vertices / Block::size + 1;
+  const std::size_t faces = blocks * Block::size;
   vertices_.resize(most_vertices);
   Block empty{};
   std::ranges::fill(empty.distance, std::numeric_limits<Scalar>::infinity());
@@ -78,21 +29,17 @@ PolytopeSurface<Scalar>::PolytopeSurface(std::size_t most_vertices) {
   blocks_.assign(blocks, empty);
   edges_.resize(4 * faces);
   unused_.reserve(faces);
-  visible_.resize(blocks / blocks_a_word + 1);
+  visible_.resize(faces / faces_a_word + 1);
   reached_.resize(visible_.size());
   head_.resize(most_vertices + 1);
   beyond_.resize(most_vertices + 1);
-  ring_.resize(most_vertices + 1 + widest);
+  ring_.resize(most_vertices + 1 + face_planes::overhang);
   places_.resize(faces);
-  Planes& p = planes_;
-  for (std::vector<Scalar>* column : {&p.x, &p.y, &p.z, &p.distances, &p.keys, &p.margins}) {
-    column->resize(most_vertices + widest);
-  }
 }
 
 template <class Scalar>
 bool PolytopeSurface<Scalar>::start(const std::array<DifferencePoint<Scalar>, 4>& corners) {
-  for (std::size_t i = 0; i < blocks_in_use(); ++i) {
+  for (std::size_t i = 0; i < blocks_in_use().size(); ++i) {
     std::ranges::fill(blocks_[i].distance, std::numeric_limits<Scalar>::infinity());
     std::ranges::fill(blocks_[i].key, std::numeric_limits<Scalar>::infinity());
   }
@@ -122,13 +69,13 @@ bool PolytopeSurface<Scalar>::start(const std::array<DifferencePoint<Scalar>, 4>
   ring_[1] = 3;
   find_planes(vertices_[1].difference, infinity);
   const Vec3<Scalar> base{planes_.x[0], planes_.y[0], planes_.z[0]};
-  if (base.dot(vertices_[2].difference) > planes_.distances[0]) {
+  if (base.dot(vertices_[2].difference) > planes_.distance[0]) {
     std::swap(vertices_[0], vertices_[1]);
-    for (auto* column : {&planes_.x, &planes_.y, &planes_.z, &planes_.distances, &planes_.keys}) {
+    for (auto* column : {&planes_.x, &planes_.y, &planes_.z, &planes_.distance, &planes_.key}) {
       column->front() = -column->front();
     }
   }
-  if (!(planes_.distances[0] > outside<Scalar>)) return false;
+  if (!(planes_.distance[0] > outside<Scalar>)) return false;
   write_plane(3, 0);
   ring_size_ = 3;
   std::ranges::copy(std::array{0, 1, 3, 0}, ring_.begin());
@@ -140,7 +87,7 @@ bool PolytopeSurface<Scalar>::start(const std::array<DifferencePoint<Scalar>, 4>
 template <class Scalar>
 typename PolytopeSurface<Scalar>::Nearest PolytopeSurface<Scalar>::nearest_face() {
   for (;;) {
-    const int face = loops<Scalar>().least_key(blocks_.data(), blocks_in_use());
+    const int face = face_planes::least_key(blocks_in_use());
     const Scalar distance = key(face);
     if (!(distance < std::numeric_limits<Scalar>::infinity())) return {};
     bool& measured = block(face).measured[lane_of(face)];
@@ -162,8 +109,7 @@ Scalar PolytopeSurface<Scalar>::distance_of_triangle(int face) const {
 template <class Scalar>
 bool PolytopeSurface<Scalar>::add(const DifferencePoint<Scalar>& point, int face, Scalar furthest) {
   constexpr Scalar seen_above = SupportPair<Scalar>::rounding / 4;
-  loops<Scalar>().seen_from(blocks_.data(), blocks_in_use(), point.difference, seen_above,
-                            visible_.data());
+  face_planes::seen_from(blocks_in_use(), point.difference, seen_above, visible_.data());
   if (!find_horizon()) {
     keep_connected(face);
     if (!find_horizon()) return false;
@@ -198,10 +144,10 @@ bool PolytopeSurface<Scalar>::find_horizon() {
   int size = 0;
   int first = 0;
   const int elsewhere = vertex_count_;
-  const std::size_t words = (blocks_in_use() + blocks_a_word - 1) / blocks_a_word;
-  for (std::size_t i = 0; i < words; ++i) {
+  const std::size_t slots = static_cast<std::size_t>(first_fresh_);
+  for (std::size_t i = 0; i * faces_a_word < slots; ++i) {
     for (std::uint64_t left = visible_[i]; left != 0; left &= left - 1) {
-      const int face = static_cast<int>(64 * i) + std::countr_zero(left);
+      const int face = static_cast<int>(i * faces_a_word) + std::countr_zero(left);
       places_[faces++] = face;
       for (int edge = 4 * face; edge < 4 * face + 3; ++edge) {
         // Without a branch, as there is no telling.
@@ -235,8 +181,8 @@ void PolytopeSurface<Scalar>::keep_connected(int face) {
   std::ranges::fill(reached_, 0);
   int waiting = 0;
   const auto reach = [&](int f) {
-    std::uint64_t& bits = reached_[f >> 6];
-    const std::uint64_t bit = std::uint64_t{1} << (f & 63);
+    std::uint64_t& bits = reached_[static_cast<std::size_t>(f) / faces_a_word];
+    const std::uint64_t bit = std::uint64_t{1} << static_cast<std::size_t>(f) % faces_a_word;
     if (!is_visible(f) || (bits & bit) != 0) return;
     bits |= bit;
     places_[waiting++] = f;
@@ -254,8 +200,8 @@ void PolytopeSurface<Scalar>::keep_connected(int face) {
 template <class Scalar>
 bool PolytopeSurface<Scalar>::find_planes(const Vec3<Scalar>& tip, Scalar furthest) {
   const auto size = static_cast<std::size_t>(ring_size_);
-  return loops<Scalar>().planes_through({vertices_.data(), ring_.data(), size, tip},
-                                        outside<Scalar>, furthest, planes_);
+  const face_planes::Cone<Scalar> cone{vertices_.data(), ring_.data(), size, tip};
+  return face_planes::planes_through(cone, outside<Scalar>, furthest, planes_);
 }
 
 // Puts faces without an area in the plane behind. False where one has the origin outside, or the
@@ -263,17 +209,17 @@ bool PolytopeSurface<Scalar>::find_planes(const Vec3<Scalar>& tip, Scalar furthe
 template <class Scalar>
 bool PolytopeSurface<Scalar>::mend_planes(const Vec3<Scalar>& tip) {
   for (int i = 0; i < ring_size_; ++i) {
-    if (std::isnan(planes_.distances[i])) {
+    if (std::isnan(planes_.distance[i])) {
       if (vertices_[ring_[i]].difference == tip) return false;
       const int behind = face_of(beyond_[ring_[i]]);
       const Vec3<Scalar> n = normal(behind);
       planes_.x[i] = n.x();
       planes_.y[i] = n.y();
       planes_.z[i] = n.z();
-      planes_.distances[i] = planes_.keys[i] = distance(behind);
-      planes_.margins[i] = 0;
+      planes_.distance[i] = planes_.key[i] = distance(behind);
+      planes_.margin[i] = 0;
     }
-    if (!(planes_.distances[i] > outside<Scalar>)) return false;
+    if (!(planes_.distance[i] > outside<Scalar>)) return false;
   }
   return true;
 }
@@ -304,9 +250,9 @@ void PolytopeSurface<Scalar>::write_plane(int face, int i) {
   to.x[k] = planes_.x[i];
   to.y[k] = planes_.y[i];
   to.z[k] = planes_.z[i];
-  to.distance[k] = planes_.distances[i];
-  to.key[k] = planes_.keys[i];
-  to.measured[k] = planes_.margins[i] > 0;
+  to.distance[k] = planes_.distance[i];
+  to.key[k] = planes_.key[i];
+  to.measured[k] = planes_.margin[i] > 0;
 }
 
 template class PolytopeSurface<float>;

@@ -1,8 +1,7 @@
 // The surface of a convex polytope that has the origin inside, while points are added to it.
 //
-// Its faces are triangles. Their planes lie in blocks, which are looked at sixteen at a time: for
-// the faces that a point sees, and for the one nearest to the origin. A point takes the place of
-// the faces that it sees with the cone over their horizon.
+// Its faces are triangles. A point takes the place of the faces that it sees with the cone over
+// their horizon.
 // Paper:   Barber, Dobkin, Huhdanpaa, "The quickhull algorithm for convex hulls", ACM TOMS 22(4),
 // 1996 (horizon, cone). Departs: the visible faces are found among all faces and not by a walk from
 // one of them; the horizon is checked to be one closed ring, and all planes of the cone are known,
@@ -13,9 +12,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "algorithms/kernels/support.h"
+#include "algorithms/kernels/face_planes.h"
 
 namespace touchstone {
 
@@ -63,39 +63,27 @@ class PolytopeSurface {
     return true;
   }
 
-  static constexpr std::size_t block_size = 16;
-  // The planes of sixteen faces. Where there is no face, the distance and the key are infinite.
-  struct Block {
-    alignas(64) Scalar x[block_size], y[block_size], z[block_size], distance[block_size];
-    Scalar key[block_size];     // the distance that the face is chosen by; infinite: set aside
-    bool measured[block_size];  // it is that of the triangle, not only of its plane
-
-    Vec3<Scalar> normal(std::size_t i) const { return {x[i], y[i], z[i]}; }
-  };
-  // Of the triangles from a ring's edges to a tip; with room for a whole vector behind the last.
-  // The distance of a flat one is NaN. The key is the distance, infinite where it is not needed.
-  // The margin is positive where the plane is so certain that, were the face the nearest, the
-  // origin's projection would be in the triangle.
-  struct Planes {
-    std::vector<Scalar> x, y, z, distances, keys, margins;
-  };
-
  private:
+  using Block = face_planes::Block<Scalar>;
   // Edge k of face f, from its corner k to the next, is number 4 f + k.
   struct Edge {
     int tail;  // the corner
     int twin;  // the edge of the neighbour, which goes back
   };
 
-  static std::size_t block_of(int face) { return static_cast<unsigned>(face) / block_size; }
-  static std::size_t lane_of(int face) { return static_cast<unsigned>(face) % block_size; }
+  static std::size_t block_of(int face) { return static_cast<unsigned>(face) / Block::size; }
+  static std::size_t lane_of(int face) { return static_cast<unsigned>(face) % Block::size; }
   Block& block(int face) { return blocks_[block_of(face)]; }
   const Block& block(int face) const { return blocks_[block_of(face)]; }
   Scalar& key(int face) { return block(face).key[lane_of(face)]; }
   static int face_of(int edge) { return edge >> 2; }
-  bool is_visible(int face) const { return (visible_[face >> 6] >> (face & 63) & 1) != 0; }
-  std::size_t blocks_in_use() const {
-    return (static_cast<std::size_t>(first_fresh_) + block_size - 1) / block_size;
+  bool is_visible(int face) const {
+    const auto f = static_cast<std::size_t>(face);
+    return (visible_[f / face_planes::faces_a_word] >> f % face_planes::faces_a_word & 1) != 0;
+  }
+  std::span<const Block> blocks_in_use() const {
+    const auto faces = static_cast<std::size_t>(first_fresh_);
+    return {blocks_.data(), (faces + Block::size - 1) / Block::size};
   }
   Scalar distance_of_triangle(int face) const;
   bool find_horizon();
@@ -119,7 +107,7 @@ class PolytopeSurface {
   std::vector<int> places_, head_, beyond_, ring_;
   int visible_count_ = 0;
   int ring_size_ = 0;
-  Planes planes_;
+  face_planes::ConePlanes<Scalar> planes_;
 };
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-// The loops of polytope_surface.h. Included by polytope_surface.cpp once for each level of vector
+// The loops of face_planes.h. Included by face_planes.cpp once for each level of vector
 // instructions, inside that level's namespace; the same at every level.
 
 template <class Scalar>
@@ -13,12 +13,12 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void store(Scalar* to, typename RealLanes<Sc
   std::memcpy(to, &v, sizeof v);
 }
 
-// The first of the faces with the least key.
 template <class Scalar>
-TOUCHSTONE_TARGET int least_key(const Block<Scalar>* blocks, std::size_t count) {
+TOUCHSTONE_TARGET int least_key_at(std::span<const Block<Scalar>> blocks) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
-  constexpr std::size_t size = PolytopeSurface<Scalar>::block_size;
+  constexpr std::size_t size = Block<Scalar>::size, blocks_a_word = faces_a_word / size;
+  const std::size_t count = blocks.size();
   Real best = load(blocks[0].key);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < size; k += Lanes::width) {
@@ -40,13 +40,13 @@ TOUCHSTONE_TARGET int least_key(const Block<Scalar>* blocks, std::size_t count) 
   return 0;
 }
 
-// Bits of the faces whose plane is further than `above` below the point.
 template <class Scalar>
-TOUCHSTONE_TARGET void seen_from(const Block<Scalar>* blocks, std::size_t count,
-                                 const Vec3<Scalar>& point, Scalar above, std::uint64_t* seen) {
+TOUCHSTONE_TARGET void seen_from_at(std::span<const Block<Scalar>> blocks,
+                                    const Vec3<Scalar>& point, Scalar above, std::uint64_t* seen) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
-  constexpr std::size_t size = PolytopeSurface<Scalar>::block_size;
+  constexpr std::size_t size = Block<Scalar>::size, blocks_a_word = faces_a_word / size;
+  const std::size_t count = blocks.size();
   const Real px = Lanes::broadcast(point.x());
   const Real py = Lanes::broadcast(point.y());
   const Real pz = Lanes::broadcast(point.z());
@@ -90,11 +90,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> differences(
   return {columns[0], columns[1], columns[2]};
 }
 
-// triangle_plane of simplex.h for the triangles of a cone. Whether all planes are more than
-// `inside` away from the origin.
 template <class Scalar>
-TOUCHSTONE_TARGET bool planes_through(const Cone<Scalar>& cone, Scalar inside, Scalar furthest,
-                                      Planes<Scalar>& planes) {
+TOUCHSTONE_TARGET bool planes_through_at(const Cone<Scalar>& cone, Scalar inside, Scalar furthest,
+                                         ConePlanes<Scalar>& planes) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   constexpr Scalar flat = flat_height<Scalar> * flat_height<Scalar>;
@@ -138,17 +136,14 @@ TOUCHSTONE_TARGET bool planes_through(const Cone<Scalar>& cone, Scalar inside, S
     store(planes.x.data() + i, normal.x * scale);
     store(planes.y.data() + i, normal.y * scale);
     store(planes.z.data() + i, normal.z * scale);
-    store(planes.distances.data() + i, distance);
-    store(planes.margins.data() + i, margin);
+    store(planes.distance.data() + i, distance);
+    store(planes.margin.data() + i, margin);
     const auto needless = Lanes::less(Lanes::broadcast(furthest), distance);
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    store(planes.keys.data() + i, Lanes::select(needless, Lanes::broadcast(infinity), distance));
+    store(planes.key.data() + i, Lanes::select(needless, Lanes::broadcast(infinity), distance));
     const unsigned good = Lanes::bits(Lanes::less(Lanes::broadcast(inside), distance));
     const unsigned used = (1u << std::min(Lanes::width, cone.size - i)) - 1;
     all_inside = all_inside && (~good & used) == 0;
   }
   return all_inside;
 }
-
-template <class Scalar>
-constexpr Loops<Scalar> loops{least_key<Scalar>, seen_from<Scalar>, planes_through<Scalar>};
