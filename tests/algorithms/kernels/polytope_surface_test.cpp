@@ -114,7 +114,7 @@ TYPED_TEST(PolytopeSurfaceTest, StaysClosedAndConvex) {
     const int added = TestFixture::grow(
         surface, [&]() -> Vec3d { return random.uniform(least, 1) * random.direction(); }, true);
     EXPECT_GT(added, repeat % 2 == 0 ? 110 : 20);
-    if (repeat % 2 != 0) EXPECT_LT(added, 110);
+    EXPECT_TRUE(repeat % 2 == 0 || added < 110);
   }
 }
 
@@ -136,18 +136,17 @@ TYPED_TEST(PolytopeSurfaceTest, StaysClosedOnAGrid) {
 }
 
 TYPED_TEST(PolytopeSurfaceTest, IsTheSameAtEveryLevel) {
-  using Surface = typename TestFixture::Surface;
   const auto grown_at = [](Isa level) {
     limit_isa(level);
     reference::Random random(13);
-    Surface surface(most_vertices);
+    typename TestFixture::Surface surface(most_vertices);
     TestFixture::grow(
         surface, [&] { return random.direction(); }, false);
     return surface;
   };
-  const Surface baseline = grown_at(Isa::baseline);
+  const auto baseline = grown_at(Isa::baseline);
   for (const Isa level : {Isa::avx2, Isa::avx512}) {
-    const Surface other = grown_at(level);
+    const auto other = grown_at(level);
     ASSERT_EQ(TestFixture::faces(other), TestFixture::faces(baseline)) << to_string(level);
     for (const int face : TestFixture::faces(other)) {
       EXPECT_EQ(other.corners(face), baseline.corners(face));
@@ -158,15 +157,15 @@ TYPED_TEST(PolytopeSurfaceTest, IsTheSameAtEveryLevel) {
 }
 
 TYPED_TEST(PolytopeSurfaceTest, RefusesWhatHasNoHorizon) {
-  using Surface = typename TestFixture::Surface;
   constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
-  Surface surface(most_vertices);
+  typename TestFixture::Surface surface(most_vertices);
   ASSERT_TRUE(surface.start(TestFixture::tetrahedron()));
   for (const Vec3d& v : {Vec3d{0.1, 0, 0}, Vec3d{0.3, 0.3, 0.3}, Vec3d{0.3, 0, 0}}) {
     EXPECT_FALSE(surface.add(TestFixture::point(v), 0, infinity)) << v.transpose();
     EXPECT_EQ(TestFixture::faces(surface).size(), 4u);
   }
-  // The origin on a face is inside; beyond it, it is not. Nor is there anything in a plane.
+  // The origin may move as far as the faces; beyond it, it is not. Two corners in one place make no
+  // faces.
   auto corners = TestFixture::tetrahedron();
   const auto moved = [&](double by) {
     for (auto& corner : corners) corner.difference.x() += static_cast<TypeParam>(by);
@@ -174,7 +173,8 @@ TYPED_TEST(PolytopeSurfaceTest, RefusesWhatHasNoHorizon) {
   };
   EXPECT_TRUE(moved(0.1));
   EXPECT_FALSE(moved(0.3));
-  for (auto& corner : corners) corner.difference.x() = 0;
+  corners = TestFixture::tetrahedron();
+  corners[1] = corners[0];
   EXPECT_FALSE(surface.start(corners));
 }
 
