@@ -8,10 +8,6 @@
 namespace touchstone {
 namespace {
 
-// Heights below this are rounding, for coordinates of about 1.
-template <class Scalar>
-constexpr Scalar flat_height = 4 * std::numeric_limits<Scalar>::epsilon();
-
 // The nearest point of one feature of a simplex.
 template <class Scalar>
 struct Feature {

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "algorithms/kernels/support.h"
 
@@ -38,6 +39,10 @@ struct NearestPoint {
 // four remain and weights are not set.
 template <class Scalar>
 NearestPoint<Scalar> reduce_to_nearest(Simplex<Scalar>& simplex);
+
+// Heights below this are rounding, for coordinates of about 1.
+template <class Scalar>
+inline constexpr Scalar flat_height = 4 * std::numeric_limits<Scalar>::epsilon();
 
 // The normal of a triangle, to the last digits that its corners allow.
 template <class Scalar>

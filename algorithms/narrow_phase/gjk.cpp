@@ -172,7 +172,6 @@ void Gjk<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar
   outcome.status = Status::not_converged;
   if (inside && (known || task != Task::penetration)) outcome.status = Status::ok;
   if (!inside && depth.end == ExpansionEnd::flat) outcome.status = Status::degenerate;
-  if (depth.end == ExpansionEnd::capacity) outcome.status = Status::capacity;
   if (task == Task::intersect || (inside && task == Task::distance)) return;
   write(pair, -(radius + depth.upper), -(radius + depth.upper), -(radius + depth.lower),
         depth.normal, depth.a, depth.b, outcome);
