@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace touchstone {
 namespace {
@@ -10,32 +11,53 @@ namespace {
 template <class Scalar>
 constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
 
-// E E^T of an ellipsoid inside of the sum of both cores that touches it along the plane's normal.
+// Ellipsoids E inside of the sum of both cores that touch it along a plane's normal: one for each
+// way to turn, or to mirror, S across the normal.
 template <class Scalar>
-Mat3<Scalar> inner_ellipsoid(const EllipsoidPair<Scalar>& pair,
-                             const EllipsoidPlane<Scalar>& plane) {
-  if (pair.is_ball) return pair.qq;
-  if (!(plane.reach_a > 0 && plane.reach_b > 0)) return Mat3<Scalar>::Zero();
-  const Vec3<Scalar> u1 = plane.u.unitOrthogonal(), u2 = plane.u.cross(u1);
-  const Vec3<Scalar> v1 = plane.v.unitOrthogonal(), v2 = plane.v.cross(v1);
-  const Vec3<Scalar> a1 = pair.p * u1, a2 = pair.p * u2, b1 = pair.q * v1, b2 = pair.q * v2;
-  // S is free to turn, or to mirror, across u: as the sum of the squares is greatest.
-  const Scalar a1b1 = a1.dot(b1), a1b2 = a1.dot(b2), a2b1 = a2.dot(b1), a2b2 = a2.dot(b2);
-  Scalar cosine = a1b1 + a2b2, sine = a1b2 - a2b1, mirror = 1;
-  const Scalar other_cosine = a1b1 - a2b2, other_sine = a1b2 + a2b1;
-  if (other_cosine * other_cosine + other_sine * other_sine > cosine * cosine + sine * sine) {
-    cosine = other_cosine;
-    sine = other_sine;
-    mirror = -1;
+class InnerEllipsoids {
+ public:
+  InnerEllipsoids(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& plane)
+      : is_ball_(pair.is_ball), along_(plane.a - plane.b) {
+    if (is_ball_) {
+      a1_ = pair.q.col(0);
+      a2_ = pair.q.col(1);
+      along_ = pair.q.col(2);
+      return;
+    }
+    const Vec3<Scalar> u1 = plane.u.unitOrthogonal(), u2 = plane.u.cross(u1);
+    const Vec3<Scalar> v1 = plane.v.unitOrthogonal(), v2 = plane.v.cross(v1);
+    a1_.noalias() = pair.p * u1;
+    a2_.noalias() = pair.p * u2;
+    b1_.noalias() = pair.q * v1;
+    b2_.noalias() = pair.q * v2;
   }
-  const Scalar length = std::sqrt(cosine * cosine + sine * sine);
-  cosine = length > 0 ? cosine / length : Scalar{1};
-  sine = length > 0 ? sine / length : Scalar{0};
-  const Vec3<Scalar> first = a1 + cosine * b1 + sine * b2;
-  const Vec3<Scalar> second = a2 + mirror * (cosine * b2 - sine * b1);
-  const Vec3<Scalar> along = plane.a - plane.b;
-  return along * along.transpose() + first * first.transpose() + second * second.transpose();
-}
+
+  // E E^T; cosine and sine of the turn, and -1 to mirror.
+  Mat3<Scalar> turned(Scalar cosine, Scalar sine, Scalar mirror) const {
+    if (is_ball_) return squares(a1_, a2_);
+    return squares(a1_ + cosine * b1_ + sine * b2_, a2_ + mirror * (cosine * b2_ - sine * b1_));
+  }
+  // The one that is greatest in the sum of its squares.
+  Mat3<Scalar> greatest() const {
+    if (is_ball_) return squares(a1_, a2_);
+    const Scalar a1b1 = a1_.dot(b1_), a1b2 = a1_.dot(b2_);
+    const Scalar a2b1 = a2_.dot(b1_), a2b2 = a2_.dot(b2_);
+    const Scalar plain = std::hypot(a1b1 + a2b2, a1b2 - a2b1);
+    const Scalar mirrored = std::hypot(a1b1 - a2b2, a1b2 + a2b1);
+    if (!(std::max(plain, mirrored) > 0)) return turned(1, 0, 1);
+    if (plain >= mirrored) return turned((a1b1 + a2b2) / plain, (a1b2 - a2b1) / plain, 1);
+    return turned((a1b1 - a2b2) / mirrored, (a1b2 + a2b1) / mirrored, -1);
+  }
+  bool is_one() const { return is_ball_; }
+
+ private:
+  Mat3<Scalar> squares(const Vec3<Scalar>& first, const Vec3<Scalar>& second) const {
+    return along_ * along_.transpose() + first * first.transpose() + second * second.transpose();
+  }
+
+  bool is_ball_;
+  Vec3<Scalar> along_, a1_, a2_, b1_, b2_;
+};
 
 // Whether a symmetric matrix has no negative eigenvalue.
 template <class Scalar>
@@ -49,21 +71,28 @@ bool has_none_negative(const Mat3<Scalar>& m) {
   return m(2, 2) - l2 * m(2, 0) - off * off / d1 >= 0;
 }
 
+// The cores are no further apart than two points of them.
+template <class Scalar>
+Scalar nothing_known(const EllipsoidPlane<Scalar>& plane) {
+  return -plane.between.norm() - rounding<Scalar>;
+}
+
 // A lower bound of the overlap along every normal, where the inner ellipsoid proves one that is
-// near the plane's own; else 0.
+// near the plane's own.
 template <class Scalar>
 Scalar proven(const EllipsoidPlane<Scalar>& plane, const Mat3<Scalar>& inner) {
   const Scalar depth = -plane.gap, reach = plane.reach_a + plane.reach_b;
   // Were b moved by the slide, the plane would be stationary.
   const Scalar least = depth - plane.slide.norm();
   if (!(depth > 0)) return least;
+  // What rounding may have done to the eigenvalues.
+  const Scalar slack = rounding<Scalar> / 4 * inner.trace();
   Mat3<Scalar> rest = inner;
-  rest.diagonal().array() -= depth * reach;
+  rest.diagonal().array() -= depth * reach + slack;
   if (has_none_negative(rest)) return least;
   // Circles of minima, as of equal bodies, have an eigenvalue that is zero.
-  const Scalar slack = rounding<Scalar> * reach;
-  rest.diagonal().array() += slack;
-  return has_none_negative(rest) ? least - 2 * rounding<Scalar> : Scalar{0};
+  rest.diagonal().array() += 2 * slack;
+  return reach > 0 && has_none_negative(rest) ? least - 2 * slack / reach : nothing_known(plane);
 }
 
 // Normals around that of a minimum along which no overlap is less than `enough`.
@@ -73,6 +102,16 @@ struct Cap {
   Scalar angle;
 };
 
+// The lesser eigenvalue of a symmetric matrix that has a third one of zero.
+template <class Scalar>
+Scalar least_across(const Mat3<Scalar>& across) {
+  const Scalar trace = across.trace();
+  const Scalar minors = across(0, 0) * across(1, 1) - across(0, 1) * across(0, 1) +
+                        across(0, 0) * across(2, 2) - across(0, 2) * across(0, 2) +
+                        across(1, 1) * across(2, 2) - across(1, 2) * across(1, 2);
+  return (trace - std::sqrt(std::max(trace * trace - 4 * minors, Scalar{0}))) / 2;
+}
+
 template <class Scalar>
 Cap<Scalar> cap_around(const EllipsoidPlane<Scalar>& plane, const Mat3<Scalar>& inner,
                        Scalar enough) {
@@ -81,12 +120,7 @@ Cap<Scalar> cap_around(const EllipsoidPlane<Scalar>& plane, const Mat3<Scalar>& 
   const Vec3<Scalar> touch = plane.a - plane.b;
   const Scalar askew = (touch - n.dot(touch) * n).norm();
   const Mat3<Scalar> across = inner - touch * touch.transpose();
-  const Scalar trace = across.trace();
-  const Scalar minors = across(0, 0) * across(1, 1) - across(0, 1) * across(0, 1) +
-                        across(0, 0) * across(2, 2) - across(0, 2) * across(0, 2) +
-                        across(1, 1) * across(2, 2) - across(1, 2) * across(1, 2);
-  const Scalar least =
-      (trace - std::sqrt(std::max(trace * trace - 4 * minors, Scalar{0}))) / 2 - rounding<Scalar>;
+  const Scalar least = least_across<Scalar>(across) - rounding<Scalar>;
   Scalar angle = 1;
   for (; angle > Scalar{1e-3f}; angle *= Scalar{0.8f}) {
     const Scalar sine = std::sin(angle), fall = 1 - std::cos(angle);
@@ -111,8 +145,8 @@ class Search {
          const ClimbGoal& goal)
       : pair_(pair), goal_(goal), tolerance_(tolerance) {
     best_.plane = plane;
-    const Mat3<Scalar> inner = inner_ellipsoid(pair, plane);
-    best_.lower = proven(plane, inner);
+    const InnerEllipsoids<Scalar> inner(pair, plane);
+    best_.lower = proven(plane, inner.greatest());
     if (!is_proven()) keep(plane, inner);
   }
 
@@ -125,7 +159,7 @@ class Search {
         return (octant >> k & 1) != 0 ? Vec3<Scalar>(-Vec3<Scalar>::Unit(k))
                                       : Vec3<Scalar>(Vec3<Scalar>::Unit(k));
       };
-      open[count++] = {{axis(0), axis(1), axis(2)}, 0, 0};
+      open[count++] = {{axis(0), axis(1), axis(2)}, best_.lower, 0};
     }
     Scalar unresolved = std::numeric_limits<Scalar>::infinity();
     while (count > 0) {
@@ -154,15 +188,26 @@ class Search {
  private:
   static constexpr int deepest = 10;
 
-  bool is_proven() const {
-    return best_.lower > 0 && best_.lower >= -best_.plane.gap - 4 * tolerance_;
-  }
+  bool is_proven() const { return best_.lower >= -best_.plane.gap - 4 * tolerance_; }
 
-  void keep(const EllipsoidPlane<Scalar>& plane, const Mat3<Scalar>& inner) {
+  void keep(const EllipsoidPlane<Scalar>& plane, const InnerEllipsoids<Scalar>& inner) {
     // The slide is as much as another place of b.
     const Scalar slide = plane.slide.norm();
     if (caps_ == static_cast<int>(kept_.size()) || slide > tolerance_) return;
-    kept_[caps_++] = cap_around(plane, inner, -best_.plane.gap - tolerance_ + slide);
+    const Vec3<Scalar> touch = plane.a - plane.b;
+    Mat3<Scalar> best = inner.greatest();
+    Scalar least = least_across<Scalar>(best - touch * touch.transpose());
+    constexpr int turns = 12;
+    for (int k = 0; k < 2 * turns && !inner.is_one(); ++k) {
+      const Scalar angle = static_cast<Scalar>(k / 2 * (2 * std::numbers::pi / turns));
+      const Mat3<Scalar> other =
+          inner.turned(std::cos(angle), std::sin(angle), k % 2 == 0 ? Scalar{1} : Scalar{-1});
+      const Scalar of_other = least_across<Scalar>(other - touch * touch.transpose());
+      if (!(of_other > least)) continue;
+      least = of_other;
+      best = other;
+    }
+    kept_[caps_++] = cap_around(plane, best, -best_.plane.gap - tolerance_ + slide);
   }
 
   // Of the overlap along the normals of a triangle. A better minimum that is met on the way is
@@ -184,7 +229,7 @@ class Search {
     if (in_a_cap()) return -best_.plane.gap - tolerance_;
     const EllipsoidPlane<Scalar> plane(pair_, middle);
     const Scalar depth = -plane.gap;
-    const Scalar lower = depth * cosine - plane.slide.norm() * sine;
+    const Scalar lower = depth * (depth > 0 ? cosine : Scalar{1}) - plane.slide.norm() * sine;
     const bool better = plane.gap > best_.plane.gap + tolerance_;
     if (better || (triangle.level >= 2 && lower < -best_.plane.gap - tolerance_ &&
                    caps_ < static_cast<int>(kept_.size()))) {
@@ -200,10 +245,10 @@ class Search {
     for (int k = 0; k < caps_; ++k) {
       if ((kept_[k].normal - found.plane.normal).squaredNorm() < Scalar{1e-6f}) return;
     }
-    const Mat3<Scalar> inner = inner_ellipsoid(pair_, found.plane);
+    const InnerEllipsoids<Scalar> inner(pair_, found.plane);
     if (found.plane.gap > best_.plane.gap) {
       best_.plane = found.plane;
-      best_.lower = proven(found.plane, inner);
+      best_.lower = proven(found.plane, inner.greatest());
     }
     if (!is_proven()) keep(found.plane, inner);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/kernels/cofactors.h"
 #include "algorithms/kernels/support_shape.h"
 
 namespace touchstone {
@@ -12,6 +13,20 @@ namespace {
 double reach(const Shape& shape, const Pose& pose) {
   if (shape.kind == ShapeKind::sphere) return shape.radius;
   return shape.radii.maxCoeff() * pose.rotation.cwiseAbs().maxCoeff();
+}
+
+// The length that it had; one whose square has lost its digits is made zero.
+template <class Scalar>
+Scalar make_unit(Vec3<Scalar>& v) {
+  constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
+  const Scalar squared = v.squaredNorm();
+  if (!(squared > shortest)) {
+    v.setZero();
+    return 0;
+  }
+  const Scalar length = std::sqrt(squared);
+  v /= length;
+  return length;
 }
 
 // The curvature radii of the difference at a plane: a symmetric matrix that vanishes along n.
@@ -46,6 +61,19 @@ class Curvature {
   Scalar trace_, determinant_;  // of two rows, across n
 };
 
+// The best plane for the squares of the reaches, each weighed so that it is the reach here. It
+// overshoots no edge of a body that is nearly flat, as Newton's does.
+template <class Scalar>
+Vec3<Scalar> reweighted(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& at) {
+  Mat3<Scalar> sum = at.gap * Mat3<Scalar>::Identity();
+  if (at.reach_a > 0) sum += pair.pp / at.reach_a;
+  if (at.reach_b > 0) sum += pair.qq / at.reach_b;
+  const Cofactors<Scalar> cofactors(sum);
+  // No centre, or no inverse: the normal as it is.
+  const Vec3<Scalar> next = cofactors.solve(pair.centre);
+  return next.squaredNorm() > 0 ? next : at.normal;
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -73,8 +101,7 @@ template <class Scalar>
 EllipsoidPlane<Scalar>::EllipsoidPlane(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& n)
     : normal(n) {
   v.noalias() = pair.q.transpose() * n;
-  reach_b = v.norm();
-  v *= reach_b > 0 ? 1 / reach_b : Scalar{0};
+  reach_b = make_unit(v);
   b.noalias() = pair.q * -v;
   if (pair.is_ball) {
     u.setZero();
@@ -82,8 +109,7 @@ EllipsoidPlane<Scalar>::EllipsoidPlane(const EllipsoidPair<Scalar>& pair, const 
     reach_a = 0;
   } else {
     u.noalias() = pair.p.transpose() * n;
-    reach_a = u.norm();
-    u *= reach_a > 0 ? 1 / reach_a : Scalar{0};
+    reach_a = make_unit(u);
     a.noalias() = pair.p * u;
   }
   between = pair.centre + b - a;
@@ -127,24 +153,25 @@ Climb<Scalar> climb(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& start
     if (shift < 0 && !(curvature.determinant(shift) > 0 && curvature.trace() + 2 * shift > 0)) {
       shift = -curvature.least() / 2;
     }
-    for (;;) {
+    for (bool newton = true;; newton = !newton) {
       const Vec3<Scalar> step = curvature.solve(at.slide, shift + damping);
-      const Vec3<Scalar> ahead = (at.normal + step).normalized();
+      const Vec3<Scalar> ahead =
+          newton ? (at.normal + step).normalized() : reweighted(pair, at).normalized();
       const EllipsoidPlane<Scalar> next(pair, ahead);
       const Scalar next_slide = next.slide.squaredNorm();
       // So written that NaN is no step.
-      if (next.gap > at.gap + noise || (next.gap > at.gap - noise && next_slide < slide)) {
+      const bool uphill = next.gap > at.gap + noise;
+      if (uphill || (next.gap > at.gap - noise && next_slide < slide)) {
         at = next;
         slide = next_slide;
-        damping /= 16;
+        damping = newton ? damping / 16 : Scalar{0};
         break;
       }
       // Not even a short step leads uphill.
-      if (!(step.squaredNorm() > noise * noise) || found.iterations >= goal.most_iterations) {
-        return found;
-      }
+      const bool spent = !newton && !(step.squaredNorm() > noise * noise);
+      if (spent || found.iterations >= goal.most_iterations) return found;
       ++found.iterations;
-      damping = std::max(8 * damping, curvature.trace() + std::abs(at.gap)) / 2;
+      if (!newton) damping = std::max(8 * damping, curvature.trace() + std::abs(at.gap)) / 2;
     }
   }
   return found;
