@@ -1,8 +1,8 @@
 // A symmetric matrix of three rows by its cofactors.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithms/core/vec.h"
 
@@ -22,10 +22,13 @@ struct Cofactors {
   Vec3<Scalar> solve(const Vec3<Scalar>& c) const {
     return Vec3<Scalar>{x.dot(c), y.dot(c), z.dot(c)} / determinant;
   }
-  // No eigenvalue of a matrix that has none below zero is less.
-  Scalar least() const {
+  // No eigenvalue of a matrix of this trace that has none below zero is less, whatever rounding did
+  // to the cofactors.
+  Scalar least(Scalar trace) const {
+    const Scalar lost = 4 * std::numeric_limits<Scalar>::epsilon() * trace * trace;
     const Scalar norm = std::sqrt(x.squaredNorm() + y.squaredNorm() + z.squaredNorm());
-    return norm > 0 ? std::max(determinant, Scalar{0}) / norm : Scalar{0};
+    const Scalar surely = determinant - lost * trace;
+    return surely > 0 ? surely / (norm + lost) : Scalar{0};
   }
 };
 

@@ -46,9 +46,12 @@ EllipsoidContact<Scalar> contact(const EllipsoidPair<Scalar>& pair, int most_ite
       if (room > 0) {
         // Both bodies scaled to the room that is left, about the point, make a difference with a
         // ball of this radius in it.
-        if (shortest < 0) shortest = std::sqrt(Cofactors<Scalar>(aa + pair.qq).least());
+        if (shortest < 0) {
+          const Mat3<Scalar> both = aa + pair.qq;
+          shortest = std::sqrt(Cofactors<Scalar>(both).least(both.trace()));
+        }
         const Scalar off = (a * in_a + b * in_b - c).norm();
-        if (room * shortest > off + rounding) {
+        if (room * shortest > off + rounding * (1 + n.norm())) {
           found.answer = Answer::overlapping;
           break;
         }

@@ -24,8 +24,10 @@ class InnerEllipsoids {
       along_ = pair.q.col(2);
       return;
     }
-    const Vec3<Scalar> u1 = plane.u.unitOrthogonal(), u2 = plane.u.cross(u1);
-    const Vec3<Scalar> v1 = plane.v.unitOrthogonal(), v2 = plane.v.cross(v1);
+    const Vec3<Scalar> u = plane.per_reach_a * (pair.p.transpose() * plane.normal);
+    const Vec3<Scalar> v = plane.per_reach_b * (pair.q.transpose() * plane.normal);
+    const Vec3<Scalar> u1 = u.unitOrthogonal(), u2 = u.cross(u1);
+    const Vec3<Scalar> v1 = v.unitOrthogonal(), v2 = v.cross(v1);
     a1_.noalias() = pair.p * u1;
     a2_.noalias() = pair.p * u2;
     b1_.noalias() = pair.q * v1;

@@ -1,6 +1,7 @@
 #include "algorithms/kernels/ellipsoid_pair.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "algorithms/kernels/cofactors.h"
@@ -15,18 +16,23 @@ double reach(const Shape& shape, const Pose& pose) {
   return shape.radii.maxCoeff() * pose.rotation.cwiseAbs().maxCoeff();
 }
 
-// The length that it had; one whose square has lost its digits is made zero.
+// The support of the core that m makes of the unit ball: how far it reaches along n, the inverse of
+// that, and where. A reach whose square has lost its digits is made zero.
 template <class Scalar>
-Scalar make_unit(Vec3<Scalar>& v) {
+void support(const Mat3<Scalar>& m, const Vec3<Scalar>& n, Scalar& reach, Scalar& per_reach,
+             Vec3<Scalar>& point) {
   constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
-  const Scalar squared = v.squaredNorm();
-  if (!(squared > shortest)) {
-    v.setZero();
-    return 0;
-  }
-  const Scalar length = std::sqrt(squared);
-  v /= length;
-  return length;
+  const Vec3<Scalar> turned = m.transpose() * n;
+  const Scalar squared = turned.squaredNorm();
+  const bool vanishes = !(squared > shortest);
+  reach = vanishes ? Scalar{0} : std::sqrt(squared);
+  per_reach = vanishes ? Scalar{0} : 1 / reach;
+  point.noalias() = m * (per_reach * turned);
+}
+
+template <class Scalar>
+Vec3<Scalar> unit_vector(const Vec3<Scalar>& v) {
+  return (1 / std::sqrt(v.squaredNorm())) * v;
 }
 
 // The curvature radii of the difference at a plane: a symmetric matrix that vanishes along n.
@@ -34,13 +40,19 @@ template <class Scalar>
 class Curvature {
  public:
   Curvature(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& at) {
-    matrix_.setZero();
-    if (at.reach_a > 0) matrix_ += (pair.pp - at.a * at.a.transpose()) / at.reach_a;
-    if (at.reach_b > 0) matrix_ += (pair.qq - at.b * at.b.transpose()) / at.reach_b;
-    const Mat3<Scalar>& m = matrix_;
-    trace_ = m.trace();
-    const Scalar minors = m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) + m(0, 0) * m(2, 2) -
-                          m(0, 2) * m(0, 2) + m(1, 1) * m(2, 2) - m(1, 2) * m(1, 2);
+    const auto entry = [&](int i, int j) {
+      return at.per_reach_a * (pair.pp(i, j) - at.a[i] * at.a[j]) +
+             at.per_reach_b * (pair.qq(i, j) - at.b[i] * at.b[j]);
+    };
+    xx_ = entry(0, 0);
+    xy_ = entry(0, 1);
+    xz_ = entry(0, 2);
+    yy_ = entry(1, 1);
+    yz_ = entry(1, 2);
+    zz_ = entry(2, 2);
+    trace_ = xx_ + yy_ + zz_;
+    const Scalar minors =
+        (xx_ * yy_ - xy_ * xy_) + (xx_ * zz_ - xz_ * xz_) + (yy_ * zz_ - yz_ * yz_);
     determinant_ = std::max(minors, Scalar{0});
   }
 
@@ -53,11 +65,15 @@ class Curvature {
   // (matrix + shift)^-1 times a vector across n: the inverse of a matrix of two rows is its trace
   // less itself, over its determinant.
   Vec3<Scalar> solve(const Vec3<Scalar>& across, Scalar shift) const {
-    return ((trace_ + shift) * across - matrix_ * across) / determinant(shift);
+    const Scalar x = across.x(), y = across.y(), z = across.z(), own = trace_ + shift;
+    return Vec3<Scalar>{own * x - (xx_ * x + xy_ * y + xz_ * z),
+                        own * y - (xy_ * x + yy_ * y + yz_ * z),
+                        own * z - (xz_ * x + yz_ * y + zz_ * z)} *
+           (1 / determinant(shift));
   }
 
  private:
-  Mat3<Scalar> matrix_;
+  Scalar xx_, xy_, xz_, yy_, yz_, zz_;
   Scalar trace_, determinant_;  // of two rows, across n
 };
 
@@ -66,8 +82,7 @@ class Curvature {
 template <class Scalar>
 Vec3<Scalar> reweighted(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& at) {
   Mat3<Scalar> sum = at.gap * Mat3<Scalar>::Identity();
-  if (at.reach_a > 0) sum += pair.pp / at.reach_a;
-  if (at.reach_b > 0) sum += pair.qq / at.reach_b;
+  sum += at.per_reach_a * pair.pp + at.per_reach_b * pair.qq;
   const Cofactors<Scalar> cofactors(sum);
   // No centre, or no inverse: the normal as it is.
   const Vec3<Scalar> next = cofactors.solve(pair.centre);
@@ -100,21 +115,18 @@ EllipsoidPair<Scalar>::EllipsoidPair(const Shape& a, const Pose& pose_a, const S
 template <class Scalar>
 EllipsoidPlane<Scalar>::EllipsoidPlane(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& n)
     : normal(n) {
-  v.noalias() = pair.q.transpose() * n;
-  reach_b = make_unit(v);
-  b.noalias() = pair.q * -v;
+  support(pair.q, n, reach_b, per_reach_b, b);
+  b = -b;
   if (pair.is_ball) {
-    u.setZero();
     a.setZero();
-    reach_a = 0;
+    reach_a = per_reach_a = 0;
   } else {
-    u.noalias() = pair.p.transpose() * n;
-    reach_a = make_unit(u);
-    a.noalias() = pair.p * u;
+    support(pair.p, n, reach_a, per_reach_a, a);
   }
   between = pair.centre + b - a;
   gap = n.dot(pair.centre) - reach_a - reach_b;
   slide = between - n.dot(between) * n;
+  slide_squared = slide.squaredNorm();
 }
 
 template <class Scalar>
@@ -124,28 +136,35 @@ Climb<Scalar> climb(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& start
   constexpr Scalar noise = rounding / 4;
   // Beyond it witness points that are within the tolerance would still lie askew.
   const Scalar askew = std::max(tolerance, sizeof(Scalar) == 8 ? Scalar{1e-10} : rounding);
+  const Scalar inside = std::max(pair.radius - rounding, Scalar{0});
   Climb<Scalar> found;
-  EllipsoidPlane<Scalar>& at = found.plane;
-  at = EllipsoidPlane<Scalar>(pair, start);
-  Scalar slide = at.slide.squaredNorm();
+  std::array<EllipsoidPlane<Scalar>, 2> planes;
+  int here = 0;
+  planes[here] = EllipsoidPlane<Scalar>(pair, start);
   Scalar damping = 0;
+  // So written that NaN is no step.
+  const auto is_better = [&](const EllipsoidPlane<Scalar>& next, const EllipsoidPlane<Scalar>& at) {
+    return next.gap > at.gap + noise ||
+           (next.gap > at.gap - noise && next.slide_squared < at.slide_squared);
+  };
+  const auto end = [&](ClimbEnd how) {
+    found.end = how;
+    found.plane = planes[here];
+    return found;
+  };
   while (found.iterations < goal.most_iterations) {
     ++found.iterations;
+    const EllipsoidPlane<Scalar>& at = planes[here];
+    const Scalar slide = at.slide_squared;
     const bool apart = at.gap - pair.radius > rounding;
-    if (goal.only_apart && apart) {
-      found.end = ClimbEnd::apart;
-      return found;
+    if (goal.only_apart && apart) return end(ClimbEnd::apart);
+    if (goal.only_verdict && at.between.squaredNorm() < inside * inside) {
+      return end(ClimbEnd::inside);
     }
-    // How far the distance of the two points is above the gap.
-    const Scalar distance = at.between.norm();
-    if (goal.only_verdict && distance < pair.radius - rounding) {
-      found.end = ClimbEnd::inside;
-      return found;
-    }
-    const bool near = at.gap > 0 && slide <= tolerance * (distance + at.gap);
+    // The distance of the two points is above the gap by no more than slide^2 / (2 gap).
+    const bool near = at.gap > 0 && slide <= 2 * tolerance * at.gap;
     if (slide <= tolerance * tolerance || (near && slide <= askew * askew)) {
-      found.end = apart ? ClimbEnd::apart : ClimbEnd::stationary;
-      return found;
+      return end(apart ? ClimbEnd::apart : ClimbEnd::stationary);
     }
     const Curvature<Scalar> curvature(pair, at);
     Scalar shift = at.gap;
@@ -155,26 +174,21 @@ Climb<Scalar> climb(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& start
     }
     for (bool newton = true;; newton = !newton) {
       const Vec3<Scalar> step = curvature.solve(at.slide, shift + damping);
-      const Vec3<Scalar> ahead =
-          newton ? (at.normal + step).normalized() : reweighted(pair, at).normalized();
-      const EllipsoidPlane<Scalar> next(pair, ahead);
-      const Scalar next_slide = next.slide.squaredNorm();
-      // So written that NaN is no step.
-      const bool uphill = next.gap > at.gap + noise;
-      if (uphill || (next.gap > at.gap - noise && next_slide < slide)) {
-        at = next;
-        slide = next_slide;
+      const Vec3<Scalar> ahead = newton ? Vec3<Scalar>(at.normal + step) : reweighted(pair, at);
+      planes[1 - here] = EllipsoidPlane<Scalar>(pair, unit_vector(ahead));
+      if (is_better(planes[1 - here], at)) {
+        here = 1 - here;
         damping = newton ? damping / 16 : Scalar{0};
         break;
       }
       // Not even a short step leads uphill.
       const bool spent = !newton && !(step.squaredNorm() > noise * noise);
-      if (spent || found.iterations >= goal.most_iterations) return found;
+      if (spent || found.iterations >= goal.most_iterations) return end(ClimbEnd::stuck);
       ++found.iterations;
       if (!newton) damping = std::max(8 * damping, curvature.trace() + std::abs(at.gap)) / 2;
     }
   }
-  return found;
+  return end(ClimbEnd::stuck);
 }
 
 template struct EllipsoidPair<float>;

@@ -43,12 +43,13 @@ struct EllipsoidPlane {
   EllipsoidPlane(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& n);
 
   Vec3<Scalar> normal;
-  Vec3<Scalar> u, v;        // p^T n, q^T n, made unit; zero where they vanish
-  Scalar reach_a, reach_b;  // |p^T n|, |q^T n|
-  Vec3<Scalar> a, b;        // support points of the cores: p u, -q v, each from its own centre
-  Scalar gap;               // between the cores along n: no distance is smaller
-  Vec3<Scalar> between;     // from a's point to b's
-  Vec3<Scalar> slide;       // the part of that across n, the gap's gradient
+  Scalar reach_a, reach_b;          // |p^T n|, |q^T n|
+  Scalar per_reach_a, per_reach_b;  // their inverses; 0 where they vanish
+  Vec3<Scalar> a, b;                // support points of the cores, each from its own centre
+  Scalar gap;                       // between the cores along n: no distance is smaller
+  Vec3<Scalar> between;             // from a's point to b's
+  Vec3<Scalar> slide;               // the part of that across n, the gap's gradient
+  Scalar slide_squared;
 };
 
 enum class ClimbEnd : std::uint8_t {

@@ -60,7 +60,6 @@ Tally check(Precision scalar, int count, unsigned seed, const std::function<Pair
           ask(entry, settings_of(scalar), task, pair.a, pair.pose_a, pair.b, pair.pose_b);
       ++tally.pairs;
       tally.gave_up += outcome.status == Status::ok ? 0 : 1;
-if(outcome.status!=Status::ok&&getenv("DBG")) printf("%d %s ans %d truth %g d %g [%.17g %.17g] it %d radii %g %g %g | %g %g %g | %g\n",k,std::string(to_string(task)).c_str(),(int)outcome.answer,truth.lower,outcome.distance,outcome.lower,outcome.upper,outcome.iterations,pair.a.radii[0],pair.a.radii[1],pair.a.radii[2],pair.b.radii[0],pair.b.radii[1],pair.b.radii[2],pair.a.radius);
       const double margin = accuracy * size;
       if (outcome.answer == Answer::separated) {
         EXPECT_GT(truth.upper, -margin);
