@@ -1,0 +1,203 @@
+#include "algorithms/kernels/ellipsoid_pair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "algorithms/kernels/cofactors.h"
+#include "algorithms/kernels/support_shape.h"
+
+namespace touchstone {
+namespace {
+
+// Metres, at least half of how far the turned body reaches.
+double reach(const Shape& shape, const Pose& pose) {
+  if (shape.kind == ShapeKind::sphere) return shape.radius;
+  return shape.radii.maxCoeff() * pose.rotation.cwiseAbs().maxCoeff();
+}
+
+// The support of the core that m makes of the unit ball: how far it reaches along n, the inverse of
+// that, and where. A reach whose square has lost its digits is made zero.
+template <class Scalar>
+void support(const Mat3<Scalar>& m, const Vec3<Scalar>& n, Scalar& reach, Scalar& per_reach,
+             Vec3<Scalar>& point) {
+  constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
+  const Vec3<Scalar> turned = m.transpose() * n;
+  const Scalar squared = turned.squaredNorm();
+  const bool vanishes = !(squared > shortest);
+  reach = vanishes ? Scalar{0} : std::sqrt(squared);
+  per_reach = vanishes ? Scalar{0} : 1 / reach;
+  point.noalias() = m * (per_reach * turned);
+}
+
+template <class Scalar>
+Vec3<Scalar> unit_vector(const Vec3<Scalar>& v) {
+  return (1 / std::sqrt(v.squaredNorm())) * v;
+}
+
+// The curvature radii of the difference at a plane: a symmetric matrix that vanishes along n.
+template <class Scalar>
+class Curvature {
+ public:
+  Curvature(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& at) {
+    const auto entry = [&](int i, int j) {
+      return at.per_reach_a * (pair.pp(i, j) - at.a[i] * at.a[j]) +
+             at.per_reach_b * (pair.qq(i, j) - at.b[i] * at.b[j]);
+    };
+    xx_ = entry(0, 0);
+    xy_ = entry(0, 1);
+    xz_ = entry(0, 2);
+    yy_ = entry(1, 1);
+    yz_ = entry(1, 2);
+    zz_ = entry(2, 2);
+    trace_ = xx_ + yy_ + zz_;
+    const Scalar minors =
+        (xx_ * yy_ - xy_ * xy_) + (xx_ * zz_ - xz_ * xz_) + (yy_ * zz_ - yz_ * yz_);
+    determinant_ = std::max(minors, Scalar{0});
+  }
+
+  Scalar trace() const { return trace_; }
+  Scalar least() const {
+    return (trace_ - std::sqrt(std::max(trace_ * trace_ - 4 * determinant_, Scalar{0}))) / 2;
+  }
+  // Of the matrix plus `shift` times the identity, across n.
+  Scalar determinant(Scalar shift) const { return determinant_ + shift * (trace_ + shift); }
+  // (matrix + shift)^-1 times a vector across n: the inverse of a matrix of two rows is its trace
+  // less itself, over its determinant.
+  Vec3<Scalar> solve(const Vec3<Scalar>& across, Scalar shift) const {
+    const Scalar x = across.x(), y = across.y(), z = across.z(), own = trace_ + shift;
+    return Vec3<Scalar>{own * x - (xx_ * x + xy_ * y + xz_ * z),
+                        own * y - (xy_ * x + yy_ * y + yz_ * z),
+                        own * z - (xz_ * x + yz_ * y + zz_ * z)} *
+           (1 / determinant(shift));
+  }
+
+ private:
+  Scalar xx_, xy_, xz_, yy_, yz_, zz_;
+  Scalar trace_, determinant_;  // of two rows, across n
+};
+
+// The best plane for the squares of the reaches, each weighed so that it is the reach here. It
+// overshoots no edge of a body that is nearly flat, as Newton's does.
+template <class Scalar>
+Vec3<Scalar> reweighted(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& at) {
+  Mat3<Scalar> sum = at.gap * Mat3<Scalar>::Identity();
+  sum += at.per_reach_a * pair.pp + at.per_reach_b * pair.qq;
+  const Cofactors<Scalar> cofactors(sum);
+  // No centre, or no inverse: the normal as it is.
+  const Vec3<Scalar> next = cofactors.solve(pair.centre);
+  return next.squaredNorm() > 0 ? next : at.normal;
+}
+
+}  // namespace
+
+template <class Scalar>
+EllipsoidPair<Scalar>::EllipsoidPair(const Shape& a, const Pose& pose_a, const Shape& b,
+                                     const Pose& pose_b)
+    : is_ball(a.kind == ShapeKind::sphere) {
+  const Vec3d offset = pose_b.translation - pose_a.translation;
+  unit = power_of_two_above(
+      std::max({offset.cwiseAbs().maxCoeff(), reach(a, pose_a), reach(b, pose_b)}));
+  const double per_unit = 1 / unit;
+  centre = (offset * per_unit).template cast<Scalar>();
+  radius = is_ball ? static_cast<Scalar>(a.radius * per_unit) : Scalar{0};
+  if (is_ball) {
+    p.setZero();
+    pp.setZero();
+  } else {
+    p = (pose_a.rotation * (a.radii * per_unit).asDiagonal()).template cast<Scalar>();
+    pp = p * p.transpose();
+  }
+  q = (pose_b.rotation * (b.radii * per_unit).asDiagonal()).template cast<Scalar>();
+  qq = q * q.transpose();
+}
+
+template <class Scalar>
+EllipsoidPlane<Scalar>::EllipsoidPlane(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& n)
+    : normal(n) {
+  support(pair.q, n, reach_b, per_reach_b, b);
+  b = -b;
+  if (pair.is_ball) {
+    a.setZero();
+    reach_a = per_reach_a = 0;
+  } else {
+    support(pair.p, n, reach_a, per_reach_a, a);
+  }
+  between = pair.centre + b - a;
+  gap = n.dot(pair.centre) - reach_a - reach_b;
+  slide = between - n.dot(between) * n;
+  slide_squared = slide.squaredNorm();
+}
+
+template <class Scalar>
+Climb<Scalar> climb(const EllipsoidPair<Scalar>& pair, const Vec3<Scalar>& start,
+                    const ClimbGoal& goal, Scalar tolerance) {
+  constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
+  constexpr Scalar noise = rounding / 4;
+  // Beyond it witness points that are within the tolerance would still lie askew.
+  const Scalar askew = std::max(tolerance, sizeof(Scalar) == 8 ? Scalar{1e-10} : rounding);
+  const Scalar inside = std::max(pair.radius - rounding, Scalar{0});
+  Climb<Scalar> found;
+  std::array<EllipsoidPlane<Scalar>, 2> planes;
+  int here = 0;
+  planes[here] = EllipsoidPlane<Scalar>(pair, start);
+  Scalar damping = 0;
+  // So written that NaN is no step.
+  const auto is_better = [&](const EllipsoidPlane<Scalar>& next, const EllipsoidPlane<Scalar>& at) {
+    return next.gap > at.gap + noise ||
+           (next.gap > at.gap - noise && next.slide_squared < at.slide_squared);
+  };
+  const auto end = [&](ClimbEnd how) {
+    found.end = how;
+    found.plane = planes[here];
+    return found;
+  };
+  while (found.iterations < goal.most_iterations) {
+    ++found.iterations;
+    const EllipsoidPlane<Scalar>& at = planes[here];
+    const Scalar slide = at.slide_squared;
+    const bool apart = at.gap - pair.radius > rounding;
+    if (goal.only_apart && apart) return end(ClimbEnd::apart);
+    if (goal.only_verdict && at.between.squaredNorm() < inside * inside) {
+      return end(ClimbEnd::inside);
+    }
+    // The distance of the two points is above the gap by no more than slide^2 / (2 gap).
+    const bool near = at.gap > 0 && slide <= 2 * tolerance * at.gap;
+    if (slide <= tolerance * tolerance || (near && slide <= askew * askew)) {
+      return end(apart ? ClimbEnd::apart : ClimbEnd::stationary);
+    }
+    const Curvature<Scalar> curvature(pair, at);
+    Scalar shift = at.gap;
+    // Where the function is not concave, the curvature alone still leads uphill.
+    if (shift < 0 && !(curvature.determinant(shift) > 0 && curvature.trace() + 2 * shift > 0)) {
+      shift = -curvature.least() / 2;
+    }
+    for (bool newton = true;; newton = !newton) {
+      const Vec3<Scalar> step = curvature.solve(at.slide, shift + damping);
+      const Vec3<Scalar> ahead = newton ? Vec3<Scalar>(at.normal + step) : reweighted(pair, at);
+      planes[1 - here] = EllipsoidPlane<Scalar>(pair, unit_vector(ahead));
+      if (is_better(planes[1 - here], at)) {
+        here = 1 - here;
+        damping = newton ? damping / 16 : Scalar{0};
+        break;
+      }
+      // Not even a short step leads uphill.
+      const bool spent = !newton && !(step.squaredNorm() > noise * noise);
+      if (spent || found.iterations >= goal.most_iterations) return end(ClimbEnd::stuck);
+      ++found.iterations;
+      if (!newton) damping = std::max(8 * damping, curvature.trace() + std::abs(at.gap)) / 2;
+    }
+  }
+  return end(ClimbEnd::stuck);
+}
+
+template struct EllipsoidPair<float>;
+template struct EllipsoidPair<double>;
+template struct EllipsoidPlane<float>;
+template struct EllipsoidPlane<double>;
+template Climb<float> climb(const EllipsoidPair<float>&, const Vec3<float>&, const ClimbGoal&,
+                            float);
+template Climb<double> climb(const EllipsoidPair<double>&, const Vec3<double>&, const ClimbGoal&,
+                             double);
+
+}  // namespace touchstone
