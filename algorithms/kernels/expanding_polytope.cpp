@@ -27,9 +27,13 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
   Expansion<Scalar> result;
   result.upper = infinity;
-  Simplex<Scalar> tetrahedron = simplex;
-  if (simplex.size < 4 && !grow_to_tetrahedron(pair, tetrahedron, result)) return result;
-  if (!surface_.start(tetrahedron.points)) return result;
+  if (simplex.size < 4) {
+    Simplex<Scalar> tetrahedron = simplex;
+    if (!grow_to_tetrahedron(pair, tetrahedron, result)) return result;
+    if (!surface_.start(tetrahedron.points)) return result;
+  } else if (!surface_.start(simplex.points)) {
+    return result;
+  }
 
   std::array<int, 3> best{};  // the corners of the last face to lower the upper bound
   Scalar held = infinity;     // the nearest of the faces that cannot be expanded

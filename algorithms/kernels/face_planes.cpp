@@ -53,7 +53,10 @@ void seen_from(std::span<const Block<Scalar>> blocks, const Vec3<Scalar>& point,
 template <class Scalar>
 bool planes_through(const Cone<Scalar>& cone, Scalar inside, Scalar furthest,
                     ConePlanes<Scalar>& planes) {
-  switch (isa()) {
+  // Rings are short: more than eight lanes would mostly be filled in vain.
+  constexpr bool is_wide = avx2::RealLanes<Scalar>::width >= 8;
+  const Isa level = isa();
+  switch (is_wide && level == Isa::avx512 ? Isa::avx2 : level) {
     case Isa::avx512: return avx512::planes_through_at(cone, inside, furthest, planes);
     case Isa::avx2: return avx2::planes_through_at(cone, inside, furthest, planes);
     default: return baseline::planes_through_at(cone, inside, furthest, planes);

@@ -46,23 +46,12 @@ bool PolytopeSurface<Scalar>::start(const std::array<DifferencePoint<Scalar>, 4>
   unused_.clear();
   std::ranges::copy(corners, vertices_.begin());
   vertex_count_ = first_fresh_ = 4;
-  static constexpr std::array<Edge, 16> edges = {{{0, 14},
-                                                  {1, 6},
-                                                  {2, 9},
-                                                  {},
-                                                  {1, 13},
-                                                  {3, 10},
-                                                  {2, 1},
-                                                  {},
-                                                  {3, 12},
-                                                  {0, 2},
-                                                  {2, 5},
-                                                  {},
-                                                  {0, 8},
-                                                  {3, 4},
-                                                  {1, 0},
-                                                  {}}};
-  std::ranges::copy(edges, edges_.begin());
+  // The cone from corner 2 over the face opposite, which comes last.
+  static constexpr Edge edges[4][4] = {{{0, 14}, {1, 6}, {2, 9}},
+                                       {{1, 13}, {3, 10}, {2, 1}},
+                                       {{3, 12}, {0, 2}, {2, 5}},
+                                       {{0, 8}, {3, 4}, {1, 0}}};
+  for (int f = 0; f < 4; ++f) std::ranges::copy(edges[f], edges_.begin() + 4 * f);
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
   ring_size_ = 1;
   ring_[0] = 0;
