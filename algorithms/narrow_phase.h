@@ -1,6 +1,8 @@
 // The contract of a narrow phase: what two convex bodies do to each other.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -32,6 +34,13 @@ struct NarrowPhaseSettings {
   std::optional<double> duality_gap = {};
 };
 
+// What an algorithm keeps of a pair from one frame to the next, in a form of its own. The caller
+// owns it, keeps it with the two bodies as long as their pair lives, and hands it on unread. All
+// zeros: nothing is known yet. What is in it may make an answer quicker, never worse.
+struct PairMemory {
+  alignas(64) std::array<std::byte, 64> bytes{};
+};
+
 // Pairs of one kind of shapes, kind_a <= kind_b. Pair i is of bodies first[i] and second[i]; body k
 // has the shape shapes[shape_of[k]] of those that were bound, and the pose poses[k].
 struct PairBatch {
@@ -40,6 +49,10 @@ struct PairBatch {
   std::span<const std::uint32_t> first, second;
   std::span<const std::uint32_t> shape_of;
   std::span<const Pose> poses;
+  // Pair i has memory[memory_of[i]], which was last written by the same algorithm with the same
+  // shapes bound. Both are empty where every query is to start cold.
+  std::span<PairMemory> memory = {};
+  std::span<const std::uint32_t> memory_of = {};
 
   std::size_t size() const { return first.size(); }
 };
@@ -73,6 +86,7 @@ struct NarrowPhaseEntry {
   // The depth is that of one separating translation, an upper bound, and not in general the least.
   bool depth_is_bound = false;
   bool stops_by_duality_gap = false;  // honours NarrowPhaseSettings::duality_gap
+  bool starts_warm = false;           // reads and writes PairMemory where it is given some
   // What it is given of a pair of these kinds, kind_a <= kind_b; null: the pair as it stands, in
   // both scalars. Its errors are stated against the exact answer for that, and for the pair.
   Encoding (*encoding)(ShapeKind kind_a, ShapeKind kind_b, Task task, Precision scalar) = nullptr;

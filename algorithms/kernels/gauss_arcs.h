@@ -18,26 +18,27 @@ struct GaussArc {
   Vec3<float> direction, left, right;
 };
 
+// Sixteen of them: direction, left and right; x, y and z of each.
+struct GaussBlock {
+  static constexpr std::size_t size = 16;
+  alignas(64) std::array<std::array<float, size>, 9> rows{};
+};
+
 // Floats are enough to leave out what certainly does not cross.
 class GaussArcs {
  public:
   void add(const GaussArc& arc);
   std::size_t size() const { return size_; }
 
-  // Appends the numbers of the arcs that may cross, reversed as those of a body behind are, the arc
-  // of another edge: all that do, and those that rounding leaves open. `direction`, `left` and
-  // `right` are that edge's, each as the linear form or vector that it is paired with: for arc i,
-  // `direction` with normals, `left` and `right` with directions.
+  // Appends the numbers of the arcs, ascending, that may cross the arc of an edge of a body in
+  // front of this one, whose normals are then against that one's: all that do, and those that
+  // rounding leaves open. `arc` is that edge's, turned so that its direction can be multiplied with
+  // normals of this body as they are stored, and its normals with directions. The same at every
+  // level of vector instructions.
   void list_crossing(const GaussArc& arc, std::vector<std::uint32_t>& crossing) const;
 
  private:
-  static constexpr std::size_t block = 16;
-  struct Block {
-    // direction, left and right; x, y and z
-    alignas(64) std::array<std::array<float, block>, 9> rows{};
-  };
-
-  std::vector<Block> blocks_;
+  std::vector<GaussBlock> blocks_;
   std::size_t size_ = 0;
 };
 

@@ -2,17 +2,17 @@
 // inside that level's namespace.
 
 // Which of the block's arcs may cross.
-TOUCHSTONE_TARGET unsigned crossing(const Rows& rows, const GaussArc& arc) {
+TOUCHSTONE_TARGET inline unsigned crossing_of(const GaussBlock& block, const GaussArc& arc) {
   using Lanes = RealLanes<float>;
   using Real = Lanes::Real;
   unsigned open = 0;
   const Real most = Lanes::broadcast(uncertain), least = Lanes::broadcast(-uncertain);
-  for (std::size_t part = 0; part < 16; part += Lanes::width) {
+  for (std::size_t part = 0; part < GaussBlock::size; part += Lanes::width) {
     const auto product = [&](std::size_t row, const Vec3<float>& v) TOUCHSTONE_TARGET {
       Real x, y, z;
-      std::memcpy(&x, rows[row].data() + part, sizeof x);
-      std::memcpy(&y, rows[row + 1].data() + part, sizeof y);
-      std::memcpy(&z, rows[row + 2].data() + part, sizeof z);
+      std::memcpy(&x, block.rows[row].data() + part, sizeof x);
+      std::memcpy(&y, block.rows[row + 1].data() + part, sizeof y);
+      std::memcpy(&z, block.rows[row + 2].data() + part, sizeof z);
       return x * Lanes::broadcast(v.x()) + y * Lanes::broadcast(v.y()) +
              z * Lanes::broadcast(v.z());
     };
@@ -30,4 +30,16 @@ TOUCHSTONE_TARGET unsigned crossing(const Rows& rows, const GaussArc& arc) {
     open |= (~(same_side | opposite) & ((1u << Lanes::width) - 1)) << part;
   }
   return open;
+}
+
+TOUCHSTONE_TARGET void list_crossing(std::span<const GaussBlock> blocks, std::size_t arcs,
+                                     const GaussArc& arc, std::vector<std::uint32_t>& crossing) {
+  for (std::size_t first = 0; first < arcs; first += GaussBlock::size) {
+    unsigned open = crossing_of(blocks[first / GaussBlock::size], arc);
+    if (arcs - first < GaussBlock::size) open &= (1u << (arcs - first)) - 1;
+    for (; open != 0; open &= open - 1) {
+      const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(open));
+      crossing.push_back(static_cast<std::uint32_t>(k));
+    }
+  }
 }

@@ -20,10 +20,6 @@
 #include "algorithms/core/isa.h"
 #include "algorithms/kernels/vector_targets.h"
 
-// Vectors are handed on between inlined functions only, so no call depends on how they are passed.
-#if !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
 #define TOUCHSTONE_INLINE inline __attribute__((always_inline))
 
 namespace touchstone::real_lanes {

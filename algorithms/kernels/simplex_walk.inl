@@ -22,7 +22,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector cross(const Vector& a, const Vector& 
   return turn(a * turn(b) - turn(a) * b);
 }
 
-// A TurnedShape's support map. Cores that are not scanned, and have corners, are left to it.
+// The support map of a TurnedShape for boxes, and for hulls that are scanned; what else there is,
+// is left to that.
 template <class Scalar>
 class QuadShape {
  public:
@@ -211,6 +212,7 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     way = Vector{1, 0, 0, 0};
     squared = 1;
   }
+  Scalar length = std::sqrt(squared);
   Scalar nearest = std::numeric_limits<Scalar>::infinity();
   while (found.iterations < goal.most_iterations) {
     ++found.iterations;
@@ -218,7 +220,7 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     const Vector on_a = a.support(-way);
     const Vector on_b = b.support(way) + centre_b;
     const Vector point = on_a - on_b;
-    found.lower = dot(way, point) / std::sqrt(squared);
+    found.lower = dot(way, point) / length;
     if (found.lower > apart && (goal.only_apart || nearest - found.lower <= tolerance)) {
       found.end = goal.only_apart ? WalkEnd::apart : WalkEnd::near;
       found.way = vec<Scalar>(way);
@@ -233,8 +235,9 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
       return found;
     }
     squared = dot(way, way);
+    length = std::sqrt(squared);
     const Scalar before = nearest;
-    nearest = dot(way, simplex.points[0].difference) / std::sqrt(squared);
+    nearest = dot(way, simplex.points[0].difference) / length;
     // So written that NaN ends the walk.
     if (!(squared > shortest) || !(nearest < before)) break;
   }

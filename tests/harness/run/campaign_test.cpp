@@ -58,6 +58,18 @@ TEST_F(CampaignFile, KeysOfLargeCells) {
   EXPECT_THAT(fault("scenes = 'a.toml'\nprocesses = 0"), testing::HasSubstr("processes"));
 }
 
+TEST_F(CampaignFile, GapsAreNumbers) {
+  const Campaign plain = read("scenes = 'a.toml'");
+  EXPECT_EQ(plain.groups[0].gaps, std::vector<std::optional<double>>{std::nullopt});
+  const Campaign campaign = read("scenes = 'a.toml'\ngaps = [10, 1e-3, -0.2]");
+  EXPECT_EQ(campaign.groups[0].gaps, (std::vector<std::optional<double>>{10, 1e-3, -0.2}));
+  EXPECT_NE(description(plain), description(campaign));
+  EXPECT_NE(description(campaign), description(read("scenes = 'a.toml'\ngaps = [10, 1e-3, 0.2]")));
+  EXPECT_THAT(fault("scenes = 'a.toml'\ngaps = ['x']"), testing::HasSubstr("c.toml:2: gaps"));
+  EXPECT_THAT(fault("scenes = 'a.toml'\ngaps = nan"), testing::HasSubstr("c.toml:2: gaps"));
+  EXPECT_THAT(fault("scenes = 'a.toml'\ngaps = 1e9"), testing::HasSubstr("c.toml:2: gaps"));
+}
+
 TEST_F(CampaignFile, GroupsInheritAndOverride) {
   const Campaign campaign = read(R"(
 name = "n"

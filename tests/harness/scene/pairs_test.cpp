@@ -55,6 +55,33 @@ TEST(Pairs, DepthsAreAtMostWhatIsAsked) {
   EXPECT_EQ(overlapping, 100);
 }
 
+TEST(Pairs, SettledOnesAreAsFarApartOrAsDeepAsAsked) {
+  for (const double gap : {0.1, 1e-3, -1e-3, -0.1}) {
+    const Scene scene = load(
+        "count = 60\nshapes = [\"sphere\", \"box\", \"capsule\", \"hull\"]\nsize = [0.5, 1.0]\n"
+        "aspect = 0.5\nplacement = \"settled\"\n",
+        {.gap = gap});
+    ASSERT_EQ(scene.pairs.size(), 30u);
+    for (const IndexPair& pair : scene.pairs) {
+      const oracle::Enclosure distance = exact_distance(scene, pair);
+      EXPECT_NEAR(distance.lower, gap, 2e-6 * std::abs(gap));
+      EXPECT_NEAR(distance.upper, gap, 2e-6 * std::abs(gap));
+    }
+  }
+}
+
+TEST(Pairs, AGapFromOutsideReplacesThoseOfTheFileAndIsInTheName) {
+  const std::string content = "count = 20\ngaps = [0.5, 20]\n";
+  const Scene near = load(content, {.gap = 0.25}), deep = load(content, {.gap = -0.01});
+  EXPECT_EQ(load(content).name, "scene");
+  EXPECT_EQ(near.name, "scene gap 0.25");
+  EXPECT_EQ(deep.name, "scene depth 0.01");
+  for (const IndexPair& pair : near.pairs) {
+    EXPECT_NEAR(exact_distance(near, pair).lower, 0.25, 1e-12);
+  }
+  EXPECT_NE(scene_hash(near), scene_hash(deep));
+}
+
 TEST(Pairs, ListedPairsAreOfTheSceneAndItsHash) {
   const Scene scene = load("count = 20\n");
   EXPECT_EQ(scene.frames, 1);
@@ -87,6 +114,11 @@ TEST(Pairs, BadRequestsAreRefused) {
     return input_fault([&] { load(content); });
   };
   EXPECT_THAT(refusal("count = 7\n"), HasSubstr("expected an even one"));
+  EXPECT_THAT(refusal("placement = \"near\"\n"), HasSubstr("placement"));
+  // Spheres of half a metre are not that deep in each other.
+  EXPECT_THAT(refusal("count = 2\nshapes = [\"sphere\"]\nsize = [0.5, 0.5]\ngaps = [-2]\n"
+                      "placement = \"settled\"\n"),
+              HasSubstr("no place found for bodies 0 and 1"));
   EXPECT_THAT(refusal("gaps = []\n"), HasSubstr("expected an array of signed distances"));
   EXPECT_THAT(refusal("gaps = [0.1, \"x\"]\n"), HasSubstr("expected an array of signed distances"));
   EXPECT_THAT(refusal("gaps = [nan]\n"), HasSubstr("expected an array of signed distances"));
@@ -95,6 +127,13 @@ TEST(Pairs, BadRequestsAreRefused) {
       HasSubstr("mean"));
   EXPECT_THAT(refusal("shapes = [{type = \"box\", radii_normal = {mean = 1, deviation = 0}}]\n"),
               HasSubstr("radii_normal"));
+  const TemporaryFolder folder;
+  const auto without_gaps = [&](const std::string& other) {
+    return input_fault([&] { load_scene(folder.write("other.toml", other), {.gap = 0.1}); });
+  };
+  EXPECT_THAT(without_gaps("generator = \"uniform\"\n"), HasSubstr("a gap of 0.1 was asked for"));
+  EXPECT_THAT(without_gaps("[[body]]\nshape = {type = \"sphere\", radius = 1}\n"),
+              HasSubstr("a gap of 0.1 was asked for"));
 }
 
 }  // namespace
