@@ -1,13 +1,47 @@
 // Kernel benchmarks: every algorithm of the registry, the oracle and the kernels that algorithms
 // share, under Google Benchmark, for profiling one at a time
 // (--benchmark_filter=narrow/gjk/double/box-box). The harness proper times whole scenes, and keeps
-// what crashes or hangs apart; see `touchstone run`.
+// what crashes or hangs apart; see `touchstone run`. With --instructions=FILE.csv it counts the
+// instructions of a query instead; --benchmark_filter then takes a regular expression.
 #include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <string_view>
 
 #include "harness/bench/benchmarks.h"
 #include "harness/bench/harness_overhead.h"
+#include "harness/bench/instructions.h"
+
+namespace {
+
+// The value of an option `name=value`; none where it is not given.
+std::string value_of(int argc, char** argv, std::string_view name) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word.starts_with(name)) return std::string(word.substr(name.size()));
+  }
+  return {};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
+  try {
+    if (const auto filter = value_of(argc, argv, "--under-valgrind="); !filter.empty()) {
+      touchstone::count_under_valgrind(filter);
+      return 0;
+    }
+    if (const auto out = value_of(argc, argv, "--instructions="); !out.empty()) {
+      const std::string filter = value_of(argc, argv, "--benchmark_filter=");
+      touchstone::count_instructions(filter.empty() ? "." : filter, out);
+      return 0;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "touchstone bench: %s\n", error.what());
+    return 2;
+  }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   touchstone::register_broad_benchmarks();

@@ -9,28 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "algorithms/registry.h"
 #include "harness/bench/benchmarks.h"
-#include "harness/bench/placed_pairs.h"
+#include "harness/bench/narrow_subjects.h"
 
 namespace touchstone {
 namespace {
 
-struct Subject {
-  const NarrowPhaseEntry* entry;
-  Precision scalar;
-  Task task;
-  FamilyPair families;
-  PairRegime regime;
-
-  std::string name() const {
-    return fmt::format("narrow/{}/{}/{}/{}/{}", entry->info.name, to_string(scalar),
-                       families.name(), to_string(task), regime.name);
-  }
-};
-
 // One query an iteration; batches that are short enough for the slowest to end.
-void solve(benchmark::State& state, const Subject& subject) {
+void solve(benchmark::State& state, const NarrowSubject& subject) {
   constexpr std::size_t batch_size = 32;
   static_assert(PlacedPairs::count % batch_size == 0);
   const PlacedPairs& pairs = placed_pairs(subject.families, subject.regime);
@@ -54,7 +40,13 @@ void solve(benchmark::State& state, const Subject& subject) {
 
 }  // namespace
 
-void register_narrow_benchmarks() {
+std::string NarrowSubject::name() const {
+  return fmt::format("narrow/{}/{}/{}/{}/{}", entry->info.name, to_string(scalar), families.name(),
+                     to_string(task), regime.name);
+}
+
+std::vector<NarrowSubject> narrow_subjects() {
+  std::vector<NarrowSubject> subjects;
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
     if (!is_built(entry.info)) continue;
     for (const Precision scalar : entry.scalars) {
@@ -62,15 +54,19 @@ void register_narrow_benchmarks() {
         for (const Task task : entry.tasks) {
           if (!offers(entry, families.a->kind, families.b->kind, task)) continue;
           for (const PairRegime& regime : pair_regimes()) {
-            if (!regime.fits(task)) continue;
-            const Subject subject{&entry, scalar, task, families, regime};
-            benchmark::RegisterBenchmark(
-                subject.name().c_str(),
-                [subject](benchmark::State& state) { solve(state, subject); });
+            if (regime.fits(task)) subjects.push_back({&entry, scalar, task, families, regime});
           }
         }
       }
     }
+  }
+  return subjects;
+}
+
+void register_narrow_benchmarks() {
+  for (const NarrowSubject& subject : narrow_subjects()) {
+    benchmark::RegisterBenchmark(subject.name().c_str(),
+                                 [subject](benchmark::State& state) { solve(state, subject); });
   }
 }
 

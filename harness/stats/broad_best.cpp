@@ -1,9 +1,9 @@
 // The best of ours against the best of the others.
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
+#include "harness/stats/fastest.h"
 #include "harness/stats/tables.h"
 
 namespace touchstone::stats {
@@ -16,31 +16,6 @@ bool is_of_bullet_or_fcl(const std::string& label) {
   return label.starts_with("bullet-") || label.starts_with("fcl-");
 }
 
-// Where a row of this set and label is.
-template <class Row>
-const Row* find(const std::vector<Row>& rows, const SetKey& key, const std::string& label) {
-  const auto at = std::ranges::find_if(
-      rows, [&](const Row& row) { return row.key == key && row.label == label; });
-  return at == rows.end() ? nullptr : &*at;
-}
-
-// The fastest of those that answer right, by what each has to the baseline in its own squares.
-const Contestant* fastest(const SampleSet& set, Noise noise,
-                          const std::function<bool(const std::string&)>& takes_part) {
-  const Contestant* best = nullptr;
-  double least = nan;
-  for (const Contestant& contestant : set.contestants) {
-    if (!takes_part(contestant.label) || !contestant.failure.empty() || is_wrong(set, contestant)) {
-      continue;
-    }
-    const double ratio = median(paired_log_ratios(contestant, set.baseline(), noise));
-    if (std::isnan(ratio) || ratio >= least) continue;
-    least = ratio;
-    best = &contestant;
-  }
-  return best;
-}
-
 }  // namespace
 
 std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const Tables& tables) {
@@ -48,12 +23,12 @@ std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const 
   for (const SampleSet& set : results.sets) {
     if (set.key.narrow()) continue;
     const auto is_one_of_ours = [&](const std::string& label) { return is_ours(set.key, label); };
-    const Contestant* const ours = fastest(set, noise, is_one_of_ours);
+    const Contestant* const ours = fastest_right(set, noise, is_one_of_ours);
     if (ours == nullptr) continue;
     const auto best = [&](const std::function<bool(const std::string&)>& takes_part) {
-      const Contestant* const other = fastest(set, noise, takes_part);
+      const Contestant* const other = fastest_right(set, noise, takes_part);
       if (other == nullptr) return BroadBestRow::Best{"", nan, none};
-      const TimeRow* const time = find(tables.times, set.key, other->label);
+      const TimeRow* const time = find_row(tables.times, set.key, other->label);
       return BroadBestRow::Best{other->label, time == nullptr ? nan : time->seconds.median,
                                 ratio_between(set, *other, *ours, noise).ratio};
     };
@@ -65,16 +40,16 @@ std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const 
     row.bullet_or_fcl = best(is_of_bullet_or_fcl);
     const Contestant* const limit = set.find(limit_label);
     row.over_limit = limit == nullptr ? none : ratio_between(set, *ours, *limit, noise).ratio;
-    const WorkRow* const work = find(tables.work, set.key, ours->label);
+    const WorkRow* const work = find_row(tables.work, set.key, ours->label);
     row.bytes_a_body = work == nullptr ? nan : work->bytes;
-    const SpeedUpRow* const speed_up = find(tables.speed_ups, set.key, ours->label);
+    const SpeedUpRow* const speed_up = find_row(tables.speed_ups, set.key, ours->label);
     const bool more = speed_up != nullptr && speed_up->base_threads < set.key.threads;
     row.base_threads = more ? speed_up->base_threads : 0;
     row.speed_up = more ? speed_up->speed_up : none;
     SetKey scene = set.key;
     scene.bodies = 0;
     scene.seed = scene.scene_hash = "";
-    const ExponentRow* const exponent = find(tables.exponents, scene, ours->label);
+    const ExponentRow* const exponent = find_row(tables.exponents, scene, ours->label);
     row.exponent = exponent == nullptr ? nan : exponent->law_of_many.exponent;
   }
   return rows;

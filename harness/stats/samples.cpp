@@ -30,6 +30,7 @@ const std::vector<std::string> optional = {"seed",
                                            "stop",
                                            "duality_gap",
                                            "compared",
+                                           "worst_error",
                                            "iterations",
                                            "iterations_squared",
                                            "support_calls",
@@ -135,6 +136,7 @@ class Reader {
       check.outcome_hash = row.text("outcome_hash");
       check.pair_count = row.count("pair_count");
       check.seconds = row.number("seconds");
+      check.worst_error = row.number("worst_error");
       check.contact_count = row.count("contact_count");
       check.disagreements = row.count("disagreements");
       check.failures = row.count("failures");

@@ -70,7 +70,8 @@ inline constexpr std::array<const char*, 9> work_names = {
 struct Check {
   std::int64_t frame = 0;
   Part part = Part::build;
-  double seconds = 0;  // no sample: NaN where it failed
+  double seconds = 0;      // no sample: NaN where it failed
+  double worst_error = 0;  // of a distance or depth; NaN where there is none
   std::string status, pair_hash, outcome_hash;
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
                compared = -1;

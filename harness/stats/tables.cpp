@@ -202,6 +202,7 @@ std::optional<AgreementRow> agreement_row(const SampleSet& set, const Contestant
     row.wrong += wrong;
     row.failed += failed;
     row.right += std::max<std::int64_t>(compared - wrong, 0);
+    row.worst_error = std::fmax(row.worst_error, check.worst_error);
   }
   row.unanswered = std::max<std::int64_t>(row.queries - row.right - row.wrong - row.failed, 0);
   return row.queries > 0 ? std::optional(row) : std::nullopt;
@@ -300,6 +301,7 @@ Tables make_tables(const Results& results, Noise noise) {
   tables.exponents = exponent_rows(tables.times);
   tables.speed_ups = speed_up_rows(results, noise);
   tables.broad_best = broad_best(results, noise, tables);
+  tables.narrow_best = narrow_best(results, noise, tables);
   return tables;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,8 @@ struct AgreementRow {
   SetKey key;
   std::string label, origin;
   std::int64_t queries = 0, right = 0, wrong = 0, failed = 0, unanswered = 0;
+  // Greatest of a distance or depth, as a part of the pair's size; NaN where there is none.
+  double worst_error = std::numeric_limits<double>::quiet_NaN();
 };
 
 // What a contestant's work comes to, over all its verified frames. NaN where it is not counted.
@@ -99,6 +102,22 @@ struct BroadBestRow {
   double exponent;  // of the time of ours, from many_bodies on
 };
 
+// The fastest of ours among the narrow phases of a set, against the others, with their errors.
+// Right is who has no wrong answer and no distance or depth off by more than right_error.
+struct NarrowBestRow {
+  static constexpr double right_error = 1e-3;  // a part of the pair's size
+  struct Best {
+    std::string label;                                          // empty where there is none
+    double seconds = std::numeric_limits<double>::quiet_NaN();  // a query
+    std::int64_t queries = 0, wrong = 0, failed = 0;            // see AgreementRow
+    double worst_error = std::numeric_limits<double>::quiet_NaN();
+    MedianInterval ratio = {};  // of its time over that of ours
+  };
+  SetKey key;
+  Best ours;
+  Best right_peer, any_peer;
+};
+
 struct Tables {
   std::string campaign;
   std::vector<std::string> machine;  // what tells the machine, "processor: ..."
@@ -110,6 +129,7 @@ struct Tables {
   std::vector<AgreementRow> agreement;
   std::vector<WorkRow> work;
   std::vector<BroadBestRow> broad_best;
+  std::vector<NarrowBestRow> narrow_best;
 };
 
 // The time of a over that of b, both of the set, with the p of its being 1: paired over the squares
@@ -123,8 +143,9 @@ TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Conte
 
 Tables make_tables(const Results& results, Noise noise);
 
-// Needs the other tables of the same results.
+// Need the other tables of the same results.
 std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const Tables& tables);
+std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, const Tables& tables);
 
 // Whether a contestant found other pairs than the rest, or gave an answer that the exact one
 // contradicts.
@@ -134,9 +155,9 @@ bool is_wrong(const SampleSet& set, const Contestant& contestant);
 std::string tables_markdown(const Tables& tables);
 
 // Writes tables.md and times.csv, ratios.csv, winners.csv, exponents.csv, speed_ups.csv,
-// agreement.csv, work.csv, broad_best.csv into the folder. `band`: ratios.csv states for each cell
-// the band within which its ratio holds: the interval, widened by this factor at both ends.
-// InputError where a file cannot be written.
+// agreement.csv, work.csv, broad_best.csv, narrow_best.csv into the folder. `band`: ratios.csv
+// states for each cell the band within which its ratio holds: the interval, widened by this factor
+// at both ends. InputError where a file cannot be written.
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder);
 
 }  // namespace touchstone::stats

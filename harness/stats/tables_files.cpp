@@ -41,6 +41,64 @@ class TableFile {
   CsvWriter csv_;
 };
 
+void write_broad_best(const std::vector<BroadBestRow>& rows, const std::filesystem::path& file) {
+  TableFile best(file, {"ours",
+                        "ours_seconds",
+                        "peer",
+                        "peer_seconds",
+                        "peer_ratio",
+                        "peer_ratio_low",
+                        "peer_ratio_high",
+                        "bullet_or_fcl",
+                        "bullet_or_fcl_seconds",
+                        "bullet_or_fcl_ratio",
+                        "bullet_or_fcl_ratio_low",
+                        "bullet_or_fcl_ratio_high",
+                        "over_limit",
+                        "over_limit_low",
+                        "over_limit_high",
+                        "bytes_a_body",
+                        "base_threads",
+                        "speed_up",
+                        "speed_up_low",
+                        "speed_up_high",
+                        "exponent_of_many"});
+  for (const BroadBestRow& row : rows) {
+    CsvWriter& csv = best.row(row.key).field(row.ours.label).field(row.ours.seconds);
+    for (const BroadBestRow::Best* other : {&row.peer, &row.bullet_or_fcl}) {
+      csv.field(other->label).field(other->seconds);
+      csv.field(other->ratio.median).field(other->ratio.low).field(other->ratio.high);
+    }
+    csv.field(row.over_limit.median).field(row.over_limit.low).field(row.over_limit.high);
+    csv.field(row.bytes_a_body);
+    csv.field(row.base_threads > 0 ? std::to_string(row.base_threads) : std::string());
+    csv.field(row.speed_up.median).field(row.speed_up.low).field(row.speed_up.high);
+    csv.field(row.exponent).end_row();
+  }
+  best.close();
+}
+
+void write_narrow_best(const std::vector<NarrowBestRow>& rows, const std::filesystem::path& file) {
+  std::vector<std::string> columns;
+  for (const char* who : {"ours", "right_peer", "any_peer"}) {
+    for (const char* what : {"", "_seconds", "_queries", "_wrong", "_failed", "_worst_error",
+                             "_ratio", "_ratio_low", "_ratio_high"}) {
+      columns.push_back(std::string(who) + what);
+    }
+  }
+  TableFile best(file, columns);
+  for (const NarrowBestRow& row : rows) {
+    CsvWriter& csv = best.row(row.key);
+    for (const NarrowBestRow::Best* one : {&row.ours, &row.right_peer, &row.any_peer}) {
+      csv.field(one->label).field(one->seconds).field(one->queries).field(one->wrong);
+      csv.field(one->failed).field(one->worst_error);
+      csv.field(one->ratio.median).field(one->ratio.low).field(one->ratio.high);
+    }
+    csv.end_row();
+  }
+  best.close();
+}
+
 }  // namespace
 
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder) {
@@ -94,11 +152,16 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
     csv.field(row.speed_up.median).field(row.speed_up.low).field(row.speed_up.high).end_row();
   }
   speed_ups.close();
-  TableFile agreement(folder / "agreement.csv",
-                      {"algorithm", "origin", "queries", "right", "wrong", "failed", "unanswered"});
+  TableFile agreement(folder / "agreement.csv", {"algorithm", "origin", "queries", "right", "wrong",
+                                                 "failed", "unanswered", "worst_error"});
   for (const AgreementRow& row : tables.agreement) {
     CsvWriter& csv = agreement.row(row.key).field(row.label).field(row.origin).field(row.queries);
-    csv.field(row.right).field(row.wrong).field(row.failed).field(row.unanswered).end_row();
+    csv.field(row.right)
+        .field(row.wrong)
+        .field(row.failed)
+        .field(row.unanswered)
+        .field(row.worst_error)
+        .end_row();
   }
   agreement.close();
   TableFile work(folder / "work.csv",
@@ -113,40 +176,8 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
     csv.field(row.allocated_bytes).end_row();
   }
   work.close();
-  TableFile best(folder / "broad_best.csv", {"ours",
-                                             "ours_seconds",
-                                             "peer",
-                                             "peer_seconds",
-                                             "peer_ratio",
-                                             "peer_ratio_low",
-                                             "peer_ratio_high",
-                                             "bullet_or_fcl",
-                                             "bullet_or_fcl_seconds",
-                                             "bullet_or_fcl_ratio",
-                                             "bullet_or_fcl_ratio_low",
-                                             "bullet_or_fcl_ratio_high",
-                                             "over_limit",
-                                             "over_limit_low",
-                                             "over_limit_high",
-                                             "bytes_a_body",
-                                             "base_threads",
-                                             "speed_up",
-                                             "speed_up_low",
-                                             "speed_up_high",
-                                             "exponent_of_many"});
-  for (const BroadBestRow& row : tables.broad_best) {
-    CsvWriter& csv = best.row(row.key).field(row.ours.label).field(row.ours.seconds);
-    for (const BroadBestRow::Best* other : {&row.peer, &row.bullet_or_fcl}) {
-      csv.field(other->label).field(other->seconds);
-      csv.field(other->ratio.median).field(other->ratio.low).field(other->ratio.high);
-    }
-    csv.field(row.over_limit.median).field(row.over_limit.low).field(row.over_limit.high);
-    csv.field(row.bytes_a_body);
-    csv.field(row.base_threads > 0 ? std::to_string(row.base_threads) : std::string());
-    csv.field(row.speed_up.median).field(row.speed_up.low).field(row.speed_up.high);
-    csv.field(row.exponent).end_row();
-  }
-  best.close();
+  write_broad_best(tables.broad_best, folder / "broad_best.csv");
+  write_narrow_best(tables.narrow_best, folder / "narrow_best.csv");
   write_text(folder / "tables.md", tables_markdown(tables));
 }
 

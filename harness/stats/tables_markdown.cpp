@@ -99,6 +99,7 @@ std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
     at->wrong += row.wrong;
     at->failed += row.failed;
     at->unanswered += row.unanswered;
+    at->worst_error = std::fmax(at->worst_error, row.worst_error);
   }
   std::ranges::stable_sort(sums, {}, [](const AgreementRow& sum) { return sum.key.task; });
   return sums;
@@ -201,6 +202,39 @@ std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
          body + "\n";
 }
 
+std::string narrow_best_table(const std::vector<NarrowBestRow>& rows) {
+  std::string body;
+  const auto error = [](const NarrowBestRow::Best& best) {
+    return std::isnan(best.worst_error) ? std::string("-")
+                                        : fmt::format("{:.0e}", best.worst_error);
+  };
+  const auto name = [](const NarrowBestRow::Best& best) {
+    return best.label.empty() ? "-" : best.label;
+  };
+  for (const NarrowBestRow& row : rows) {
+    if (row.any_peer.label.empty()) continue;
+    body += markdown_row({row.key.words(), row.ours.label, name(row.right_peer), name(row.any_peer),
+                          text(row.ours.seconds * 1e9), error(row.ours),
+                          text(row.right_peer.seconds * 1e9), error(row.right_peer),
+                          text(row.right_peer.ratio.median), interval(row.right_peer.ratio),
+                          text(row.any_peer.seconds * 1e9),
+                          fmt::format("{} of {}", row.any_peer.wrong, row.any_peer.queries),
+                          error(row.any_peer), text(row.any_peer.ratio.median)});
+  }
+  if (body.empty()) return body;
+  return fmt::format(
+             "## Speed and error of the best narrow phases\n\nNanoseconds a query; ratios are of "
+             "the other's time over that of ours. Right is who has no wrong\nanswer and no "
+             "distance or depth off by more than {} of the pair's size; errors are the greatest, "
+             "as parts of it.\n\n",
+             NarrowBestRow::right_error) +
+         markdown_header(
+             {"input", "ours", "right peer", "fastest peer", "ours, ns", "error", "right peer, ns",
+              "error", "/ ours", "95 % interval", "fastest peer, ns", "wrong", "error", "/ ours"},
+             4) +
+         body + "\n";
+}
+
 }  // namespace
 
 std::string tables_markdown(const Tables& tables) {
@@ -222,6 +256,7 @@ std::string tables_markdown(const Tables& tables) {
     all += "\n";
   }
   all += broad_best_table(tables.broad_best);
+  all += narrow_best_table(tables.narrow_best);
   if (!tables.exponents.empty()) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
     all += markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts",
@@ -254,11 +289,13 @@ std::string tables_markdown(const Tables& tables) {
   if (!tables.agreement.empty()) {
     all += "## Agreement with the exact answers\n\n";
     all += markdown_header(
-        {"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered"}, 2);
+        {"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered", "worst error"},
+        2);
     for (const AgreementRow& row : by_task(tables.agreement)) {
       all += markdown_row({row.key.task, row.label, std::to_string(row.queries),
                            std::to_string(row.right), std::to_string(row.wrong),
-                           std::to_string(row.failed), std::to_string(row.unanswered)});
+                           std::to_string(row.failed), std::to_string(row.unanswered),
+                           text(row.worst_error)});
     }
     all += "\n";
   }

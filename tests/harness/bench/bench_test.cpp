@@ -153,5 +153,29 @@ TEST(Bench, RunsWhatTheFilterTakesAndWritesJson) {
 
 TEST(Bench, RefusesWhatItDoesNotKnow) { EXPECT_EQ(bench("--no-such-option"), ""); }
 
+TEST(Instructions, AreCountedTheSameTwice) {
+  if (std::system("valgrind --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no valgrind";
+  const TemporaryFolder folder;
+  const std::string filter = "narrow/(gjk|sat)/double/box-box/intersect/(far|deep)";
+  std::array<std::string, 2> counts;
+  for (std::string& count : counts) {
+    const std::string file = (folder.path() / "instructions.csv").string();
+    bench("'--instructions=" + file + "' '--benchmark_filter=" + filter + "'");
+    count = folder.read("instructions.csv");
+    EXPECT_EQ(std::ranges::count(count, '\n'), 5) << count;
+    EXPECT_THAT(count, testing::HasSubstr("narrow/gjk/double/box-box/intersect/deep,256,"));
+  }
+  EXPECT_EQ(counts[0], counts[1]);
+}
+
+TEST(Instructions, ABadRequestIsRefused) {
+  EXPECT_EQ(std::system((TOUCHSTONE_BENCH " --instructions=x.csv --benchmark_filter=nothing/such "
+                                          ">/dev/null 2>&1")),
+            2 << 8);
+  EXPECT_EQ(std::system((TOUCHSTONE_BENCH " --instructions=x.csv '--benchmark_filter=(' "
+                                          ">/dev/null 2>&1")),
+            2 << 8);
+}
+
 }  // namespace
 }  // namespace touchstone

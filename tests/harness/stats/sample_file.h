@@ -22,6 +22,7 @@ struct FakeContestant {
   int disagreements = 0;
   // Columns of its check rows: iterations to allocated_bytes, "" where not counted.
   std::string work = ",,,,,,,";
+  std::string worst_error = {};  // of each of its check rows
 };
 
 struct FakeBlock {
@@ -51,7 +52,7 @@ struct FakeRun {
         "isa,pair_kind,phase,seconds,pair_count,pair_hash,contact_count,outcome_hash,"
         "disagreements,failures,status,kind,block,process,square,round,position,frames,twin,noise,"
         "stop,iterations,support_calls,box_tests,node_visits,candidates,bytes,allocations,"
-        "allocated_bytes\n";
+        "allocated_bytes,worst_error\n";
     std::mt19937_64 random(seed);
     std::normal_distribution<double> draw(0, 1);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -67,9 +68,9 @@ struct FakeRun {
       };
       for (int frame = 0; frame < frames; ++frame) {
         for (const FakeContestant& c : block.contestants) {
-          const std::string verdict =
-              fmt::format("50,{},5,77,{},0,{},check,{},,,,,,,,,{}", c.pair_hash,
-                          narrow ? std::to_string(c.disagreements) : "", c.status, b, c.work);
+          const std::string verdict = fmt::format(
+              "50,{},5,77,{},0,{},check,{},,,,,,,,,{},{}", c.pair_hash,
+              narrow ? std::to_string(c.disagreements) : "", c.status, b, c.work, c.worst_error);
           row(c, frame, narrow ? "narrow" : "find_pairs", 1e-3, verdict);
         }
       }
@@ -85,7 +86,7 @@ struct FakeRun {
               const double seconds = c.seconds * (twin ? block.twin_factor : 1) * shared *
                                      std::exp(spread * draw(random)) * frames * (narrow ? 50 : 1);
               const std::string place = fmt::format(
-                  "{},,,,,,{},sample,{},{},{},{},{},{},{},{},,,,,,,,,", frames * 50, c.status, b,
+                  "{},,,,,,{},sample,{},{},{},{},{},{},{},{},,,,,,,,,,", frames * 50, c.status, b,
                   process, square, round, i, frames, twin ? "1" : "",
                   noisy                                                                ? "pressure"
                   : block.suspect && process + 1 == processes && square + 1 == squares ? "canary"

@@ -126,6 +126,33 @@ TEST_F(TablesOf, TheBestOfOursAgainstTheBestOfOthers) {
   EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("| some-peer | fcl-sap |"));
 }
 
+TEST_F(TablesOf, SpeedAndErrorOfTheBestNarrowPhases) {
+  FakeRun run;
+  FakeBlock block;
+  block.task = "penetration";
+  block.pair_kind = "hull-hull";
+  block.contestants = {{"gjk", 100e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "1e-14"},
+                       {"sat", 80e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "0.2"},
+                       {"fcl-libccd", 50e-9, "00000000000000aa", "ok", 2, ",,,,,,,", "1e-14"},
+                       {"bullet-mpr", 200e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "0.5"},
+                       {"bullet-gjk-epa", 300e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "1e-4"}};
+  run.blocks = {block};
+  const Tables tables = make(run);
+  ASSERT_EQ(tables.narrow_best.size(), 1u);
+  const NarrowBestRow& row = tables.narrow_best[0];
+  EXPECT_EQ(row.ours.label, "gjk double") << "sat is off by too much";
+  EXPECT_EQ(row.ours.worst_error, 1e-14);
+  EXPECT_EQ(row.right_peer.label, "bullet-gjk-epa double");
+  EXPECT_NEAR(row.right_peer.ratio.median, 3, 0.05);
+  EXPECT_EQ(row.any_peer.label, "fcl-libccd double");
+  EXPECT_EQ(row.any_peer.wrong, 16);
+  EXPECT_EQ(row.any_peer.queries, 400);
+  std::filesystem::create_directory(folder_.path() / "out");
+  write_tables(tables, 1.5, folder_.path() / "out");
+  EXPECT_THAT(folder_.read("out/narrow_best.csv"), HasSubstr(",bullet-gjk-epa double,"));
+  EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("| 16 of 400 | 1e-14 |"));
+}
+
 TEST_F(TablesOf, NoiseIsLeftOutUnlessAskedForAndOutliersStay) {
   FakeRun run = fake_run();
   run.noisy_squares = 1;

@@ -1,0 +1,320 @@
+#include "harness/check/soak.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include "algorithms/oracle/oracle.h"
+#include "harness/check/encoding.h"
+#include "harness/check/graded_answer.h"
+#include "harness/check/worker_pool.h"
+#include "harness/error.h"
+#include "harness/run/isolate.h"
+#include "harness/run/machine.h"
+#include "harness/run/ordered_pair.h"
+#include "harness/run/progress.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::int64_t cases_a_job = 1000;
+constexpr std::size_t most_failures = 20;  // of an algorithm in a job; a hang costs a time limit
+constexpr double seconds_between_writes = 1;
+
+const std::vector<std::string> header = {"algorithm",   "scalar",      "regime",    "seed",
+                                         "drawn",       "pairs",       "separated", "touching",
+                                         "overlapping", "unresolved",  "silent",    "honest",
+                                         "lost",        "first_wrong", "program"};
+
+// The counts of a job, in the order of the request's algorithms and their scalars.
+using JobCounts = std::vector<SoakCount>;
+
+struct Subject {
+  std::size_t entry;
+  Precision scalar;
+};
+
+std::vector<Subject> subjects_of(const SoakRequest& request) {
+  std::vector<Subject> subjects;
+  for (std::size_t entry = 0; entry < request.narrow.size(); ++entry) {
+    for (const Precision scalar : request.scalars) {
+      if (offers(*request.narrow[entry], scalar)) subjects.push_back({entry, scalar});
+    }
+  }
+  return subjects;
+}
+
+// The cases of a job as the algorithms get them: body 2i and 2i + 1 are case i's, in order of
+// kinds.
+class Cases {
+ public:
+  Cases(const Regime& regime, std::uint64_t seed, std::int64_t first, oracle::Oracle& oracle)
+      : first_(first), oracle_(&oracle) {
+    for (std::int64_t i = 0; i < cases_a_job; ++i) {
+      Case& c = cases_.emplace_back(make(regime, seed, static_cast<std::uint64_t>(first + i)));
+      if (needs_swap(c.shape_a.kind, c.shape_b.kind)) {
+        std::swap(c.shape_a, c.shape_b);
+        std::swap(c.pose_a, c.pose_b);
+      }
+      for (const Shape* shape : {&c.shape_a, &c.shape_b}) shapes_.push_back(*shape);
+      for (const Pose* pose : {&c.pose_a, &c.pose_b}) poses_.push_back(*pose);
+      for (int body = 0; body < 2; ++body)
+        bodies_.push_back(static_cast<std::uint32_t>(bodies_.size()));
+    }
+  }
+
+  SoakCount ask(const NarrowPhaseEntry& entry, Precision scalar, double time_limit) {
+    std::vector<std::size_t> asked;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (offers(entry, cases_[i].shape_a.kind, cases_[i].shape_b.kind, Task::intersect))
+        asked.push_back(i);
+    }
+    SharedArray<Outcome> outcomes(asked.size());
+    const IsolationLimits limits = {.item_seconds = time_limit, .failures = most_failures};
+    const IsolationReport report = isolate(asked.size(), limits, [&]() -> ItemWork {
+      const std::shared_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
+      algorithm->bind(shapes_);
+      return [&, algorithm](std::size_t item) {
+        algorithm->solve(batch_of(asked[item]), outcomes.span().subspan(item, 1));
+      };
+    });
+    SoakCount count;
+    for (std::size_t item = 0; item < asked.size(); ++item) {
+      const std::size_t i = asked[item];
+      const Case& c = cases_[i];
+      const Encoding encoding =
+          encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::intersect, scalar);
+      count_one(outcomes[item], report.states[item] == ItemState::done, truth(i, encoding),
+                first_ + static_cast<std::int64_t>(i), count);
+    }
+    return count;
+  }
+
+ private:
+  PairBatch batch_of(std::size_t i) const {
+    return {.task = Task::intersect,
+            .kind_a = cases_[i].shape_a.kind,
+            .kind_b = cases_[i].shape_b.kind,
+            .first = std::span(bodies_).subspan(2 * i, 1),
+            .second = std::span(bodies_).subspan(2 * i + 1, 1),
+            .shape_of = bodies_,
+            .poses = poses_};
+  }
+
+  // Against what the algorithm is given.
+  Answer truth(std::size_t i, Encoding encoding) {
+    std::vector<std::optional<Answer>>& known = truths_[static_cast<std::size_t>(encoding)];
+    known.resize(cases_.size());
+    if (!known[i]) {
+      const EncodedPair pair(cases_[i], encoding);
+      known[i] = pair.is_finite() ? oracle_->verdict(pair.a(), pair.b()) : Answer::unknown;
+    }
+    return *known[i];
+  }
+
+  static void count_one(const Outcome& outcome, bool is_done, Answer exact, std::int64_t index,
+                        SoakCount& count) {
+    ++count.pairs;
+    switch (exact) {
+      case Answer::separated: ++count.separated; break;
+      case Answer::touching: ++count.touching; break;
+      case Answer::overlapping: ++count.overlapping; break;
+      case Answer::unknown: ++count.unresolved; break;
+    }
+    bool is_wrong = false;
+    if (!is_done) {
+      ++count.lost;
+      is_wrong = true;
+    } else if (!stands_by(outcome)) {
+      ++count.honest;
+    } else if (exact != Answer::unknown && is_contact(outcome.answer) != is_contact(exact)) {
+      ++count.silent;
+      is_wrong = true;
+    }
+    if (is_wrong && count.first_wrong < 0) count.first_wrong = index;
+  }
+
+  std::int64_t first_;
+  oracle::Oracle* oracle_;
+  std::vector<Case> cases_;
+  std::vector<Shape> shapes_;
+  std::vector<Pose> poses_;
+  std::vector<std::uint32_t> bodies_;
+  std::array<std::vector<std::optional<Answer>>, all_encodings.size()> truths_;
+};
+
+class Soak {
+ public:
+  explicit Soak(const SoakRequest& request)
+      : request_(request),
+        subjects_(subjects_of(request)),
+        program_(hash_of_program()),
+        file_(request.out / "soak.csv") {
+    std::error_code error;
+    if (!request.resume) std::filesystem::create_directories(request.out, error);
+    if (error) throw InputError(request.out.string(), 0, "cannot be made: " + error.message());
+    if (request.resume) resume();
+    write();
+  }
+
+  SoakResult run() {
+    const auto first = static_cast<std::size_t>(result_.drawn / cases_a_job);
+    const auto end = static_cast<std::size_t>((request_.pairs + cases_a_job - 1) / cases_a_job);
+    if (first < end) {
+      Progress progress(1);
+      progress.start(fmt::format("{} verdicts", request_.pairs));
+      Stopwatch since_written;
+      run_jobs(
+          first, end, request_.workers, [&] { return work(); },
+          [&](std::size_t job, const std::string& bytes) {
+            take(job, bytes);
+            progress.part(static_cast<double>(result_.drawn) / static_cast<double>(request_.pairs));
+            if (since_written.seconds() > seconds_between_writes) {
+              write();
+              since_written.restart();
+            }
+            return true;
+          });
+    }
+    write();
+    write_cases();
+    return result_;
+  }
+
+ private:
+  const Regime& regime_of(std::size_t job) const {
+    return *request_.regimes[job % request_.regimes.size()];
+  }
+
+  JobWork work() const {
+    // One oracle for each process: it keeps its memory from query to query.
+    const auto oracle = std::make_shared<oracle::Oracle>();
+    return [this, oracle](std::size_t job) {
+      const auto round = static_cast<std::int64_t>(job / request_.regimes.size());
+      Cases cases(regime_of(job), request_.seed, round * cases_a_job, *oracle);
+      JobCounts counts;
+      for (const Subject& subject : subjects_) {
+        counts.push_back(
+            cases.ask(*request_.narrow[subject.entry], subject.scalar, request_.time_limit));
+      }
+      return std::string(reinterpret_cast<const char*>(counts.data()),
+                         counts.size() * sizeof(SoakCount));
+    };
+  }
+
+  void take(std::size_t job, const std::string& bytes) {
+    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+      SoakCount count;
+      std::memcpy(static_cast<void*>(&count), bytes.data() + i * sizeof count, sizeof count);
+      result_.counts[{subjects_[i].entry, subjects_[i].scalar, job % request_.regimes.size()}].add(
+          count);
+    }
+    result_.drawn += cases_a_job;
+  }
+
+  void write() const {
+    CsvWriter csv(file_, header);
+    for (const auto& [key, count] : result_.counts) {
+      const auto& [entry, scalar, regime] = key;
+      csv.field(request_.narrow[entry]->info.name).field(to_string(scalar));
+      csv.field(request_.regimes[regime]->name).field(std::to_string(request_.seed));
+      csv.field(result_.drawn).field(count.pairs).field(count.separated).field(count.touching);
+      csv.field(count.overlapping).field(count.unresolved).field(count.silent).field(count.honest);
+      csv.field(count.lost).field(count.first_wrong).field(program_).end_row();
+    }
+    csv.close();
+  }
+
+  void resume() {
+    if (!std::filesystem::exists(file_)) {
+      throw InputError(file_.string(), 0, "no such file; expected the folder of a soak");
+    }
+    CsvReader(file_, header).read([&](const CsvReader::Row& row) {
+      const auto place = [&](std::size_t column, const auto& list, const auto& name_of) {
+        const auto at = std::ranges::find_if(
+            list, [&](const auto* one) { return name_of(*one) == row.text(column); });
+        if (at == list.end()) row.fail("a name that is not of this request");
+        return static_cast<std::size_t>(at - list.begin());
+      };
+      if (row.text(3) != std::to_string(request_.seed)) {
+        row.fail(fmt::format("seed {}; this request has {}", row.text(3), request_.seed));
+      }
+      if (row.text(14) != program_) {
+        row.fail("counted by another program; expected the same one, or no --resume");
+      }
+      SoakCount count;
+      result_.drawn = row.integer(4);
+      std::size_t column = 5;
+      for (std::int64_t* value :
+           {&count.pairs, &count.separated, &count.touching, &count.overlapping, &count.unresolved,
+            &count.silent, &count.honest, &count.lost, &count.first_wrong}) {
+        *value = row.integer(column++);
+      }
+      const auto entry = place(0, request_.narrow, [](const auto& e) { return e.info.name; });
+      const auto regime = place(2, request_.regimes, [](const Regime& r) { return r.name; });
+      result_.counts[{entry, row.text(1) == "float" ? Precision::float32 : Precision::float64,
+                      regime}] = count;
+    });
+    // Before each regime had its turn there are fewer rows.
+    const std::size_t rounds =
+        std::min(static_cast<std::size_t>(result_.drawn / cases_a_job), request_.regimes.size());
+    if (result_.counts.size() != rounds * subjects_.size()) {
+      throw InputError(file_.string(), 0,
+                       "counts of other algorithms or regimes; expected the same request");
+    }
+  }
+
+  void write_cases() const {
+    for (const auto& [key, count] : result_.counts) {
+      const auto& [entry, scalar, regime] = key;
+      if (count.first_wrong < 0) continue;
+      const Case c = make(*request_.regimes[regime], request_.seed,
+                          static_cast<std::uint64_t>(count.first_wrong));
+      const std::filesystem::path file =
+          request_.out / fmt::format("{}-{}-{}.jsonl", request_.narrow[entry]->info.name,
+                                     to_string(scalar), request_.regimes[regime]->name);
+      std::ofstream stream(file);
+      stream << to_json(c) << '\n';
+      stream.flush();
+      if (!stream) throw InputError(file.string(), 0, "cannot be written");
+    }
+  }
+
+  const SoakRequest& request_;
+  std::vector<Subject> subjects_;
+  std::string program_;
+  std::filesystem::path file_;
+  SoakResult result_;
+};
+
+}  // namespace
+
+void SoakCount::add(const SoakCount& other) {
+  pairs += other.pairs;
+  separated += other.separated;
+  touching += other.touching;
+  overlapping += other.overlapping;
+  unresolved += other.unresolved;
+  silent += other.silent;
+  honest += other.honest;
+  lost += other.lost;
+  if (first_wrong < 0) first_wrong = other.first_wrong;
+}
+
+bool SoakResult::ours_are_wrong(const SoakRequest& request) const {
+  return std::ranges::any_of(counts, [&](const auto& item) {
+    const NarrowPhaseEntry& entry = *request.narrow[std::get<0>(item.first)];
+    return entry.info.origin == Origin::ours && !entry.approximate &&
+           (item.second.silent > 0 || item.second.lost > 0);
+  });
+}
+
+SoakResult run_soak(const SoakRequest& request) { return Soak(request).run(); }
+
+}  // namespace touchstone

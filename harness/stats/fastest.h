@@ -1,0 +1,30 @@
+// Who is first in a set.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/stats/samples.h"
+
+namespace touchstone::stats {
+
+// The fastest of those that take part, by what each has to the baseline in its own squares; those
+// that failed are left out. Null where there is none.
+const Contestant* fastest(const SampleSet& set, Noise noise,
+                          const std::function<bool(const Contestant&)>& takes_part);
+
+// The same of those that answer right.
+const Contestant* fastest_right(const SampleSet& set, Noise noise,
+                                const std::function<bool(const std::string&)>& takes_part);
+
+// The row of this set and label; null where there is none.
+template <class Row>
+const Row* find_row(const std::vector<Row>& rows, const SetKey& key, const std::string& label) {
+  const auto at = std::ranges::find_if(
+      rows, [&](const Row& row) { return row.key == key && row.label == label; });
+  return at == rows.end() ? nullptr : &*at;
+}
+
+}  // namespace touchstone::stats

@@ -1,0 +1,61 @@
+// Speed and error of narrow phases side by side: the best of ours against the best of the others.
+#include <cmath>
+#include <limits>
+
+#include "harness/stats/fastest.h"
+#include "harness/stats/tables.h"
+
+namespace touchstone::stats {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, const Tables& tables) {
+  std::vector<NarrowBestRow> rows;
+  for (const SampleSet& set : results.sets) {
+    if (!set.key.narrow()) continue;
+    const auto agreement = [&](const Contestant& contestant) {
+      return find_row(tables.agreement, set.key, contestant.label);
+    };
+    const auto is_right = [&](const Contestant& contestant) {
+      const AgreementRow* const row = agreement(contestant);
+      return row != nullptr && row->wrong == 0 && !(row->worst_error > NarrowBestRow::right_error);
+    };
+    const auto is_one_of_ours = [&](const Contestant& contestant) {
+      return is_ours(set.key, contestant.label);
+    };
+    const Contestant* const ours = fastest(set, noise, [&](const Contestant& contestant) {
+      return is_one_of_ours(contestant) && is_right(contestant);
+    });
+    if (ours == nullptr) continue;
+    const auto best = [&](const Contestant* contestant) {
+      NarrowBestRow::Best found;
+      if (contestant == nullptr) return found;
+      found.label = contestant->label;
+      if (const TimeRow* const time = find_row(tables.times, set.key, contestant->label)) {
+        found.seconds = time->seconds.median;
+      }
+      if (const AgreementRow* const row = agreement(*contestant)) {
+        found.queries = row->queries;
+        found.wrong = row->wrong;
+        found.failed = row->failed;
+        found.worst_error = row->worst_error;
+      }
+      found.ratio = ratio_between(set, *contestant, *ours, noise).ratio;
+      return found;
+    };
+    NarrowBestRow& row = rows.emplace_back();
+    row.key = set.key;
+    row.ours = best(ours);
+    row.right_peer = best(fastest(set, noise, [&](const Contestant& contestant) {
+      return !is_one_of_ours(contestant) && is_right(contestant);
+    }));
+    row.any_peer = best(fastest(
+        set, noise, [&](const Contestant& contestant) { return !is_one_of_ours(contestant); }));
+  }
+  return rows;
+}
+
+}  // namespace touchstone::stats

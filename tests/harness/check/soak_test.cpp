@@ -1,0 +1,110 @@
+#include "harness/check/soak.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/error.h"
+#include "tests/harness/check/planted.h"
+#include "tests/harness/input_fault.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class SoakRun : public ::testing::Test {
+ protected:
+  SoakRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
+    SoakRequest request;
+    request.narrow = narrow;
+    request.regimes = {&balls, &others};
+    request.pairs = 4000;
+    request.time_limit = 0.5;
+    request.out = folder.path();
+    return request;
+  }
+
+  TemporaryFolder folder;
+  Regime balls = balls_regime(), others = balls_regime("others");
+};
+
+TEST_F(SoakRun, CountsWhatIsTrueAndWhoIsWrong) {
+  const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
+  const NarrowPhaseEntry wrong = planted<Harm::wrong_side>("wrong", Origin::ours);
+  const NarrowPhaseEntry shy = planted<Harm::gives_up>("shy", Origin::ours);
+  const SoakRequest request = request_for({&good, &wrong, &shy});
+  const SoakResult result = run_soak(request);
+  EXPECT_EQ(result.drawn, 4000);
+  ASSERT_EQ(result.counts.size(), 6u);
+  for (std::size_t regime = 0; regime < 2; ++regime) {
+    const auto& count = [&](std::size_t entry) -> const SoakCount& {
+      return result.counts.at({entry, Precision::float64, regime});
+    };
+    for (std::size_t entry = 0; entry < 3; ++entry) {
+      EXPECT_EQ(count(entry).pairs, 2000);
+      EXPECT_EQ(count(entry).separated, 1000);
+      EXPECT_EQ(count(entry).overlapping, 1000);
+      EXPECT_EQ(count(entry).lost, 0);
+    }
+    EXPECT_EQ(count(0).silent + count(0).honest, 0);
+    EXPECT_EQ(count(0).first_wrong, -1);
+    EXPECT_EQ(count(1).silent, 1000);
+    EXPECT_EQ(count(1).first_wrong, 0);
+    EXPECT_EQ(count(2).silent, 0);
+    EXPECT_EQ(count(2).honest, 1000);
+  }
+  EXPECT_TRUE(result.ours_are_wrong(request));
+  EXPECT_THAT(folder.names(),
+              ElementsAre("soak.csv", "wrong-double-balls.jsonl", "wrong-double-others.jsonl"));
+}
+
+TEST_F(SoakRun, ACrashIsLostAndTheRestGoesOn) {
+  const NarrowPhaseEntry entry = planted<Harm::crashes>("crashes", Origin::peer);
+  SoakRequest request = request_for({&entry});
+  request.pairs = 1;  // a whole job is the least
+  const SoakResult result = run_soak(request);
+  EXPECT_EQ(result.drawn, 1000);
+  EXPECT_GT(result.counts.begin()->second.lost, 0);
+  EXPECT_FALSE(result.ours_are_wrong(request));
+}
+
+TEST_F(SoakRun, GoesOnWhereItEnded) {
+  const NarrowPhaseEntry wrong = planted<Harm::wrong_side>("wrong", Origin::ours);
+  SoakRequest request = request_for({&wrong});
+  request.pairs = 3000;
+  run_soak(request);
+  request.pairs = 4000;
+  request.resume = true;
+  EXPECT_EQ(run_soak(request).drawn, 4000);
+  const std::string resumed = folder.read("soak.csv");
+  request.resume = false;
+  run_soak(request);
+  EXPECT_EQ(folder.read("soak.csv"), resumed);
+}
+
+TEST_F(SoakRun, OnlyGoesOnWithItsOwn) {
+  const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
+  const NarrowPhaseEntry other = planted<Harm::none>("other", Origin::ours);
+  SoakRequest request = request_for({&good});
+  request.resume = true;
+  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("no such file"));
+  request.resume = false;
+  run_soak(request);
+  request.resume = true;
+  request.seed = 2;
+  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("seed 1; this request has 2"));
+  request.seed = 1;
+  request.narrow = {&other};
+  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("a name that is not"));
+  request.narrow = {&good, &other};
+  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("expected the same request"));
+  request.narrow = {&good};
+  request.out = "/dev/null/x";
+  request.resume = false;
+  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("cannot be made"));
+}
+
+}  // namespace
+}  // namespace touchstone
