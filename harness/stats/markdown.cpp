@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -12,11 +13,11 @@ namespace touchstone::stats {
 
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string all = "|";
-  for (std::string cell : cells) {
-    for (auto at = cell.find('|'); at != std::string::npos; at = cell.find('|', at + 2)) {
-      cell.insert(at, "\\");
+  for (std::string text : cells) {
+    for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
+      text.insert(at, "\\");
     }
-    all += " " + cell + " |";
+    all += " " + text + " |";
   }
   return all + "\n";
 }
@@ -25,6 +26,16 @@ std::string markdown_header(const std::vector<std::string>& names, std::size_t w
   std::string rule = "|";
   for (std::size_t i = 0; i < names.size(); ++i) rule += i < words ? "---|" : "---:|";
   return markdown_row(names) + rule + "\n";
+}
+
+std::string cell(double value) {
+  return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value);
+}
+
+std::string interval_cell(const MedianInterval& values, double scale) {
+  return std::isnan(values.low)
+             ? std::string("-")
+             : fmt::format("{:.4g} to {:.4g}", values.low * scale, values.high * scale);
 }
 
 void write_text(const std::filesystem::path& file, const std::string& content) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/stats/statistics.h"
+
 namespace touchstone::stats {
 
 // One row; what would end a cell is made harmless.
@@ -14,6 +16,10 @@ std::string markdown_row(const std::vector<std::string>& cells);
 // The header and the rule below it; the first `words` columns are to the left, the others to the
 // right.
 std::string markdown_header(const std::vector<std::string>& names, std::size_t words = 1);
+
+// A number to four digits, "-" for NaN; and an interval's two ends.
+std::string cell(double value);
+std::string interval_cell(const MedianInterval& values, double scale = 1);
 
 // InputError where the file cannot be written whole.
 void write_text(const std::filesystem::path& file, const std::string& content);

@@ -5,21 +5,12 @@
 #include <array>
 #include <cmath>
 
+#include "harness/stats/best_markdown.h"
 #include "harness/stats/markdown.h"
 #include "harness/stats/tables.h"
 
 namespace touchstone::stats {
 namespace {
-
-std::string text(double value, const char* none = "-") {
-  return std::isnan(value) ? none : fmt::format("{:.4g}", value);
-}
-
-std::string interval(const MedianInterval& values, double scale = 1) {
-  return std::isnan(values.low)
-             ? std::string("-")
-             : fmt::format("{:.4g} to {:.4g}", values.low * scale, values.high * scale);
-}
 
 std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
 
@@ -52,16 +43,16 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   };
   for (std::size_t i = begin; i < end; ++i) {
     const TimeRow& row = tables.times[i];
-    std::vector<std::string> cells = {row.label, text(row.seconds.median * scale),
-                                      interval(row.seconds, scale), text(row.minimum * scale)};
+    std::vector<std::string> cells = {row.label, cell(row.seconds.median * scale),
+                                      interval_cell(row.seconds, scale), cell(row.minimum * scale)};
     if (broad) {
       for (const Part part : {Part::build, Part::update, Part::convert, Part::find_pairs}) {
-        cells.push_back(text(row.parts[static_cast<std::size_t>(part)] * scale));
+        cells.push_back(cell(row.parts[static_cast<std::size_t>(part)] * scale));
       }
     }
     if (const RatioRow* const ratio = ratio_of(row.label, false)) {
       baseline = ratio->baseline;
-      cells.insert(cells.end(), {text(ratio->ratio.median), interval(ratio->ratio),
+      cells.insert(cells.end(), {cell(ratio->ratio.median), interval_cell(ratio->ratio),
                                  probability(ratio->p_corrected)});
     } else {
       cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-", "-"});
@@ -73,7 +64,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
       const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
       canary =
           fmt::format("The canary, {} against itself: {}, {}{}.\n", row.label,
-                      text(twin->ratio.median), interval(twin->ratio),
+                      cell(twin->ratio.median), interval_cell(twin->ratio),
                       twin->suspect ? " (**told apart** by more than the campaign's width: this "
                                       "table is **suspect**)"
                       : told_apart  ? " (**told apart**: trust no smaller difference)"
@@ -125,7 +116,7 @@ class MeanWork {
   const std::string& task() const { return row_.key.task; }
   std::vector<std::string> cells() const {
     std::vector<std::string> all = {task(), row_.label};
-    for (std::size_t i = 0; i < sums_.size(); ++i) all.push_back(text(sums_[i] / queries_[i]));
+    for (std::size_t i = 0; i < sums_.size(); ++i) all.push_back(cell(sums_[i] / queries_[i]));
     return all;
   }
 
@@ -156,8 +147,8 @@ std::string work_tables(const std::vector<WorkRow>& rows) {
     for (const WorkRow& row : rows) {
       if (row.key != first.key) continue;
       all +=
-          markdown_row({row.label, text(row.box_tests), text(row.node_visits), text(row.candidates),
-                        text(row.bytes), text(row.allocations), text(row.allocated_bytes)});
+          markdown_row({row.label, cell(row.box_tests), cell(row.node_visits), cell(row.candidates),
+                        cell(row.bytes), cell(row.allocations), cell(row.allocated_bytes)});
     }
     all += "\n";
   }
@@ -176,65 +167,6 @@ std::string work_tables(const std::vector<WorkRow>& rows) {
          all;
 }
 
-// Where there are others to compare ours with.
-std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
-  std::string body;
-  const auto name = [](const std::string& label) { return label.empty() ? "-" : label; };
-  for (const BroadBestRow& row : rows) {
-    if (row.peer.label.empty() && std::isnan(row.over_limit.median)) continue;
-    body += markdown_row({row.key.words(), row.ours.label, name(row.peer.label),
-                          name(row.bullet_or_fcl.label), text(row.ours.seconds * 1e3),
-                          text(row.peer.seconds * 1e3), text(row.peer.ratio.median),
-                          interval(row.peer.ratio), text(row.bullet_or_fcl.seconds * 1e3),
-                          text(row.bullet_or_fcl.ratio.median), interval(row.bullet_or_fcl.ratio),
-                          text(row.over_limit.median), text(row.bytes_a_body),
-                          text(row.speed_up.median), text(row.exponent)});
-  }
-  if (body.empty()) return body;
-  return "## The best of our broad phases against the best of others\n\nMilliseconds a frame; "
-         "ratios are of the other's time over that of ours. The limit is a radix sort, a gather\n"
-         "of the boxes and the writing of the pairs. Speed-up is over the fewest threads, growth "
-         "the exponent of\ntime over bodies where there are many.\n\n" +
-         markdown_header({"input", "ours", "peer", "of Bullet and FCL", "ours, ms", "peer, ms",
-                          "peer / ours", "95 % interval", "Bullet or FCL, ms", "/ ours",
-                          "95 % interval", "ours / limit", "bytes / body", "speed-up", "growth"},
-                         4) +
-         body + "\n";
-}
-
-std::string narrow_best_table(const std::vector<NarrowBestRow>& rows) {
-  std::string body;
-  const auto error = [](const NarrowBestRow::Best& best) {
-    return std::isnan(best.worst_error) ? std::string("-")
-                                        : fmt::format("{:.0e}", best.worst_error);
-  };
-  const auto name = [](const NarrowBestRow::Best& best) {
-    return best.label.empty() ? "-" : best.label;
-  };
-  for (const NarrowBestRow& row : rows) {
-    if (row.any_peer.label.empty()) continue;
-    body += markdown_row({row.key.words(), row.ours.label, name(row.right_peer), name(row.any_peer),
-                          text(row.ours.seconds * 1e9), error(row.ours),
-                          text(row.right_peer.seconds * 1e9), error(row.right_peer),
-                          text(row.right_peer.ratio.median), interval(row.right_peer.ratio),
-                          text(row.any_peer.seconds * 1e9),
-                          fmt::format("{} of {}", row.any_peer.wrong, row.any_peer.queries),
-                          error(row.any_peer), text(row.any_peer.ratio.median)});
-  }
-  if (body.empty()) return body;
-  return fmt::format(
-             "## Speed and error of the best narrow phases\n\nNanoseconds a query; ratios are of "
-             "the other's time over that of ours. Right is who has no wrong\nanswer and no "
-             "distance or depth off by more than {} of the pair's size; errors are the greatest, "
-             "as parts of it.\n\n",
-             NarrowBestRow::right_error) +
-         markdown_header(
-             {"input", "ours", "right peer", "fastest peer", "ours, ns", "error", "right peer, ns",
-              "error", "/ ours", "95 % interval", "fastest peer, ns", "wrong", "error", "/ ours"},
-             4) +
-         body + "\n";
-}
-
 }  // namespace
 
 std::string tables_markdown(const Tables& tables) {
@@ -250,7 +182,7 @@ std::string tables_markdown(const Tables& tables) {
         {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
     for (const WinnerRow& row : tables.winners) {
       all += markdown_row({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner,
-                           row.runner_up, text(row.ratio.median), interval(row.ratio),
+                           row.runner_up, cell(row.ratio.median), interval_cell(row.ratio),
                            probability(row.p_corrected)});
     }
     all += "\n";
@@ -282,7 +214,7 @@ std::string tables_markdown(const Tables& tables) {
     all += markdown_header({"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
     for (const SpeedUpRow& row : tables.speed_ups) {
       all += markdown_row({row.key.words(), row.label, std::to_string(row.base_threads),
-                           text(row.speed_up.median), interval(row.speed_up)});
+                           cell(row.speed_up.median), interval_cell(row.speed_up)});
     }
     all += "\n";
   }
@@ -295,7 +227,7 @@ std::string tables_markdown(const Tables& tables) {
       all += markdown_row({row.key.task, row.label, std::to_string(row.queries),
                            std::to_string(row.right), std::to_string(row.wrong),
                            std::to_string(row.failed), std::to_string(row.unanswered),
-                           text(row.worst_error)});
+                           cell(row.worst_error)});
     }
     all += "\n";
   }

@@ -1,0 +1,14 @@
+// The best of ours against the best of others, for people: Markdown. Empty where there are none.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/stats/tables.h"
+
+namespace touchstone::stats {
+
+std::string broad_best_table(const std::vector<BroadBestRow>& rows);
+std::string narrow_best_table(const std::vector<NarrowBestRow>& rows);
+
+}  // namespace touchstone::stats
