@@ -1,0 +1,190 @@
+// The Markdown page of who is wrong where.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "harness/check/check_report.h"
+#include "harness/check/grouped_counts.h"
+#include "harness/run/machine.h"
+#include "harness/stats/markdown.h"
+
+namespace touchstone {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string count(std::int64_t n) { return std::to_string(n); }
+
+// The first column is to the left, the others to the right, or all to the left where they are
+// texts.
+std::string markdown(const Rows& rows, bool are_texts = false) {
+  std::string text = stats::markdown_header(rows.front(), are_texts ? rows.front().size() : 1);
+  for (std::size_t i = 1; i < rows.size(); ++i) text += stats::markdown_row(rows[i]);
+  return text;
+}
+
+std::string introduction(const CheckReport& report, const std::string& command) {
+  const CheckRequest& request = *report.request;
+  std::string text = "# Who is wrong where\n\n";
+  text += fmt::format(
+      "Made by `{}` (seed {}, {} cases of each of {} regimes in a round). Every answer is graded "
+      "against exact arithmetic. Lengths are parts of the pair's size, or of its distance where "
+      "that is greater; each number is the greatest that was seen.\n\n",
+      command, request.seed, request.cases, request.regimes.size());
+  for (const auto& [name, value] : machine_facts()) {
+    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "embree", "cgal",
+                               "boost_geometry", "commit"}) {
+      if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
+    }
+  }
+  return text;
+}
+
+std::string sides_of_contact(const GroupedCounts& grouped) {
+  std::string text =
+      "\n## Side of contact\n\nA silent error is an answer on the wrong side of contact whose "
+      "status does not tell. *Given* is against the exact answer for the bits that the "
+      "algorithm was given, after conversion to float or to a quaternion; *end to end* is "
+      "against the pair as the case has it. *Margin* is the greatest exact distance or depth "
+      "of a pair that was called wrongly; an honest "
+      "failure is one that the algorithm told of, up to that distance or depth. Pairs that touch "
+      "exactly are not scored: the column "
+      "says how many of them were called contact.\n\n";
+  Rows rows = {{"algorithm", "answers", "silent, given", "margin", "silent, end to end", "margin",
+                "honest failures", "up to", "status says nothing", "crashed", "hung",
+                "touching: contact"}};
+  for (const auto& [label, totals] : grouped.totals()) {
+    const AnswerCount& a = totals.answers;
+    rows.push_back({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
+                    count(a.silent_end), digits(a.margin_end), count(a.honest),
+                    digits(a.honest_margin), count(a.not_reported), count(a.crashed),
+                    count(a.timed_out), fmt::format("{} of {}", a.touching_contact, a.touching)});
+  }
+  return text + markdown(rows);
+}
+
+std::string lengths(const CheckReport& report, const GroupedCounts& grouped) {
+  std::string text =
+      "\n## Distances and depths\n\n*Stuck*: by how far the reported translation does not "
+      "separate the bodies; *excess*: by how far the reported direction needs more than the "
+      "least translation. *Off body*: how far a witness point is from its body. *Bounds*: how "
+      "many certified bounds miss the exact value. A depth marked `<=` is labelled as an upper "
+      "bound.\n\n";
+  Rows rows = {{"algorithm", "distance", "end to end", "too deep", "too shallow", "end to end",
+                "stuck", "excess", "off body", "bounds", "NaN"}};
+  for (const auto& [label, totals] : grouped.totals()) {
+    const AnswerCount& a = totals.answers;
+    const bool is_bound = report.request->narrow[label.entry]->depth_is_bound;
+    rows.push_back({grouped.name(label), digits(a.distance), digits(a.distance_end),
+                    (is_bound ? "<= " : "") + digits(a.too_deep), digits(a.too_shallow),
+                    digits(a.depth_end), digits(a.does_not_separate), digits(a.excess),
+                    digits(a.witness), count(a.bounds), count(a.not_a_number)});
+  }
+  return text + markdown(rows);
+}
+
+std::string silent_errors_by_group(const GroupedCounts& grouped) {
+  std::string text =
+      "\n## Silent errors by group of regimes\n\nHow many answers were silent errors against "
+      "what was given, and the margin.\n\n";
+  Rows rows = {{"algorithm"}};
+  for (const std::string& group : grouped.groups()) rows.front().push_back(group);
+  for (const auto& [label, totals] : grouped.totals()) {
+    std::vector<std::string>& row = rows.emplace_back();
+    row.push_back(grouped.name(label));
+    for (const std::string& group : grouped.groups()) {
+      const AnswerCount* a = grouped.of(label, group);
+      row.push_back(a == nullptr     ? ""
+                    : a->silent == 0 ? "0"
+                                     : fmt::format("{} ({})", a->silent, digits(a->margin)));
+    }
+  }
+  return text + markdown(rows);
+}
+
+std::string depths_by_group(const GroupedCounts& grouped) {
+  std::string text =
+      "\n## Worst depth by group of regimes\n\nThe greater of too deep and too shallow, "
+      "against what was given; distances where the algorithm has no depth.\n\n";
+  Rows rows = {{"algorithm"}};
+  for (const std::string& group : grouped.groups()) rows.front().push_back(group);
+  for (const auto& [label, totals] : grouped.totals()) {
+    std::vector<std::string>& row = rows.emplace_back();
+    row.push_back(grouped.name(label));
+    for (const std::string& group : grouped.groups()) {
+      const AnswerCount* a = grouped.of(label, group);
+      double worst = Grade::none;
+      if (a != nullptr) worst = std::fmax(a->too_deep, a->too_shallow);
+      if (a != nullptr && std::isnan(worst)) worst = a->distance;
+      row.push_back(a == nullptr ? "" : digits(worst));
+    }
+  }
+  return text + markdown(rows);
+}
+
+std::string other_forms(const GroupedCounts& grouped) {
+  std::string text =
+      "\n## The same pair in another form\n\nSwapped, moved and scaled exactly, or with its "
+      "vertices in another order, a pair has the same answer.\n\n";
+  Rows rows = {{"algorithm", "compared", "other side of contact", "margin", "worst difference"}};
+  for (const auto& [label, totals] : grouped.totals()) {
+    const FlipCount& f = totals.flips;
+    rows.push_back({grouped.name(label), count(f.compared), count(f.flips), digits(f.worst_flip),
+                    digits(f.worst_difference)});
+  }
+  return text + markdown(rows);
+}
+
+std::string broad_phases(const CheckReport& report) {
+  if (report.broad.empty()) return "";
+  std::string text =
+      "\n## Broad phases\n\nAgainst every pair of closed boxes, on scenes that touch, "
+      "coincide, have no volume, or are huge, tiny or far away.\n\n";
+  Rows rows = {{"algorithm", "scenes", "wrong", "first fault"}};
+  for (const BroadPhaseEntry* entry : report.request->broad) {
+    int scenes = 0, wrong = 0;
+    std::string first;
+    for (const BroadCheck& check : report.broad) {
+      if (check.entry != entry) continue;
+      ++scenes;
+      if (check.good()) continue;
+      if (wrong++ == 0) {
+        const std::string faults = check.faults();
+        first = fmt::format("{}: {}", check.scene->name, faults.substr(0, faults.find(';')));
+      }
+    }
+    rows.push_back({entry->info.name, count(scenes), count(wrong), first});
+  }
+  return text + markdown(rows, true);
+}
+
+std::string one_failure_of_each(const CheckReport& report, const GroupedCounts& grouped) {
+  std::string text =
+      "\n## One failure of each\n\nThe worst of each algorithm. The case files are what "
+      "`check` leaves in its folder; `touchstone query` shows each again.\n\n";
+  std::map<Label, const FailureCase*> worst;
+  for (const FailureCase& failure : report.failures) {
+    const FailureCase*& slot = worst[{failure.answer.entry, failure.answer.scalar}];
+    if (slot == nullptr || badness(failure.answer) > badness(slot->answer)) slot = &failure;
+  }
+  Rows rows = {{"algorithm", "task", "case", "what"}};
+  for (const auto& [label, failure] : worst) {
+    rows.push_back({grouped.name(label), std::string(to_string(failure->answer.task)), failure->id,
+                    failure->what});
+  }
+  if (worst.empty()) return text + "None.\n";
+  return text + markdown(rows, true);
+}
+
+}  // namespace
+
+std::string page_text(const CheckReport& report, const std::string& command) {
+  const GroupedCounts grouped(report);
+  return introduction(report, command) + sides_of_contact(grouped) + lengths(report, grouped) +
+         silent_errors_by_group(grouped) + depths_by_group(grouped) + other_forms(grouped) +
+         broad_phases(report) + "\n## What was checked beside them\n\n" + checked_text(report) +
+         one_failure_of_each(report, grouped);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,50 @@
+// What a check found, by algorithm and scalar, and by group of regimes: what its tables share.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/check/check_report.h"
+
+namespace touchstone {
+
+// An algorithm with its scalar.
+struct Label {
+  std::uint32_t entry;
+  Precision scalar;
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a pointer in the comparison with 0
+  friend auto operator<=>(const Label&, const Label&) = default;
+};
+
+struct Totals {
+  AnswerCount answers;
+  FlipCount flips;
+};
+
+class GroupedCounts {
+ public:
+  explicit GroupedCounts(const CheckReport& report);
+
+  const std::map<Label, Totals>& totals() const { return totals_; }
+  const std::vector<std::string>& groups() const { return groups_; }
+  // Null where there is none.
+  const AnswerCount* of(const Label& label, const std::string& group) const;
+  std::string name(const Label& label) const;  // "gjk double"
+  bool is_ours(const Label& label) const;
+
+ private:
+  const CheckRequest& request_;
+  std::map<Label, Totals> totals_;
+  std::map<std::pair<Label, std::string>, AnswerCount> by_group_;
+  std::vector<std::string> groups_;
+};
+
+// The first digit and the exponent of an error; "-" where none was seen.
+std::string digits(double x);
+
+// What was checked beside the algorithms: cases, certificates, boxes, broad phases.
+std::string checked_text(const CheckReport& report);
+
+}  // namespace touchstone
