@@ -168,9 +168,10 @@ def save(figure, folder, name):
     return paths
 
 
-def run(figures, description):
+def run(figures, description, of_file=None):
     """The command line of a script. `figures`: name -> function of Tables that gives a figure, or
-    None where the tables hold nothing to draw."""
+    None where the tables hold nothing to draw. `of_file`: name of a file -> function of a folder that
+    holds it, and of the folder for its figures, which draws them instead."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("results", help="results folder")
     parser.add_argument("--out", help="folder for the figures (default: RESULTS/figures)")
@@ -185,6 +186,10 @@ def run(figures, description):
         if not os.path.exists(folder):
             raise BadRequest(f"{folder}: no such folder; expected results of `touchstone run`")
         os.makedirs(out, exist_ok=True)
+        for name, draw in (of_file or {}).items():
+            if os.path.exists(os.path.join(folder, name)):
+                draw(folder, out)
+                return 0
         if options.program:
             request = [options.program, "tables", folder, "--out", out]
             done = subprocess.run(request + (["--noisy"] if options.noisy else []),

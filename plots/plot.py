@@ -9,6 +9,7 @@ import narrow
 import phases
 import speed_up
 import time_against_count
+import trade
 import winners
 
 FIGURES = {
@@ -22,4 +23,4 @@ FIGURES = {
 }
 
 if __name__ == "__main__":
-    sys.exit(common.run(FIGURES, __doc__))
+    sys.exit(common.run(FIGURES, __doc__, {"points.csv": trade.run}))

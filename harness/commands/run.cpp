@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/trade.h"
 #include "harness/error.h"
 #include "harness/measure/noise.h"
 #include "harness/run/build_info.h"
@@ -95,7 +96,19 @@ RunStart start_of(const Options& options) {
   return options.overwrite ? RunStart::overwrite : RunStart::fresh;
 }
 
+// A file of a trade instead of a campaign: no option but --out is for it.
+int run_trade_file(const Options& options) {
+  if (options.resume || options.overwrite || options.strict || options.noisy || options.dry_run) {
+    throw InputError(options.campaign +
+                     " has a table [trade]; expected no option but --out with such a file");
+  }
+  TradeRequest request = read_trade(options.campaign);
+  const std::filesystem::path folder = trade_folder(options.out, request.name);
+  return run_trade(std::move(request), folder, true);
+}
+
 int run(const Options& options) {
+  if (!options.campaign.empty() && is_trade_file(options.campaign)) return run_trade_file(options);
   const Campaign campaign = campaign_of(options);
   const std::filesystem::path folder = options.out.empty() ? std::filesystem::path(source_folder) /
                                                                  "results" / "local" / campaign.name

@@ -1,6 +1,7 @@
 // What one contestant does when it is asked for a sample. Only its own calls are inside the clock.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -41,6 +42,9 @@ struct SampleReply {
   std::int64_t voluntary_switches = -1, involuntary_switches = -1;
   double waited = Outcome::none;  // seconds for which its threads had no processor
   HardwareCounts hardware;
+  // Of a whole pipeline, seconds by its stages (harness/trade); NaN elsewhere.
+  std::array<double, 5> stages = {Outcome::none, Outcome::none, Outcome::none, Outcome::none,
+                                  Outcome::none};
 };
 
 class Sampler {

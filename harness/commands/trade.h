@@ -1,0 +1,27 @@
+// What the commands about trades share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "harness/represent/representation.h"
+#include "harness/trade/trade_request.h"
+
+namespace touchstone {
+
+// The library's own representations.
+inline Representing representing() { return {represent, representation_error}; }
+
+// Where results go: what was asked for, or results/local/trade-NAME.
+std::filesystem::path trade_folder(const std::string& out, const std::string& name);
+
+// Measures, writes, prints and draws. The exit status.
+int run_trade(TradeRequest request, const std::filesystem::path& folder, bool with_figure);
+
+// Options for the question, the scene and the time.
+void add_trade_axes(CLI::App& command, TradeRequest& request);
+// The measure of this name; empty: the task's own.
+void take_measure(const std::string& name, TradeRequest& request);
+
+}  // namespace touchstone

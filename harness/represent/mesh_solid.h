@@ -1,0 +1,47 @@
+// The solid that a mesh stands for.
+#pragma once
+
+#include <vector>
+
+#include "harness/represent/polyhedron.h"
+#include "harness/scene/mesh.h"
+
+namespace touchstone {
+
+// Vertices at one place are one. Triangles that hang together by edges are a part; where every edge
+// is used as often in one direction as in the other the part is closed, and its solid is where its
+// winding number is not zero. A part that is not closed encloses nothing of its own, so that its
+// convex hull is its solid. The solid of the mesh is the union.
+struct MeshPiece {
+  Mesh mesh;
+  bool closed = false;
+};
+std::vector<MeshPiece> pieces_of(const Mesh& mesh);
+
+std::vector<Triangle> triangles_of(const Mesh& mesh);
+
+// How often the surface winds about x (Van Oosterom and Strackee, "The solid angle of a plane
+// triangle", IEEE Trans. Biomed. Eng. 30, 1983); near to a whole number unless x is on it.
+double winding_number(const std::vector<Triangle>& surface, const Vec3d& x);
+
+// The point of the triangle that is nearest to x, to rounding.
+Vec3d nearest_point(const Triangle& triangle, const Vec3d& x);
+
+// A surface that is asked for distances often.
+class Surface {
+ public:
+  explicit Surface(std::vector<Triangle> triangles);
+  // Metres, to rounding.
+  double distance(const Vec3d& x) const;
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+ private:
+  std::vector<Triangle> triangles_;
+  std::vector<Vec3d> centres_;
+  std::vector<double> radii_;
+};
+
+// Corners, and `count` points spread evenly over the area, the same each time.
+std::vector<Vec3d> spread_points(const std::vector<Triangle>& surface, std::size_t count);
+
+}  // namespace touchstone

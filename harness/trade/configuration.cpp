@@ -1,0 +1,91 @@
+#include "harness/trade/configuration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "harness/error.h"
+#include "harness/run/selection.h"
+
+namespace touchstone {
+
+std::string_view body_kind_name(std::size_t kind) {
+  return kind == mesh_body ? "mesh" : to_string(all_shape_kinds[kind]);
+}
+
+std::string Representations::name() const {
+  std::string listed;
+  std::optional<Representation> common;
+  bool same = true;
+  for (std::size_t kind = 0; kind < body_kinds; ++kind) {
+    if (!of[kind]) continue;
+    if (common && *common != *of[kind]) same = false;
+    common = of[kind];
+    listed += fmt::format("{}{}={}", listed.empty() ? "" : ",", body_kind_name(kind),
+                          to_string(*of[kind]));
+  }
+  return same ? to_string(common.value_or(Representation{})) : listed;
+}
+
+std::string BoxChoice::name() const {
+  switch (kind) {
+    case Kind::tight: return "tight";
+    case Kind::loose: return "loose";
+    case Kind::fat: break;
+  }
+  return fmt::format("fat-{}", margin);
+}
+
+std::optional<BoxChoice> parse_box_choice(std::string_view text) {
+  if (text == "tight") return BoxChoice{};
+  if (text == "loose") return BoxChoice{BoxChoice::Kind::loose, 0};
+  constexpr std::string_view fat = "fat-";
+  if (!text.starts_with(fat)) return {};
+  text.remove_prefix(fat.size());
+  BoxChoice choice{BoxChoice::Kind::fat, 0};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), choice.margin);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  if (!(choice.margin > 0 && choice.margin <= 10)) return {};
+  return choice;
+}
+
+std::string chain_name(const NarrowChain& chain) {
+  if (chain.empty()) return "none";
+  std::string name;
+  for (const NarrowPhaseEntry* entry : chain) name += (name.empty() ? "" : "+") + entry->info.name;
+  return name;
+}
+
+NarrowChain parse_chain(std::string_view text) {
+  if (text == "none") return {};
+  std::vector<std::string> names;
+  for (;;) {
+    const std::size_t plus = text.find('+');
+    names.emplace_back(text.substr(0, plus));
+    if (plus == std::string_view::npos) break;
+    text.remove_prefix(plus + 1);
+  }
+  for (const std::string& name : names) {
+    if (name == "all" || name == "ours" || name == "peers" || name == "oracle" || name == "none") {
+      throw InputError(fmt::format("'{}' in a chain of narrow phases; expected names", name));
+    }
+  }
+  return select(narrow_phases(), names, "narrow phase");
+}
+
+std::string Configuration::narrow_name() const {
+  if (narrow.empty()) return "none";
+  std::string name = fmt::format("{} {}", chain_name(narrow), to_string(settings.scalar));
+  if (settings.tolerance) name += fmt::format(" {}", *settings.tolerance);
+  if (settings.max_iterations) name += fmt::format(" cap {}", *settings.max_iterations);
+  return name;
+}
+
+std::string Configuration::name() const {
+  std::string name = representations.name();
+  if (broad != nullptr) name += fmt::format(" / {} / {}", boxes.name(), broad->info.name);
+  return name + " / " + narrow_name();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,76 @@
+#include "harness/trade/evaluation.h"
+
+#include <numeric>
+
+#include "harness/run/isolate.h"
+
+namespace touchstone {
+namespace {
+
+struct Found {  // what the child hands over
+  PointErrors errors;
+  PipelineCounters counters;
+  StageSeconds rough{};
+};
+
+void play(const SceneFrames& frames, const TradePoint& point, std::span<const FrameTruth> truth,
+          Task task, Found& found) {
+  Executor executor(1);
+  FramePipeline pipeline(frames, *point.stand_ins, point.configuration, task, executor);
+  pipeline.count_witnesses();
+  ErrorCount count(task);
+  double timed = 0;
+  for (const FrameTruth& frame : truth) {
+    if (frame.frame == 0) {
+      pipeline.start(0);
+    } else {
+      // As an update, which is what the scene asks for.
+      pipeline.pass(frame.frame - 1);
+      pipeline.advance();
+    }
+    count.add(frame, pipeline.answers());
+    if (frame.frame == 0 && truth.size() > 1) continue;  // the first of many
+    ++timed;
+    for (std::size_t i = 0; i < found.rough.size(); ++i) found.rough[i] += pipeline.seconds()[i];
+  }
+  for (double& seconds : found.rough) seconds /= timed;
+  found.errors = count.errors();
+  found.counters = pipeline.counters();
+}
+
+}  // namespace
+
+double Evaluation::rough_seconds() const {
+  return std::accumulate(rough.begin(), rough.end(), 0.0);
+}
+
+std::vector<Evaluation> evaluate(const SceneFrames& frames, std::span<const TradePoint> points,
+                                 std::span<const FrameTruth> truth, Task task,
+                                 const EvaluationLimits& limits) {
+  SharedArray<Found> found(points.size());
+  IsolationLimits isolation;
+  isolation.item_seconds = limits.seconds;
+  isolation.memory = limits.memory;
+  const IsolationReport report = isolate(points.size(), isolation, [&]() -> ItemWork {
+    return [&](std::size_t i) { play(frames, points[i], truth, task, found[i]); };
+  });
+  std::vector<Evaluation> evaluations(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Evaluation& evaluation = evaluations[i];
+    if (report.states[i] == ItemState::done) {
+      evaluation.errors = found[i].errors;
+      evaluation.counters = found[i].counters;
+      evaluation.rough = found[i].rough;
+    } else {
+      evaluation.status = report.states[i] == ItemState::timed_out ? "timed_out"
+                          : report.states[i] == ItemState::threw   ? "threw"
+                                                                   : "crashed";
+    }
+  }
+  for (const IsolationFailure& failure : report.failures) {
+    evaluations[failure.item].words = failure.reason();
+  }
+  return evaluations;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,122 @@
+#include "harness/trade/grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "harness/error.h"
+
+namespace touchstone {
+namespace {
+
+// Of the chain those that some pair comes to; nothing, with the reason, where a pair comes to none.
+std::optional<NarrowChain> used(const NarrowChain& chain, const StandIns& stand_ins, Task task,
+                                std::string& reason) {
+  std::set<const NarrowPhaseEntry*> taking;
+  for (const auto& [a, b] : stand_ins.kind_pairs) {
+    const auto taker = std::ranges::find_if(
+        chain, [&](const NarrowPhaseEntry* entry) { return offers(*entry, a, b, task); });
+    if (taker == chain.end()) {
+      reason = fmt::format("{} does not take {}-{} for {}", chain_name(chain), to_string(a),
+                           to_string(b), to_string(task));
+      return {};
+    }
+    taking.insert(*taker);
+  }
+  NarrowChain left;
+  for (const NarrowPhaseEntry* entry : chain) {
+    if (taking.contains(entry)) left.push_back(entry);
+  }
+  return left;
+}
+
+class Expansion {
+ public:
+  Expansion(const SceneFrames& frames, StandInLibrary& library, Task task)
+      : frames_(&frames), library_(&library), task_(task) {}
+
+  void add(const TradeGrid& grid) {
+    for (const Representations& asked : grid.representations) {
+      const Representations representations = library_->complete(asked);
+      std::shared_ptr<const StandIns> stand_ins;
+      try {
+        stand_ins = library_->get(representations);
+      } catch (const InputError& error) {
+        leave_out(fmt::format("{}: {}", representations.name(), error.what()));
+        continue;
+      }
+      Configuration configuration;
+      configuration.representations = representations;
+      for (const BoxChoice& boxes : grid.boxes) {
+        configuration.boxes = boxes;
+        for (const BroadPhaseEntry* broad : grid.broad) {
+          configuration.broad = broad;
+          if (!frames_->scene->pairs.empty()) {
+            configuration.boxes = {};
+            configuration.broad = nullptr;
+          }
+          for (const NarrowChain& chain : grid.narrow) add(configuration, stand_ins, grid, chain);
+        }
+      }
+    }
+  }
+
+  GridPoints points;
+
+ private:
+  void leave_out(const std::string& reason) { ++points.left_out[reason]; }
+
+  void add(Configuration configuration, const std::shared_ptr<const StandIns>& stand_ins,
+           const TradeGrid& grid, const NarrowChain& chain) {
+    if (chain.empty()) {
+      configuration.narrow = {};
+      configuration.settings = {};
+      if (task_ != Task::intersect) return leave_out("without a narrow phase there are no numbers");
+      if (configuration.broad == nullptr) {
+        return leave_out("the scene lists its pairs: without a narrow phase nothing is left to do");
+      }
+      return keep(configuration, stand_ins);
+    }
+    std::string reason;
+    const std::optional<NarrowChain> narrow = used(chain, *stand_ins, task_, reason);
+    if (!narrow) return leave_out(reason);
+    configuration.narrow = *narrow;
+    for (const Precision scalar : grid.scalars) {
+      const auto lacks = std::ranges::find_if_not(
+          *narrow, [&](const NarrowPhaseEntry* entry) { return offers(*entry, scalar); });
+      if (lacks != narrow->end()) {
+        leave_out(fmt::format("{} has no {}", (*lacks)->info.name, to_string(scalar)));
+        continue;
+      }
+      for (const std::optional<double> tolerance : grid.tolerances) {
+        for (const std::optional<int> cap : grid.max_iterations) {
+          configuration.settings = {
+              .scalar = scalar, .tolerance = tolerance, .max_iterations = cap};
+          keep(configuration, stand_ins);
+        }
+      }
+    }
+  }
+
+  void keep(const Configuration& configuration, const std::shared_ptr<const StandIns>& stand_ins) {
+    if (!names_.insert(configuration.name()).second) return leave_out("the same as another");
+    points.points.push_back({configuration, stand_ins});
+  }
+
+  const SceneFrames* frames_;
+  StandInLibrary* library_;
+  Task task_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+GridPoints expand(std::span<const TradeGrid> grids, const SceneFrames& frames,
+                  StandInLibrary& library, Task task) {
+  Expansion expansion(frames, library, task);
+  for (const TradeGrid& grid : grids) expansion.add(grid);
+  return std::move(expansion.points);
+}
+
+}  // namespace touchstone

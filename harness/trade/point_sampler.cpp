@@ -1,0 +1,51 @@
+#include "harness/trade/point_sampler.h"
+
+#include <algorithm>
+
+#include "harness/run/pair_hash.h"
+
+namespace touchstone {
+
+PointSampler::PointSampler(const SceneFrames& frames, const TradePoint& point, Task task,
+                           int threads)
+    : frames_(&frames),
+      point_(point),
+      executor_(threads, Pinning::one_a_thread),
+      pipeline_(frames, *point_.stand_ins, point_.configuration, task, executor_) {}
+
+void PointSampler::play_up_to(std::size_t frame) {
+  if (!started_ || pipeline_.frame() > frame) pipeline_.start(0);
+  started_ = true;
+  while (pipeline_.frame() < frame) pipeline_.advance();
+}
+
+SampleReply PointSampler::sample(const SampleRequest& request) {
+  SampleReply reply;
+  reply.stages.fill(0);
+  reply.prepare = 0;
+  reply.contacts = 0;
+  std::size_t frame = request.frame;
+  for (std::uint32_t i = 0; i < request.frames; ++i) {
+    if (frame == frames_->frames.size()) frame = frames_->is_static() ? 0 : 1;
+    if (frames_->is_static()) {
+      pipeline_.start(0);
+    } else {
+      play_up_to(frame - 1);
+      pipeline_.advance();
+    }
+    ++frame;
+    for (std::size_t k = 0; k < reply.stages.size(); ++k) {
+      const double seconds = pipeline_.seconds()[k];
+      reply.stages[k] += seconds;
+      (k <= static_cast<std::size_t>(Stage::update) ? reply.prepare : reply.query) += seconds;
+    }
+    reply.pairs += static_cast<std::int64_t>(pipeline_.pairs().size());
+    reply.pair_hash += pair_hash(pipeline_.pairs());
+    reply.contacts += std::ranges::count_if(pipeline_.answers(), [](const PairAnswer& answer) {
+      return answer.answer == Answer::touching || answer.answer == Answer::overlapping;
+    });
+  }
+  return reply;
+}
+
+}  // namespace touchstone

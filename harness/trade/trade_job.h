@@ -1,0 +1,50 @@
+// Measures a trade: the truth, the errors, the times, and who is on the front.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/trade/point_times.h"
+#include "harness/trade/trade_request.h"
+
+namespace touchstone {
+
+struct TradeOutcome {
+  TradePoint point;
+  Evaluation evaluation;
+  RepresentationSpread representation;
+  double preparation = 0;  // seconds that its representations took to make, before any frame
+  TimedPoint timed;
+  double error = 0;  // of the request's measure; NaN where it failed
+  bool on_front = false;
+
+  bool ok() const { return evaluation.status == "ok" && timed.status == "ok"; }
+};
+
+struct TradeResult {
+  std::vector<TradeOutcome> points;  // the baseline first
+  std::vector<std::size_t> front;    // by rising time
+  std::map<std::string, int> left_out;
+  std::size_t bodies = 0, frames = 0, truth_frames = 0, near_pairs = 0;
+  double twin = Outcome::none;
+};
+
+// A scene that is ready to be measured on.
+struct TradeScene {
+  // Throws InputError where the scene cannot be had.
+  TradeScene(const TradeRequest& request, const Representing& representing);
+
+  Scene scene;
+  SceneFrames frames;
+  StandInLibrary library;
+};
+
+// Fills in the grids where the request has none. `said` is told of each step.
+TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
+                          const std::filesystem::path& folder,
+                          const std::function<void(const std::string&)>& said);
+
+}  // namespace touchstone

@@ -1,0 +1,243 @@
+#include "harness/trade/trade_request.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+
+#include "harness/run/selection.h"
+#include "harness/scene/toml_table.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
+constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
+
+// The elements of an array; one value stands for an array of it.
+std::vector<const toml::node*> elements(TomlTable& table, std::string_view key) {
+  const toml::node* node = table.node(key);
+  std::vector<const toml::node*> list;
+  if (node == nullptr) return list;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) return {node};
+  for (const toml::node& element : *array) list.push_back(&element);
+  if (list.empty()) table.fail(key, "found an empty array; expected at least one value");
+  return list;
+}
+
+// Each element as `make` gives it; a fault that it throws is told with its place.
+template <class Value, class Make>
+void read_axis(TomlTable& table, std::string_view key, std::vector<Value>& values,
+               const Make& make) {
+  const auto nodes = elements(table, key);
+  if (nodes.empty()) return;
+  values.clear();
+  for (const toml::node* node : nodes) {
+    try {
+      values.push_back(make(*node));
+    } catch (const InputError& error) {
+      table.fail(key, error.what());
+    }
+  }
+}
+
+std::string text_of(const toml::node& node) {
+  const auto* text = node.as_string();
+  if (text == nullptr) throw InputError("expected texts");
+  return text->get();
+}
+
+Representations representations_of(const toml::node& node) {
+  Representations representations;
+  if (const toml::table* kinds = node.as_table()) {
+    for (const auto& [name, value] : *kinds) {
+      std::size_t kind = 0;
+      while (kind < body_kinds && body_kind_name(kind) != name.str()) ++kind;
+      if (kind == body_kinds || kind == static_cast<std::size_t>(ShapeKind::halfspace)) {
+        throw InputError(fmt::format(
+            "found \"{}\"; expected a kind of bodies: sphere, capsule, box, cylinder, cone, "
+            "ellipsoid, hull, mesh",
+            name.str()));
+      }
+      representations.of[kind] = parse_representation(text_of(value));
+    }
+    return representations;
+  }
+  representations.of.fill(parse_representation(text_of(node)));
+  return representations;
+}
+
+BoxChoice boxes_of(const toml::node& node) {
+  const std::string text = text_of(node);
+  const std::optional<BoxChoice> choice = parse_box_choice(text);
+  if (!choice) {
+    throw InputError(fmt::format(
+        "found \"{}\"; expected tight, loose, or fat-M with a margin M above 0 and up to 10",
+        text));
+  }
+  return *choice;
+}
+
+NarrowChain chain_of(const toml::node& node) { return parse_chain(text_of(node)); }
+
+std::optional<double> tolerance_of(const toml::node& node) {
+  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value || !(*value > 0 && *value < 1)) throw InputError("expected numbers between 0 and 1");
+  return value;
+}
+
+std::optional<int> cap_of(const toml::node& node) {
+  const auto* value = node.as_integer();
+  if (value == nullptr || value->get() < 1 || value->get() > 1'000'000) {
+    throw InputError("expected whole numbers from 1 to 1000000");
+  }
+  return static_cast<int>(value->get());
+}
+
+TradeGrid read_grid(TomlTable& table) {
+  TradeGrid grid;
+  read_axis(table, "representations", grid.representations, representations_of);
+  read_axis(table, "boxes", grid.boxes, boxes_of);
+  std::vector<std::string> names = {"sweep-and-prune"};
+  read_axis(table, "broad", names, text_of);
+  try {
+    grid.broad = select(broad_phases(), names, "broad phase");
+  } catch (const InputError& error) {
+    table.fail("broad", error.what());
+  }
+  if (grid.broad.empty()) table.fail("broad", "found none; expected at least one");
+  grid.narrow = {parse_chain("gjk")};
+  read_axis(table, "narrow", grid.narrow, chain_of);
+  read_axis(table, "scalars", grid.scalars, [&](const toml::node& node) {
+    return static_cast<Precision>(table.choice_of(node, "scalars", scalar_names));
+  });
+  read_axis(table, "tolerances", grid.tolerances, tolerance_of);
+  read_axis(table, "max_iterations", grid.max_iterations, cap_of);
+  table.finish();
+  return grid;
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string line = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') line += '\\';
+    line += c;
+  }
+  return line + '"';
+}
+
+std::string describe(const Representations& representations) {
+  std::string kinds;
+  bool all = true;
+  for (std::size_t kind = 0; kind < body_kinds; ++kind) {
+    const auto& of = representations.of[kind];
+    all = all && of && *of == *representations.of[0];
+    if (!of || kind == static_cast<std::size_t>(ShapeKind::halfspace)) continue;
+    kinds += fmt::format("{}{} = {}", kinds.empty() ? "" : ", ", body_kind_name(kind),
+                         in_quotes(to_string(*of)));
+  }
+  return all ? in_quotes(to_string(*representations.of[0])) : "{" + kinds + "}";
+}
+
+template <class Values, class Text>
+std::string line_of(std::string_view key, const Values& values, const Text& text) {
+  std::vector<std::string> texts;
+  for (const auto& value : values) texts.push_back(text(value));
+  return fmt::format("{} = [{}]\n", key, fmt::join(texts, ", "));
+}
+
+std::string describe(const TradeGrid& grid) {
+  std::string text = "\n[[trade.grid]]\n";
+  text += line_of("representations", grid.representations,
+                  [](const Representations& r) { return describe(r); });
+  text += line_of("boxes", grid.boxes, [](const BoxChoice& b) { return in_quotes(b.name()); });
+  // A scene that lists its pairs has no broad phase.
+  if (!grid.broad.empty() && grid.broad.front() != nullptr) {
+    text += line_of("broad", grid.broad,
+                    [](const BroadPhaseEntry* b) { return in_quotes(b->info.name); });
+  }
+  text +=
+      line_of("narrow", grid.narrow, [](const NarrowChain& c) { return in_quotes(chain_name(c)); });
+  text += line_of("scalars", grid.scalars,
+                  [](Precision scalar) { return in_quotes(to_string(scalar)); });
+  if (grid.tolerances.front()) {
+    text += line_of("tolerances", grid.tolerances, [](std::optional<double> tolerance) {
+      const std::string number = fmt::format("{}", *tolerance);
+      // A float of TOML has a point or an exponent.
+      return number.find_first_of(".e") == std::string::npos ? number + ".0" : number;
+    });
+  }
+  if (grid.max_iterations.front()) {
+    text += line_of("max_iterations", grid.max_iterations,
+                    [](std::optional<int> cap) { return std::to_string(*cap); });
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_trade_file(const std::filesystem::path& file) { return parse_toml(file).contains("trade"); }
+
+TradeRequest read_trade(const std::filesystem::path& file) {
+  const toml::table root = parse_toml(file);
+  TomlTable top(root, file.string(), "");
+  TradeRequest request;
+  request.name = top.text("name", file.stem().string());
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  request.seed = static_cast<std::uint64_t>(top.integer("seed", 0, most, 1));
+  TomlTable table = top.inside("trade", "trade");
+  request.scene = (file.parent_path() / table.text("scene")).lexically_normal();
+  request.overrides.count = table.integer("count", 1, 100'000'000, -1);
+  request.overrides.seed = table.integer("seed", 0, most, -1);
+  request.overrides.frames = static_cast<int>(table.integer("frames", 1, 1'000'000, -1));
+  request.task = static_cast<Task>(table.choice("task", task_names, 0));
+  request.threads = static_cast<int>(table.integer("threads", 1, 1024, 2));
+  request.seconds = table.number("seconds", positive, 150.0);
+  request.measure = static_cast<ErrorMeasure>(table.choice(
+      "error", error_measure_names, static_cast<std::size_t>(default_measure(request.task))));
+  for (TomlTable& grid : table.tables("grid")) request.grids.push_back(read_grid(grid));
+  table.finish();
+  top.finish();
+  return request;
+}
+
+std::string trade_toml(const TradeRequest& request, const std::filesystem::path& folder,
+                       const std::string& comment) {
+  std::string text;
+  std::size_t at = 0;
+  while (at < comment.size()) {
+    const std::size_t end = std::min(comment.find('\n', at), comment.size());
+    text += "# " + comment.substr(at, end - at) + "\n";
+    at = end + 1;
+  }
+  const std::filesystem::path scene =
+      std::filesystem::absolute(request.scene)
+          .lexically_normal()
+          .lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+  text += fmt::format("name = {}\nseed = {}\n\n[trade]\nscene = {}\n", in_quotes(request.name),
+                      request.seed, in_quotes(scene.string()));
+  if (request.overrides.count != -1) text += fmt::format("count = {}\n", request.overrides.count);
+  if (request.overrides.seed != -1) text += fmt::format("seed = {}\n", request.overrides.seed);
+  if (request.overrides.frames != -1)
+    text += fmt::format("frames = {}\n", request.overrides.frames);
+  text += fmt::format("task = {}\nthreads = {}\nerror = {}\nseconds = {}\n",
+                      in_quotes(to_string(request.task)), request.threads,
+                      in_quotes(to_string(request.measure)), request.seconds);
+  for (const TradeGrid& grid : request.grids) text += describe(grid);
+  return text;
+}
+
+TradeGrid grid_of(const Configuration& configuration) {
+  TradeGrid grid;
+  grid.representations = {configuration.representations};
+  grid.boxes = {configuration.boxes};
+  grid.broad = {configuration.broad};
+  grid.narrow = {configuration.narrow};
+  grid.scalars = {configuration.settings.scalar};
+  grid.tolerances = {configuration.settings.tolerance};
+  grid.max_iterations = {configuration.settings.max_iterations};
+  return grid;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,209 @@
+#include "harness/trade/frame_pipeline.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "harness/trade/evaluation.h"
+#include "tests/harness/trade/trade_scenes.h"
+
+namespace touchstone {
+namespace {
+
+const std::string mixed = R"(
+generator = "uniform"
+count = 150
+overlaps = 6
+shapes = ["box", "sphere", "capsule", {type = "hull", points = 12}]
+)";
+const std::string boxes = R"(
+generator = "uniform"
+count = 120
+overlaps = 6
+shapes = ["box"]
+)";
+const std::string spheres = R"(
+generator = "uniform"
+count = 150
+overlaps = 6
+shapes = ["sphere"]
+)";
+const std::string still = R"(
+generator = "uniform"
+count = 100
+overlaps = 6
+moving = 0
+)";
+
+// A scene with all that a test needs of it.
+struct World {
+  explicit World(const std::string& text, Task asked = Task::intersect)
+      : task(asked),
+        scene(scene_of(text)),
+        frames(scene, 8),
+        library(frames, simple_representing()) {}
+
+  std::vector<FrameTruth> truth() const {
+    return find_truth(frames, sampling_order(frames.frames.size()), 100, 1);
+  }
+  Evaluation errors_of(const TradeGrid& grid, const std::vector<FrameTruth>& known) {
+    const TradePoint point = point_of(grid, frames, library, task);
+    return evaluate(frames, {&point, 1}, known, task).front();
+  }
+
+  Task task;
+  Scene scene;
+  SceneFrames frames;
+  StandInLibrary library;
+};
+
+TEST(TradePipeline, WhatHoldsTheBodyMissesNoContact) {
+  World world(mixed);
+  const std::vector<FrameTruth> truth = world.truth();
+  std::vector<TradeGrid> grids;
+  for (const char* boxes_name : {"tight", "loose", "fat-0.1"}) {
+    for (const char* narrow : {"none", "certified"}) {
+      for (const Form form : {Form::as_given, Form::sphere}) {
+        TradeGrid grid = grid_with(narrow, "dynamic-bvh");
+        grid.boxes = {*parse_box_choice(boxes_name)};
+        grid.representations = {all_as(form)};
+        grids.push_back(grid);
+      }
+    }
+  }
+  std::int64_t false_positives = 0;
+  for (const TradeGrid& grid : grids) {
+    const Evaluation found = world.errors_of(grid, truth);
+    ASSERT_EQ(found.status, "ok") << found.words;
+    EXPECT_EQ(found.errors.false_negatives, 0);
+    EXPECT_EQ(found.errors.failed, 0);
+    EXPECT_GT(found.errors.contacts, 100);
+    EXPECT_GT(found.errors.near - found.errors.contacts, 100);
+    false_positives += found.errors.false_positives;
+    const bool is_exact =
+        grid.narrow[0].size() == 1 && grid.representations[0] == all_as(Form::as_given);
+    if (is_exact) EXPECT_EQ(found.errors.wrong_share(), 0);
+  }
+  EXPECT_GT(false_positives, 100);
+}
+
+TEST(TradePipeline, WithoutANarrowPhaseEveryPairOfBoxesIsAContact) {
+  World world(mixed);
+  const std::vector<FrameTruth> truth = world.truth();
+  const TradePoint point = point_of(grid_with("none"), world.frames, world.library);
+  const Evaluation found = evaluate(world.frames, {&point, 1}, truth, Task::intersect).front();
+  EXPECT_EQ(found.errors.false_positives + found.errors.far + found.errors.contacts,
+            found.counters.pairs);
+  EXPECT_GT(found.errors.false_positives, 50);
+  EXPECT_EQ(found.counters.queries, 0);
+  EXPECT_EQ(found.counters.shapes_bound, 0);
+}
+
+TEST(TradePipeline, NothingIsDoneThatTheSceneDoesNotNeed) {
+  World balls(spheres);
+  const auto truth = balls.truth();
+  const TradePoint point = point_of(grid_with("closed-form+gjk"), balls.frames, balls.library);
+  EXPECT_EQ(chain_name(point.configuration.narrow), "closed-form");
+  const Evaluation found = evaluate(balls.frames, {&point, 1}, truth, Task::intersect).front();
+  EXPECT_EQ(found.counters.hulls_built, 0);
+  EXPECT_EQ(found.counters.shapes_bound, static_cast<std::int64_t>(point.stand_ins->shapes.size()));
+  EXPECT_GT(found.counters.updates, 0);
+  EXPECT_GT(found.counters.queries, 100);
+  EXPECT_EQ(found.counters.witnesses, 0);
+
+  World asked(spheres, Task::distance);
+  EXPECT_GT(asked.errors_of(grid_with("closed-form+gjk"), truth).counters.witnesses, 0);
+
+  World resting(still);
+  EXPECT_TRUE(resting.frames.is_static());
+  const Evaluation at_rest = resting.errors_of(grid_with("gjk"), resting.truth());
+  EXPECT_EQ(at_rest.counters.updates, 0);
+  EXPECT_EQ(at_rest.counters.builds, 1);
+}
+
+TEST(TradePipeline, WhatRestsIsSettledOnceAndFatBoxesAreKept) {
+  World world(mixed + "moving = 0.3\nspeed = 0.2\nspin = 0.1\n");
+  TradeGrid grid = grid_with("gjk", "dynamic-bvh");
+  grid.boxes = {{BoxChoice::Kind::fat, 0.2}};
+  const TradePoint fat = point_of(grid, world.frames, world.library);
+  Executor executor(1);
+  FramePipeline pipeline(world.frames, *fat.stand_ins, fat.configuration, Task::intersect,
+                         executor);
+  pipeline.start(0);
+  const std::int64_t first = pipeline.counters().pairs;
+  EXPECT_EQ(pipeline.counters().settled, 0);
+  std::size_t moved = 0;
+  while (pipeline.frame() + 1 < world.frames.frames.size()) {
+    pipeline.advance();
+    for (const PairAnswer& answer : pipeline.answers()) {
+      const bool moves =
+          world.frames.moves[answer.pair.a] != 0 || world.frames.moves[answer.pair.b] != 0;
+      EXPECT_TRUE(moves);
+      ++moved;
+    }
+  }
+  EXPECT_GT(moved, 50u);
+  EXPECT_GT(pipeline.counters().settled, 50);
+  EXPECT_LT(pipeline.counters().pairs,
+            first * static_cast<std::int64_t>(world.frames.frames.size()));
+  // Some update found no box new, and looked for no pairs.
+  EXPECT_LT(pipeline.counters().searches, static_cast<std::int64_t>(world.frames.frames.size()));
+  EXPECT_EQ(pipeline.counters().builds, 1);
+}
+
+// A box and its eight octants are the same set of points.
+TEST(TradePipeline, PartsAnswerAsTheWhole) {
+  for (const Task task : {Task::intersect, Task::distance}) {
+    World world(boxes, task);
+    TradeGrid whole = grid_with("certified");
+    TradeGrid octants = whole;
+    octants.representations = {all_as(Form::dop26)};
+    Executor executor(1);
+    const TradePoint one = point_of(whole, world.frames, world.library, task);
+    const TradePoint eight = point_of(octants, world.frames, world.library, task);
+    EXPECT_FALSE(eight.stand_ins->single);
+    FramePipeline a(world.frames, *one.stand_ins, one.configuration, task, executor);
+    FramePipeline b(world.frames, *eight.stand_ins, eight.configuration, task, executor);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, PairAnswer> expected;
+    a.start(0);
+    b.start(0);
+    a.advance();
+    b.advance();
+    for (const PairAnswer& answer : a.answers()) {
+      expected[{answer.pair.a, answer.pair.b}] = answer;
+    }
+    std::size_t contacts = 0, apart = 0;
+    for (const PairAnswer& answer : b.answers()) {
+      const auto of_whole = expected.find({answer.pair.a, answer.pair.b});
+      if (of_whole == expected.end()) continue;  // boxes that rounding made larger
+      ASSERT_EQ(is_contact(answer.answer), is_contact(of_whole->second.answer));
+      ++(is_contact(answer.answer) ? contacts : apart);
+      if (task == Task::distance && !is_contact(answer.answer)) {
+        EXPECT_NEAR(answer.distance, of_whole->second.distance, 1e-12);
+      }
+    }
+    EXPECT_GT(contacts, 30u);
+    EXPECT_GT(apart, 30u);
+  }
+}
+
+// A crash of one configuration is a row of its own.
+TEST(TradePipeline, WhatThrowsCostsItselfAlone) {
+  World world(boxes);
+  const auto truth = world.truth();
+  NarrowPhaseEntry broken = *find_narrow_phase("gjk");
+  broken.make = [](const NarrowPhaseSettings&) -> std::unique_ptr<NarrowPhase> {
+    throw std::runtime_error("broken on purpose");
+  };
+  std::vector<TradePoint> points(3, point_of(grid_with("gjk"), world.frames, world.library));
+  points[1].configuration.narrow = {&broken};
+  const auto found = evaluate(world.frames, points, truth, Task::intersect);
+  EXPECT_EQ(found[0].status, "ok");
+  EXPECT_EQ(found[1].status, "threw");
+  EXPECT_THAT(found[1].words, testing::HasSubstr("broken on purpose"));
+  EXPECT_EQ(found[2].errors.near, found[0].errors.near);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,138 @@
+#include "harness/trade/trade_request.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/harness/input_fault.h"
+#include "tests/harness/trade/trade_scenes.h"
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string scene_text =
+    "generator = \"uniform\"\ncount = 40\nshapes = [\"box\", \"sphere\"]\noverlaps = 5\n";
+
+std::vector<std::string> names(const GridPoints& grid) {
+  std::vector<std::string> all;
+  for (const TradePoint& point : grid.points) all.push_back(point.configuration.name());
+  return all;
+}
+
+TEST(TradeRequest, WhatIsWrittenIsReadAsTheSame) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene_text);
+  const auto file = folder.write("a.toml", R"(
+name = "mine \"quoted\""
+seed = 7
+[trade]
+scene = "scene.toml"
+count = 50
+frames = 3
+task = "penetration"
+threads = 1
+error = "p99"
+seconds = 12.5
+[[trade.grid]]
+representations = ["as-given", {box = "sphere"}]
+boxes = ["tight", "fat-0.25"]
+broad = ["sweep-and-prune", "naive"]
+narrow = ["closed-form+gjk", "mpr"]
+scalars = ["double", "float"]
+[[trade.grid]]
+narrow = "gjk"
+tolerances = [1e-3, 1e-9]
+max_iterations = [1, 8]
+)");
+  EXPECT_TRUE(is_trade_file(file));
+  const TradeRequest request = read_trade(file);
+  EXPECT_EQ(request.seed, 7u);
+  EXPECT_EQ(request.task, Task::penetration);
+  EXPECT_EQ(request.measure, ErrorMeasure::p99);
+  EXPECT_EQ(request.overrides.count, 50);
+  ASSERT_EQ(request.grids.size(), 2u);
+  EXPECT_EQ(request.grids[1].max_iterations[1], 8);
+
+  std::filesystem::create_directory(folder.path() / "out");
+  const std::string text = trade_toml(request, folder.path() / "out", "A comment\nof two lines");
+  const TradeRequest again = read_trade(folder.write("out/b.toml", text));
+  EXPECT_EQ(trade_toml(again, folder.path() / "out", "A comment\nof two lines"), text);
+  EXPECT_EQ(again.name, request.name);
+  EXPECT_EQ(again.seconds, request.seconds);
+  const Scene scene = load_scene(again.scene, again.overrides);
+  const SceneFrames frames(scene, 3);
+  StandInLibrary library(frames, simple_representing());
+  const GridPoints before = expand(request.grids, frames, library, request.task);
+  const GridPoints after = expand(again.grids, frames, library, again.task);
+  EXPECT_EQ(names(before), names(after));
+  EXPECT_EQ(before.left_out, after.left_out);
+  EXPECT_GT(before.points.size(), 20u);
+
+  // One configuration, as advice is written.
+  for (const TradePoint& point : before.points) {
+    TradeRequest one = request;
+    one.grids = {grid_of(point.configuration)};
+    const TradeRequest read =
+        read_trade(folder.write("out/one.toml", trade_toml(one, folder.path() / "out", "")));
+    const GridPoints only = expand(read.grids, frames, library, read.task);
+    ASSERT_EQ(only.points.size(), 1u);
+    EXPECT_EQ(only.points[0].configuration.name(), point.configuration.name());
+  }
+}
+
+TEST(TradeRequest, BadInputIsToldWithItsPlace) {
+  const TemporaryFolder folder;
+  const auto fault = [&](const std::string& text) {
+    const auto file = folder.write("bad.toml", text);
+    return folder.without_path(input_fault([&] { read_trade(file); }));
+  };
+  const std::string head = "[trade]\nscene = \"s.toml\"\n";
+  EXPECT_THAT(fault("[trade]\n"), HasSubstr("bad.toml:1: trade: scene: missing"));
+  EXPECT_THAT(fault(head + "taks = \"distance\"\n"), HasSubstr("bad.toml:3"));
+  EXPECT_THAT(fault(head + "task = \"touch\"\n"), HasSubstr("bad.toml:3: trade: task"));
+  EXPECT_THAT(fault(head + "error = \"none\"\n"), HasSubstr("bad.toml:3: trade: error"));
+  const std::string grid = head + "[[trade.grid]]\n";
+  for (const char* line :
+       {"boxes = \"fat\"", "boxes = \"fat-0\"", "boxes = []", "broad = \"nobody\"",
+        "broad = \"none\"", "narrow = \"gjk+nobody\"", "narrow = \"all\"", "narrow = 3",
+        "scalars = \"half\"", "tolerances = 2", "max_iterations = 0", "representations = \"blob\"",
+        "representations = {cube = \"sphere\"}", "representations = {halfspace = \"sphere\"}",
+        "color = 1"}) {
+    EXPECT_THAT(fault(grid + line + "\n"), HasSubstr("bad.toml:4")) << line;
+  }
+}
+
+TEST(TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
+  const Scene scene = scene_of(scene_text);
+  const SceneFrames frames(scene, 3);
+  StandInLibrary library(frames, simple_representing());
+  TradeGrid grid = grid_with("sat");
+  grid.narrow = {parse_chain("sat"),     parse_chain("sat+gjk"),   parse_chain("gjk"),
+                 parse_chain("gjk+sat"), parse_chain("certified"), {}};
+  grid.scalars = {Precision::float64, Precision::float32};
+  grid.representations = {{}, all_as(Form::capsule)};
+  const GridPoints intersect = expand({&grid, 1}, frames, library, Task::intersect);
+  EXPECT_EQ(intersect.points.size(), 6u);  // sat+gjk and gjk in both, certified, none
+  EXPECT_EQ(intersect.left_out.at("sat does not take sphere-sphere for intersect"), 1);
+  EXPECT_EQ(intersect.left_out.at("the same as another"), 2);  // gjk+sat is gjk
+  EXPECT_EQ(intersect.left_out.at("certified has no float"), 1);
+  EXPECT_EQ(intersect.left_out.at("capsule: no such representation in this test"), 1);
+  const GridPoints distance = expand({&grid, 1}, frames, library, Task::distance);
+  EXPECT_EQ(distance.left_out.at("without a narrow phase there are no numbers"), 1);
+}
+
+TEST(TradeGrid, AKindThatTheSceneHasNotMakesNoDifference) {
+  const Scene scene = scene_of(scene_text);
+  const SceneFrames frames(scene, 3);
+  const StandInLibrary library(frames, simple_representing());
+  Representations some;
+  some.of[static_cast<std::size_t>(ShapeKind::cone)] = Representation{Form::sphere, {}, 0};
+  some.of[static_cast<std::size_t>(ShapeKind::sphere)] = Representation{Form::sphere, {}, 0};
+  EXPECT_EQ(library.complete(some), library.complete({}));
+  some.of[static_cast<std::size_t>(ShapeKind::box)] = Representation{Form::sphere, {}, 0};
+  EXPECT_EQ(library.complete(some).name(), "sphere=as-given,box=sphere");
+}
+
+}  // namespace
+}  // namespace touchstone

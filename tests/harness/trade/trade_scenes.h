@@ -1,0 +1,78 @@
+// Small scenes, and who represents their bodies in tests: balls, and boxes cut into eight.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithms/core/bounds.h"
+#include "harness/error.h"
+#include "harness/trade/grid.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+
+// sphere: a ball about the body's origin, which holds it. parts: a box as its eight octants.
+inline std::vector<Part> represent_simply(const Shape& shape, const Mesh*,
+                                          const Representation& wanted) {
+  if (wanted.form == Form::sphere && wanted.side == Side::outer) {
+    Part ball;
+    ball.shape.kind = ShapeKind::sphere;
+    ball.shape.radius = loose_reach(shape, Mat3d::Identity());
+    return {ball};
+  }
+  if (wanted.form == Form::dop26 && shape.kind == ShapeKind::box) {
+    std::vector<Part> octants;
+    for (int corner = 0; corner < 8; ++corner) {
+      Part& octant = octants.emplace_back();
+      octant.shape = shape;
+      octant.shape.half_extents /= 2;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double half = octant.shape.half_extents[axis];
+        octant.pose.translation[axis] = (corner >> axis & 1) != 0 ? half : -half;
+      }
+    }
+    return octants;
+  }
+  throw InputError("no such representation in this test");
+}
+
+inline Representing simple_representing() {
+  return {represent_simply, [](const Shape&, const Mesh*, const std::vector<Part>&) {
+            return RepresentationError{};
+          }};
+}
+
+// A scene from the text of its file.
+inline Scene scene_of(const std::string& text) {
+  const TemporaryFolder folder;
+  return load_scene(folder.write("scene.toml", text));
+}
+
+inline Representations all_as(Form form) {
+  Representations all;
+  all.of.fill(Representation{form, Side::outer, 0});
+  return all;
+}
+
+// The only configuration of a grid.
+inline TradePoint point_of(const TradeGrid& grid, const SceneFrames& frames,
+                           StandInLibrary& library, Task task = Task::intersect) {
+  const GridPoints made = expand({&grid, 1}, frames, library, task);
+  if (made.points.size() != 1) throw std::logic_error("not one configuration");
+  return made.points[0];
+}
+
+inline TradeGrid grid_with(const std::string& narrow,
+                           const std::string& broad = "sweep-and-prune") {
+  TradeGrid grid;
+  grid.broad = {find_broad_phase(broad)};
+  grid.narrow = {parse_chain(narrow)};
+  return grid;
+}
+
+inline bool is_contact(Answer answer) {
+  return answer == Answer::touching || answer == Answer::overlapping;
+}
+
+}  // namespace touchstone
