@@ -1,5 +1,6 @@
 """Every figure of a results folder: what `touchstone plot` runs."""
 
+import os
 import sys
 
 import agreement
@@ -8,6 +9,7 @@ import common
 import narrow
 import phases
 import speed_up
+import stress
 import time_against_count
 import winners
 
@@ -21,5 +23,19 @@ FIGURES = {
     "agreement": agreement.draw,
 }
 
+
+
+def sweep_in(arguments):
+    """The arguments that matter to the maps of a stress sweep, where the results are one."""
+    folders = [a for a in arguments if not a.startswith("-") and os.path.exists(os.path.join(a, "stress.csv"))]
+    if not folders:
+        return None
+    options, _ = common.parser_of(__doc__).parse_known_args(arguments)
+    return [options.results] + (["--out", options.out] if options.out else [])
+
+
 if __name__ == "__main__":
+    SWEEP = sweep_in(sys.argv[1:])
+    if SWEEP:
+        sys.exit(common.run_on(stress.read, stress.FIGURES, __doc__, SWEEP))
     sys.exit(common.run(FIGURES, __doc__))
