@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   add_tables(app, status);
   add_check(app, status);
   add_soak(app, status);
+  add_stress(app, status);
   add_list(app, status);
   add_query(app, status);
   add_pairs(app, status);

@@ -168,46 +168,23 @@ def save(figure, folder, name):
     return paths
 
 
-def run(figures, description, of_file=None):
-    """The command line of a script. `figures`: name -> function of Tables that gives a figure, or
-    None where the tables hold nothing to draw. `of_file`: name of a file -> function of a folder that
-    holds it, and of the folder for its figures, which draws them instead."""
-    parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("results", help="results folder")
-    parser.add_argument("--out", help="folder for the figures (default: RESULTS/figures)")
-    parser.add_argument("--program", help="the built touchstone, which then writes the tables first, "
-                        "beside the figures; without it those in RESULTS are taken")
-    parser.add_argument("--noisy", action="store_true",
-                        help="with --program: keep what was measured under noise")
-    options = parser.parse_args()
-    out = options.out or os.path.join(options.results, "figures")
+def save_all(figures, source, out):
+    """Draws each figure of the source; how many there were."""
+    drawn = 0
+    for name, draw in figures.items():
+        figure = draw(source)
+        if figure is None:
+            print(f"{name}: nothing to draw in these results")
+            continue
+        drawn += 1
+        print(", ".join(save(figure, out, name)))
+    return drawn
+
+
+def told(work):
+    """Does the work; what is wrong with the request is told on standard error. The exit status."""
     try:
-        folder = options.results
-        if not os.path.exists(folder):
-            raise BadRequest(f"{folder}: no such folder; expected results of `touchstone run`")
-        os.makedirs(out, exist_ok=True)
-        for name, draw in (of_file or {}).items():
-            if os.path.exists(os.path.join(folder, name)):
-                draw(folder, out)
-                return 0
-        if options.program:
-            request = [options.program, "tables", folder, "--out", out]
-            done = subprocess.run(request + (["--noisy"] if options.noisy else []),
-                                  stdout=subprocess.DEVNULL, check=False)
-            if done.returncode != 0:
-                return 2
-            folder = out
-        tables = Tables(folder)
-        drawn = 0
-        for name, draw in figures.items():
-            figure = draw(tables)
-            if figure is None:
-                print(f"{name}: nothing to draw in these results")
-                continue
-            drawn += 1
-            print(", ".join(save(figure, out, name)))
-        if drawn == 0:
-            raise BadRequest(f"{options.results}: no timed samples; nothing was drawn")
+        work()
     except BadRequest as error:
         print(f"touchstone: {error}", file=sys.stderr)
         return 2
@@ -215,3 +192,50 @@ def run(figures, description, of_file=None):
         print(f"touchstone: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
     return 0
+
+
+def parser_of(description):
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("results", help="results folder")
+    parser.add_argument("--out", help="folder for the figures (default: RESULTS/figures)")
+    return parser
+
+
+def run_on(draw, description):
+    """The command line of a script that reads a folder's rows itself: `draw` is given the folder, and
+    that for its figures."""
+    options = parser_of(description).parse_args()
+    return told(lambda: draw(options.results, options.out or os.path.join(options.results, "figures")))
+
+
+def run(figures, description, of_file):
+    """The command line of a script. `figures`: name -> function of Tables that gives a figure, or
+    None where the tables hold nothing to draw. `of_file`: name of a file -> function of a folder that
+    holds it, and of the folder for its figures, which draws them instead."""
+    parser = parser_of(description)
+    parser.add_argument("--program", help="the built touchstone, which then writes the tables first, "
+                        "beside the figures; without it those in RESULTS are taken")
+    parser.add_argument("--noisy", action="store_true",
+                        help="with --program: keep what was measured under noise")
+    options = parser.parse_args()
+    out = options.out or os.path.join(options.results, "figures")
+
+    def work():
+        folder = options.results
+        if not os.path.exists(folder):
+            raise BadRequest(f"{folder}: no such folder; expected results of `touchstone run`")
+        for name, draw in of_file.items():
+            if os.path.exists(os.path.join(folder, name)):
+                return draw(folder, out)
+        os.makedirs(out, exist_ok=True)
+        if options.program:
+            request = [options.program, "tables", folder, "--out", out]
+            done = subprocess.run(request + (["--noisy"] if options.noisy else []),
+                                  stdout=subprocess.DEVNULL, check=False)
+            if done.returncode != 0:
+                sys.exit(2)
+            folder = out
+        if save_all(figures, Tables(folder), out) == 0:
+            raise BadRequest(f"{options.results}: no timed samples; nothing was drawn")
+
+    return told(work)

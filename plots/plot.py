@@ -8,6 +8,7 @@ import common
 import narrow
 import phases
 import speed_up
+import stress
 import time_against_count
 import trade
 import winners
@@ -23,4 +24,4 @@ FIGURES = {
 }
 
 if __name__ == "__main__":
-    sys.exit(common.run(FIGURES, __doc__, {"points.csv": trade.run}))
+    sys.exit(common.run(FIGURES, __doc__, {"points.csv": trade.run, "stress.csv": stress.run}))

@@ -4,7 +4,6 @@ by name; what is dominated is grey.
     python3 plots/trade.py RESULTS [--out DIR]      RESULTS as `touchstone trade` leaves it
 """
 
-import argparse
 import csv
 import math
 import os
@@ -174,15 +173,4 @@ def run(folder, out):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", help="folder of `touchstone trade`")
-    parser.add_argument("--out", help="folder for the figure (default: RESULTS/figures)")
-    options = parser.parse_args()
-    try:
-        run(options.results, options.out or os.path.join(options.results, "figures"))
-    except common.BadRequest as problem:
-        print(f"touchstone: {problem}", file=sys.stderr)
-        sys.exit(2)
-    except OSError as problem:
-        print(f"touchstone: {problem.filename}: {problem.strerror}", file=sys.stderr)
-        sys.exit(2)
+    sys.exit(common.run_on(run, __doc__))

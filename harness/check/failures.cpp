@@ -70,7 +70,8 @@ bool is_alike(const GradedAnswer& small, const GradedAnswer& failure) {
 }
 
 Case shrunk(const CheckRequest& request, const GradedAnswer& failure, const Case& original) {
-  if (failure.given.verdict == Verdict::timed_out) return original;
+  // Without a measure of it nothing tells whether a smaller case is as bad.
+  if (failure.given.verdict == Verdict::timed_out || badness(failure) == 0) return original;
   oracle::Oracle oracle;
   const Stopwatch watch;
   const auto still_fails = [&](const Case& c) {
@@ -205,6 +206,9 @@ std::string describe(const GradedAnswer& answer, const CheckRequest& request) {
   number(grade.distance_error > 0 ? "distance too great" : "distance too small",
          grade.distance_error);
   number(grade.depth_error > 0 ? "depth too great" : "depth too small", grade.depth_error);
+  if (answer.task == Task::penetration && grade.separation_error > 0) {
+    number("the translation does not separate", grade.separation_error);
+  }
   number("certified bounds miss the exact value", grade.bounds_error);
   if (answer.witnesses.not_a_number) add("a reported number is NaN or infinite");
   return text;
@@ -222,13 +226,17 @@ std::string FailureCase::command(const CheckRequest& request) const {
 }
 
 std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally& tally) {
+  return write_failures(request, tally.failures(request));
+}
+
+std::vector<FailureCase> write_failures(const CheckRequest& request,
+                                        const std::vector<GradedAnswer>& failures) {
   const std::filesystem::path folder = request.out / "failures";
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     if (entry.path().extension() == ".jsonl") std::filesystem::remove(entry.path());
   }
   CaseFiles files(folder);
-  const std::vector<GradedAnswer> failures = tally.failures(request);
   std::vector<FailureCase> cases;
   run_jobs(
       0, failures.size(), request.workers,

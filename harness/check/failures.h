@@ -45,6 +45,9 @@ std::string query_command(const CheckRequest& request, const Query& query,
 // folder: failures/ALGORITHM-SCALAR-TASK.jsonl, one case a line. Case files of an earlier check
 // there are removed first.
 std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally& tally);
+// The same for these answers.
+std::vector<FailureCase> write_failures(const CheckRequest& request,
+                                        const std::vector<GradedAnswer>& failures);
 // The same for failures/ALGORITHM-SCALAR-TASK-variants.jsonl and failures/truth.jsonl, not shrunk.
 // After write_failures.
 std::vector<VariantFailure> write_variant_failures(const CheckRequest& request, const Tally& tally);

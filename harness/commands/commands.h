@@ -19,6 +19,7 @@ void add_query(CLI::App& app, int& status);
 void add_pairs(CLI::App& app, int& status);
 void add_check(CLI::App& app, int& status);
 void add_soak(CLI::App& app, int& status);
+void add_stress(CLI::App& app, int& status);
 void add_run(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_tables(CLI::App& app, int& status);

@@ -1,7 +1,6 @@
 #include "harness/run/solve_case.h"
 
 #include <array>
-#include <memory>
 #include <span>
 
 #include "harness/run/ordered_pair.h"
@@ -20,26 +19,34 @@ Outcome asked_for(Outcome outcome, Task task) {
 
 }  // namespace
 
-Outcome solve_case(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
-                   const Case& c, Task task) {
-  const std::array<Shape, 2> shapes = {c.shape_a, c.shape_b};
-  const std::array<Pose, 2> poses = {c.pose_a, c.pose_b};
+BoundCase::BoundCase(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
+                     const Case& c)
+    : shapes_{c.shape_a, c.shape_b},
+      poses_{c.pose_a, c.pose_b},
+      narrow_phase_(entry.make(settings)) {
+  narrow_phase_->bind(shapes_);
+}
+
+Outcome BoundCase::solve(Task task) {
   constexpr std::array<std::uint32_t, 2> bodies = {0, 1};
-  const bool swap = needs_swap(c.shape_a.kind, c.shape_b.kind);
+  const bool swap = needs_swap(shapes_[0].kind, shapes_[1].kind);
   const std::span<const std::uint32_t> a(&bodies[swap ? 1 : 0], 1);
   const std::span<const std::uint32_t> b(&bodies[swap ? 0 : 1], 1);
   const PairBatch batch = {.task = task,
-                           .kind_a = shapes[a[0]].kind,
-                           .kind_b = shapes[b[0]].kind,
+                           .kind_a = shapes_[a[0]].kind,
+                           .kind_b = shapes_[b[0]].kind,
                            .first = a,
                            .second = b,
                            .shape_of = bodies,
-                           .poses = poses};
+                           .poses = poses_};
   Outcome outcome;
-  const std::unique_ptr<NarrowPhase> narrow_phase = entry.make(settings);
-  narrow_phase->bind(shapes);
-  narrow_phase->solve(batch, {&outcome, 1});
+  narrow_phase_->solve(batch, {&outcome, 1});
   return asked_for(swap ? swapped(outcome) : outcome, task);
+}
+
+Outcome solve_case(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
+                   const Case& c, Task task) {
+  return BoundCase(entry, settings, c).solve(task);
 }
 
 }  // namespace touchstone
