@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/contact_manifold.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -13,16 +14,20 @@ namespace touchstone {
 // In the order of the list. Names are unique within each.
 std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
+std::span<const ManifoldEntry> contact_manifolds();
 
 // Null where there is none of that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
+const ManifoldEntry* find_contact_manifold(std::string_view name);
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);
 bool offers(const NarrowPhaseEntry& entry, Precision scalar);
 // Also asks for the kinds, in either order.
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
+bool offers(const ManifoldEntry& entry, Precision scalar);
+bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // in either order
 // Of a pair of these kinds, in either order.
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,
                      Precision scalar);

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   add_stress(app, status);
   add_list(app, status);
   add_query(app, status);
+  add_manifold(app, status);
   add_pairs(app, status);
   add_draw(app, status);
   add_record(app, status);

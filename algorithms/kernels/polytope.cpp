@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "algorithms/kernels/flat_outline.h"
 #include "algorithms/kernels/support.h"
 
 namespace touchstone {
@@ -56,14 +56,6 @@ struct Builder {
   }
 };
 
-std::size_t farthest_from(const std::vector<Vec>& points, const Vec& from) {
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < points.size(); ++k) {
-    if ((points[k] - from).squaredNorm() > (points[best] - from).squaredNorm()) best = k;
-  }
-  return best;
-}
-
 void build_segment(Builder& out) {
   const Vec p = out.vertices[farthest_from(out.vertices, out.vertices[0])];
   const Vec q = out.vertices[farthest_from(out.vertices, p)];
@@ -77,57 +69,14 @@ void build_segment(Builder& out) {
   out.add_box((p + q) / 2, frame, Vec(length / 2, 0, 0));
 }
 
-// The boundary of a flat set as indices, anticlockwise about `normal`: Andrew's monotone chain in
-// the coordinate plane that the normal is most nearly across.
-std::vector<std::size_t> boundary_loop(const std::vector<Vec>& points, const Vec& normal) {
-  Eigen::Index drop = 0;
-  normal.cwiseAbs().maxCoeff(&drop);
-  Eigen::Index u = (drop + 1) % 3, v = (drop + 2) % 3;
-  if (normal[drop] < 0) std::swap(u, v);
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto before = [&](std::size_t a, std::size_t b) {
-    if (points[a][u] != points[b][u]) return points[a][u] < points[b][u];
-    return points[a][v] < points[b][v];
-  };
-  std::sort(order.begin(), order.end(), before);
-  const auto turns_left = [&](std::size_t a, std::size_t b, std::size_t c) {
-    return (points[b][u] - points[a][u]) * (points[c][v] - points[a][v]) >
-           (points[b][v] - points[a][v]) * (points[c][u] - points[a][u]);
-  };
-  std::vector<std::size_t> loop;
-  const auto add_chain = [&](auto first, auto last) {
-    const std::size_t start = loop.size();
-    for (auto at = first; at != last; ++at) {
-      while (loop.size() >= start + 2 && !turns_left(loop[loop.size() - 2], loop.back(), *at)) {
-        loop.pop_back();
-      }
-      loop.push_back(*at);
-    }
-    loop.pop_back();  // the other chain begins with it
-  };
-  add_chain(order.begin(), order.end());
-  add_chain(order.rbegin(), order.rend());
-  return loop;
-}
-
 void build_flat(Builder& out) {
   const std::vector<Vec>& points = out.vertices;
-  const Vec p = points[farthest_from(points, points[0])];
-  const Vec q = points[farthest_from(points, p)];
-  Vec normal = Vec::Zero();
-  for (const Vec& r : points) {
-    const Vec cross = (q - p).cross(r - p);
-    if (cross.squaredNorm() > normal.squaredNorm()) normal = cross;
-  }
-  const Wide length = normal.norm();
-  if (!(length > 0)) {
+  const auto [loop, normal] = flat_outline(points);
+  if (normal.isZero(0)) {
     out.complete = false;
     return;
   }
-  normal /= length;
   const std::uint32_t top = out.add_face(normal), bottom = out.add_face(-normal);
-  const std::vector<std::size_t> loop = boundary_loop(points, normal);
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const Vec &tail = points[loop[k]], &head = points[loop[(k + 1) % loop.size()]];
     const Vec outward = (head - tail).cross(normal);

@@ -23,8 +23,10 @@
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btDiscreteCollisionDetectorInterface.h>
+#include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -78,7 +80,7 @@ class Ellipsoid final : public btConvexInternalShape {
 struct Body {
   std::unique_ptr<btConvexShape> shape;            // null where the algorithm has no such shape
   Vec3d centre = Vec3d::Zero();                    // of the Bullet shape, in body coordinates
-  const btConvexPolyhedron* polyhedron = nullptr;  // SAT's; null where there is none
+  const btConvexPolyhedron* polyhedron = nullptr;  // of SAT and clipping; null where there is none
 };
 
 // setMargin recomputes the dimensions from sums, which rounds; so they are set again.
@@ -127,6 +129,24 @@ inline Body make_body(const Shape& shape) {
     case ShapeKind::halfspace: break;
   }
   return body;
+}
+
+// The faces and edges that Bullet's separating axes and clipping work on, of boxes and hulls.
+inline void make_polyhedron(Body& body) {
+  if (!body.shape || !body.shape->isPolyhedral()) return;
+  auto& shape = static_cast<btPolyhedralConvexShape&>(*body.shape);
+  constexpr int most_vertices = 32767;  // Bullet numbers them with short integers
+  const int count = shape.getNumVertices();
+  if (count > most_vertices) return;
+  // Bullet reads what it has not set where its hull has less than a tetrahedron's faces: so its
+  // hull is looked at first.
+  std::vector<btVector3> vertices(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) shape.getVertex(i, vertices[static_cast<std::size_t>(i)]);
+  btConvexHullComputer hull;
+  hull.compute(&vertices[0].getX(), sizeof(btVector3), count, 0, 0);
+  if (hull.faces.size() < 4 || !shape.initializePolyhedralFeatures()) return;
+  const btConvexPolyhedron* features = shape.getConvexPolyhedron();
+  if (std::isfinite(features->m_localCenter.length2())) body.polyhedron = features;
 }
 
 // One query. The transforms are relative to `origin`, the world position of a's centre.
@@ -228,7 +248,9 @@ class BulletNarrowPhase final : public NarrowPhase {
 template <class Algorithm>
 std::unique_ptr<NarrowPhase> make(const char* name, const NarrowPhaseSettings& settings) {
   if constexpr (std::is_same_v<btScalar, float>) {
-    if (settings.scalar == Precision::float64 && has_double) return make_double(name, settings);
+    if (settings.scalar == Precision::float64 && has_double) {
+      return make_double<NarrowPhase>(name, settings);
+    }
   }
   return std::make_unique<BulletNarrowPhase<Algorithm>>(settings);
 }

@@ -12,9 +12,6 @@
 #include "algorithms/peers/bullet_double.h"
 #if TOUCHSTONE_BUILT
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
-#include <LinearMath/btConvexHullComputer.h>
-
-#include <cmath>
 
 #include "algorithms/peers/bullet_bodies.h"
 
@@ -22,22 +19,7 @@ namespace touchstone::bullet {
 namespace {
 
 struct PolyhedralSat {
-  static void prepare(Body& body) {
-    if (!body.shape || !body.shape->isPolyhedral()) return;
-    auto& shape = static_cast<btPolyhedralConvexShape&>(*body.shape);
-    constexpr int most_vertices = 32767;  // Bullet numbers them with short integers
-    const int count = shape.getNumVertices();
-    if (count > most_vertices) return;
-    // Bullet reads what it has not set where its hull has less than a tetrahedron's faces: so its
-    // hull is looked at first.
-    std::vector<btVector3> vertices(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) shape.getVertex(i, vertices[static_cast<std::size_t>(i)]);
-    btConvexHullComputer hull;
-    hull.compute(&vertices[0].getX(), sizeof(btVector3), count, 0, 0);
-    if (hull.faces.size() < 4 || !shape.initializePolyhedralFeatures()) return;
-    const btConvexPolyhedron* features = shape.getConvexPolyhedron();
-    if (std::isfinite(features->m_localCenter.length2())) body.polyhedron = features;
-  }
+  static void prepare(Body& body) { make_polyhedron(body); }
 
   void answer(Query& query, Outcome& outcome) {
     if (query.a.polyhedron == nullptr || query.b.polyhedron == nullptr) {

@@ -33,23 +33,6 @@ struct DestroyGeom {
 };
 using Geom = std::unique_ptr<std::remove_pointer_t<dGeomID>, DestroyGeom>;
 
-// A pose as ODE has it, rows of four.
-struct Placement {
-  dVector3 position;
-  dMatrix3 rotation;
-
-  explicit Placement(const Pose& pose) {
-    for (int row = 0; row < 3; ++row) {
-      position[row] = static_cast<dReal>(pose.translation[row]);
-      for (int column = 0; column < 3; ++column) {
-        rotation[4 * row + column] = static_cast<dReal>(pose.rotation(row, column));
-      }
-      rotation[4 * row + 3] = 0;
-    }
-    position[3] = 0;
-  }
-};
-
 Geom make_geom(const Shape& shape) {
   const auto length = [](double half) { return static_cast<dReal>(2 * half); };
   const auto radius = static_cast<dReal>(shape.radius);
@@ -73,7 +56,7 @@ void place(dGeomID geom, const Shape& shape, const Pose& pose) {
                         static_cast<dReal>(normal.z()), static_cast<dReal>(offset));
     return;
   }
-  const Placement placement(pose);
+  const ode::Placement placement(pose);
   dGeomSetPosition(geom, placement.position[0], placement.position[1], placement.position[2]);
   if (shape.kind != ShapeKind::sphere) dGeomSetRotation(geom, placement.rotation);
 }
@@ -111,7 +94,7 @@ class OdeNarrowPhase final : public NarrowPhase {
       const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
       std::array<dContactGeom, 8> contacts;
       if (boxes) {
-        const Placement at_a(pose_a), at_b(pose_b);
+        const ode::Placement at_a(pose_a), at_b(pose_b);
         dVector3 normal;
         dReal depth = 0;
         int code = 0;  // left as it is where there is no contact

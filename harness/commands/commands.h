@@ -16,6 +16,7 @@ enum ExitStatus : int {
 // Each puts its exit status into `status` when its subcommand was given.
 void add_list(CLI::App& app, int& status);
 void add_query(CLI::App& app, int& status);
+void add_manifold(CLI::App& app, int& status);
 void add_pairs(CLI::App& app, int& status);
 void add_check(CLI::App& app, int& status);
 void add_soak(CLI::App& app, int& status);

@@ -43,6 +43,9 @@ std::vector<Listed> all_algorithms() {
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
     all.push_back({&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars)});
   }
+  for (const ManifoldEntry& entry : contact_manifolds()) {
+    all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
+  }
   return all;
 }
 
@@ -79,7 +82,7 @@ std::string as_table(const std::vector<Listed>& all) {
   std::string text;
   const auto line = [&](std::string_view n, std::string_view kind, std::string_view origin,
                         std::string_view t, std::string_view s, std::string_view about) {
-    text += fmt::format("{:<{}}  {:<6}  {:<6}  {:<{}}  {:<{}}  {}\n", n, name, kind, origin, t,
+    text += fmt::format("{:<{}}  {:<8}  {:<6}  {:<{}}  {:<{}}  {}\n", n, name, kind, origin, t,
                         tasks, s, scalars, about);
   };
   line("name", "kind", "origin", "tasks", "scalars", "from");

@@ -40,6 +40,14 @@ TEST(Registry, NarrowPhasesAreWellDescribed) {
   }
 }
 
+TEST(Registry, ContactManifoldsAreWellDescribed) {
+  check_info(contact_manifolds());
+  for (const ManifoldEntry& entry : contact_manifolds()) {
+    EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
+    EXPECT_TRUE(offers(entry, ShapeKind::box, ShapeKind::box)) << entry.info.name;
+  }
+}
+
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const BroadPhaseEntry& entry : broad_phases()) {
     EXPECT_EQ(find_broad_phase(entry.info.name), &entry);
@@ -47,6 +55,10 @@ TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
     EXPECT_EQ(find_narrow_phase(entry.info.name), &entry);
   }
+  for (const ManifoldEntry& entry : contact_manifolds()) {
+    EXPECT_EQ(find_contact_manifold(entry.info.name), &entry);
+  }
+  EXPECT_EQ(find_contact_manifold("gjk"), nullptr);
   EXPECT_EQ(find_broad_phase("no such"), nullptr);
   EXPECT_EQ(find_narrow_phase(""), nullptr);
 }

@@ -1,0 +1,244 @@
+#include "algorithms/kernels/contact_feature.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "algorithms/kernels/flat_outline.h"
+
+namespace touchstone {
+namespace {
+
+constexpr int rim_corners = 16;
+
+// A body's feature under construction: points go by the matrix.
+template <class Scalar>
+struct Placed {
+  const FeatureShape<Scalar>& shape;
+  const Mat3<Scalar>& matrix;
+  const Vec3<Scalar>& centre;
+  const Vec3<Scalar>& direction;
+  Scalar radius;
+  Vec3<Scalar> local;  // what is furthest along this in the body is so along the direction
+  ContactFeature<Scalar>& feature;
+
+  void add(const Vec3<Scalar>& point) {
+    feature.points.push_back(matrix * point + (centre + radius * direction));
+  }
+  // The image of a face's normal, outward and unit, is about along the direction.
+  bool is_across(const Vec3<Scalar>& outward) const {
+    constexpr Scalar least = 1 - greatest_tilt<Scalar> * greatest_tilt<Scalar>;
+    const Scalar along = outward.dot(direction);
+    return along > 0 && along * along >= least * outward.squaredNorm();
+  }
+  // The image of an edge is about across the direction.
+  bool is_level(const Vec3<Scalar>& edge) const {
+    const Scalar along = local.dot(edge);
+    return along * along <=
+           greatest_tilt<Scalar> * greatest_tilt<Scalar> * (matrix * edge).squaredNorm();
+  }
+};
+
+// The image of an outward normal, whatever the matrix; not unit.
+template <class Scalar>
+Vec3<Scalar> turned_normal(const Mat3<Scalar>& m, const Vec3<Scalar>& normal) {
+  Mat3<Scalar> cofactors;
+  for (int k = 0; k < 3; ++k) cofactors.col(k) = m.col((k + 1) % 3).cross(m.col((k + 2) % 3));
+  const Vec3<Scalar> image = cofactors * normal;
+  return m.col(0).dot(cofactors.col(0)) < 0 ? Vec3<Scalar>(-image) : image;
+}
+
+template <class Scalar>
+void find_on_box(Placed<Scalar>& body) {
+  const Vec3<Scalar>& half = body.shape.support.extents;
+  const Mat3<Scalar>& m = body.matrix;
+  Vec3<Scalar> corner;
+  for (int k = 0; k < 3; ++k) corner[k] = std::copysign(half[k], body.local[k]);
+  int face = 0;
+  Vec3<Scalar> outward = Vec3<Scalar>::Zero();
+  Scalar best = -1;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3<Scalar> normal = m.col((k + 1) % 3).cross(m.col((k + 2) % 3));
+    const Scalar along = normal.dot(body.direction);
+    const Scalar square = along * along / normal.squaredNorm();
+    if (!(square > best)) continue;
+    best = square;
+    face = k;
+    outward = along < 0 ? Vec3<Scalar>(-normal) : normal;
+  }
+  if (body.is_across(outward)) {
+    const int i = (face + 1) % 3, j = (face + 2) % 3;
+    // Their order does not depend on the direction, so that their numbers do not.
+    for (const auto [si, sj] : {std::array{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
+      Vec3<Scalar> point = corner;
+      point[i] = static_cast<Scalar>(si) * half[i];
+      point[j] = static_cast<Scalar>(sj) * half[j];
+      body.add(point);
+    }
+    body.feature.normal = outward.normalized();
+    body.feature.numbered = true;
+    body.feature.number = static_cast<std::uint16_t>(2 * face + (corner[face] > 0 ? 1 : 0));
+    return;
+  }
+  int along = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (std::abs(body.local[k]) < std::abs(body.local[along])) along = k;
+  }
+  if (!body.is_level(Vec3<Scalar>::Unit(along))) return;
+  body.add(corner);
+  corner[along] = -corner[along];
+  body.add(corner);
+}
+
+template <class Scalar>
+std::uint32_t furthest_vertex(const Placed<Scalar>& body) {
+  const SupportShape<Scalar>& hull = body.shape.support;
+  const std::uint32_t vertex = hull.neighbours_begin.empty()
+                                   ? ScanAtBest::furthest(hull, body.local)
+                                   : hull.climb(body.local, hull.climb_from);
+  if (!body.shape.complete || !body.shape.faces.around(vertex).empty()) return vertex;
+  // It stands twice, or inside of a face.
+  const auto loops = body.shape.faces.all_loops();
+  return *std::max_element(loops.begin(), loops.end(), [&](std::uint32_t p, std::uint32_t q) {
+    return body.local.dot(hull.vertex(p)) < body.local.dot(hull.vertex(q));
+  });
+}
+
+template <class Scalar>
+void find_on_hull(Placed<Scalar>& body) {
+  const SupportShape<Scalar>& hull = body.shape.support;
+  const HullFaces<Scalar>& faces = body.shape.faces;
+  const std::uint32_t vertex = furthest_vertex(body);
+  if (faces.around(vertex).empty()) return;
+  std::uint32_t best_face = 0, best_end = vertex;
+  Vec3<Scalar> best_normal = Vec3<Scalar>::Zero();
+  Scalar greatest = 0, least = greatest_tilt<Scalar> * greatest_tilt<Scalar>;
+  for (const std::uint32_t face : faces.around(vertex)) {
+    const Vec3<Scalar> outward = turned_normal(body.matrix, faces.normal(face));
+    const Scalar along = outward.dot(body.direction), length = outward.norm();
+    if (along > greatest * length) {
+      greatest = along / length;
+      best_face = face;
+      best_normal = outward;
+    }
+    // Each edge at the vertex leads away from it in one of the faces.
+    const std::span<const std::uint32_t> loop = faces.loop(face);
+    const auto at = std::find(loop.begin(), loop.end(), vertex);
+    const std::uint32_t end = at + 1 == loop.end() ? loop.front() : *(at + 1);
+    const Vec3<Scalar> edge = hull.vertex(end) - hull.vertex(vertex);
+    const Scalar climb = body.local.dot(edge), square = (body.matrix * edge).squaredNorm();
+    if (square > 0 && climb * climb < least * square) {
+      least = climb * climb / square;
+      best_end = end;
+    }
+  }
+  if (greatest > 0 && body.is_across(best_normal)) {
+    for (const std::uint32_t k : faces.loop(best_face)) body.add(hull.vertex(k));
+    body.feature.normal = best_normal.normalized();
+    body.feature.numbered = true;
+    body.feature.number = static_cast<std::uint16_t>(best_face);
+    return;
+  }
+  if (best_end == vertex) return;
+  body.add(hull.vertex(vertex));
+  body.add(hull.vertex(best_end));
+}
+
+// Of a cylinder or cone, the direction of the furthest point of a rim; body coordinates.
+template <class Scalar>
+Vec3<Scalar> rim_direction(const Vec3<Scalar>& local) {
+  const Scalar length = std::hypot(local.x(), local.y());
+  if (!(length > 0)) return {1, 0, 0};
+  return {local.x() / length, local.y() / length, 0};
+}
+
+template <class Scalar>
+void find_on_turned(Placed<Scalar>& body, bool cone) {
+  const Scalar radius = body.shape.support.extents.x(), half = body.shape.support.extents.z();
+  const Scalar side = std::copysign(Scalar{1}, body.local.z());
+  const Vec3<Scalar> to_rim = radius * rim_direction(body.local);
+  const Vec3<Scalar> outward = turned_normal<Scalar>(body.matrix, {0, 0, side});
+  if (!(cone && side > 0) && body.is_across(outward)) {
+    for (int k = 0; k < rim_corners; ++k) {
+      const Scalar angle = 2 * std::numbers::pi_v<Scalar> * static_cast<Scalar>(k) / rim_corners;
+      const Scalar c = std::cos(angle), s = std::sin(angle);
+      body.add({c * to_rim.x() - s * to_rim.y(), s * to_rim.x() + c * to_rim.y(), side * half});
+    }
+    body.feature.normal = outward.normalized();
+    return;
+  }
+  const Vec3<Scalar> low{to_rim.x(), to_rim.y(), -half};
+  const Vec3<Scalar> high = cone ? Vec3<Scalar>(0, 0, half) : Vec3<Scalar>(low.x(), low.y(), half);
+  if (!body.is_level(high - low)) return;
+  body.add(low);
+  body.add(high);
+}
+
+template <class Scalar>
+void find_on_segment(Placed<Scalar>& body) {
+  const Vec3<Scalar> end{0, 0, body.shape.support.extents.z()};
+  if (!(end.z() > 0) || !body.is_level(end)) return;
+  body.add(end);
+  body.add(-end);
+}
+
+}  // namespace
+
+template <class Scalar>
+void HullFaces<Scalar>::add(const std::vector<std::uint32_t>& loop, const Vec3d& normal) {
+  loops_.insert(loops_.end(), loop.begin(), loop.end());
+  loop_begin_.push_back(static_cast<std::uint32_t>(loops_.size()));
+  normals_.push_back(normal.cast<Scalar>());
+}
+
+template <class Scalar>
+HullFaces<Scalar>::HullFaces(const Hull& hull) {
+  for (const Hull::Face& face : hull.faces) add(face.loop, face.normal);
+  if (hull.dimension < 3) {
+    std::vector<Vec3<long double>> points;
+    for (const Vec3d& vertex : hull.vertices) points.push_back(vertex.cast<long double>());
+    const FlatOutline outline = flat_outline(points);
+    const Vec3d normal = outline.normal.cast<double>();
+    add(outline.loop, normal);
+    if (!normal.isZero(0)) add({outline.loop.rbegin(), outline.loop.rend()}, -normal);
+  }
+  around_begin_.assign(hull.vertices.size() + 1, 0);
+  for (const std::uint32_t vertex : loops_) ++around_begin_[vertex + 1];
+  for (std::size_t k = 1; k < around_begin_.size(); ++k) around_begin_[k] += around_begin_[k - 1];
+  around_.resize(loops_.size());
+  std::vector<std::uint32_t> next(around_begin_.begin(), around_begin_.end() - 1);
+  for (std::uint32_t face = 0; face < size(); ++face) {
+    for (const std::uint32_t vertex : loop(face)) around_[next[vertex]++] = face;
+  }
+}
+
+template <class Scalar>
+void find_feature(const FeatureShape<Scalar>& shape, const TurnedShape<Scalar>& turned,
+                  const Vec3<Scalar>& centre, const Vec3<Scalar>& direction,
+                  ContactFeature<Scalar>& feature) {
+  using Core = typename SupportShape<Scalar>::Core;
+  feature.points.clear();
+  feature.normal.setZero();
+  feature.numbered = false;
+  Placed<Scalar> body{shape,     turned.matrix(), centre,
+                      direction, turned.radius(), turned.matrix().transpose() * direction,
+                      feature};
+  switch (shape.support.core) {
+    case Core::segment: return find_on_segment(body);
+    case Core::box: return find_on_box(body);
+    case Core::cylinder: return find_on_turned(body, false);
+    case Core::cone: return find_on_turned(body, true);
+    case Core::hull: return find_on_hull(body);
+    default: return;
+  }
+}
+
+template class HullFaces<float>;
+template class HullFaces<double>;
+template void find_feature(const FeatureShape<float>&, const TurnedShape<float>&,
+                           const Vec3<float>&, const Vec3<float>&, ContactFeature<float>&);
+template void find_feature(const FeatureShape<double>&, const TurnedShape<double>&,
+                           const Vec3<double>&, const Vec3<double>&, ContactFeature<double>&);
+
+}  // namespace touchstone

@@ -1,0 +1,186 @@
+#include "algorithms/kernels/contact_region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace touchstone {
+namespace {
+
+// Numbers of edges: those of a, those of b, and where the bodies part.
+constexpr std::uint16_t first_of_a = 1, first_of_b = 0x4000, parting = 0x8000;
+
+// Twice the area, anticlockwise positive.
+template <class Points>
+auto doubled_area(const Points& points) {
+  auto sum = points[0].x * 0;
+  for (std::size_t k = 2; k < points.size(); ++k) {
+    sum += (points[k - 1].x - points[0].x) * (points[k].y - points[0].y) -
+           (points[k].x - points[0].x) * (points[k - 1].y - points[0].y);
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <class Scalar>
+void ContactRegion<Scalar>::see(const ContactFeature<Scalar>& feature, const Frame& frame,
+                                std::uint16_t first, std::vector<Seen>& seen) const {
+  seen.clear();
+  for (const Vec3<Scalar>& point : feature.points) {
+    seen.push_back(frame.see(point));
+    seen.back().edge = first++;
+  }
+}
+
+template <class Scalar>
+auto ContactRegion<Scalar>::height_of(const ContactFeature<Scalar>& feature,
+                                      const std::vector<Seen>& seen, const Frame& frame) const
+    -> Line {
+  Scalar a = 0, b = 0;
+  if (seen.size() > 2) {
+    const Scalar along = feature.normal.dot(frame.normal);
+    a = -feature.normal.dot(frame.u) / along;
+    b = -feature.normal.dot(frame.v) / along;
+  } else {
+    const Scalar x = seen[1].x - seen[0].x, y = seen[1].y - seen[0].y;
+    const Scalar slope = (seen[1].height - seen[0].height) / (x * x + y * y);
+    a = slope * x;
+    b = slope * y;
+  }
+  return {a, b, seen[0].height - a * seen[0].x - b * seen[0].y};
+}
+
+template <class Scalar>
+template <class Value>
+void ContactRegion<Scalar>::cut(const Value& value, std::uint16_t edge, Scalar rounding) {
+  if (subject_.empty()) return;
+  cut_.clear();
+  const auto side = [&](Scalar x) { return x > rounding ? 1 : x < -rounding ? -1 : 0; };
+  Scalar here = value(subject_.front());
+  bool whole = true;
+  for (std::size_t k = 0; k < subject_.size(); ++k) {
+    const Seen& from = subject_[k];
+    const Seen& to = subject_[k + 1 < subject_.size() ? k + 1 : 0];
+    const Scalar there = value(to);
+    const int side_from = side(here), side_to = side(there);
+    if (side_from >= 0) {
+      cut_.push_back(from);
+      if (side_from == 0 && side_to < 0) cut_.back().edge = edge;
+    } else {
+      whole = false;
+    }
+    if (side_from * side_to < 0) {
+      const Scalar part = here / (here - there);
+      cut_.push_back({from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
+                      from.height + part * (to.height - from.height),
+                      side_to < 0 ? edge : from.edge});
+    }
+    here = there;
+  }
+  if (!whole) std::swap(subject_, cut_);
+}
+
+template <class Scalar>
+void ContactRegion<Scalar>::cut_by_polygon(Scalar rounding) {
+  const Scalar turn = doubled_area(outline_) < 0 ? Scalar{-1} : Scalar{1};
+  for (std::size_t k = 0; k < outline_.size() && !subject_.empty(); ++k) {
+    const Seen& from = outline_[k];
+    const Seen& to = outline_[k + 1 < outline_.size() ? k + 1 : 0];
+    const Scalar x = to.x - from.x, y = to.y - from.y;
+    const Scalar length = std::sqrt(x * x + y * y);
+    if (!(length > rounding)) continue;
+    const Scalar factor = turn / length;
+    const Line line{-y * factor, x * factor, (y * from.x - x * from.y) * factor};
+    cut([&](const Seen& s) { return line.at(s); }, from.edge, rounding);
+  }
+}
+
+template <class Scalar>
+void ContactRegion<Scalar>::cut_by_segment(Scalar rounding) {
+  const Seen &start = outline_[0], &end = outline_[1];
+  const Scalar x = end.x - start.x, y = end.y - start.y;
+  const Scalar length = std::sqrt(x * x + y * y);
+  for (const Seen& s : subject_) {
+    if (std::abs(x * (s.y - start.y) - y * (s.x - start.x)) > 4 * rounding * length) {
+      return subject_.clear();
+    }
+  }
+  const Scalar a = x / length, b = y / length;
+  cut([&](const Seen& s) { return a * (s.x - start.x) + b * (s.y - start.y); }, start.edge,
+      rounding);
+  cut([&](const Seen& s) { return a * (end.x - s.x) + b * (end.y - s.y); }, end.edge, rounding);
+}
+
+template <class Scalar>
+void ContactRegion<Scalar>::merge_neighbours(Scalar distance) {
+  const auto near = [&](const Seen& p, const Seen& q) {
+    return std::abs(p.x - q.x) <= distance && std::abs(p.y - q.y) <= distance;
+  };
+  // Of two the first keeps its place, and the second its edge.
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < subject_.size(); ++k) {
+    if (kept > 0 && near(subject_[kept - 1], subject_[k])) {
+      subject_[kept - 1].edge = subject_[k].edge;
+    } else {
+      subject_[kept++] = subject_[k];
+    }
+  }
+  if (kept > 1 && near(subject_[kept - 1], subject_[0])) --kept;
+  subject_.resize(kept);
+}
+
+template <class Scalar>
+void ContactRegion<Scalar>::finish(const Frame& frame, const Line& height, bool subject_is_a,
+                                   Scalar rounding) {
+  const Scalar sign = subject_is_a ? Scalar{1} : Scalar{-1};
+  const auto depth = [&](const Seen& s) { return sign * (s.height - height.at(s)); };
+  cut(depth, parting, rounding);
+  merge_neighbours(4 * rounding);
+  if (subject_.empty()) return;
+  std::uint16_t before = subject_.back().edge;
+  for (const Seen& s : subject_) {
+    const Vec3<Scalar> on_subject = frame.point(s, s.height);
+    const Vec3<Scalar> on_other = frame.point(s, height.at(s));
+    corners_.push_back({subject_is_a ? on_subject : on_other, subject_is_a ? on_other : on_subject,
+                        depth(s), s.x, s.y, before, s.edge});
+    before = s.edge;
+  }
+  if (doubled_area(corners_) >= 0) return;
+  std::reverse(corners_.begin(), corners_.end());
+}
+
+template <class Scalar>
+void ContactRegion<Scalar>::find(const ContactFeature<Scalar>& a, const ContactFeature<Scalar>& b,
+                                 const Vec3<Scalar>& normal, Scalar rounding) {
+  corners_.clear();
+  if (a.points.empty() || b.points.empty()) return;
+  const Frame frame(normal);
+  // A segment is never what a polygon is cut by.
+  const bool subject_is_a = a.points.size() == 2;
+  const ContactFeature<Scalar>& other = subject_is_a ? b : a;
+  see(subject_is_a ? a : b, frame, subject_is_a ? first_of_a : first_of_b, subject_);
+  see(other, frame, subject_is_a ? first_of_b : first_of_a, outline_);
+  const Line height = height_of(other, outline_, frame);
+  if (outline_.size() > 2) {
+    cut_by_polygon(rounding);
+  } else {
+    cut_by_segment(rounding);
+  }
+  finish(frame, height, subject_is_a, rounding);
+}
+
+template <class Scalar>
+void ContactRegion<Scalar>::find_on_plane(const ContactFeature<Scalar>& a, Scalar height,
+                                          const Vec3<Scalar>& normal, Scalar rounding) {
+  corners_.clear();
+  if (a.points.empty()) return;
+  const Frame frame(normal);
+  see(a, frame, first_of_a, subject_);
+  finish(frame, {0, 0, height}, true, rounding);
+}
+
+template class ContactRegion<float>;
+template class ContactRegion<double>;
+
+}  // namespace touchstone

@@ -1,0 +1,98 @@
+// ODE's contacts of two boxes.
+// Paper:   none; ODE 0.16, dBoxBox by R. Smith (separating axes, then one face clipped against the
+//          other).
+// Departs: asked for four contacts, among which it then chooses. ODE gives one point for each, on
+// the
+//          body whose face was clipped, or half way between two edges; the point on the other body
+//          is as far from it as the contact is deep, along the normal.
+// Fails:   takes the axes of faces for deeper by a twentieth, so that the normal is not always that
+//          of the least penetration. It has no contact for some boxes of the same orientation that
+//          overlap. Never tells that it failed.
+// Cost:    O(1).
+#include "algorithms/contact_manifold.h"
+#if TOUCHSTONE_BUILT
+#include <algorithm>
+#include <type_traits>
+
+#include "algorithms/peers/ode_library.h"
+
+namespace touchstone {
+namespace {
+
+class OdeContacts final : public ContactManifold {
+ public:
+  void bind(std::span<const Shape> shapes) override {
+    sides_.clear();
+    const auto lock = ode::enter();
+    for (const Shape& shape : shapes) {
+      const Vec3d side = 2 * shape.half_extents;
+      sides_.push_back({static_cast<dReal>(side.x()), static_cast<dReal>(side.y()),
+                        static_cast<dReal>(side.z()), 0});
+    }
+  }
+
+  void solve(const PairBatch& batch, std::span<Manifold> manifolds) override {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::uint32_t first = batch.first[i], second = batch.second[i];
+      const ode::Placement at_a(batch.poses[first]), at_b(batch.poses[second]);
+      std::array<dContactGeom, Manifold::most_points> contacts;
+      dVector3 normal;
+      dReal depth = 0;
+      int code = 0;
+      const int count =
+          dBoxBox(at_a.position, at_a.rotation, sides_[batch.shape_of[first]].data(), at_b.position,
+                  at_b.rotation, sides_[batch.shape_of[second]].data(), normal, &depth, &code,
+                  Manifold::most_points, contacts.data(), sizeof contacts[0]);
+      Manifold& manifold = manifolds[i];
+      manifold = {};
+      manifold.status = Status::not_reported;
+      manifold.answer = count > 0 ? Answer::overlapping : Answer::separated;
+      if (count <= 0) continue;
+      manifold.normal = {normal[0], normal[1], normal[2]};
+      for (const dContactGeom& contact :
+           std::span(contacts).first(static_cast<std::size_t>(count))) {
+        add(contact, code, manifold);
+      }
+    }
+  }
+
+ private:
+  // `code` says whose axis it was: up to 3 a's, so that b's face was clipped, up to 6 b's, beyond
+  // two edges'.
+  static void add(const dContactGeom& contact, int code, Manifold& manifold) {
+    const double part_of_a = code <= 3 ? 1 : code <= 6 ? 0 : 0.5;
+    const Vec3d found(contact.pos[0], contact.pos[1], contact.pos[2]);
+    ContactPoint& point = manifold.points[static_cast<std::size_t>(manifold.count++)];
+    point.depth = contact.depth;
+    point.on_a = found + part_of_a * point.depth * manifold.normal;
+    point.on_b = found - (1 - part_of_a) * point.depth * manifold.normal;
+  }
+
+  std::vector<std::array<dReal, 4>> sides_;
+};
+
+// ODE is built for one of them.
+constexpr Precision scalar =
+    std::is_same_v<dReal, double> ? Precision::float64 : Precision::float32;
+
+}  // namespace
+}  // namespace touchstone
+#else
+namespace touchstone {
+namespace {
+constexpr Precision scalar = Precision::float64;  // Debian's
+}  // namespace
+}  // namespace touchstone
+#endif
+
+TOUCHSTONE_CONTACT_MANIFOLD {
+  using namespace touchstone;
+  return {{.info = {.name = "ode-box-contacts",
+                    .citation = "ODE 0.16, dBoxBox",
+                    .origin = Origin::peer},
+           .scalars = {touchstone::scalar},
+           .supports = [](ShapeKind a,
+                          ShapeKind b) { return a == ShapeKind::box && b == ShapeKind::box; },
+           .make = TOUCHSTONE_IF_BUILT(
+               [](const ManifoldSettings&) { return std::make_unique<OdeContacts>(); })}};
+}

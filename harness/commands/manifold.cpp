@@ -1,0 +1,256 @@
+// manifold: cases through contact manifolds, one point a row, and how good they are.
+#include <fmt/format.h>
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/check/manifold_tally.h"
+#include "harness/check/settled_pairs.h"
+#include "harness/commands/checks.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/failures.h"
+#include "harness/error.h"
+#include "harness/io/cases.h"
+#include "harness/io/csv.h"
+#include "harness/run/isolate.h"
+#include "harness/run/selection.h"
+#include "harness/run/solve_manifold.h"
+#include "harness/run/text_table.h"
+#include "harness/stats/markdown.h"
+
+namespace touchstone {
+namespace {
+
+struct ManifoldOptions {
+  std::string cases, algorithms = "all", out, page;
+  std::optional<std::uint64_t> settled;  // pairs of each family
+  std::uint64_t seed = 1;
+  std::optional<Precision> scalar;
+  bool grade = false;
+  double time_limit = 5;  // seconds a query
+};
+
+// A case, and what it is counted under.
+struct Asked {
+  Case pair;
+  std::string family;
+};
+
+// One algorithm in one scalar.
+struct Contestant {
+  const ManifoldEntry* entry;
+  Precision scalar;
+  std::vector<Manifold> manifolds;  // of each case; `unsupported` where it does not take such pairs
+
+  std::string name() const { return fmt::format("{} {}", entry->info.name, to_string(scalar)); }
+};
+
+std::vector<Asked> read_or_make_cases(const ManifoldOptions& options) {
+  if (options.cases.empty() == !options.settled) {
+    throw InputError("found neither or both; expected either CASES or --settled COUNT");
+  }
+  std::vector<Asked> asked;
+  if (!options.settled) {
+    for (Case& c : read_cases(options.cases)) asked.push_back({std::move(c), "cases"});
+    return asked;
+  }
+  for (const SettledFamily& family : settled_families()) {
+    for (std::uint64_t i = 0; i < *options.settled; ++i) {
+      asked.push_back({settled_pair(family, options.seed, i), std::string(family.name)});
+    }
+  }
+  return asked;
+}
+
+// In a child process; the failures go to the terminal.
+void ask(Contestant& contestant, const std::vector<Asked>& asked, double time_limit) {
+  const ManifoldEntry& entry = *contestant.entry;
+  contestant.manifolds.resize(asked.size());
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const Case& c = asked[i].pair;
+    if (offers(entry, c.shape_a.kind, c.shape_b.kind)) taken.push_back(i);
+  }
+  SharedArray<Manifold> shared(taken.size());
+  const IsolationReport report =
+      isolate(taken.size(), {.item_seconds = time_limit}, [&]() -> ItemWork {
+        return [&](std::size_t item) {
+          shared[item] =
+              solve_manifold(entry, {.scalar = contestant.scalar}, asked[taken[item]].pair);
+        };
+      });
+  for (std::size_t item = 0; item < taken.size(); ++item) {
+    Manifold& manifold = contestant.manifolds[taken[item]];
+    if (report.states[item] == ItemState::done) {
+      manifold = shared[item];
+    } else {
+      manifold.status = report.states[item] == ItemState::timed_out ? Status::timed_out  //
+                                                                    : Status::crashed;
+    }
+  }
+  print_failures(entry.info.name, report.failures, [&](std::size_t item) {
+    return fmt::format("case '{}'", asked[taken[item]].pair.id);
+  });
+}
+
+void write_points(const std::string& file, const std::vector<Asked>& asked,
+                  const std::vector<Contestant>& contestants) {
+  CsvWriter csv(
+      file, {"id", "algorithm", "scalar", "answer", "status", "normal_x", "normal_y", "normal_z",
+             "count", "point", "depth", "a_x", "a_y", "a_z", "b_x", "b_y", "b_z", "feature"});
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    for (const Contestant& contestant : contestants) {
+      const Manifold& manifold = contestant.manifolds[i];
+      // Without points one row says so.
+      for (int k = 0; k < std::max(1, manifold.count); ++k) {
+        csv.field(asked[i].pair.id).field(contestant.entry->info.name);
+        csv.field(to_string(contestant.scalar)).field(to_string(manifold.answer));
+        csv.field(to_string(manifold.status));
+        for (const double x : manifold.normal) csv.field(x);
+        csv.field(manifold.count);
+        if (manifold.count == 0) {
+          csv.field("");
+        } else {
+          csv.field(k);
+        }
+        const ContactPoint point = manifold.points[static_cast<std::size_t>(k)];
+        csv.field(point.depth);
+        for (const Vec3d& v : {point.on_a, point.on_b}) {
+          for (const double x : v) csv.field(x);
+        }
+        csv.field(point.feature == 0 ? std::string() : fmt::format("{:016x}", point.feature));
+        csv.end_row();
+      }
+    }
+  }
+  csv.close();
+}
+
+void print_counts(const std::vector<Contestant>& contestants) {
+  TextTable table({"algorithm", "0 points", "1", "2", "3", "4", "not asked"});
+  for (const Contestant& contestant : contestants) {
+    std::array<std::size_t, 6> counts{};
+    for (const Manifold& manifold : contestant.manifolds) {
+      const bool asked = manifold.status != Status::unsupported;
+      ++counts[asked ? static_cast<std::size_t>(manifold.count) : 5];
+    }
+    std::vector<std::string> row = {contestant.name()};
+    for (const std::size_t count : counts) row.push_back(fmt::format("{}", count));
+    table.add(std::move(row));
+  }
+  fmt::print("{}", table.text(page_width()));
+}
+
+ManifoldTally grade_all(const std::vector<Asked>& asked,
+                        const std::vector<Contestant>& contestants) {
+  ManifoldTally tally;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const ManifoldTruth truth = manifold_truth(asked[i].pair);
+    for (const Contestant& contestant : contestants) {
+      const Manifold& manifold = contestant.manifolds[i];
+      if (manifold.status == Status::unsupported) continue;
+      tally.add(asked[i].family, contestant.name(), contestant.entry->info, contestant.scalar,
+                asked[i].pair, truth, manifold);
+    }
+  }
+  return tally;
+}
+
+std::string page_text(const ManifoldOptions& options, const ManifoldTally& tally) {
+  std::string text = "# Contact manifolds\n\n";
+  std::string command = "touchstone manifold ";
+  command += options.settled ? fmt::format("--settled {} --seed {}", *options.settled, options.seed)
+                             : options.cases;
+  text += fmt::format(
+      "Made by `{} --algorithm {} --grade --page FILE`. Every row is the worst of its pairs; "
+      "lengths "
+      "are parts of the pair's size.\n\n"
+      "- *missed*: pairs that overlap and have no point.\n"
+      "- *off body*: how far a point is from the body that it is said to be of, by the oracle.\n"
+      "- *depth error*: of the deepest point, against the oracle's depth.\n"
+      "- *apart*: the gap at a point. Bullet reports places that nearly touch, by design.\n"
+      "- *area of best four*: the area between the points, as a part of the greatest that four "
+      "corners of the touching area span of which one is the deepest; at most 1. *Area of all*: as "
+      "a "
+      "part of the whole. The touching area is where the two faces overlap as seen along the "
+      "algorithm's normal.\n\n",
+      command, options.algorithms);
+  if (options.settled) {
+    for (const SettledFamily& family : settled_families()) {
+      text += fmt::format("- `{}`: {}\n", family.name, family.what);
+    }
+    text += '\n';
+  }
+  return text + tally.markdown();
+}
+
+int manifold(const ManifoldOptions& options) {
+  const auto entries =
+      select(contact_manifolds(), split_names(options.algorithms), "contact manifold");
+  if (options.out.empty() && !options.grade) {
+    throw InputError("nothing is asked for; expected --out FILE or --grade, or both");
+  }
+  if (!options.page.empty() && !options.grade) {
+    throw InputError("--page was given without --grade; expected both");
+  }
+  const std::vector<Asked> asked = read_or_make_cases(options);
+  if (!options.out.empty()) check_output(options.out);
+  if (!options.page.empty()) check_output(options.page);
+  std::vector<Contestant> contestants;
+  for (const ManifoldEntry* entry : entries) {
+    for (const Precision scalar : {Precision::float64, Precision::float32}) {
+      const bool wanted = !options.scalar || *options.scalar == scalar;
+      if (wanted && offers(*entry, scalar)) contestants.push_back({entry, scalar, {}});
+    }
+  }
+  for (Contestant& contestant : contestants) ask(contestant, asked, options.time_limit);
+  if (!options.out.empty()) write_points(options.out, asked, contestants);
+  print_counts(contestants);
+  if (!options.grade) return exit_done;
+  const ManifoldTally tally = grade_all(asked, contestants);
+  fmt::print("\n{}", tally.text(page_width()));
+  if (!options.page.empty()) stats::write_text(options.page, page_text(options, tally));
+  for (const std::string& line : tally.ours_wrong()) fmt::print("wrong: {}\n", line);
+  return tally.ours_wrong().empty() ? exit_done : exit_measured_wrong;
+}
+
+}  // namespace
+
+void add_manifold(CLI::App& app, int& status) {
+  const auto options = std::make_shared<ManifoldOptions>();
+  CLI::App& command =
+      *app.add_subcommand("manifold", "The contact points of bodies that lie on each other");
+  command.add_option("CASES", options->cases, "Cases: JSON, one object a line");
+  command
+      .add_option("--settled", options->settled,
+                  "Instead of CASES: so many generated pairs of each family of face contacts")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}).description(""));
+  command.add_option("--seed", options->seed, "Of the generated pairs")->capture_default_str();
+  command
+      .add_option("--algorithm", options->algorithms,
+                  "Contact manifolds: names joined by commas, or all, ours, peers")
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--scalar",
+          [options](const std::string& name) {
+            options->scalar = name == "float" ? Precision::float32 : Precision::float64;
+          },
+          "What is calculated in; without it, in each that an algorithm has")
+      ->check(CLI::IsMember({"float", "double"}));
+  command.add_flag("--grade", options->grade,
+                   "Hold the points to the oracle, the bodies and the touching area; exit status 1 "
+                   "where one of ours is not as good as it promises");
+  command.add_option("--page", options->page, "With --grade: the table as a Markdown page");
+  command.add_option("--time-limit", options->time_limit, "Seconds that a query may take")
+      ->check(positive_number)
+      ->capture_default_str();
+  command.add_option("--out", options->out, "The CSV file to write, a row for each point");
+  command.callback([options, &status] { status = manifold(*options); });
+}
+
+}  // namespace touchstone
