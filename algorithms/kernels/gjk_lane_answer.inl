@@ -1,4 +1,5 @@
 // What lanes that have ended say. Part of gjk_lanes.inl.
+#include "algorithms/kernels/gjk_lane_start.inl"
 
 // The nearest points of simplices.
 template <class Scalar>
@@ -78,11 +79,9 @@ TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
     const std::uint32_t place_of_pair = walkers.place[lane];
     const std::uint32_t body = table.pairs.first[place_of_pair];
     const Pose& pose = table.pairs.poses[body];
-    const std::uint32_t shape = table.pairs.shape_of[body];
     Quad<double> origin = pose_quad(pose, 8);
-    if (!goal.shapes[shape].centred) [[unlikely]] {
-      const Vec3d centre = pose(goal.support_shapes[shape].centre);
-      origin = Quad<double>{0, centre[0], centre[1], centre[2]};
+    if (!goal.centred) {
+      origin += turned_centre(goal.shapes[table.pairs.shape_of[body]], pose);
     }
     const Quad<double> none{};
     const double unit = walkers.unit[lane];
@@ -129,9 +128,8 @@ TOUCHSTONE_TARGET std::size_t answer_lanes(const PairTable<Scalar>& table,
       table.left[left++] = place_of_pair;
       continue;
     }
-    Outcome& outcome = table.outcomes[place_of_pair];
-    write_answer(apart >> lane, outcome);
-    outcome.iterations = outcome.support_calls = static_cast<std::int32_t>(counts[lane]);
+    write_walked((apart >> lane & 1) != 0, static_cast<std::int32_t>(counts[lane]),
+                 table.outcomes[place_of_pair]);
   }
   walkers.apart = walkers.inside = walkers.shallow = walkers.doubtful = 0;
   return left;

@@ -11,31 +11,62 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load_corners(
   }
 }
 
-// Whether the pair has a unit, as in SupportPair; then its numbers are in the lane.
+// The centre of a hull that is near its origin, from there; metres, world axes, behind a number
+// that means nothing.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool load_pair(const PairTable<Scalar>& table,
-                                                   const LaneGoal<Scalar>& goal,
-                                                   std::uint32_t place, std::size_t lane,
-                                                   Walkers<Scalar>& walkers) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> turned_centre(const LaneShape<Scalar>& shape,
+                                                               const Pose& pose) {
+  const Quad<double> last = pose_quad(pose, 5);
+  const Quad<double> sum = pose_quad(pose, 0) * shape.centre[0] +
+                           pose_quad(pose, 3) * shape.centre[1] +
+                           __builtin_shufflevector(last, last, 1, 2, 3, 3) * shape.centre[2];
+  return __builtin_shufflevector(sum, sum, 0, 0, 1, 2);
+}
+
+// Whether balls around the bodies are apart, from the offset of their centres: a matrix makes no
+// vector longer than by its Frobenius norm, of which a rotation has the root of 3. Such as are far
+// from that, or about to be too long or short for a square, are left to the walk.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool balls_apart(const Quad<double>& offset, double reach_a,
+                                                     const Pose& pose_a, double reach_b,
+                                                     const Pose& pose_b) {
+  const Quad<double> squares = offset * offset;
+  const double square = squares[1] + squares[2] + squares[3];
+  // The square of a sum is at most twice the sum of the squares.
+  if (!(square > 6.11 * (reach_a * reach_a + reach_b * reach_b))) [[likely]]
+    return false;
+  const double stretch_a = pose_a.rotation.squaredNorm();
+  const double stretch_b = pose_b.rotation.squaredNorm();
+  return stretch_a < 3.05 && stretch_b < 3.05 && square > 1e-280 &&
+         square < std::numeric_limits<double>::infinity();
+}
+
+enum class Loaded : std::uint8_t { walks, apart, left };
+
+// Puts the pair's numbers into the lane, where they have a unit as in SupportPair.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& table,
+                                                     const LaneGoal<Scalar>& goal,
+                                                     std::uint32_t place, std::size_t lane,
+                                                     Walkers<Scalar>& walkers) {
   const BodyPairs& pairs = table.pairs;
   const std::uint32_t first = pairs.first[place], second = pairs.second[place];
-  const std::uint32_t shape_a = pairs.shape_of[first], shape_b = pairs.shape_of[second];
-  const LaneShape<Scalar>&a = goal.shapes[shape_a], &b = goal.shapes[shape_b];
+  const LaneShape<Scalar>& a = goal.shapes[pairs.shape_of[first]];
+  const LaneShape<Scalar>& b = goal.shapes[pairs.shape_of[second]];
   const Pose &pose_a = pairs.poses[first], &pose_b = pairs.poses[second];
   const Quad<double> end_a = pose_quad(pose_a, 8), end_b = pose_quad(pose_b, 8);
   Quad<double> offset = end_b - end_a;
-  if (!(a.centred && b.centred)) [[unlikely]] {
-    const CentreOffset between =
-        centre_offset(goal.support_shapes[shape_a], pose_a, goal.support_shapes[shape_b], pose_b);
-    if (between.doubt > 0) return false;
-    offset = Quad<double>{0, between.vector[0], between.vector[1], between.vector[2]};
+  if (!goal.centred) offset = (turned_centre(b, pose_b) - turned_centre(a, pose_a)) + offset;
+  const double reach_a = a.numbers[2], reach_b = b.numbers[2];
+  if (!goal.distances && balls_apart<Scalar>(offset, reach_a, pose_a, reach_b, pose_b)) {
+    return Loaded::apart;
   }
-  const double greatest =
-      std::max(std::max(std::abs(offset[1]), std::abs(offset[2])),
-               std::max(std::abs(offset[3]), std::max(a.numbers[2], b.numbers[2])));
+  const double furthest =
+      std::max(std::max(std::abs(offset[1]), std::abs(offset[2])), std::abs(offset[3]));
+  const double greatest = std::max(furthest, std::max(reach_a, reach_b));
   // The power of two above it, and its inverse, from the bits.
   const auto field = std::bit_cast<std::uint64_t>(greatest) >> 52;
-  if (field < 64 || field > 1980) return false;
+  if (field < 64 || field > 1980) return Loaded::left;
   const double unit = std::bit_cast<double>((field + 1) << 52);
   const double scale = std::bit_cast<double>((2045 - field) << 52);
   walkers.unit[lane] = unit;
@@ -56,22 +87,21 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool load_pair(const PairTable<Scalar>& tabl
   std::memcpy(&walkers.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
   load_corners<Scalar>(a, goal.vertices_a, lane, walkers.corners_a);
   load_corners<Scalar>(b, goal.vertices_b, lane, walkers.corners_b);
-  return true;
+  return Loaded::walks;
 }
 
-// The core of a body, turned and in the pair's unit; vertices from the centre.
+// The core of a body, turned and in the pair's unit; vertices from `centre`, or without it from
+// that of the body.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
     const Vectors<Scalar> columns[3], const Quad<Scalar>* extents, int halves,
-    Quad<Scalar> (*corners)[3][RealLanes<Scalar>::width], std::uint32_t vertices,
-    const Vectors<Scalar>& centre, Vectors<Scalar>* core) {
+    const Quad<Scalar> (*corners)[3][RealLanes<Scalar>::width], std::uint32_t vertices,
+    const Vectors<Scalar>* centre, Vectors<Scalar>* core) {
   using Real = typename RealLanes<Scalar>::Real;
   if (halves != 0) {
     Real sizes[4];
     columns_of<Scalar>(extents, sizes);
-    for (int k = 0; k < halves; ++k) {
-      core[k] = scaled<Scalar>(sizes[3 - halves + k], columns[3 - halves + k]);
-    }
+    for (int k = 3 - halves; k < 3; ++k) *core++ = scaled<Scalar>(sizes[k], columns[k]);
   }
   for (std::uint32_t k = 0; 4 * k < vertices; ++k) {
     Real x[4], y[4], z[4];
@@ -81,8 +111,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
     for (int i = 0; i < 4; ++i) {
       Vectors<Scalar> turned = scaled<Scalar>(x[i], columns[0]);
       turned = moved<Scalar>(moved<Scalar>(turned, y[i], columns[1]), z[i], columns[2]);
-      core[4 * k + static_cast<std::uint32_t>(i)] = {turned.x + centre.x, turned.y + centre.y,
-                                                     turned.z + centre.z};
+      if (centre != nullptr) {
+        turned = {turned.x + centre->x, turned.y + centre->y, turned.z + centre->z};
+      }
+      *core++ = turned;
     }
   }
 }
@@ -120,11 +152,16 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
     if ((walkers.active >> lane & 1) != 0) continue;
     while (next < queue.size()) {
       const std::uint32_t place = queue[next++];
-      if (load_pair<Scalar>(table, goal, place, lane, walkers)) {
+      const Loaded loaded = load_pair<Scalar>(table, goal, place, lane, walkers);
+      if (loaded == Loaded::walks) {
         fresh |= 1u << lane;
         break;
       }
-      table.left[left++] = place;
+      if (loaded == Loaded::left) {
+        table.left[left++] = place;
+      } else {
+        write_walked(true, 0, table.outcomes[place]);
+      }
     }
   }
   // All lanes are turned: those that walk come to what they were.
@@ -144,9 +181,9 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
   walkers.radius_a = sizes[1];
   walkers.radius_b = sizes[3];
   turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a, goal.vertices_a,
-                    {zero, zero, zero}, walkers.a);
+                    nullptr, walkers.a);
   turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b, goal.vertices_b,
-                    walkers.centre_b, walkers.b);
+                    &walkers.centre_b, walkers.b);
 
   walkers.doubtful |= fresh & ~usable;
   walkers.active |= fresh & usable;

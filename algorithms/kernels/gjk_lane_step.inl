@@ -28,25 +28,36 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void put_where(typename RealLanes<Scalar>::M
   if constexpr (points) to.on_a = select<Scalar>(mask, from.on_a, to.on_a);
 }
 
-// Whether the origin is inside a tetrahedron whatever rounding did to its corners, of which
-// `sides` are three of the determinants: is_surely_inside of simplex_walk.h says how large they
-// are to be.
+// Whether the origin is inside a tetrahedron whatever rounding did to its corners: the determinants
+// of its corners by threes, each with the origin, keep their signs. `sides` are those of the faces
+// at a. Corners that are off by r change that of p, q and s by no more than r (|q||s| + |p||s| +
+// |p||q|) <= r (p^2 + q^2 + s^2) and what r^2 adds, for which r is half as much again; its own
+// rounding is less than 20 u times the same squares and the greatest length.
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned surely_inside(const LaneSimplex<Scalar>& simplex,
                                          const Vectors<Scalar>& a,
-                                         const typename RealLanes<Scalar>::Real sides[3]) {
+                                         const typename RealLanes<Scalar>::Real sides[3],
+                                         Scalar corner_error) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   const Vectors<Scalar>&b = simplex.b.point, &c = simplex.c.point, &d = simplex.d.point;
   const Real opposite =
       dot<Scalar>(b, cross<Scalar>(difference<Scalar>(d, b), difference<Scalar>(c, b)));
-  const Real longest = Lanes::max(Lanes::max(dot<Scalar>(a, a), dot<Scalar>(b, b)),
-                                  Lanes::max(dot<Scalar>(c, c), dot<Scalar>(d, d)));
-  const Real enough = 256 * std::numeric_limits<Scalar>::epsilon() * longest *
-                      (Lanes::broadcast(1) + Lanes::sqrt(longest));
-  const Real least = Lanes::min(Lanes::min(sides[0], sides[1]), Lanes::min(sides[2], opposite));
-  const Real most = Lanes::max(Lanes::max(sides[0], sides[1]), Lanes::max(sides[2], opposite));
-  return Lanes::bits(either(Lanes::less(enough, least), Lanes::less(most, -enough)));
+  const Real aa = dot<Scalar>(a, a), bb = dot<Scalar>(b, b);
+  const Real cc = dot<Scalar>(c, c), dd = dot<Scalar>(d, d);
+  const Real longest = Lanes::sqrt(Lanes::max(Lanes::max(aa, bb), Lanes::max(cc, dd)));
+  const Real error =
+      Lanes::broadcast(Scalar(1.5) * corner_error) + 20 * unit_roundoff<Scalar> * longest;
+  const Real errors[4] = {error * (aa + bb + cc), error * (aa + cc + dd), error * (aa + dd + bb),
+                          error * (bb + cc + dd)};
+  const Real all[4] = {sides[0], sides[1], sides[2], opposite};
+  Real least = all[0] - errors[0], most = all[0] + errors[0];
+  for (int k = 1; k < 4; ++k) {
+    least = Lanes::min(least, all[k] - errors[k]);
+    most = Lanes::max(most, all[k] + errors[k]);
+  }
+  const Real zero = Lanes::broadcast(0);
+  return Lanes::bits(either(Lanes::less(zero, least), Lanes::less(most, zero)));
 }
 
 // In the lanes `on`: the simplex becomes the feature that is nearest, which the new corner is on.
@@ -54,9 +65,10 @@ TOUCHSTONE_TARGET unsigned surely_inside(const LaneSimplex<Scalar>& simplex,
 // edges from the new corner, which is a, to b and to c. Where rounding lets them overlap, the
 // first is taken of corner, edges ad, ac, ab, faces adb, acd, abc.
 template <class Scalar, bool points, bool solid>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(
-    LaneSimplex<Scalar>& simplex, const Corner<Scalar>& corner,
-    typename RealLanes<Scalar>::Mask on) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scalar>& simplex,
+                                                               const Corner<Scalar>& corner,
+                                                               typename RealLanes<Scalar>::Mask on,
+                                                               Scalar corner_error) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   using Mask = typename Lanes::Mask;
@@ -113,7 +125,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(
     normal = select<Scalar>(face_d, adb, select<Scalar>(face_c, acd, normal));
     side = Lanes::select(face_d, sides[2], Lanes::select(face_c, sides[1], side));
     step.inside = Lanes::bits(without(has_d, either(either(out_b, out_c), out_d)));
-    if (step.inside != 0) step.inside &= surely_inside<Scalar>(simplex, a, sides);
+    if (step.inside != 0) step.inside &= surely_inside<Scalar>(simplex, a, sides, corner_error);
   }
 
   const Mask on_corner = without(on, past);

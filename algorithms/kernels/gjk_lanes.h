@@ -30,10 +30,10 @@ struct LaneShape {
   // SupportShape's unit and radius, and how far a rotated body reaches: metres; and nothing.
   alignas(32) double numbers[4];
   alignas(32) Scalar extents[4];  // capsule, box: of the core, in its unit; and nothing
+  alignas(32) double centre[3];   // as SupportShape's
+  std::uint32_t vertex_count;     // hull
+  bool fits;                      // the lanes take it
   const hull_scan::VertexBlock<Scalar>* vertices;  // hull: sixteen, copies of the first among them
-  std::uint32_t vertex_count;                      // hull
-  bool fits;                                       // the lanes take it
-  bool centred;                                    // its centre is the body's origin
 };
 
 template <class Scalar>
@@ -55,8 +55,8 @@ class GjkLanes {
                     std::span<Outcome> outcomes, std::uint32_t* left);
 
  private:
-  std::span<const SupportShape<Scalar>> support_shapes_;
   std::vector<LaneShape<Scalar>> shapes_;
+  bool centred_ = true;               // the centres of all that fit are the origins of their bodies
   std::vector<std::uint32_t> queue_;  // scratch: the places of pairs that fit
 };
 

@@ -35,8 +35,14 @@ struct Walkers {
   unsigned ended() const { return apart | inside | shallow | doubtful; }
 };
 
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_walked(bool apart, std::int32_t iterations,
+                                                      Outcome& outcome) {
+  outcome.answer = apart ? Answer::separated : Answer::overlapping;
+  outcome.status = Status::ok;
+  outcome.iterations = outcome.support_calls = iterations;
+}
+
 #include "algorithms/kernels/gjk_lane_answer.inl"
-#include "algorithms/kernels/gjk_lane_start.inl"
 
 // Of vertices the one furthest along the way, or least far; of several the first.
 template <class Scalar, bool forward>
@@ -110,9 +116,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   LaneStep<Scalar> step;
   const bool solid = Lanes::bits(both(on, walkers.simplex.has_d)) != 0;
   if (solid) {
-    step = take_step<Scalar, points, true>(walkers.simplex, corner, on);
+    step = take_step<Scalar, points, true>(walkers.simplex, corner, on, goal.corner_error);
   } else {
-    step = take_step<Scalar, points, false>(walkers.simplex, corner, on);
+    step = take_step<Scalar, points, false>(walkers.simplex, corner, on, goal.corner_error);
   }
   const Real square = dot<Scalar>(step.way, step.way);
   const Real length = Lanes::sqrt(square);
@@ -148,8 +154,8 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
   std::size_t next = 0;
   while (next < queue.size() || walkers.active != 0) {
     left = start_lanes<Scalar>(table, goal, queue, next, walkers, left);
-    // Lanes are filled together, which costs about the same for one as for all.
-    const int enough = next < queue.size() ? static_cast<int>(width / 2) : 1;
+    // Lanes are filled together, which costs about the same for a few as for all.
+    const int enough = next < queue.size() ? static_cast<int>(width * 3 / 8) : 1;
     do {
       walk_on<Scalar, points>(goal, walkers);
     } while (std::popcount(walkers.active) >= enough && walkers.active != 0);
@@ -160,8 +166,7 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
 
 template <class Scalar>
 TOUCHSTONE_TARGET std::size_t walk_all(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
-                                       std::span<const std::uint32_t> queue, bool distance,
-                                       std::size_t left) {
-  if (distance) return walk_lanes<Scalar, true>(table, goal, queue, left);
+                                       std::span<const std::uint32_t> queue, std::size_t left) {
+  if (goal.distances) return walk_lanes<Scalar, true>(table, goal, queue, left);
   return walk_lanes<Scalar, false>(table, goal, queue, left);
 }
