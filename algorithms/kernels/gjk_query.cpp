@@ -21,7 +21,21 @@ void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scala
 }  // namespace
 
 template <class Scalar>
-void GjkQuery<Scalar>::solve(SupportPair<Scalar>& pair, Task task, Outcome& outcome) {
+void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
+                             const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
+                             Outcome& outcome) {
+  if (task != Task::distance && balls_are_apart(a, pose_a, b, pose_b)) {
+    outcome.answer = Answer::separated;
+    outcome.status = Status::ok;
+    outcome.iterations = outcome.support_calls = 0;
+    return;
+  }
+  SupportPair<Scalar> pair(a, pose_a, b, pose_b);
+  solve_pair(pair, task, outcome);
+}
+
+template <class Scalar>
+void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome) {
   using End = typename Approach<Scalar>::End;
   const ApproachGoal<Scalar> goal{.task = task,
                                   .tolerance = tolerance(pair.is_polytope()),

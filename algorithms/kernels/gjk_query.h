@@ -24,8 +24,10 @@ class GjkQuery {
   explicit GjkQuery(const GjkQuerySettings& settings)
       : settings_(settings), polytope_(settings.epa_cap) {}
 
-  // Of bounded bodies. A verdict is `ok` only where a bound proves it beyond rounding.
-  void solve(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
+  // Of bounded bodies. A verdict is `ok` only where a bound proves it beyond rounding. Bodies whose
+  // balls are apart are not walked between, but for their distance.
+  void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
+             const Pose& pose_b, Task task, Outcome& outcome);
 
   // Of a distance between the bodies, in the pair's unit.
   Scalar tolerance(bool polytopes) const {
@@ -38,6 +40,7 @@ class GjkQuery {
  private:
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
+  void solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
   void solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
                      Outcome& outcome);
 

@@ -41,9 +41,8 @@ class GjkInLanes final : public NarrowPhase {
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = left_[k];
       const std::uint32_t a = batch.first[i], b = batch.second[i];
-      SupportPair<Scalar> pair(shapes_[batch.shape_of[a]], batch.poses[a],
-                               shapes_[batch.shape_of[b]], batch.poses[b]);
-      query_.solve(pair, batch.task, outcomes[i]);
+      query_.solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]],
+                   batch.poses[b], batch.task, outcomes[i]);
     }
   }
 
