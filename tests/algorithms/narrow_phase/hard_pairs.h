@@ -1,11 +1,16 @@
-// Pairs of spheres, capsules and boxes that are hard to tell apart, at random.
+// Pairs of spheres, capsules, boxes and small hulls that are hard to tell apart, at random.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -48,7 +53,25 @@ inline double power(Random& random, double low, double high) {
   return std::pow(10.0, uniform(random, low, high));
 }
 
+// Four to sixteen points; hard: in a plane, along a line, one, or about so.
+inline Shape random_small_hull(Random& random, bool hard) {
+  std::vector<Vec3d> points(4 + random() % 13);
+  Vec3d stretch = Vec3d::Ones();
+  int dimension = 3;
+  if (hard) {
+    points.resize(1 + random() % 16);
+    for (int axis = 0; axis < 3; ++axis) {
+      stretch[axis] = random() % 4 == 0 ? 0 : power(random, -5, 0);
+      if (stretch[axis] == 0) --dimension;
+    }
+  }
+  for (Vec3d& point : points) point = stretch.cwiseProduct(0.6 * random_direction(random));
+  dimension = std::min(dimension, static_cast<int>(points.size()) - 1);
+  return bare_hull(std::move(points), dimension);
+}
+
 inline Shape random_shape(Random& random, ShapeKind kind, bool hard) {
+  if (kind == ShapeKind::hull) return random_small_hull(random, hard);
   Shape shape;
   shape.kind = kind;
   const auto length = [&] {
@@ -87,8 +110,8 @@ inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort s
   Vec3d offset = uniform(random, 0.2, 2.2) * random_direction(random);
   if (sort == Sort::stacked) {
     if (kinds.a == kinds.b && random() % 2 == 0) b = a;
-    offset =
-        pose_a.rotation * (2 * uniform(random, 0.8, 1.1) * a.half_extents.x() * Vec3d::UnitX());
+    const double half = a.kind == ShapeKind::hull ? 0.6 : a.half_extents.x();
+    offset = pose_a.rotation * (2 * uniform(random, 0.8, 1.1) * half * Vec3d::UnitX());
     if (random() % 2 == 0) offset += pose_a.rotation.col(1) * uniform(random, -0.3, 0.3);
   }
   const double scale = sort == Sort::scaled ? power(random, -6, 6) : 1;
@@ -96,6 +119,10 @@ inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort s
     shape->radius *= scale;
     shape->half_length *= scale;
     shape->half_extents *= scale;
+    if (shape->kind != ShapeKind::hull) continue;
+    std::vector<Vec3d> vertices = shape->hull->vertices;
+    for (Vec3d& vertex : vertices) vertex *= scale;
+    *shape = bare_hull(std::move(vertices), shape->hull->dimension);
   }
   pose_a.translation *= scale;
   if (sort == Sort::remote) pose_a.translation = 1e7 * random_direction(random);
@@ -127,6 +154,39 @@ inline Pairs hard_pairs(std::uint64_t seed, Kinds kinds, Sort sort, std::size_t 
   Pairs pairs;
   while (pairs.size() < count) add_pair(random, oracle, kinds, sort, pairs);
   return pairs;
+}
+
+// In batches of a size.
+inline std::vector<Outcome> solve(const NarrowPhaseEntry& entry, Precision scalar, Task task,
+                                  const Pairs& pairs, std::size_t batch_size) {
+  const auto algorithm = entry.make(settings_of(scalar));
+  algorithm->bind(pairs.shapes);
+  std::vector<Outcome> outcomes(pairs.size());
+  for (std::size_t begin = 0; begin < pairs.size(); begin += batch_size) {
+    const std::size_t count = std::min(batch_size, pairs.size() - begin);
+    algorithm->solve(pairs.batch(task, begin, count), std::span(outcomes).subspan(begin, count));
+  }
+  return outcomes;
+}
+
+inline std::vector<std::uint64_t> bits_of(const Outcome& o) {
+  std::vector<std::uint64_t> bits = {static_cast<std::uint64_t>(o.answer),
+                                     static_cast<std::uint64_t>(o.status)};
+  for (const double x : {o.distance, o.lower, o.upper}) {
+    bits.push_back(std::bit_cast<std::uint64_t>(x));
+  }
+  for (const Vec3d& v : {o.normal, o.witness_a, o.witness_b}) {
+    for (const double x : v) bits.push_back(std::bit_cast<std::uint64_t>(x));
+  }
+  return bits;
+}
+
+inline void expect_same(const std::vector<Outcome>& a, const std::vector<Outcome>& b,
+                        const std::string& what) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(bits_of(a[i]), bits_of(b[i])) << what << ", pair " << i;
+  }
 }
 
 }  // namespace touchstone::test

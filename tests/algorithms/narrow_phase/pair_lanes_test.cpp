@@ -29,38 +29,6 @@ constexpr std::array<Kinds, 5> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sph
                                               {ShapeKind::capsule, ShapeKind::capsule},
                                               {ShapeKind::box, ShapeKind::box}}};
 
-std::vector<Outcome> solve(const NarrowPhaseEntry& entry, Precision scalar, Task task,
-                           const Pairs& pairs, std::size_t batch_size) {
-  const auto algorithm = entry.make(settings_of(scalar));
-  algorithm->bind(pairs.shapes);
-  std::vector<Outcome> outcomes(pairs.size());
-  for (std::size_t begin = 0; begin < pairs.size(); begin += batch_size) {
-    const std::size_t count = std::min(batch_size, pairs.size() - begin);
-    algorithm->solve(pairs.batch(task, begin, count), std::span(outcomes).subspan(begin, count));
-  }
-  return outcomes;
-}
-
-std::vector<std::uint64_t> bits_of(const Outcome& o) {
-  std::vector<std::uint64_t> bits = {static_cast<std::uint64_t>(o.answer),
-                                     static_cast<std::uint64_t>(o.status)};
-  for (const double x : {o.distance, o.lower, o.upper}) {
-    bits.push_back(std::bit_cast<std::uint64_t>(x));
-  }
-  for (const Vec3d& v : {o.normal, o.witness_a, o.witness_b}) {
-    for (const double x : v) bits.push_back(std::bit_cast<std::uint64_t>(x));
-  }
-  return bits;
-}
-
-void expect_same(const std::vector<Outcome>& a, const std::vector<Outcome>& b,
-                 const std::string& what) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_EQ(bits_of(a[i]), bits_of(b[i])) << what << ", pair " << i;
-  }
-}
-
 TEST(PairLanes, AnswerBatchesOfEveryLengthAlike) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
   for (const Kinds kinds : kind_pairs) {

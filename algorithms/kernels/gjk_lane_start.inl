@@ -1,0 +1,206 @@
+// How lanes take new pairs. Part of gjk_lanes.inl.
+
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load_corners(
+    const LaneShape<Scalar>& shape, std::uint32_t count, std::size_t lane,
+    Quad<Scalar> (*corners)[3][RealLanes<Scalar>::width]) {
+  for (std::uint32_t k = 0; 4 * k < count; ++k) {
+    std::memcpy(&corners[k][0][lane], shape.vertices->x + 4 * k, sizeof(Quad<Scalar>));
+    std::memcpy(&corners[k][1][lane], shape.vertices->y + 4 * k, sizeof(Quad<Scalar>));
+    std::memcpy(&corners[k][2][lane], shape.vertices->z + 4 * k, sizeof(Quad<Scalar>));
+  }
+}
+
+// The centre of a hull that is near its origin, from there; metres, world axes, behind a number
+// that means nothing.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> turned_centre(const LaneShape<Scalar>& shape,
+                                                               const Pose& pose) {
+  const Quad<double> last = pose_quad(pose, 5);
+  const Quad<double> sum = pose_quad(pose, 0) * shape.centre[0] +
+                           pose_quad(pose, 3) * shape.centre[1] +
+                           __builtin_shufflevector(last, last, 1, 2, 3, 3) * shape.centre[2];
+  return __builtin_shufflevector(sum, sum, 0, 0, 1, 2);
+}
+
+// Whether balls around the bodies are apart, from the offset of their centres: a matrix makes no
+// vector longer than by its Frobenius norm, of which a rotation has the root of 3. Such as are far
+// from that, or about to be too long or short for a square, are left to the walk.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool balls_apart(const Quad<double>& offset, double reach_a,
+                                                     const Pose& pose_a, double reach_b,
+                                                     const Pose& pose_b) {
+  const Quad<double> squares = offset * offset;
+  const double square = squares[1] + squares[2] + squares[3];
+  // The square of a sum is at most twice the sum of the squares.
+  if (!(square > 6.11 * (reach_a * reach_a + reach_b * reach_b))) [[likely]]
+    return false;
+  const double stretch_a = pose_a.rotation.squaredNorm();
+  const double stretch_b = pose_b.rotation.squaredNorm();
+  return stretch_a < 3.05 && stretch_b < 3.05 && square > 1e-280 &&
+         square < std::numeric_limits<double>::infinity();
+}
+
+enum class Loaded : std::uint8_t { walks, apart, left };
+
+// Puts the pair's numbers into the lane, where they have a unit as in SupportPair.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& table,
+                                                     const LaneGoal<Scalar>& goal,
+                                                     std::uint32_t place, std::size_t lane,
+                                                     Walkers<Scalar>& walkers) {
+  const BodyPairs& pairs = table.pairs;
+  const std::uint32_t first = pairs.first[place], second = pairs.second[place];
+  const LaneShape<Scalar>& a = goal.shapes[pairs.shape_of[first]];
+  const LaneShape<Scalar>& b = goal.shapes[pairs.shape_of[second]];
+  const Pose &pose_a = pairs.poses[first], &pose_b = pairs.poses[second];
+  const Quad<double> end_a = pose_quad(pose_a, 8), end_b = pose_quad(pose_b, 8);
+  Quad<double> offset = end_b - end_a;
+  if (!goal.centred) offset = (turned_centre(b, pose_b) - turned_centre(a, pose_a)) + offset;
+  const double reach_a = a.numbers[2], reach_b = b.numbers[2];
+  if (!goal.distances && balls_apart<Scalar>(offset, reach_a, pose_a, reach_b, pose_b)) {
+    return Loaded::apart;
+  }
+  const double furthest =
+      std::max(std::max(std::abs(offset[1]), std::abs(offset[2])), std::abs(offset[3]));
+  const double greatest = std::max(furthest, std::max(reach_a, reach_b));
+  // The power of two above it, and its inverse, from the bits.
+  const auto field = std::bit_cast<std::uint64_t>(greatest) >> 52;
+  if (field < 64 || field > 1980) return Loaded::left;
+  const double unit = std::bit_cast<double>((field + 1) << 52);
+  const double scale = std::bit_cast<double>((2045 - field) << 52);
+  walkers.unit[lane] = unit;
+  walkers.place[lane] = place;
+
+  Quad<double> numbers_a, numbers_b;
+  std::memcpy(&numbers_a, a.numbers, sizeof numbers_a);
+  std::memcpy(&numbers_b, b.numbers, sizeof numbers_b);
+  walkers.sizes[lane] =
+      convert<Scalar>(__builtin_shufflevector(numbers_a, numbers_b, 0, 1, 4, 5) * scale);
+  walkers.poses[0][lane] = convert<Scalar>(pose_quad(pose_a, 0));
+  walkers.poses[1][lane] = convert<Scalar>(pose_quad(pose_a, 4));
+  walkers.poses[2][lane] = convert<Scalar>(pose_quad(pose_b, 0));
+  walkers.poses[3][lane] = convert<Scalar>(pose_quad(pose_b, 4));
+  walkers.poses[4][lane] = convert<Scalar>(offset * scale);
+  walkers.poses[5][lane] = convert<Scalar>(__builtin_shufflevector(end_a, end_b, 0, 4, 0, 4));
+  std::memcpy(&walkers.extents_a[lane], a.extents, sizeof(Quad<Scalar>));
+  std::memcpy(&walkers.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
+  load_corners<Scalar>(a, goal.vertices_a, lane, walkers.corners_a);
+  load_corners<Scalar>(b, goal.vertices_b, lane, walkers.corners_b);
+  return Loaded::walks;
+}
+
+// The core of a body, turned and in the pair's unit; vertices from `centre`, or without it from
+// that of the body.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
+    const Vectors<Scalar> columns[3], const Quad<Scalar>* extents, int halves,
+    const Quad<Scalar> (*corners)[3][RealLanes<Scalar>::width], std::uint32_t vertices,
+    const Vectors<Scalar>* centre, Vectors<Scalar>* core) {
+  using Real = typename RealLanes<Scalar>::Real;
+  if (halves != 0) {
+    Real sizes[4];
+    columns_of<Scalar>(extents, sizes);
+    for (int k = 3 - halves; k < 3; ++k) *core++ = scaled<Scalar>(sizes[k], columns[k]);
+  }
+  for (std::uint32_t k = 0; 4 * k < vertices; ++k) {
+    Real x[4], y[4], z[4];
+    columns_of<Scalar>(corners[k][0], x);
+    columns_of<Scalar>(corners[k][1], y);
+    columns_of<Scalar>(corners[k][2], z);
+    for (int i = 0; i < 4; ++i) {
+      Vectors<Scalar> turned = scaled<Scalar>(x[i], columns[0]);
+      turned = moved<Scalar>(moved<Scalar>(turned, y[i], columns[1]), z[i], columns[2]);
+      if (centre != nullptr) {
+        turned = {turned.x + centre->x, turned.y + centre->y, turned.z + centre->z};
+      }
+      *core++ = turned;
+    }
+  }
+}
+
+// Scales the columns of a matrix. Lanes whose greatest entry is about that of a rotation: the unit
+// is above the size of the body then, and not far.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned scale_columns(Vectors<Scalar> columns[3],
+                                                           typename RealLanes<Scalar>::Real scale) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  Real greatest = Lanes::broadcast(0);
+  for (int k = 0; k < 3; ++k) {
+    Vectors<Scalar>& column = columns[k];
+    greatest = Lanes::max(
+        greatest,
+        Lanes::max(Lanes::max(Lanes::abs(column.x), Lanes::abs(column.y)), Lanes::abs(column.z)));
+    column = scaled<Scalar>(scale, column);
+  }
+  return Lanes::bits(both(Lanes::less(Lanes::broadcast(Scalar(0.5)), greatest),
+                          Lanes::less(greatest, Lanes::broadcast(Scalar(1.001)))));
+}
+
+// Gives the next pairs of the queue to the lanes that do not walk, and the places of those that the
+// lanes do not take to `left`; how many are there then.
+template <class Scalar>
+TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
+                                          const LaneGoal<Scalar>& goal,
+                                          std::span<const std::uint32_t> queue, std::size_t& next,
+                                          Walkers<Scalar>& walkers, std::size_t left) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  unsigned fresh = 0;
+  for (std::size_t lane = 0; lane < Lanes::width && next < queue.size(); ++lane) {
+    if ((walkers.active >> lane & 1) != 0) continue;
+    while (next < queue.size()) {
+      const std::uint32_t place = queue[next++];
+      const Loaded loaded = load_pair<Scalar>(table, goal, place, lane, walkers);
+      if (loaded == Loaded::walks) {
+        fresh |= 1u << lane;
+        break;
+      }
+      if (loaded == Loaded::left) {
+        table.left[left++] = place;
+      } else {
+        write_walked(true, 0, table.outcomes[place]);
+      }
+    }
+  }
+  // All lanes are turned: those that walk come to what they were.
+  Real poses[6][4], sizes[4];
+  for (int k = 0; k < 6; ++k) columns_of<Scalar>(walkers.poses[k], poses[k]);
+  columns_of<Scalar>(walkers.sizes, sizes);
+  Vectors<Scalar> columns_a[3] = {{poses[0][0], poses[0][1], poses[0][2]},
+                                  {poses[0][3], poses[1][0], poses[1][1]},
+                                  {poses[1][2], poses[1][3], poses[5][0]}};
+  Vectors<Scalar> columns_b[3] = {{poses[2][0], poses[2][1], poses[2][2]},
+                                  {poses[2][3], poses[3][0], poses[3][1]},
+                                  {poses[3][2], poses[3][3], poses[5][1]}};
+  unsigned usable = scale_columns<Scalar>(columns_a, sizes[0]);
+  usable &= scale_columns<Scalar>(columns_b, sizes[2]);
+  const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  walkers.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
+  walkers.radius_a = sizes[1];
+  walkers.radius_b = sizes[3];
+  turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a, goal.vertices_a,
+                    nullptr, walkers.a);
+  turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b, goal.vertices_b,
+                    &walkers.centre_b, walkers.b);
+
+  walkers.doubtful |= fresh & ~usable;
+  walkers.active |= fresh & usable;
+  const auto set = Lanes::mask(fresh);
+  Vectors<Scalar> way = scaled<Scalar>(-one, walkers.centre_b);
+  Real square = dot<Scalar>(way, way);
+  const auto some = Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square);
+  way = select<Scalar>(some, way, {one, zero, zero});
+  square = Lanes::select(some, square, one);
+  walkers.way = select<Scalar>(set, way, walkers.way);
+  walkers.length = Lanes::select(set, Lanes::sqrt(square), walkers.length);
+  walkers.along =
+      Lanes::select(set, Lanes::broadcast(std::numeric_limits<Scalar>::infinity()), walkers.along);
+  walkers.count = Lanes::select(set, zero, walkers.count);
+  LaneSimplex<Scalar>& simplex = walkers.simplex;
+  simplex.has_b = without(simplex.has_b, set);
+  simplex.has_c = without(simplex.has_c, set);
+  simplex.has_d = without(simplex.has_d, set);
+  return left;
+}

@@ -1,0 +1,66 @@
+// GJK's walk between small bodies, one pair a lane of vectors; a lane whose pair is answered takes
+// the next one of the batch.
+// Paper: Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
+// objects in three-dimensional space", IEEE J. Robotics and Automation 4(2), 1988. Where the
+// nearest feature of a simplex is: Ericson, "Real-Time Collision Detection", 2005, section 9.5.
+//
+// Spheres, capsules, boxes, and hulls of at most `most_lane_vertices`; matrices whose greatest
+// entry is about that of a rotation. What the lanes answer is proven by the same bounds as in
+// simplex_walk.h: a support plane, a tetrahedron around the origin, a point of the difference that
+// is nearer than the radii; distances between both. All else is handed back for a walk that takes
+// its time. The same bits at every level of vector instructions, in any batch.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/outcome.h"
+#include "algorithms/kernels/body_pairs.h"
+#include "algorithms/kernels/support_shape.h"
+
+namespace touchstone {
+
+inline constexpr std::uint32_t most_lane_vertices = hull_scan::VertexBlock<float>::size;
+
+// What the lanes need of a shape.
+template <class Scalar>
+struct LaneShape {
+  // SupportShape's unit and radius, and how far a rotated body reaches: metres; and nothing.
+  alignas(32) double numbers[4];
+  alignas(32) Scalar extents[4];  // capsule, box: of the core, in its unit; and nothing
+  alignas(32) double centre[3];   // as SupportShape's
+  std::uint32_t vertex_count;     // hull
+  bool fits;                      // the lanes take it
+  const hull_scan::VertexBlock<Scalar>* vertices;  // hull: sixteen, copies of the first among them
+};
+
+template <class Scalar>
+class GjkLanes {
+ public:
+  // The second are made of the first, and are to stay where they are.
+  void bind(std::span<const Shape> shapes, std::span<const SupportShape<Scalar>> support_shapes);
+
+  static bool takes(ShapeKind kind) { return kind <= ShapeKind::box || kind == ShapeKind::hull; }
+
+  struct Goal {
+    Task task = Task::intersect;  // of penetration, only what is apart is answered
+    Scalar tolerance = 0;         // of the distance, in the unit of SupportPair
+    int most_iterations = 0;
+  };
+  // Of kinds that it takes. Answers into outcomes, all but the pairs whose places are written to
+  // `left`, which has room for all of them; how many those are.
+  std::size_t solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs, const Goal& goal,
+                    std::span<Outcome> outcomes, std::uint32_t* left);
+
+ private:
+  std::vector<LaneShape<Scalar>> shapes_;
+  bool centred_ = true;               // the centres of all that fit are the origins of their bodies
+  std::vector<std::uint32_t> queue_;  // scratch: the places of pairs that fit
+};
+
+extern template class GjkLanes<float>;
+extern template class GjkLanes<double>;
+
+}  // namespace touchstone

@@ -1,0 +1,172 @@
+// The loops of gjk_lanes.h. Included by gjk_lanes.cpp once for each level of vector instructions,
+// inside that level's namespace.
+#include "algorithms/kernels/gjk_lane_step.inl"
+
+// Bodies of as many pairs as there are lanes, and how far the walk between them has come. Lengths
+// are in the unit of each pair, as seen from the centre of a.
+template <class Scalar>
+struct Walkers {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  static constexpr std::size_t width = Lanes::width;
+
+  // As loaded, a quad a lane: numbers of the poses (see load_pair), sizes, and by fours the x, the
+  // y and the z of vertices.
+  Quad<Scalar> poses[7][width], sizes[width], extents_a[width], extents_b[width];
+  Quad<Scalar> corners_a[4][3][width], corners_b[4][3][width];
+  double unit[width];  // metres
+  std::uint32_t place[width];
+
+  // Vertices, those of b with its centre; or the half edges of a box, the half of a segment.
+  Vectors<Scalar> a[most_lane_vertices], b[most_lane_vertices];
+  Vectors<Scalar> centre_b;
+  Real radius_a, radius_b;
+
+  LaneSimplex<Scalar> simplex;
+  Vectors<Scalar> way;  // away from the origin, through the nearest point; of any length
+  Real length;          // of the way
+  Real along;           // the nearest point along the way, times its length
+  Real plane;           // the newest support plane, so too
+  Real count;           // of iterations
+
+  // Lanes that walk, and those that have ended, by how; as bits.
+  unsigned active = 0, apart = 0, inside = 0, shallow = 0, doubtful = 0;
+
+  unsigned ended() const { return apart | inside | shallow | doubtful; }
+};
+
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_walked(bool apart, std::int32_t iterations,
+                                                      Outcome& outcome) {
+  outcome.answer = apart ? Answer::separated : Answer::overlapping;
+  outcome.status = Status::ok;
+  outcome.iterations = outcome.support_calls = iterations;
+}
+
+#include "algorithms/kernels/gjk_lane_answer.inl"
+
+// Of vertices the one furthest along the way, or least far; of several the first.
+template <class Scalar, bool forward>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_vertex(const Vectors<Scalar>* vertices,
+                                                                    std::uint32_t count,
+                                                                    const Vectors<Scalar>& way) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  Vectors<Scalar> best = vertices[0];
+  Real reach = dot<Scalar>(best, way);
+  for (std::uint32_t k = 1; k < count; ++k) {
+    const Real own = dot<Scalar>(vertices[k], way);
+    const auto better = forward ? Lanes::less(reach, own) : Lanes::less(own, reach);
+    reach = forward ? Lanes::max(own, reach) : Lanes::min(own, reach);
+    best = select<Scalar>(better, vertices[k], best);
+  }
+  return best;
+}
+
+// Half edges, each added or taken away, whichever goes further along the way, or less far.
+template <class Scalar, bool forward>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_corner(const Vectors<Scalar>* halves,
+                                                                    int count,
+                                                                    const Vectors<Scalar>& centre,
+                                                                    const Vectors<Scalar>& way) {
+  using Lanes = RealLanes<Scalar>;
+  const auto one = Lanes::broadcast(forward ? 1 : -1), zero = Lanes::broadcast(0);
+  Vectors<Scalar> corner = centre;
+  for (int k = 0; k < count; ++k) {
+    const auto backward = Lanes::less(dot<Scalar>(halves[k], way), zero);
+    corner = moved<Scalar>(corner, Lanes::select(backward, -one, one), halves[k]);
+  }
+  return corner;
+}
+
+// One step of every lane that walks.
+template <class Scalar, bool points>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
+                                                 Walkers<Scalar>& walkers) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  const Real zero = Lanes::broadcast(0), margin = Lanes::broadcast(lane_rounding<Scalar>);
+  const Vectors<Scalar> way = walkers.way;
+
+  Corner<Scalar> corner;
+  corner.on_a =
+      goal.vertices_a != 0
+          ? furthest_vertex<Scalar, false>(walkers.a, goal.vertices_a, way)
+          : furthest_corner<Scalar, false>(walkers.a, goal.halves_a, {zero, zero, zero}, way);
+  const Vectors<Scalar> on_b =
+      goal.vertices_b != 0
+          ? furthest_vertex<Scalar, true>(walkers.b, goal.vertices_b, way)
+          : furthest_corner<Scalar, true>(walkers.b, goal.halves_b, walkers.centre_b, way);
+  corner.point = difference<Scalar>(corner.on_a, on_b);
+
+  const Real radius = walkers.radius_a + walkers.radius_b;
+  const Real plane = dot<Scalar>(way, corner.point);
+  unsigned stop = Lanes::bits(Lanes::less((radius + margin) * walkers.length, plane));
+  if constexpr (points) {
+    stop &= ~Lanes::bits(Lanes::less(goal.tolerance * walkers.length, walkers.along - plane));
+  }
+  const auto active = Lanes::mask(walkers.active);
+  walkers.plane = Lanes::select(active, plane, walkers.plane);
+  walkers.count = walkers.count + Lanes::select(active, Lanes::broadcast(1), zero);
+  stop &= walkers.active;
+  walkers.apart |= stop;
+  walkers.active &= ~stop;
+  if (walkers.active == 0) return;
+
+  const auto on = Lanes::mask(walkers.active);
+  LaneStep<Scalar> step;
+  const bool solid = Lanes::bits(both(on, walkers.simplex.has_d)) != 0;
+  if (solid) {
+    step = take_step<Scalar, points, true>(walkers.simplex, corner, on, goal.corner_error);
+  } else {
+    step = take_step<Scalar, points, false>(walkers.simplex, corner, on, goal.corner_error);
+  }
+  const Real square = dot<Scalar>(step.way, step.way);
+  const Real length = Lanes::sqrt(square);
+  const Real along = dot<Scalar>(step.way, corner.point);
+  // So written that NaN ends the walk.
+  const auto nearer = Lanes::less(along * walkers.length, walkers.along * length);
+  unsigned going =
+      step.found &
+      Lanes::bits(both(nearer, Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square)));
+  going &= Lanes::bits(Lanes::less(walkers.count, Lanes::broadcast(goal.most_iterations)));
+  walkers.way = select<Scalar>(on, step.way, way);
+  walkers.length = Lanes::select(on, length, walkers.length);
+  walkers.along = Lanes::select(on, along, walkers.along);
+  const unsigned inside = walkers.active & step.inside;
+  unsigned shallow = 0;
+  if (goal.round) {
+    shallow = walkers.active & step.found & ~inside &
+              Lanes::bits(Lanes::less(along, (radius - 2 * margin) * length));
+  }
+  walkers.inside |= inside;
+  walkers.shallow |= shallow;
+  walkers.doubtful |= walkers.active & ~going & ~inside & ~shallow;
+  walkers.active &= going & ~inside & ~shallow;
+}
+
+template <class Scalar, bool points>
+TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
+                                         const LaneGoal<Scalar>& goal,
+                                         std::span<const std::uint32_t> queue, std::size_t left) {
+  constexpr std::size_t width = RealLanes<Scalar>::width;
+  // Zeros, so that lanes without a pair have numbers.
+  Walkers<Scalar> walkers{};
+  std::size_t next = 0;
+  while (next < queue.size() || walkers.active != 0) {
+    left = start_lanes<Scalar>(table, goal, queue, next, walkers, left);
+    // Lanes are filled together, which costs about the same for a few as for all.
+    const int enough = next < queue.size() ? static_cast<int>(width * 3 / 8) : 1;
+    do {
+      walk_on<Scalar, points>(goal, walkers);
+    } while (std::popcount(walkers.active) >= enough && walkers.active != 0);
+    left = answer_lanes<Scalar, points>(table, goal, walkers, left);
+  }
+  return left;
+}
+
+template <class Scalar>
+TOUCHSTONE_TARGET std::size_t walk_all(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
+                                       std::span<const std::uint32_t> queue, std::size_t left) {
+  if (goal.distances) return walk_lanes<Scalar, true>(table, goal, queue, left);
+  return walk_lanes<Scalar, false>(table, goal, queue, left);
+}
