@@ -208,7 +208,7 @@ def run_on(draw, description):
     return told(lambda: draw(options.results, options.out or os.path.join(options.results, "figures")))
 
 
-def run(figures, description, of_file):
+def run(figures, description, of_file=None):
     """The command line of a script. `figures`: name -> function of Tables that gives a figure, or
     None where the tables hold nothing to draw. `of_file`: name of a file -> function of a folder that
     holds it, and of the folder for its figures, which draws them instead."""
@@ -224,7 +224,7 @@ def run(figures, description, of_file):
         folder = options.results
         if not os.path.exists(folder):
             raise BadRequest(f"{folder}: no such folder; expected results of `touchstone run`")
-        for name, draw in of_file.items():
+        for name, draw in (of_file or {}).items():
             if os.path.exists(os.path.join(folder, name)):
                 return draw(folder, out)
         os.makedirs(out, exist_ok=True)
