@@ -1,16 +1,5 @@
 // How lanes take new pairs. Part of gjk_lanes.inl.
 
-template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load_corners(
-    const LaneShape<Scalar>& shape, std::uint32_t count, std::size_t lane,
-    Quad<Scalar> (*corners)[3][RealLanes<Scalar>::width]) {
-  for (std::uint32_t k = 0; 4 * k < count; ++k) {
-    std::memcpy(&corners[k][0][lane], shape.vertices->x + 4 * k, sizeof(Quad<Scalar>));
-    std::memcpy(&corners[k][1][lane], shape.vertices->y + 4 * k, sizeof(Quad<Scalar>));
-    std::memcpy(&corners[k][2][lane], shape.vertices->z + 4 * k, sizeof(Quad<Scalar>));
-  }
-}
-
 // The centre of a hull that is near its origin, from there; metres, world axes, behind a number
 // that means nothing.
 template <class Scalar>
@@ -85,9 +74,22 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   walkers.poses[5][lane] = convert<Scalar>(__builtin_shufflevector(end_a, end_b, 0, 4, 0, 4));
   std::memcpy(&walkers.extents_a[lane], a.extents, sizeof(Quad<Scalar>));
   std::memcpy(&walkers.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
-  load_corners<Scalar>(a, goal.vertices_a, lane, walkers.corners_a);
-  load_corners<Scalar>(b, goal.vertices_b, lane, walkers.corners_b);
+  walkers.corners_a[lane] = a.vertices;
+  walkers.corners_b[lane] = b.vertices;
   return Loaded::walks;
+}
+
+// Of a vertex of each lane and the three after it, one coordinate, which is so far into their
+// block.
+template <class Scalar, std::size_t... lane>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void four_vertices(
+    const hull_scan::VertexBlock<Scalar>* const* blocks, std::size_t offset,
+    typename RealLanes<Scalar>::Real four[4], std::index_sequence<lane...>) {
+  Quad<Scalar> quads[sizeof...(lane)];
+  (std::memcpy(&quads[lane], reinterpret_cast<const char*>(blocks[lane]) + offset,
+               sizeof quads[lane]),
+   ...);
+  columns_of<Scalar>(quads, four);
 }
 
 // The core of a body, turned and in the pair's unit; vertices from `centre`, or without it from
@@ -95,19 +97,21 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
     const Vectors<Scalar> columns[3], const Quad<Scalar>* extents, int halves,
-    const Quad<Scalar> (*corners)[3][RealLanes<Scalar>::width], std::uint32_t vertices,
+    const hull_scan::VertexBlock<Scalar>* const* blocks, std::uint32_t vertices,
     const Vectors<Scalar>* centre, Vectors<Scalar>* core) {
   using Real = typename RealLanes<Scalar>::Real;
+  using Block = hull_scan::VertexBlock<Scalar>;
+  constexpr auto lanes = std::make_index_sequence<RealLanes<Scalar>::width>{};
   if (halves != 0) {
     Real sizes[4];
     columns_of<Scalar>(extents, sizes);
     for (int k = 3 - halves; k < 3; ++k) *core++ = scaled<Scalar>(sizes[k], columns[k]);
   }
-  for (std::uint32_t k = 0; 4 * k < vertices; ++k) {
+  for (std::size_t k = 0; k < vertices; k += 4) {
     Real x[4], y[4], z[4];
-    columns_of<Scalar>(corners[k][0], x);
-    columns_of<Scalar>(corners[k][1], y);
-    columns_of<Scalar>(corners[k][2], z);
+    four_vertices<Scalar>(blocks, offsetof(Block, x) + k * sizeof(Scalar), x, lanes);
+    four_vertices<Scalar>(blocks, offsetof(Block, y) + k * sizeof(Scalar), y, lanes);
+    four_vertices<Scalar>(blocks, offsetof(Block, z) + k * sizeof(Scalar), z, lanes);
     for (int i = 0; i < 4; ++i) {
       Vectors<Scalar> turned = scaled<Scalar>(x[i], columns[0]);
       turned = moved<Scalar>(moved<Scalar>(turned, y[i], columns[1]), z[i], columns[2]);

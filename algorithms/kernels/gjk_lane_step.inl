@@ -131,15 +131,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
   const Mask on_corner = without(on, past);
   const Mask on_edge = without(either(either(edge_b, edge_c), edge_d), on_corner);
   const Mask on_face = without(without(either(either(face_b, face_c), face_d), on_corner), on_edge);
-  Vectors<Scalar> way;
-  if constexpr (points) {
-    // What is left along the edge is rounding, and would tilt the support plane.
-    way = moved<Scalar>(a, along / square, edge);
-    way = moved<Scalar>(way, -dot<Scalar>(way, edge) / square, edge);
-  } else {
-    way = moved<Scalar>(scaled<Scalar>(square, a), along, edge);
-  }
-  const Real one = Lanes::broadcast(1);
+  const Real one = Lanes::broadcast(1), inverse = one / square;
+  Vectors<Scalar> way = moved<Scalar>(a, along * inverse, edge);
+  // What is left along the edge is rounding, and would tilt the support plane.
+  way = moved<Scalar>(way, -dot<Scalar>(way, edge) * inverse, edge);
   const Vectors<Scalar> outward =
       scaled<Scalar>(Lanes::select(Lanes::less(side, zero), -one, one), normal);
   step.way = select<Scalar>(on_corner, a, select<Scalar>(on_edge, way, outward));

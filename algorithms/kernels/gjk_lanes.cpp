@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "algorithms/kernels/pair_lanes.h"
 #include "algorithms/kernels/support.h"
@@ -20,7 +21,8 @@ using real_lanes::Quad;
 template <class Scalar>
 struct LaneGoal {
   const LaneShape<Scalar>* shapes;
-  int halves_a, halves_b;                // of a box 3, of a segment 1, else none
+  const hull_scan::VertexBlock<Scalar>* some_vertices;  // of a hull, where there is one
+  int halves_a, halves_b;                               // of a box 3, of a segment 1, else none
   std::uint32_t vertices_a, vertices_b;  // the most of a hull, in fours; of others none
   bool round;                            // a body has a radius
   bool centred;                          // all centres are the origins of the bodies
@@ -61,7 +63,8 @@ int halves_of(ShapeKind kind) {
 template <class Scalar>
 void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
                             std::span<const SupportShape<Scalar>> support_shapes) {
-  centred_ = true;
+  centred_ = all_fit_ = true;
+  most_vertices_ = 0;
   shapes_.assign(shapes.size(), {});
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const SupportShape<Scalar>& shape = support_shapes[i];
@@ -78,54 +81,70 @@ void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
       // Far from its origin, its centre must be turned with care.
       lane.fits = count <= most_lane_vertices && shape.centre.cwiseAbs().maxCoeff() <= shape.size;
     }
-    centred_ = centred_ && (!lane.fits || shape.centre.isZero(0));
+    all_fit_ = all_fit_ && lane.fits;
+    if (!lane.fits) continue;
+    centred_ = centred_ && shape.centre.isZero(0);
+    if (lane.vertices != nullptr) some_vertices_ = lane.vertices;
+    most_vertices_ = std::max(most_vertices_, lane.vertex_count);
   }
 }
 
 template <class Scalar>
 std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
-                                    const Goal& goal, std::span<Outcome> outcomes,
+                                    const Goal& asked, std::span<Outcome> outcomes,
                                     std::uint32_t* left) {
-  LaneGoal<Scalar> lane_goal{
+  // In fours, as vertices are turned; a block has copies of the first behind the last.
+  const std::uint32_t vertices = (most_vertices_ + 3) / 4 * 4;
+  const LaneGoal<Scalar> goal{
       .shapes = shapes_.data(),
+      .some_vertices = some_vertices_,
       .halves_a = halves_of(kind_a),
       .halves_b = halves_of(kind_b),
-      .vertices_a = 0,
-      .vertices_b = 0,
+      .vertices_a = kind_a == ShapeKind::hull ? vertices : 0,
+      .vertices_b = kind_b == ShapeKind::hull ? vertices : 0,
       .round = kind_a <= ShapeKind::capsule,
       .centred = centred_,
-      .distances = goal.task == Task::distance,
-      .answers_overlaps = goal.task != Task::penetration,
+      .distances = asked.task == Task::distance,
+      .answers_overlaps = asked.task != Task::penetration,
       .corner_error = centred_ ? CornerError<Scalar>::centred : CornerError<Scalar>::shifted,
-      .tolerance = goal.tolerance,
-      .most_iterations = static_cast<Scalar>(goal.most_iterations)};
+      .tolerance = asked.tolerance,
+      .most_iterations = static_cast<Scalar>(asked.most_iterations)};
   // Without wider vectors, lanes of doubles are slower than one pair at a time.
   constexpr bool wants_avx2 = std::is_same_v<Scalar, double>;
   const bool none = wants_avx2 && isa() == Isa::baseline;
+  while (places_.size() < pairs.first.size()) {
+    places_.push_back(static_cast<std::uint32_t>(places_.size()));
+  }
+  const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
+  if (none) {
+    std::ranges::copy(places, left);
+    return places.size();
+  }
+  std::span<const std::uint32_t> queue = places;
   std::size_t left_count = 0;
-  queue_.clear();
-  for (std::size_t i = 0; i < pairs.first.size(); ++i) {
-    const LaneShape<Scalar>& a = shapes_[pairs.shape_of[pairs.first[i]]];
-    const LaneShape<Scalar>& b = shapes_[pairs.shape_of[pairs.second[i]]];
-    const auto place = static_cast<std::uint32_t>(i);
-    if (none || !(a.fits && b.fits)) {
-      left[left_count++] = place;
-      continue;
+  if (!all_fit_) {
+    queue_.clear();
+    for (const std::uint32_t i : places) {
+      const bool fit = shapes_[pairs.shape_of[pairs.first[i]]].fits &&
+                       shapes_[pairs.shape_of[pairs.second[i]]].fits;
+      if (fit) {
+        queue_.push_back(i);
+      } else {
+        left[left_count++] = i;
+      }
     }
-    queue_.push_back(place);
-    lane_goal.vertices_a = std::max(lane_goal.vertices_a, a.vertex_count);
-    lane_goal.vertices_b = std::max(lane_goal.vertices_b, b.vertex_count);
+    queue = queue_;
   }
   const PairTable<Scalar> table{pairs, nullptr, outcomes.data(), left};
   switch (isa()) {
-    case Isa::avx512: return avx512::walk_all(table, lane_goal, queue_, left_count);
-    case Isa::avx2: return avx2::walk_all(table, lane_goal, queue_, left_count);
+    case Isa::avx512: return avx512::walk_all(table, goal, queue, left_count);
+    case Isa::avx2: return avx2::walk_all(table, goal, queue, left_count);
     case Isa::baseline: break;
   }
   if constexpr (wants_avx2) {
     return left_count;
   } else {
-    return baseline::walk_all(table, lane_goal, queue_, left_count);
+    return baseline::walk_all(table, goal, queue, left_count);
   }
 }
 

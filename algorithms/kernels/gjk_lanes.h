@@ -51,13 +51,17 @@ class GjkLanes {
   };
   // Of kinds that it takes. Answers into outcomes, all but the pairs whose places are written to
   // `left`, which has room for all of them; how many those are.
-  std::size_t solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs, const Goal& goal,
+  std::size_t solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs, const Goal& asked,
                     std::span<Outcome> outcomes, std::uint32_t* left);
 
  private:
   std::vector<LaneShape<Scalar>> shapes_;
-  bool centred_ = true;               // the centres of all that fit are the origins of their bodies
-  std::vector<std::uint32_t> queue_;  // scratch: the places of pairs that fit
+  const hull_scan::VertexBlock<Scalar>* some_vertices_ = nullptr;  // of a hull that fits
+  std::uint32_t most_vertices_ = 0;                                // of those
+  bool all_fit_ = true;
+  bool centred_ = true;  // the centres of all that fit are the origins of their bodies
+  std::vector<std::uint32_t> places_;  // 0, 1, 2...
+  std::vector<std::uint32_t> queue_;   // scratch: the places of pairs that fit
 };
 
 extern template class GjkLanes<float>;

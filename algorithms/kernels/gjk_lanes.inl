@@ -10,10 +10,9 @@ struct Walkers {
   using Real = typename Lanes::Real;
   static constexpr std::size_t width = Lanes::width;
 
-  // As loaded, a quad a lane: numbers of the poses (see load_pair), sizes, and by fours the x, the
-  // y and the z of vertices.
-  Quad<Scalar> poses[7][width], sizes[width], extents_a[width], extents_b[width];
-  Quad<Scalar> corners_a[4][3][width], corners_b[4][3][width];
+  // As loaded, a quad a lane: numbers of the poses (see load_pair), sizes; and where vertices are.
+  Quad<Scalar> poses[6][width], sizes[width], extents_a[width], extents_b[width];
+  const hull_scan::VertexBlock<Scalar>*corners_a[width], *corners_b[width];
   double unit[width];  // metres
   std::uint32_t place[width];
 
@@ -44,7 +43,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_walked(bool apart, std::int32_t i
 
 #include "algorithms/kernels/gjk_lane_answer.inl"
 
-// Of vertices the one furthest along the way, or least far; of several the first.
+// Of vertices, in fours, the one furthest along the way, or least far; of several the first.
 template <class Scalar, bool forward>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_vertex(const Vectors<Scalar>* vertices,
                                                                     std::uint32_t count,
@@ -53,11 +52,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_vertex(const Vector
   using Real = typename Lanes::Real;
   Vectors<Scalar> best = vertices[0];
   Real reach = dot<Scalar>(best, way);
-  for (std::uint32_t k = 1; k < count; ++k) {
-    const Real own = dot<Scalar>(vertices[k], way);
-    const auto better = forward ? Lanes::less(reach, own) : Lanes::less(own, reach);
-    reach = forward ? Lanes::max(own, reach) : Lanes::min(own, reach);
-    best = select<Scalar>(better, vertices[k], best);
+  for (const Vectors<Scalar>* const end = vertices + count; vertices != end; vertices += 4) {
+    for (int k = 0; k < 4; ++k) {
+      const Real own = dot<Scalar>(vertices[k], way);
+      const auto better = forward ? Lanes::less(reach, own) : Lanes::less(own, reach);
+      reach = forward ? Lanes::max(own, reach) : Lanes::min(own, reach);
+      best = select<Scalar>(better, vertices[k], best);
+    }
   }
   return best;
 }
@@ -149,8 +150,10 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
                                          const LaneGoal<Scalar>& goal,
                                          std::span<const std::uint32_t> queue, std::size_t left) {
   constexpr std::size_t width = RealLanes<Scalar>::width;
-  // Zeros, so that lanes without a pair have numbers.
+  // So that lanes without a pair have numbers.
   Walkers<Scalar> walkers{};
+  std::ranges::fill(walkers.corners_a, goal.some_vertices);
+  std::ranges::fill(walkers.corners_b, goal.some_vertices);
   std::size_t next = 0;
   while (next < queue.size() || walkers.active != 0) {
     left = start_lanes<Scalar>(table, goal, queue, next, walkers, left);

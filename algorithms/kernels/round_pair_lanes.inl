@@ -1,6 +1,6 @@
 // The loops of round_pair_lanes.h. Included by round_pair_lanes.cpp once for each level of vector
 // instructions, inside that level's namespace.
-#include "algorithms/kernels/pair_lanes.inl"
+#include "algorithms/kernels/lane_vectors.inl"
 
 // What the cores of two bodies are to each other; metres, world axes, as seen from the centre of
 // a. The distance, signed where a point is in a box, is between `lower` and `upper` up to `error`;
@@ -15,22 +15,6 @@ struct Cores {
   unsigned usable;  // lanes that may be answered at all
 };
 
-template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> moved(const Vectors<Scalar>& from,
-                                                          typename RealLanes<Scalar>::Real by,
-                                                          const Vectors<Scalar>& along) {
-  return {from.x + by * along.x, from.y + by * along.y, from.z + by * along.z};
-}
-template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> difference(const Vectors<Scalar>& a,
-                                                               const Vectors<Scalar>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> cross(const Vectors<Scalar>& a,
-                                                          const Vectors<Scalar>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real sum_of_sizes(
     const Vectors<Scalar>& v) {
