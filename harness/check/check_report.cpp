@@ -281,7 +281,7 @@ std::string page_text(const CheckReport& report, const std::string& command) {
       "that is greater; each number is the greatest that was seen.\n\n",
       command, request.seed, request.cases, request.regimes.size());
   for (const auto& [name, value] : machine_facts()) {
-    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "embree", "cgal",
+    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "mujoco", "embree", "cgal",
                                "boost_geometry", "commit"}) {
       if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
     }
