@@ -33,8 +33,8 @@ std::string introduction(const CheckReport& report, const std::string& command) 
       "that is greater; each number is the greatest that was seen.\n\n",
       command, request.seed, request.cases, request.regimes.size());
   for (const auto& [name, value] : machine_facts()) {
-    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "embree", "cgal",
-                               "boost_geometry", "commit"}) {
+    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "mujoco", "embree",
+                               "cgal", "boost_geometry", "commit"}) {
       if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
     }
   }

@@ -112,7 +112,8 @@ std::set<std::string> libraries_of(const SourceFile& file) {
   std::set<std::string> libraries;
   for (const std::string& to : file.other) {
     const std::string first = to.substr(0, to.find('/'));
-    if (first == "fcl" || first == "ccd" || first == "ode" || first == "embree3") {
+    if (first == "fcl" || first == "ccd" || first == "ode" || first == "mujoco" ||
+        first == "embree3") {
       libraries.insert(first);
     }
     if (to.starts_with("boost/geometry")) libraries.insert("boost geometry");

@@ -50,6 +50,7 @@ TEST(Machine, TellsWhatAReaderOfTheTimesNeeds) {
                            "fcl",
                            "libccd",
                            "ode",
+                           "mujoco",
                            "embree",
                            "cgal",
                            "boost_geometry",
