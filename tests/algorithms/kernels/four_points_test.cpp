@@ -56,7 +56,7 @@ TEST(FourPoints, AreTheGreatestWithTheDeepest) {
     const double width = std::pow(10.0, -6 * unit(engine));
     Corners corners;
     for (const double angle : angles) {
-      RegionCorner<double> corner;
+      RegionCorner<double> corner{};
       corner.x = std::cos(angle);
       corner.y = width * std::sin(angle);
       corner.depth = round % 2 == 0 ? 1 : std::floor(3 * unit(engine));
