@@ -1,7 +1,6 @@
 #include "algorithms/kernels/contact_feature.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -53,34 +52,33 @@ template <class Scalar>
 void find_on_box(Placed<Scalar>& body) {
   const Vec3<Scalar>& half = body.shape.support.extents;
   const Mat3<Scalar>& m = body.matrix;
-  Vec3<Scalar> corner;
-  for (int k = 0; k < 3; ++k) corner[k] = std::copysign(half[k], body.local[k]);
   int face = 0;
   Vec3<Scalar> outward = Vec3<Scalar>::Zero();
-  Scalar best = -1;
+  Scalar best = -1, best_square = 1;  // of the greatest best / best_square
   for (int k = 0; k < 3; ++k) {
     const Vec3<Scalar> normal = m.col((k + 1) % 3).cross(m.col((k + 2) % 3));
-    const Scalar along = normal.dot(body.direction);
-    const Scalar square = along * along / normal.squaredNorm();
-    if (!(square > best)) continue;
-    best = square;
+    const Scalar along = normal.dot(body.direction), square = normal.squaredNorm();
+    if (!(along * along * best_square > best * square)) continue;
+    best = along * along;
+    best_square = square;
     face = k;
     outward = along < 0 ? Vec3<Scalar>(-normal) : normal;
   }
   if (body.is_across(outward)) {
     const int i = (face + 1) % 3, j = (face + 2) % 3;
+    const Scalar side = std::copysign(half[face], body.local[face]);
+    const Vec3<Scalar> middle = body.centre + side * m.col(face);
+    const Vec3<Scalar> to_i = half[i] * m.col(i), to_j = half[j] * m.col(j);
     // Their order does not depend on the direction, so that their numbers do not.
-    for (const auto [si, sj] : {std::array{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
-      Vec3<Scalar> point = corner;
-      point[i] = static_cast<Scalar>(si) * half[i];
-      point[j] = static_cast<Scalar>(sj) * half[j];
-      body.add(point);
-    }
-    body.feature.normal = outward.normalized();
+    const Vec3<Scalar> high = middle + to_i, low = middle - to_i;
+    body.feature.points.assign({high + to_j, low + to_j, low - to_j, high - to_j});
+    body.feature.normal = outward / std::sqrt(best_square);
     body.feature.numbered = true;
-    body.feature.number = static_cast<std::uint16_t>(2 * face + (corner[face] > 0 ? 1 : 0));
+    body.feature.number = static_cast<std::uint16_t>(2 * face + (side > 0 ? 1 : 0));
     return;
   }
+  Vec3<Scalar> corner;
+  for (int k = 0; k < 3; ++k) corner[k] = std::copysign(half[k], body.local[k]);
   int along = 0;
   for (int k = 1; k < 3; ++k) {
     if (std::abs(body.local[k]) < std::abs(body.local[along])) along = k;

@@ -24,24 +24,23 @@ auto doubled_area(const Points& points) {
 }  // namespace
 
 template <class Scalar>
-void ContactRegion<Scalar>::see(const ContactFeature<Scalar>& feature, const Frame& frame,
-                                std::uint16_t first, std::vector<Seen>& seen) const {
+void ContactRegion<Scalar>::see(const ContactFeature<Scalar>& feature, std::uint16_t first,
+                                std::vector<Seen>& seen) const {
   seen.clear();
   for (const Vec3<Scalar>& point : feature.points) {
-    seen.push_back(frame.see(point));
+    seen.push_back(frame_.see(point));
     seen.back().edge = first++;
   }
 }
 
 template <class Scalar>
 auto ContactRegion<Scalar>::height_of(const ContactFeature<Scalar>& feature,
-                                      const std::vector<Seen>& seen, const Frame& frame) const
-    -> Line {
+                                      const std::vector<Seen>& seen) const -> Line {
   Scalar a = 0, b = 0;
   if (seen.size() > 2) {
-    const Scalar along = feature.normal.dot(frame.normal);
-    a = -feature.normal.dot(frame.u) / along;
-    b = -feature.normal.dot(frame.v) / along;
+    const Scalar along = feature.normal.dot(frame_.normal);
+    a = -feature.normal.dot(frame_.u) / along;
+    b = -feature.normal.dot(frame_.v) / along;
   } else {
     const Scalar x = seen[1].x - seen[0].x, y = seen[1].y - seen[0].y;
     const Scalar slope = (seen[1].height - seen[0].height) / (x * x + y * y);
@@ -54,11 +53,13 @@ auto ContactRegion<Scalar>::height_of(const ContactFeature<Scalar>& feature,
 template <class Scalar>
 template <class Value>
 void ContactRegion<Scalar>::cut(const Value& value, std::uint16_t edge, Scalar rounding) {
-  if (subject_.empty()) return;
+  // Most lines cut nothing off.
+  Scalar least = rounding;
+  for (const Seen& s : subject_) least = std::min(least, value(s));
+  if (least >= -rounding) return;
   cut_.clear();
   const auto side = [&](Scalar x) { return x > rounding ? 1 : x < -rounding ? -1 : 0; };
   Scalar here = value(subject_.front());
-  bool whole = true;
   for (std::size_t k = 0; k < subject_.size(); ++k) {
     const Seen& from = subject_[k];
     const Seen& to = subject_[k + 1 < subject_.size() ? k + 1 : 0];
@@ -67,8 +68,6 @@ void ContactRegion<Scalar>::cut(const Value& value, std::uint16_t edge, Scalar r
     if (side_from >= 0) {
       cut_.push_back(from);
       if (side_from == 0 && side_to < 0) cut_.back().edge = edge;
-    } else {
-      whole = false;
     }
     if (side_from * side_to < 0) {
       const Scalar part = here / (here - there);
@@ -78,7 +77,7 @@ void ContactRegion<Scalar>::cut(const Value& value, std::uint16_t edge, Scalar r
     }
     here = there;
   }
-  if (!whole) std::swap(subject_, cut_);
+  std::swap(subject_, cut_);
 }
 
 template <class Scalar>
@@ -131,8 +130,7 @@ void ContactRegion<Scalar>::merge_neighbours(Scalar distance) {
 }
 
 template <class Scalar>
-void ContactRegion<Scalar>::finish(const Frame& frame, const Line& height, bool subject_is_a,
-                                   Scalar rounding) {
+void ContactRegion<Scalar>::finish(const Line& height, bool subject_is_a, Scalar rounding) {
   const Scalar sign = subject_is_a ? Scalar{1} : Scalar{-1};
   const auto depth = [&](const Seen& s) { return sign * (s.height - height.at(s)); };
   cut(depth, parting, rounding);
@@ -140,10 +138,9 @@ void ContactRegion<Scalar>::finish(const Frame& frame, const Line& height, bool 
   if (subject_.empty()) return;
   std::uint16_t before = subject_.back().edge;
   for (const Seen& s : subject_) {
-    const Vec3<Scalar> on_subject = frame.point(s, s.height);
-    const Vec3<Scalar> on_other = frame.point(s, height.at(s));
-    corners_.push_back({subject_is_a ? on_subject : on_other, subject_is_a ? on_other : on_subject,
-                        depth(s), s.x, s.y, before, s.edge});
+    const Scalar other = height.at(s);
+    const Scalar on_a = subject_is_a ? s.height : other, on_b = subject_is_a ? other : s.height;
+    corners_.push_back({s.x, s.y, on_a, on_b, on_a - on_b, before, s.edge});
     before = s.edge;
   }
   if (doubled_area(corners_) >= 0) return;
@@ -155,19 +152,19 @@ void ContactRegion<Scalar>::find(const ContactFeature<Scalar>& a, const ContactF
                                  const Vec3<Scalar>& normal, Scalar rounding) {
   corners_.clear();
   if (a.points.empty() || b.points.empty()) return;
-  const Frame frame(normal);
+  frame_ = Frame(normal);
   // A segment is never what a polygon is cut by.
   const bool subject_is_a = a.points.size() == 2;
   const ContactFeature<Scalar>& other = subject_is_a ? b : a;
-  see(subject_is_a ? a : b, frame, subject_is_a ? first_of_a : first_of_b, subject_);
-  see(other, frame, subject_is_a ? first_of_b : first_of_a, outline_);
-  const Line height = height_of(other, outline_, frame);
+  see(subject_is_a ? a : b, subject_is_a ? first_of_a : first_of_b, subject_);
+  see(other, subject_is_a ? first_of_b : first_of_a, outline_);
+  const Line height = height_of(other, outline_);
   if (outline_.size() > 2) {
     cut_by_polygon(rounding);
   } else {
     cut_by_segment(rounding);
   }
-  finish(frame, height, subject_is_a, rounding);
+  finish(height, subject_is_a, rounding);
 }
 
 template <class Scalar>
@@ -175,9 +172,9 @@ void ContactRegion<Scalar>::find_on_plane(const ContactFeature<Scalar>& a, Scala
                                           const Vec3<Scalar>& normal, Scalar rounding) {
   corners_.clear();
   if (a.points.empty()) return;
-  const Frame frame(normal);
-  see(a, frame, first_of_a, subject_);
-  finish(frame, {0, 0, height}, true, rounding);
+  frame_ = Frame(normal);
+  see(a, first_of_a, subject_);
+  finish({0, 0, height}, true, rounding);
 }
 
 template class ContactRegion<float>;

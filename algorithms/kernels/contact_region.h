@@ -14,12 +14,12 @@
 
 namespace touchstone {
 
-// A corner of the region, in the frame of the features: on_a - on_b is depth * normal.
+// A corner of the region, as seen along the normal: its place across it and, along it, how high
+// the two bodies are there.
 template <class Scalar>
 struct RegionCorner {
-  Vec3<Scalar> on_a, on_b;
-  Scalar depth;
-  Scalar x, y;                     // as seen along the normal
+  Scalar x, y;
+  Scalar on_a, on_b, depth;        // depth = on_a - on_b
   std::uint16_t from = 0, to = 0;  // numbers of the edges of a and b that meet here
 };
 
@@ -37,6 +37,13 @@ class ContactRegion {
                      Scalar rounding);
 
   const std::vector<RegionCorner<Scalar>>& corners() const { return corners_; }
+  // Of a corner, in the frame of the features.
+  Vec3<Scalar> on_a(const RegionCorner<Scalar>& corner) const {
+    return frame_.point(corner.x, corner.y, corner.on_a);
+  }
+  Vec3<Scalar> on_b(const RegionCorner<Scalar>& corner) const {
+    return frame_.point(corner.x, corner.y, corner.on_b);
+  }
 
  private:
   struct Seen {
@@ -51,18 +58,19 @@ class ContactRegion {
   };
   struct Frame {
     Vec3<Scalar> u, v, normal;
+
+    Frame() = default;
     explicit Frame(const Vec3<Scalar>& n) : u(n.unitOrthogonal()), v(n.cross(u)), normal(n) {}
     Seen see(const Vec3<Scalar>& p) const { return {u.dot(p), v.dot(p), normal.dot(p), 0}; }
-    Vec3<Scalar> point(const Seen& s, Scalar height) const {
-      return s.x * u + s.y * v + height * normal;
+    Vec3<Scalar> point(Scalar x, Scalar y, Scalar height) const {
+      return x * u + y * v + height * normal;
     }
   };
 
   // `first` is the number of its first edge.
-  void see(const ContactFeature<Scalar>& feature, const Frame& frame, std::uint16_t first,
+  void see(const ContactFeature<Scalar>& feature, std::uint16_t first,
            std::vector<Seen>& seen) const;
-  Line height_of(const ContactFeature<Scalar>& feature, const std::vector<Seen>& seen,
-                 const Frame& frame) const;
+  Line height_of(const ContactFeature<Scalar>& feature, const std::vector<Seen>& seen) const;
   // Cuts the subject by the outline of the other feature.
   void cut_by_polygon(Scalar rounding);
   void cut_by_segment(Scalar rounding);
@@ -70,9 +78,10 @@ class ContactRegion {
   template <class Value>
   void cut(const Value& value, std::uint16_t edge, Scalar rounding);
   // The corners, from what is left of the subject and the other feature's height above each place.
-  void finish(const Frame& frame, const Line& height, bool subject_is_a, Scalar rounding);
+  void finish(const Line& height, bool subject_is_a, Scalar rounding);
   void merge_neighbours(Scalar distance);
 
+  Frame frame_;
   std::vector<Seen> subject_, cut_, outline_;
   std::vector<RegionCorner<Scalar>> corners_;
 };

@@ -13,13 +13,14 @@ struct Choice {
   std::array<std::uint32_t, 4> corners{};
 };
 
-// The greatest with corner `first`: for each corner opposite to it, the furthest on either side.
+// The greatest with corner `first` among as many corners from it on: for each corner opposite to
+// it, the furthest on either side.
 template <class Scalar>
 void offer_with(const std::vector<RegionCorner<Scalar>>& corners, std::uint32_t first,
-                Choice<Scalar>& best) {
-  const auto count = static_cast<std::uint32_t>(corners.size());
+                std::uint32_t count, Choice<Scalar>& best) {
+  const auto all = static_cast<std::uint32_t>(corners.size());
   const auto at = [&](std::uint32_t step) {
-    return first + step < count ? first + step : first + step - count;
+    return first + step < all ? first + step : first + step - all;
   };
   const RegionCorner<Scalar>& origin = corners[first];
   for (std::uint32_t opposite = 2; opposite + 1 < count; ++opposite) {
@@ -51,20 +52,25 @@ void offer_with(const std::vector<RegionCorner<Scalar>>& corners, std::uint32_t 
 template <class Scalar>
 std::array<std::uint32_t, 4> choose_four(const std::vector<RegionCorner<Scalar>>& corners,
                                          Scalar rounding) {
-  const auto shallower = [](const auto& p, const auto& q) { return p.depth < q.depth; };
-  const Scalar least =
-      std::max_element(corners.begin(), corners.end(), shallower)->depth - rounding;
-  const auto is_deepest = [&](const auto& corner) { return corner.depth >= least; };
+  const auto count = static_cast<std::uint32_t>(corners.size());
+  Scalar greatest = corners[0].depth;
+  for (const RegionCorner<Scalar>& corner : corners) greatest = std::max(greatest, corner.depth);
+  const auto is_deepest = [&](const auto& corner) { return corner.depth >= greatest - rounding; };
   const auto deepest =
       static_cast<std::uint32_t>(std::count_if(corners.begin(), corners.end(), is_deepest));
   Choice<Scalar> best;
+  if (deepest == count && count <= most_tried) {
+    // Any four: each once, from the first of them on.
+    for (std::uint32_t k = 0; k + 3 < count; ++k) offer_with(corners, k, count - k, best);
+    return best.corners;
+  }
   const std::uint32_t tried = std::min(deepest, most_tried);
   std::uint32_t met = 0, done = 0;  // of the deepest
-  for (std::uint32_t k = 0; k < corners.size() && done < tried; ++k) {
+  for (std::uint32_t k = 0; k < count && done < tried; ++k) {
     if (!is_deepest(corners[k])) continue;
     if (met++ * tried / deepest < done) continue;
     ++done;
-    offer_with(corners, k, best);
+    offer_with(corners, k, count, best);
   }
   std::sort(best.corners.begin(), best.corners.end());
   return best.corners;

@@ -55,6 +55,8 @@ class PolytopePair {
   const PlacedPolytope<Scalar>& b() const { return b_; }
   // A forward bound on the error of a gap.
   Scalar error() const { return error_; }
+  // Metres in a length of the pair's frame.
+  double unit() const { return unit_; }
   // Apart by so much that the two balls around the bodies are. No other test may then be made: the
   // offset may be too great for the scalar.
   bool far_apart() const { return far_apart_; }

@@ -108,12 +108,12 @@ class ClippedFaces final : public ContactManifold {
   void solve_bounded(const Placed& a, const Placed& b, Manifold& manifold);
   void solve_plane(const Placed& a, const Placed& b, Manifold& manifold);
   // What pairs of bounded bodies have in common.
-  void solve_pair(SupportPair<Scalar>& pair, const Placed& a, const Placed& b,
+  bool solve_pair(SupportPair<Scalar>& pair, const Placed& a, const Placed& b,
                   const Deepest& deepest, Manifold& manifold);
-  // The manifold of the region's corners, or of the deepest point where the region lacks it.
-  // `to_world` moves the region's points there, whose unit is `unit` metres.
+  // The manifold of the region's corners. `to_world` moves points there from the region, whose unit
+  // is `unit` metres. False where the region lacks the deepest point.
   template <class ToWorld>
-  void write(const Deepest& deepest, double unit, bool numbered, const ToWorld& to_world,
+  bool write(const Deepest& deepest, double unit, bool numbered, const ToWorld& to_world,
              Manifold& manifold);
 
   std::vector<FeatureShape<Scalar>> shapes_;
@@ -135,15 +135,31 @@ bool begin(const Deepest& deepest, Manifold& manifold) {
   return true;
 }
 
+// The deepest point takes the place of the one nearest to it, or an empty one.
+void add_deepest(const Deepest& deepest, Manifold& manifold) {
+  const auto distance = [&](const ContactPoint& p) {
+    return (p.on_a - deepest.on_a).squaredNorm();
+  };
+  const auto end = manifold.points.begin() + manifold.count;
+  auto at = end;
+  if (manifold.count == Manifold::most_points) {
+    at = std::min_element(manifold.points.begin(), end,
+                          [&](const auto& p, const auto& q) { return distance(p) < distance(q); });
+  } else {
+    ++manifold.count;
+  }
+  *at = {deepest.on_a, deepest.on_b, std::max(0.0, deepest.depth)};
+}
+
 template <class Scalar>
 template <class ToWorld>
-void ClippedFaces<Scalar>::write(const Deepest& deepest, double unit, bool numbered,
+bool ClippedFaces<Scalar>::write(const Deepest& deepest, double unit, bool numbered,
                                  const ToWorld& to_world, Manifold& manifold) {
   const std::vector<RegionCorner<Scalar>>& corners = region_.corners();
   const auto add = [&](const RegionCorner<Scalar>& corner) {
     ContactPoint& point = manifold.points[static_cast<std::size_t>(manifold.count++)];
-    point.on_a = to_world(corner.on_a);
-    point.on_b = to_world(corner.on_b);
+    point.on_a = to_world(region_.on_a(corner));
+    point.on_b = to_world(region_.on_b(corner));
     // Below rounding it is none.
     point.depth = std::max(0.0, unit * static_cast<double>(corner.depth));
     if (!numbered) return;
@@ -157,20 +173,7 @@ void ClippedFaces<Scalar>::write(const Deepest& deepest, double unit, bool numbe
   }
   double found = -1;
   for (const ContactPoint& point : manifold.contacts()) found = std::max(found, point.depth);
-  if (found >= deepest.depth - unit * static_cast<double>(least_digits)) return;
-  // The deepest point takes the place of the one nearest to it, or an empty one.
-  const auto distance = [&](const ContactPoint& p) {
-    return (p.on_a - deepest.on_a).squaredNorm();
-  };
-  const auto end = manifold.points.begin() + manifold.count;
-  auto at = end;
-  if (manifold.count == Manifold::most_points) {
-    at = std::min_element(manifold.points.begin(), end,
-                          [&](const auto& p, const auto& q) { return distance(p) < distance(q); });
-  } else {
-    ++manifold.count;
-  }
-  *at = {deepest.on_a, deepest.on_b, std::max(0.0, deepest.depth)};
+  return found >= deepest.depth - unit * static_cast<double>(least_digits);
 }
 
 // Into outcomes_.
@@ -186,7 +189,12 @@ void ClippedFaces<Scalar>::find_box_depths(const PairBatch& batch) {
     const PolytopePair<Scalar> pair(polytopes_[a.index], a.pose, polytopes_[b.index], b.pose);
     int tested = 0;
     const Axis<Scalar> best = pair.far_apart() ? Axis<Scalar>{} : box_axis(pair, tested);
-    pair.report(best, Task::penetration, true, outcomes_[left_[k]]);
+    // Without the witness points, which take longer than the axis and are hardly ever needed.
+    Outcome& outcome = outcomes_[left_[k]];
+    pair.report(best, Task::intersect, true, outcome);
+    if (outcome.answer == Answer::separated) continue;
+    outcome.distance = pair.unit() * static_cast<double>(best.gap);
+    outcome.normal = best.normal.template cast<double>().normalized();
   }
 }
 
@@ -195,7 +203,13 @@ void ClippedFaces<Scalar>::solve_boxes(const Placed& a, const Placed& b, const D
                                        Manifold& manifold) {
   if (!begin(deepest, manifold)) return;
   SupportPair<Scalar> pair(a.support(), a.pose, b.support(), b.pose);
-  solve_pair(pair, a, b, deepest, manifold);
+  if (solve_pair(pair, a, b, deepest, manifold)) return;
+  if (deepest.on_a.allFinite()) return add_deepest(deepest, manifold);
+  const PolytopePair<Scalar> polytopes(polytopes_[a.index], a.pose, polytopes_[b.index], b.pose);
+  int tested = 0;
+  Outcome outcome;
+  polytopes.report(box_axis(polytopes, tested), Task::penetration, true, outcome);
+  add_deepest(deepest_of(outcome), manifold);
 }
 
 template <class Scalar>
@@ -214,17 +228,18 @@ void ClippedFaces<Scalar>::solve_bounded(const Placed& a, const Placed& b, Manif
                   pair.to_world(found.a),
                   pair.to_world(found.b)};
   if (!a.shape.complete || !b.shape.complete) deepest.status = Status::degenerate;
-  if (begin(deepest, manifold)) solve_pair(pair, a, b, deepest, manifold);
+  if (!begin(deepest, manifold)) return;
+  if (!solve_pair(pair, a, b, deepest, manifold)) add_deepest(deepest, manifold);
 }
 
 template <class Scalar>
-void ClippedFaces<Scalar>::solve_pair(SupportPair<Scalar>& pair, const Placed& a, const Placed& b,
+bool ClippedFaces<Scalar>::solve_pair(SupportPair<Scalar>& pair, const Placed& a, const Placed& b,
                                       const Deepest& deepest, Manifold& manifold) {
   const Vec3<Scalar> normal = deepest.normal.template cast<Scalar>();
   find_feature<Scalar>(a.shape, pair.a(), Vec3<Scalar>::Zero(), normal, feature_a_);
   find_feature<Scalar>(b.shape, pair.b(), pair.centre_b(), -normal, feature_b_);
   region_.find(feature_a_, feature_b_, normal, rounding);
-  write(
+  return write(
       deepest, pair.unit(), feature_a_.numbered && feature_b_.numbered,
       [&](const Vec3<Scalar>& point) { return pair.to_world(point); }, manifold);
 }
@@ -246,12 +261,12 @@ void ClippedFaces<Scalar>::solve_plane(const Placed& a, const Placed& b, Manifol
                         static_cast<Scalar>(deepest.depth / unit);
   region_.find_on_plane(feature_a_, height, normal, rounding);
   const Vec3d origin = a.pose(a.support().centre);
-  write(
-      deepest, unit, feature_a_.numbered,
-      [&](const Vec3<Scalar>& point) {
-        return Vec3d(origin + unit * point.template cast<double>());
-      },
-      manifold);
+  const auto to_world = [&](const Vec3<Scalar>& point) {
+    return Vec3d(origin + unit * point.template cast<double>());
+  };
+  if (!write(deepest, unit, feature_a_.numbered, to_world, manifold)) {
+    add_deepest(deepest, manifold);
+  }
 }
 
 bool supports(ShapeKind a, ShapeKind b) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "harness/scene/convex_hull.h"
@@ -110,6 +111,27 @@ Vec3d random_half(Random& random) {
   return {random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1)};
 }
 
+// Of a turned box or hull, body coordinates.
+Vec3d lowest_corner(const Shape& shape, const Mat3d& turn, const Vec3d& up) {
+  Vec3d lowest = Vec3d::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const Vec3d& corner) {
+    const double height = up.dot(turn * corner);
+    if (height >= least) return;
+    least = height;
+    lowest = corner;
+  };
+  if (shape.kind == ShapeKind::hull) {
+    for (const Vec3d& vertex : shape.hull->vertices) offer(vertex);
+    return lowest;
+  }
+  for (int k = 0; k < 8; ++k) {
+    const Vec3d sides((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1);
+    offer(sides.cwiseProduct(shape.half_extents));
+  }
+  return lowest;
+}
+
 // Where on a's face the middle of b's is, beside a's middle. Boxes, b not turned.
 Vec3d place_on(Recipe::Place place, const Vec3d& a, const Vec3d& b, Random& random) {
   switch (place) {
@@ -160,28 +182,14 @@ Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t
   if (recipe.place == Place::anywhere) {
     turn = Eigen::AngleAxisd(random.uniform(0, 6.28), a.normal).toRotationMatrix() * turn;
     offset = random.uniform(0, 0.7) * (a.reach + b.reach) * across(a.normal, random);
-    if (recipe.tilt > 0) offset *= 0.1;
+    if (recipe.tilt > 0) offset = random.uniform(0, 0.6) * a.reach * across(a.normal, random);
   }
   if (recipe.tilt > 0) {
     turn = Eigen::AngleAxisd(recipe.tilt, across(a.normal, random)).toRotationMatrix() * turn;
   }
-  Vec3d at = a.middle + offset - turn * b.middle;
-  if (recipe.tilt > 0) {
-    // The lowest corner over a's face is to be as deep as the others are on level faces.
-    double lowest = 0;
-    const auto corner = [&](const Vec3d& v) {
-      lowest = std::min(lowest, a.normal.dot(turn * v + at - a.middle));
-    };
-    if (b.shape.kind == ShapeKind::hull) {
-      for (const Vec3d& v : b.shape.hull->vertices) corner(v);
-    } else {
-      for (int k = 0; k < 8; ++k) {
-        const Vec3d sign((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1);
-        corner(sign.cwiseProduct(b.shape.half_extents));
-      }
-    }
-    at -= lowest * a.normal;
-  }
+  // Tilted, the lowest corner is what stands on a's face.
+  const Vec3d foot = recipe.tilt > 0 ? lowest_corner(b.shape, turn, a.normal) : b.middle;
+  Vec3d at = a.middle + offset - turn * foot;
   at -= depth * a.normal;
 
   // Stacks stand as they do in a scene, upright; others anywhere.
