@@ -4,7 +4,8 @@ import csv
 import os
 import sys
 
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
 
 import common
 
@@ -19,6 +20,7 @@ OUTCOMES = {
 }
 LEAST = 0.16  # of a field, that an outcome which was seen once is drawn with
 COLUMNS = 4
+NOT_ASKED = "#eeeeee"  # no such pairs
 
 
 def read(folder):
@@ -54,20 +56,45 @@ def heights(counts):
             for outcome, share in shares.items()}
 
 
+def add_boxes(axes, boxes, **style):
+    """Boxes (left, top, right, bottom) as one path, which keeps the file small."""
+    corners, codes = [], []
+    for x0, y0, x1, y1 in boxes:
+        corners += [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]
+        codes += [Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY]
+    if corners:
+        axes.add_patch(PathPatch(Path(corners, codes), **style))
+
+
 def draw_map(axes, title, by_axis, values, left):
     names = list(values)
     longest = max(len(v) for v in values.values())
+    boxes = {}  # of a colour
     for y, name in enumerate(names):
         for x, value in enumerate(values[name]):
             counts = by_axis.get(name, {}).get(value)
             if not counts or not sum(counts.values()):
-                axes.add_patch(Rectangle((x, y), 1, 1, facecolor="#f2f2f2", edgecolor="white", linewidth=0.3))
-                continue
-            bottom = y + 1
-            for outcome, height in heights(counts).items():
-                bottom -= height
-                axes.add_patch(Rectangle((x, bottom), 1, height, facecolor=OUTCOMES[outcome][0], linewidth=0))
-            axes.add_patch(Rectangle((x, y), 1, 1, fill=False, edgecolor="white", linewidth=0.3))
+                parts = [(NOT_ASKED, y, y + 1)]
+            else:
+                parts, bottom = [], y + 1
+                for outcome, height in heights(counts).items():
+                    parts.append((OUTCOMES[outcome][0], bottom - height, bottom))
+                    bottom -= height
+            for colour, top, bottom in parts:
+                row = boxes.setdefault(colour, [])
+                last = next((i for i, box in enumerate(row) if box[1:] == (top, x, bottom)), None)
+                if last is None:
+                    row.append((x, top, x + 1, bottom))
+                else:  # one box with that at its left
+                    row[last] = (row[last][0], top, x + 1, bottom)
+    for colour, row in boxes.items():
+        add_boxes(axes, row, facecolor=colour, linewidth=0)
+    lines = [(x, 0, x, len(names)) for x in range(1, longest)]
+    lines += [(0, y, longest, y) for y in range(1, len(names))]
+    axes.add_patch(PathPatch(
+        Path([end for x0, y0, x1, y1 in lines for end in ((x0, y0), (x1, y1))],
+             [Path.MOVETO, Path.LINETO] * len(lines)),
+        fill=False, edgecolor="white", linewidth=0.3))
     axes.set_xlim(0, longest)
     axes.set_ylim(len(names), 0)
     axes.set_title(title, fontsize=6.4, pad=2)
@@ -90,7 +117,7 @@ def figure_of(sweep, of_ours):
     for i, (subject, axes) in enumerate(zip(subjects, panels)):
         draw_map(axes, f"{subject[0]}, {subject[1]}", maps[subject], values, i % COLUMNS == 0)
     handles = [Patch(facecolor=colour, label=label) for colour, label in OUTCOMES.values()]
-    handles.append(Patch(facecolor="#f2f2f2", label="no such pairs"))
+    handles.append(Patch(facecolor=NOT_ASKED, label="no such pairs"))
     common.legend_below(figure, handles, columns=4)
     return figure
 

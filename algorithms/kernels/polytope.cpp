@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "algorithms/kernels/flat_outline.h"
 #include "algorithms/kernels/support.h"
@@ -109,6 +111,46 @@ void build_solid(Builder& out, const Hull& hull) {
   }
 }
 
+// The greatest normal . v over vertices, for many normals: doubles find where it can be, and only
+// there long doubles are asked.
+class Offsets {
+ public:
+  explicit Offsets(const std::vector<Vec>& vertices)
+      : vertices_(vertices),
+        blocks_(hull_scan::blocks_of<double>(vertices.size(), [&](std::size_t k) {
+          return vertices[k].template cast<double>().eval();
+        })) {
+    for (const Vec& v : vertices) reach_ = std::max(reach_, static_cast<double>(v.norm()));
+  }
+
+  // Of a unit vector.
+  Wide along(const Vec& normal) const {
+    const Vec3<double> n = normal.cast<double>();
+    const std::span<const Block> all(blocks_);
+    // Either value is off by less than four roundings of what a unit vector makes of the reach.
+    const double slack = 8 * std::numeric_limits<double>::epsilon() * reach_;
+    const double least = hull_scan::greatest(all, n) - slack;
+    Wide offset = normal.dot(vertices_[0]);
+    for (std::size_t first = 0; first < all.size(); first += together) {
+      const std::size_t count = std::min(together, all.size() - first);
+      if (hull_scan::greatest(all.subspan(first, count), n) < least) continue;
+      const std::size_t end = std::min((first + count) * Block::size, vertices_.size());
+      for (std::size_t k = first * Block::size; k < end; ++k) {
+        offset = std::max(offset, normal.dot(vertices_[k]));
+      }
+    }
+    return offset;
+  }
+
+ private:
+  using Block = hull_scan::VertexBlock<double>;
+  static constexpr std::size_t together = 4;
+
+  const std::vector<Vec>& vertices_;
+  std::vector<Block> blocks_;
+  double reach_ = 0;
+};
+
 template <class Scalar>
 Polytope<Scalar> finish(const Builder& from) {
   Polytope<Scalar> to;
@@ -118,10 +160,10 @@ Polytope<Scalar> finish(const Builder& from) {
   to.vertices = hull_scan::blocks_of<Scalar>(from.vertices.size(), [&](std::size_t k) {
     return from.vertices[k].template cast<Scalar>().eval();
   });
+  const Offsets offsets(from.vertices);
   for (const Vec& normal : from.normals) {
-    Wide offset = normal.dot(from.vertices[0]);
-    for (const Vec& v : from.vertices) offset = std::max(offset, normal.dot(v));
-    to.faces.push_back({normal.template cast<Scalar>(), static_cast<Scalar>(offset)});
+    const auto offset = static_cast<Scalar>(offsets.along(normal));
+    to.faces.push_back({normal.template cast<Scalar>(), offset});
   }
   for (const Builder::Edge& edge : from.edges) {
     to.edges.push_back({edge.direction.template cast<Scalar>(), edge.point.template cast<Scalar>(),
@@ -139,6 +181,7 @@ Polytope<Scalar> make_polytope(const Shape& shape) {
   Builder builder;
   Vec3d centre = Vec3d::Zero();
   double scale = 1;
+  bool too_large = false;
   if (shape.kind == ShapeKind::box) {
     scale = power_of_two_above(shape.half_extents.stableNorm());
     const Vec half = shape.half_extents.cast<Wide>() / scale;
@@ -168,10 +211,18 @@ Polytope<Scalar> make_polytope(const Shape& shape) {
       case 0:
       case 1: build_segment(builder); break;
       case 2: build_flat(builder); break;
-      default: build_solid(builder, hull); break;
+      default:
+        too_large = hull.vertices.size() > Polytope<Scalar>::most_vertices;
+        if (too_large) {
+          builder.complete = false;
+        } else {
+          build_solid(builder, hull);
+        }
+        break;
     }
   }
   Polytope<Scalar> polytope = finish<Scalar>(builder);
+  polytope.too_large = too_large;
   polytope.centre = centre;
   polytope.scale = scale;
   return polytope;

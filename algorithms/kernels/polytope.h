@@ -45,8 +45,14 @@ struct Polytope {
   std::vector<Face> faces;
   std::vector<Edge> edges;
   GaussArcs arcs;  // of the edges, in their order
-  // False where a solid came without faces: then the axes do not prove that bodies overlap.
+  // Faces and edges are left out where a hull has more: a test along all of them would take
+  // seconds.
+  static constexpr std::size_t most_vertices = 16384;
+
+  // False where a solid came without faces, or is too large: then the axes do not prove that bodies
+  // overlap.
   bool complete = true;
+  bool too_large = false;
 
   Vec3<Scalar> vertex(std::size_t k) const {
     constexpr std::size_t block = hull_scan::VertexBlock<Scalar>::size;

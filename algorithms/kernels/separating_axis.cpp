@@ -86,6 +86,7 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
            body.matrix.cwiseAbs().maxCoeff() < Scalar{1.5};
   };
   complete_ = a.complete && b.complete && usable(a_) && usable(b_);
+  too_large_ = a.too_large || b.too_large;
 }
 
 template <class Scalar>
@@ -118,7 +119,7 @@ void PolytopePair<Scalar>::report(const Axis<Scalar>& best, Task task, bool exac
   }
   if (!complete_) {
     outcome.answer = Answer::unknown;
-    outcome.status = Status::degenerate;
+    outcome.status = too_large_ ? Status::capacity : Status::degenerate;
     return;
   }
   const bool sure = best.gap < -error_;

@@ -81,7 +81,7 @@ class PolytopePair {
  private:
   PlacedPolytope<Scalar> a_, b_;
   Scalar error_;
-  bool far_apart_, complete_;
+  bool far_apart_, complete_, too_large_;
   double unit_;   // metres
   Vec3d anchor_;  // the frame's origin in the world, metres
 };

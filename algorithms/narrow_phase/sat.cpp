@@ -12,7 +12,8 @@
 // Answers: the depth is exact up to rounding, and so are both bounds.
 // Fails:   says not_converged where the greatest gap is below its rounding error (1e-14 of the size
 //          in double, 1e-5 in float), and degenerate for a solid hull that came without faces and
-//          that no axis tried separates, and for matrices that are far from rotations.
+//          that no axis tried separates, and for matrices that are far from rotations; capacity
+//          for hulls of more than 16,384 vertices that the line of their centres does not separate.
 // Cost:    O(Fa Vb + Fb Va + Ea (Fb + Eb)) time, O(F + E) memory.
 #include <cmath>
 #include <limits>

@@ -34,6 +34,11 @@ std::vector<AxisValue> from_zero(std::vector<AxisValue> values) {
   values.insert(values.begin(), {"0", 0});
   return values;
 }
+// The same from a tenth on.
+std::vector<AxisValue> from_a_tenth(std::vector<AxisValue> values) {
+  values.erase(values.begin());
+  return values;
+}
 std::vector<AxisValue> and_zero(std::vector<AxisValue> values) {
   values.push_back({"0", 0});
   return values;
@@ -71,7 +76,7 @@ std::vector<Axis> all_axes() {
        false, draw_with_vertices},
       {"coplanar", "parts of the size",
        "faces that bulge by so much, and boxes side by side whose faces miss one plane by it",
-       and_zero(down_to(16)), true, draw_near_coplanar},
+       and_zero(from_a_tenth(down_to(16))), true, draw_near_coplanar},
       {"parallel", "radians", "edges, sides or faces in contact at such an angle",
        and_zero(down_to(16)), true, draw_near_parallel},
   };

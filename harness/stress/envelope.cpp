@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -23,22 +25,21 @@ std::string name_at(const Axis& axis, const std::optional<std::size_t>& place) {
   return place ? axis.values[*place].name : "";
 }
 
-// "1e-6", "1e-6 crashes": whichever comes first; a crash and a hang are named.
-std::string first_wrong(const Reach& reach) {
-  std::string text = "-";
-  std::optional<std::size_t> first;
-  for (const StressOutcome outcome : {StressOutcome::silent, StressOutcome::rounded,
-                                      StressOutcome::crashed, StressOutcome::hung}) {
-    const std::optional<std::size_t> place = reach.first_of(outcome);
-    if (!place || (first && *first <= *place)) continue;
-    first = place;
-    const char* word = outcome == StressOutcome::crashed   ? " crashes"
-                       : outcome == StressOutcome::hung    ? " hangs"
-                       : outcome == StressOutcome::rounded ? " (input)"
-                                                           : "";
-    text = name_at(*reach.axis, place) + word;
+// "1e-6", "1e-6 crashes": whichever comes first; a crash, a hang and what is only rounded are
+// named.
+std::string first_wrong(const Reach& reach, bool side_only) {
+  using Place = std::optional<std::size_t>;
+  const auto first = [&](StressOutcome outcome) { return reach.first_of(outcome); };
+  const std::array<std::pair<Place, const char*>, 4> all = {
+      {{side_only ? reach.first_side : first(StressOutcome::silent), ""},
+       {side_only ? Place() : first(StressOutcome::rounded), " (input)"},
+       {first(StressOutcome::crashed), " crashes"},
+       {first(StressOutcome::hung), " hangs"}}};
+  const std::pair<Place, const char*>* found = nullptr;
+  for (const auto& one : all) {
+    if (one.first && (found == nullptr || *one.first < *found->first)) found = &one;
   }
-  return text;
+  return found == nullptr ? "-" : name_at(*reach.axis, found->first) + found->second;
 }
 
 std::string first_honest(const Reach& reach) {
@@ -65,6 +66,9 @@ std::vector<Reach> envelope(const StressRequest& request, std::span<const Stress
           reach.skipped += row.skipped;
           keep_greater(reach.margin, row.margin);
           keep_greater(reach.error, row.error);
+          if (!std::isnan(row.margin) && (!reach.first_side || cell.place < *reach.first_side)) {
+            reach.first_side = cell.place;
+          }
           for (const StressOutcome outcome : all_stress_outcomes) {
             const auto i = static_cast<std::size_t>(outcome);
             reach.counts[i] += row.counts[i];
@@ -107,7 +111,7 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
     if (outcome == StressOutcome::right) continue;
     header.push_back("first_" + std::string(to_string(outcome)));
   }
-  header.insert(header.end(), {"worst_margin", "worst_error"});
+  header.insert(header.end(), {"first_wrong_side", "worst_margin", "worst_error"});
   CsvWriter csv(file, header);
   for (const Reach& reach : reaches) {
     const AlgorithmInfo& info = request.narrow[reach.entry]->info;
@@ -120,7 +124,7 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
     for (const StressOutcome outcome : all_stress_outcomes) {
       if (outcome != StressOutcome::right) csv.field(name_at(axis, reach.first_of(outcome)));
     }
-    csv.field(reach.margin).field(reach.error).end_row();
+    csv.field(name_at(axis, reach.first_side)).field(reach.margin).field(reach.error).end_row();
   }
   csv.close();
 }
@@ -140,7 +144,9 @@ std::vector<std::vector<std::string>> table(const StressRequest& request,
     last = &reach;
     const auto column =
         static_cast<std::size_t>(std::ranges::find(axes, reach.axis) - axes.begin()) + 1;
-    rows.back()[column] = which == EnvelopeTable::wrong ? first_wrong(reach) : first_honest(reach);
+    rows.back()[column] = which == EnvelopeTable::honest
+                              ? first_honest(reach)
+                              : first_wrong(reach, which == EnvelopeTable::side);
   }
   return rows;
 }

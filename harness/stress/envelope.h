@@ -20,6 +20,7 @@ struct Reach {
   const Axis* axis = nullptr;
   // Of each outcome but right: the place of the first value at which there was one.
   std::array<std::optional<std::size_t>, all_stress_outcomes.size()> first{};
+  std::optional<std::size_t> first_side;  // the same of silent answers on the wrong side of contact
   std::int64_t answers = 0, skipped = 0;
   std::array<std::int64_t, all_stress_outcomes.size()> counts{};
   double margin = Outcome::none, error = Outcome::none;  // the greatest; see StressRow
@@ -44,7 +45,7 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
 // A cell for each algorithm and axis: the first value at which it is silently wrong, crashes or
 // hangs (wrong), or at which it says that it fails (honest); "-" where there is none, empty where
 // the algorithm takes no pair of the axis. The first row is the header.
-enum class EnvelopeTable : std::uint8_t { wrong, honest };
+enum class EnvelopeTable : std::uint8_t { side, wrong, honest };
 std::vector<std::vector<std::string>> table(const StressRequest& request,
                                             std::span<const Reach> reaches, EnvelopeTable which);
 

@@ -18,7 +18,7 @@ namespace touchstone {
 namespace {
 
 constexpr double clock_factor = 20;  // of the processor's time
-constexpr double bind_seconds = 10;  // of the clock
+constexpr double bind_seconds = 5;   // of the processor
 constexpr std::size_t memory = std::size_t{1} << 30;
 constexpr std::size_t many_vertices = 5000;
 
@@ -51,15 +51,17 @@ class Asker {
   // Those of the queries that are at these places.
   IsolationReport ask(std::span<const std::size_t> places, SharedArray<Outcome>& outcomes) const {
     const IsolationLimits isolation = {.item_seconds = clock_factor * limits_.seconds,
-                                       .setup_seconds = bind_seconds,
+                                       .setup_seconds = clock_factor * bind_seconds,
                                        .failures = limits_.lost,
                                        .memory = memory};
     return isolate(places.size(), isolation, [&]() -> ItemWork {
       const auto bound = std::make_shared<Bound>();
+      limit_processor_time(bind_seconds);
       for (std::size_t i = 0; large_ && i < places.size(); ++i) {
         const Case* const c = queries_[places[i]].pair;
         if (!bound->contains(c)) (*bound)[c] = std::make_unique<BoundCase>(entry_, settings_, *c);
       }
+      limit_processor_time(0);
       return [&, bound](std::size_t i) {
         const LimitedQuery& query = queries_[places[i]];
         limit_processor_time(limits_.seconds);
@@ -90,7 +92,12 @@ std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhas
   IsolationReport report = asker.ask(all, outcomes);
   for (const IsolationFailure& failure : report.failures) {
     ItemState& state = report.states[failure.item];
-    if (failure.signal == SIGPROF) state = ItemState::timed_out;
+    if (failure.signal == SIGPROF) {
+      // What was bound in vain is bound for all.
+      const std::size_t end = failure.in_setup ? report.states.size() : failure.item + 1;
+      std::fill(report.states.begin() + static_cast<std::ptrdiff_t>(failure.item),
+                report.states.begin() + static_cast<std::ptrdiff_t>(end), ItemState::timed_out);
+    }
     // By the clock: if it was the machine that stood still, the second time tells.
     if (failure.state == ItemState::timed_out && !failure.in_setup) {
       const std::array<std::size_t, 1> again = {failure.item};

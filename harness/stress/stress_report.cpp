@@ -95,8 +95,10 @@ std::string failure_lines(const StressRequest& request, const StressResult& resu
 std::string stress_text(const StressRequest& request, const StressResult& result,
                         std::size_t page_width) {
   std::string text =
-      "First value at which an answer is silently wrong (or crashes, or hangs; "
-      "\"(input)\": only because the input was rounded):\n\n";
+      "First value at which an answer is silently on the wrong side of contact, or crashes or "
+      "hangs:\n\n";
+  text += as_text(table(request, result.reaches, EnvelopeTable::side), page_width);
+  text += "\n... or has a wrong number; \"(input)\": only because the input was rounded:\n\n";
   text += as_text(table(request, result.reaches, EnvelopeTable::wrong), page_width);
   text += "\nFirst value at which the algorithm says that it fails:\n\n";
   text += as_text(table(request, result.reaches, EnvelopeTable::honest), page_width);
@@ -124,14 +126,17 @@ std::string stress_page(const StressRequest& request, const StressResult& result
       command, request.seed, request.cases, request.time_limit, facts());
   text += ranges(request) + "\n" + promise(request, result) + "\n";
   text +=
-      "## First value that is silently wrong\n\nAn answer on the wrong side of contact, or a "
-      "distance or depth off by more than 1e-9 of the size in double and 1e-4 in float (certified "
-      "bounds: 1e-12 and 1e-5 on the axes gap, depth and vertices, 1e-9 and 1e-4 on the others), "
-      "while the algorithm says that all is well or cannot say; or where it crashes or hangs. What "
-      "an algorithm was given counts: *(input)* is where it was right about that, and only the "
-      "conversion of the input to its scalar made the answer wrong. `-`: nowhere on the axis. "
-      "Empty: "
-      "it takes no such pairs.\n\n";
+      "## First value on the wrong side of contact\n\nCounted from the mild end of each axis: an "
+      "answer says overlapping of bodies that are apart, or the reverse, while the algorithm says "
+      "that all is well or cannot say; or the query crashes or hangs. `-`: nowhere on the axis. "
+      "Empty: it takes no such pairs.\n\n";
+  text += as_markdown(table(request, result.reaches, EnvelopeTable::side));
+  text +=
+      "\n## First value that is wrong in any way\n\nThe same, or a distance, depth or separating "
+      "translation off by more than 1e-9 of the size in double and 1e-4 in float, or a certified "
+      "bound by more than the margins of `harness/check/margins.h`. What an algorithm was given "
+      "counts: *(input)* is where it was right about that, and only the conversion of the input to "
+      "its scalar made the answer wrong.\n\n";
   text += as_markdown(table(request, result.reaches, EnvelopeTable::wrong));
   text += "\n## First value at which it says that it fails\n\n";
   text += as_markdown(table(request, result.reaches, EnvelopeTable::honest));

@@ -16,7 +16,7 @@ struct StressRequest {
   std::vector<Precision> scalars = {Precision::float64, Precision::float32};
   std::vector<StressCell> cells;
   std::uint64_t seed = 1;
-  int cases = 32;           // of each cell
+  int cases = 48;           // of each cell
   int workers = 2;          // processes
   double time_limit = 0.5;  // seconds of the processor that a query may take
   std::filesystem::path out;

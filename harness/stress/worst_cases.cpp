@@ -13,7 +13,7 @@ namespace touchstone {
 namespace {
 
 constexpr std::size_t axes_of_a_peer = 3;
-constexpr double most_vertices = 1000;  // that somebody would read
+constexpr double most_vertices = 100;  // that somebody would read
 
 struct Found {
   const StressRow* row;

@@ -65,6 +65,22 @@ TEST(Plots, EveryFigureInTheSameBytesTwice) {
   }
 }
 
+TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
+  if (python().empty()) GTEST_SKIP() << "no matplotlib";
+  const TemporaryFolder folder;
+  const std::string sweep = (folder.path() / "sweep").string();
+  const Ran made = run_program("stress --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
+  ASSERT_EQ(made.status, 0) << made.text;
+  const std::string own = folder.read("sweep/figures/stress_ours.svg");
+  for (const char* out : {"one", "two"}) {
+    const Ran ran = plot(sweep + " --out " + (folder.path() / out).string());
+    ASSERT_EQ(ran.status, 0) << ran.text;
+    EXPECT_TRUE(own == folder.read(std::string(out) + "/stress_ours.svg"));
+    EXPECT_GT(folder.read(std::string(out) + "/stress_ours.png").size(), 1000u);
+  }
+  EXPECT_EQ(folder.read("one/stress_ours.png"), folder.read("two/stress_ours.png"));
+}
+
 TEST(Plots, BadRequestsAreTold) {
   if (python().empty()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;

@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "algorithms/registry.h"
+#include "harness/io/cases.h"
+#include "tests/harness/commands/program.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class StressCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+  std::string out() const { return " --out " + path("out"); }
+  Ran stress(const std::string& arguments) const {
+    return run_program("stress " + arguments + out());
+  }
+  std::set<std::string> column(const std::string& file, const std::string& name) const {
+    std::set<std::string> values;
+    for (const auto& row : read_rows(path("out/" + file), {name})) values.insert(row[0]);
+    return values;
+  }
+  void expect_refusal(const std::string& arguments, const std::string& text) {
+    touchstone::expect_refusal("stress " + arguments + out(), text, folder);
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(StressCommand, OursHoldAndThePageSaysSo) {
+  const Ran ran = stress(
+      "--narrow ours --axes gap,aspect,parallel --scalar double --quick --page " + path("page.md"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("none of our own algorithms is silently wrong"));
+  EXPECT_EQ(column("stress.csv", "axis"), (std::set<std::string>{"aspect", "gap", "parallel"}));
+  EXPECT_THAT(column("stress.csv", "scalar"), ElementsAre("double"));
+  EXPECT_EQ(column("cells.csv", "cases").size(), 1u);
+  const std::string page = folder.read("page.md");
+  EXPECT_THAT(page, HasSubstr("# Where each algorithm breaks"));
+  EXPECT_THAT(page, HasSubstr("`touchstone stress --narrow ours --axes gap,aspect,parallel"));
+  EXPECT_THAT(page, HasSubstr("| gap | 1e0 | 1e-16 | parts of the size |"));
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    if (entry.info.origin != Origin::ours) continue;
+    EXPECT_TRUE(column("envelope.csv", "algorithm").contains(entry.info.name) ||
+                entry.info.name == "ellipsoid");
+  }
+}
+
+TEST_F(StressCommand, APeersWorstErrorsAreReplayed) {
+  if (find_narrow_phase("libccd-gjk")->make == nullptr) GTEST_SKIP() << "libccd is not built";
+  const Ran ran = stress("--narrow libccd-gjk --axes gap --cases 8");
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  const std::string file = path("out/failures/libccd-gjk-double-intersect.jsonl");
+  ASSERT_FALSE(read_cases(file).empty());
+  const Ran again = run_program("query " + file +
+                                " --narrow libccd-gjk,gjk --task intersect --scalar double --out " +
+                                path("answers.csv"));
+  EXPECT_EQ(again.status, 0) << again.text;
+  const auto rows = read_rows(path("answers.csv"), {"algorithm", "answer"});
+  ASSERT_FALSE(rows.empty());
+  for (std::size_t i = 0; i < rows.size(); i += 2) {
+    EXPECT_EQ(rows[i][1], "overlapping");
+    EXPECT_EQ(rows[i + 1][1], "separated");
+  }
+}
+
+TEST_F(StressCommand, TheSameSeedGivesTheSameRows) {
+  const std::string common = "--narrow gjk,mpr --axes depth --cases 3 --seed ";
+  ASSERT_EQ(stress(common + "5 --threads 1").status, 0);
+  const std::string rows = folder.read("out/stress.csv");
+  ASSERT_EQ(stress(common + "5 --threads 3").status, 0);
+  EXPECT_EQ(folder.read("out/stress.csv"), rows);
+  ASSERT_EQ(stress(common + "6").status, 0);
+  EXPECT_NE(folder.read("out/stress.csv"), rows);
+}
+
+TEST_F(StressCommand, BadRequests) {
+  expect_refusal("--narrow what", "no narrow phase is called 'what'");
+  expect_refusal("--narrow none", "--narrow names no algorithm");
+  expect_refusal("--axes what",
+                 "no axis is called 'what'; expected some of scale-down, scale-up, ");
+  expect_refusal("--scalar half", "--scalar");
+  expect_refusal("--narrow exact --scalar float", "'exact' does not compute in float");
+  expect_refusal("--seed x", "--seed");
+  for (const char* value : {"0", "-1", "x"}) {
+    expect_refusal(std::string("--cases=") + value, "--cases");
+    expect_refusal(std::string("--threads=") + value, "--threads");
+    expect_refusal(std::string("--time-limit=") + value, "--time-limit");
+  }
+  expect_refusal("--cases 3 --quick", "--quick");
+  expect_refusal("--resume", "progress.csv: no such file");
+  folder.write("file", "");
+  touchstone::expect_refusal("stress --quick --axes gap --out " + path("file/out"),
+                             "cannot be made", folder);
+}
+
+}  // namespace
+}  // namespace touchstone
