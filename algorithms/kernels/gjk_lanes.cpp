@@ -65,6 +65,7 @@ void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
                             std::span<const SupportShape<Scalar>> support_shapes) {
   centred_ = all_fit_ = true;
   most_vertices_ = 0;
+  some_vertices_ = nullptr;
   shapes_.assign(shapes.size(), {});
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const SupportShape<Scalar>& shape = support_shapes[i];

@@ -6,11 +6,14 @@
 //          next pairs of the batch. Vertices are turned into the frame of the walk when a pair
 //          enters its lane. What rounding leaves open, and whatever the lanes do not take, is asked
 //          again one by one as `gjk` does: the verdicts are as reliable as those.
-//          Takes spheres, capsules, boxes and hulls; hulls of more than 16 vertices one by one.
+//          Takes spheres, capsules, boxes and hulls. One by one go hulls of more than 16 vertices
+//          or far from their own origin, bodies whose matrix is no rotation nor near one, and,
+//          where there is no AVX2, all pairs in double: two lanes a vector are slower than none.
 // Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
 //          part of the pair's size.
-// Cost:    as gjk's walk, for all lanes what the slowest half of them costs; overlapping pairs are
-//          walked between twice where their depth is asked for. Caps and tolerance are gjk's.
+// Cost:    as gjk's walk, for all lanes what the slowest of them costs; pays from batches of about
+//          four pairs on. Overlapping pairs are walked between twice where their depth is asked
+//          for. Caps and tolerance are gjk's.
 #include <algorithm>
 
 #include "algorithms/kernels/gjk_lanes.h"
