@@ -1,6 +1,7 @@
 #include "algorithms/kernels/contact_feature.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -52,18 +53,18 @@ template <class Scalar>
 void find_on_box(Placed<Scalar>& body) {
   const Vec3<Scalar>& half = body.shape.support.extents;
   const Mat3<Scalar>& m = body.matrix;
-  int face = 0;
-  Vec3<Scalar> outward = Vec3<Scalar>::Zero();
-  Scalar best = -1, best_square = 1;  // of the greatest best / best_square
-  for (int k = 0; k < 3; ++k) {
-    const Vec3<Scalar> normal = m.col((k + 1) % 3).cross(m.col((k + 2) % 3));
-    const Scalar along = normal.dot(body.direction), square = normal.squaredNorm();
-    if (!(along * along * best_square > best * square)) continue;
-    best = along * along;
-    best_square = square;
-    face = k;
-    outward = along < 0 ? Vec3<Scalar>(-normal) : normal;
-  }
+  const std::array<Vec3<Scalar>, 3> normals = {m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)),
+                                               m.col(0).cross(m.col(1))};
+  const std::array<Scalar, 3> along = {normals[0].dot(body.direction),
+                                       normals[1].dot(body.direction),
+                                       normals[2].dot(body.direction)};
+  const std::array<Scalar, 3> square = {normals[0].squaredNorm(), normals[1].squaredNorm(),
+                                        normals[2].squaredNorm()};
+  const auto cosine_squared = [&](std::size_t k) { return along[k] * along[k] / square[k]; };
+  std::size_t best = cosine_squared(1) > cosine_squared(0) ? 1 : 0;
+  if (cosine_squared(2) > cosine_squared(best)) best = 2;
+  const auto face = static_cast<int>(best);
+  const Vec3<Scalar> outward = along[best] < 0 ? Vec3<Scalar>(-normals[best]) : normals[best];
   if (body.is_across(outward)) {
     const int i = (face + 1) % 3, j = (face + 2) % 3;
     const Scalar side = std::copysign(half[face], body.local[face]);
@@ -71,21 +72,26 @@ void find_on_box(Placed<Scalar>& body) {
     const Vec3<Scalar> to_i = half[i] * m.col(i), to_j = half[j] * m.col(j);
     // Their order does not depend on the direction, so that their numbers do not.
     const Vec3<Scalar> high = middle + to_i, low = middle - to_i;
-    body.feature.points.assign({high + to_j, low + to_j, low - to_j, high - to_j});
-    body.feature.normal = outward / std::sqrt(best_square);
+    std::vector<Vec3<Scalar>>& points = body.feature.points;
+    points.resize(4);
+    points[0] = high + to_j;
+    points[1] = low + to_j;
+    points[2] = low - to_j;
+    points[3] = high - to_j;
+    body.feature.normal = outward / std::sqrt(square[best]);
     body.feature.numbered = true;
     body.feature.number = static_cast<std::uint16_t>(2 * face + (side > 0 ? 1 : 0));
     return;
   }
   Vec3<Scalar> corner;
   for (int k = 0; k < 3; ++k) corner[k] = std::copysign(half[k], body.local[k]);
-  int along = 0;
+  int edge = 0;
   for (int k = 1; k < 3; ++k) {
-    if (std::abs(body.local[k]) < std::abs(body.local[along])) along = k;
+    if (std::abs(body.local[k]) < std::abs(body.local[edge])) edge = k;
   }
-  if (!body.is_level(Vec3<Scalar>::Unit(along))) return;
+  if (!body.is_level(Vec3<Scalar>::Unit(edge))) return;
   body.add(corner);
-  corner[along] = -corner[along];
+  corner[edge] = -corner[edge];
   body.add(corner);
 }
 

@@ -26,10 +26,10 @@ auto doubled_area(const Points& points) {
 template <class Scalar>
 void ContactRegion<Scalar>::see(const ContactFeature<Scalar>& feature, std::uint16_t first,
                                 std::vector<Seen>& seen) const {
-  seen.clear();
-  for (const Vec3<Scalar>& point : feature.points) {
-    seen.push_back(frame_.see(point));
-    seen.back().edge = first++;
+  seen.resize(feature.points.size());
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    seen[k] = frame_.see(feature.points[k]);
+    seen[k].edge = first++;
   }
 }
 
@@ -57,7 +57,8 @@ void ContactRegion<Scalar>::cut(const Value& value, std::uint16_t edge, Scalar r
   Scalar least = rounding;
   for (const Seen& s : subject_) least = std::min(least, value(s));
   if (least >= -rounding) return;
-  cut_.clear();
+  cut_.resize(2 * subject_.size());
+  std::size_t count = 0;
   const auto side = [&](Scalar x) { return x > rounding ? 1 : x < -rounding ? -1 : 0; };
   Scalar here = value(subject_.front());
   for (std::size_t k = 0; k < subject_.size(); ++k) {
@@ -66,17 +67,19 @@ void ContactRegion<Scalar>::cut(const Value& value, std::uint16_t edge, Scalar r
     const Scalar there = value(to);
     const int side_from = side(here), side_to = side(there);
     if (side_from >= 0) {
-      cut_.push_back(from);
-      if (side_from == 0 && side_to < 0) cut_.back().edge = edge;
+      cut_[count] = from;
+      if (side_from == 0 && side_to < 0) cut_[count].edge = edge;
+      ++count;
     }
     if (side_from * side_to < 0) {
       const Scalar part = here / (here - there);
-      cut_.push_back({from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
-                      from.height + part * (to.height - from.height),
-                      side_to < 0 ? edge : from.edge});
+      cut_[count++] = {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y),
+                       from.height + part * (to.height - from.height),
+                       side_to < 0 ? edge : from.edge};
     }
     here = there;
   }
+  cut_.resize(count);
   std::swap(subject_, cut_);
 }
 
@@ -130,10 +133,14 @@ void ContactRegion<Scalar>::merge_neighbours(Scalar distance) {
 }
 
 template <class Scalar>
-void ContactRegion<Scalar>::finish(const Line& height, bool subject_is_a, Scalar rounding) {
+void ContactRegion<Scalar>::cut_where_apart(const Line& height, bool subject_is_a,
+                                            Scalar rounding) {
   const Scalar sign = subject_is_a ? Scalar{1} : Scalar{-1};
-  const auto depth = [&](const Seen& s) { return sign * (s.height - height.at(s)); };
-  cut(depth, parting, rounding);
+  cut([&](const Seen& s) { return sign * (s.height - height.at(s)); }, parting, rounding);
+}
+
+template <class Scalar>
+void ContactRegion<Scalar>::finish(const Line& height, bool subject_is_a, Scalar rounding) {
   merge_neighbours(4 * rounding);
   if (subject_.empty()) return;
   std::uint16_t before = subject_.back().edge;
@@ -159,6 +166,8 @@ void ContactRegion<Scalar>::find(const ContactFeature<Scalar>& a, const ContactF
   see(subject_is_a ? a : b, subject_is_a ? first_of_a : first_of_b, subject_);
   see(other, subject_is_a ? first_of_b : first_of_a, outline_);
   const Line height = height_of(other, outline_);
+  // First, as it may leave little for the others to cut.
+  cut_where_apart(height, subject_is_a, rounding);
   if (outline_.size() > 2) {
     cut_by_polygon(rounding);
   } else {
@@ -174,7 +183,9 @@ void ContactRegion<Scalar>::find_on_plane(const ContactFeature<Scalar>& a, Scala
   if (a.points.empty()) return;
   frame_ = Frame(normal);
   see(a, first_of_a, subject_);
-  finish({0, 0, height}, true, rounding);
+  const Line plane{0, 0, height};
+  cut_where_apart(plane, true, rounding);
+  finish(plane, true, rounding);
 }
 
 template class ContactRegion<float>;

@@ -2,9 +2,9 @@
 // overlap there.
 // Paper: Sutherland, Hodgman, "Reentrant polygon clipping", Communications of the ACM 17(1), 1974.
 // Departs: seen along the normal neither face need be across it, and heights along it are carried
-// along, so that each point of the part lies in both faces and has a depth; a last cut leaves what
-// is not below the other face. Corners within rounding of a cut are on it, so that faces of the
-// same outline are not cut.
+// along, so that each point of the part lies in both faces and has a depth; one more cut leaves
+// what is not below the other face. Corners within rounding of a cut are on it, so that faces of
+// the same outline are not cut.
 #pragma once
 
 #include <cstdint>
@@ -77,6 +77,8 @@ class ContactRegion {
   // Leaves what has value(seen) >= 0, a length that is affine on the subject.
   template <class Value>
   void cut(const Value& value, std::uint16_t edge, Scalar rounding);
+  // Leaves what is not above, or below, the other feature.
+  void cut_where_apart(const Line& height, bool subject_is_a, Scalar rounding);
   // The corners, from what is left of the subject and the other feature's height above each place.
   void finish(const Line& height, bool subject_is_a, Scalar rounding);
   void merge_neighbours(Scalar distance);

@@ -14,6 +14,8 @@
 // Answers: points are on the surface, or in the body, up to rounding (1e-13 of the size in double,
 //          1e-4 in float) and that of the world's coordinates; the greatest depth is the depth of
 //          the penetration to 1e-9 and 1e-4.
+//          In float an area that is below rounding across, or where the bodies part within it, is
+//          one or two points.
 // Fails:   as sat and gjk do: not_converged within rounding of touching, and where EPA ends at its
 //          cap. Of a hull whose side is of several almost coplanar faces only one is taken. Solid
 //          hulls without faces have one point, and say degenerate. Capsules and edges that are
