@@ -34,7 +34,7 @@ class FlatSidedShapes {
   }
 
   // For a batch of the narrow phase's contract: answers pairs with a half-space, and calls
-  // solve_pair(const PolytopePair<Scalar>&, Outcome&) for each of the others.
+  // solve_pair(const PolytopePair<Scalar>&, i) for each of the others, i its place in the batch.
   template <class Batch, class SolvePair>
   void solve(const Batch& batch, std::span<Outcome> outcomes, const SolvePair& solve_pair) const {
     for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -45,7 +45,7 @@ class FlatSidedShapes {
         solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task,
                         outcomes[i]);
       } else {
-        solve_pair(PolytopePair<Scalar>(polytopes_[a], pose_a, polytopes_[b], pose_b), outcomes[i]);
+        solve_pair(PolytopePair<Scalar>(polytopes_[a], pose_a, polytopes_[b], pose_b), i);
       }
     }
   }

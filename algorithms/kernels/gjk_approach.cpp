@@ -3,43 +3,115 @@
 #include <algorithm>
 
 #include "algorithms/kernels/nesterov_direction.h"
+#include "algorithms/kernels/plane_gap.h"
 #include "algorithms/kernels/simplex_walk.h"
 
 namespace touchstone {
 namespace {
 
+// What the nearest point of the simplex says; true where the cores share a point, up to rounding.
+template <class Scalar>
+bool is_contact(Approach<Scalar>& found) {
+  using End = typename Approach<Scalar>::End;
+  found.upper = 0;
+  found.end = End::contact;
+  if (found.nearest.inside || !(found.nearest.distance > SupportPair<Scalar>::rounding))
+    return true;
+  found.upper = found.nearest.distance;
+  found.end = End::cap;
+  return false;
+}
+
+template <class Scalar>
+void take_inside(Approach<Scalar>& found) {
+  found.upper = 0;
+  found.end = Approach<Scalar>::End::contact;
+  found.nearest.inside = true;
+  found.nearest.distance = 2 * SupportPair<Scalar>::rounding;  // at least
+}
+
+// Whether the plane of this normal, from a to b, is all that was needed.
+template <class Scalar>
+bool plane_decides(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                   const Vec3<Scalar>& normal, Approach<Scalar>& found) {
+  ++found.iterations;
+  found.lower = gap_along(pair, normal);
+  found.direction = normal;
+  if (!(found.lower - pair.radius() > SupportPair<Scalar>::rounding)) return false;
+  if (goal.task == Task::distance && goal.is_open(pair, found.nearest.distance, found.lower)) {
+    return false;
+  }
+  found.end = Approach<Scalar>::End::decided;
+  return true;
+}
+
+// Whether what the frame before left is all that was needed; if not, `begin` is where to walk from.
+template <class Scalar>
+bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const WarmStart& start,
+            WalkStart<Scalar>& begin, Approach<Scalar>& found) {
+  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  const bool only_apart = goal.task != Task::distance;
+  start.look_from(pair);
+  Vec3<Scalar> direction = Vec3<Scalar>::Zero();
+  if (start.size == 0 || (only_apart && start.size < 4)) {
+    direction = start.unit_direction<Scalar>();
+  }
+  const bool known = !direction.isZero(0);
+  if (known && only_apart && plane_decides(pair, goal, direction, found)) return true;
+  start.place(pair, found.simplex);
+  if (found.simplex.size == 4 && is_surely_inside(found.simplex)) {
+    take_inside(found);
+    return true;
+  }
+  if (found.simplex.size == 0) {
+    if (known) begin.way = -direction;
+    return false;
+  }
+  found.nearest = reduce_to_nearest(found.simplex);
+  if (is_contact(found)) return true;
+  // Nearer than the radius: only a depth is still to be found.
+  if (goal.task != Task::penetration && found.upper - pair.radius() < -rounding) {
+    found.end = Approach<Scalar>::End::decided;
+    return true;
+  }
+  if (!only_apart && plane_decides<Scalar>(pair, goal, -found.nearest.direction, found))
+    return true;
+  begin.simplex = found.simplex;
+  begin.way = found.nearest.distance * found.nearest.direction;
+  return false;
+}
+
 // Whether the quick walk is all that was needed; if not, how far it came.
 template <class Scalar>
 bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                Approach<Scalar>& found) {
+                const WalkStart<Scalar>& begin, bool numbered, Approach<Scalar>& found) {
   using End = typename Approach<Scalar>::End;
-  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const WalkGoal first{.only_apart = goal.task != Task::distance,
-                       .most_iterations = goal.most_iterations};
-  const Walk<Scalar> quick = walk(pair, first, goal.tolerance);
-  found.iterations = quick.iterations;
-  found.simplex = quick.simplex;
+                       .most_iterations = goal.most_iterations,
+                       .numbered = numbered};
+  const Walk<Scalar> quick = walk(pair, first, goal.tolerance, begin);
+  found.iterations += quick.iterations;
+  if (quick.moved) found.simplex = quick.simplex;
   if (quick.end == WalkEnd::apart) {
     found.lower = quick.lower;
+    found.direction = -quick.way.normalized();
     found.end = End::decided;
     return true;
   }
-  found.upper = 0;
-  found.end = End::contact;
   if (quick.end == WalkEnd::inside) {
-    found.nearest.inside = true;
-    found.nearest.distance = 2 * rounding;  // at least
+    take_inside(found);
     return true;
   }
   if (found.simplex.size == 0) return false;
-  found.nearest = reduce_to_nearest(found.simplex);
-  if (found.nearest.inside || !(found.nearest.distance > rounding)) return true;
-  found.upper = found.nearest.distance;
-  found.end = End::cap;
+  if (quick.moved) {
+    found.nearest = reduce_to_nearest(found.simplex);
+    if (is_contact(found)) return true;
+  }
   if (quick.end != WalkEnd::near || goal.is_open(pair, found.nearest.distance, quick.lower)) {
     return false;
   }
   found.lower = quick.lower;
+  found.direction = -found.nearest.direction;
   found.end = End::decided;
   return true;
 }
@@ -47,7 +119,8 @@ bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
 }  // namespace
 
 template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal) {
+Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                          const WarmStart* start) {
   using End = typename Approach<Scalar>::End;
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const Task task = goal.task;
@@ -58,19 +131,25 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
   found.lower = -std::numeric_limits<Scalar>::infinity();
   Simplex<Scalar>& simplex = found.simplex;
 
-  const Scalar length = pair.centre_b().norm();
-  Vec3<Scalar> direction =
-      length > 0 ? Vec3<Scalar>(pair.centre_b() / length) : Vec3<Scalar>::UnitX();
-  if (goal.momentum == Momentum::none && !goal.duality_gap) {
-    if (walk_first(pair, goal, found)) return found;
-    if (simplex.size > 0) direction = -found.nearest.direction;
+  WalkStart<Scalar> begin(-pair.centre_b());
+  if (start != nullptr && resume(pair, goal, *start, begin, found)) {
+    found.as_before = true;
+    return found;
   }
+  if (goal.momentum == Momentum::none && !goal.duality_gap &&
+      walk_first(pair, goal, begin, start != nullptr, found)) {
+    return found;
+  }
+  const Scalar length = begin.way.norm();
+  Vec3<Scalar> direction = length > 0 ? Vec3<Scalar>(-begin.way / length) : Vec3<Scalar>::UnitX();
+  if (simplex.size > 0) direction = -found.nearest.direction;
   int stalled = 0;
   bool accelerated = goal.momentum == Momentum::nesterov;
   NesterovDirection<Scalar> nesterov(pair.is_polytope(), -pair.centre_b());
   while (found.iterations < goal.most_iterations) {
     ++found.iterations;
     const DifferencePoint<Scalar> point = pair.support(direction);
+    found.direction = direction;
     const Scalar lower = -direction.dot(point.difference);
     const bool of_normal = task == Task::penetration && !accelerated;
     found.lower = of_normal ? lower : std::max(found.lower, lower);
@@ -110,6 +189,7 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
       return found;
     }
 
+    simplex.corners[simplex.size] = {};
     simplex.points[simplex.size++] = point;
     found.nearest = reduce_to_nearest(simplex);
     if (found.nearest.inside || !(found.nearest.distance > rounding)) {
@@ -136,7 +216,9 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
   return found;
 }
 
-template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&);
-template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&);
+template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
+                                  const WarmStart*);
+template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
+                                   const WarmStart*);
 
 }  // namespace touchstone

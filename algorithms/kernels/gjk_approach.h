@@ -2,7 +2,8 @@
 //
 // Each simplex bounds the distance from above, each support plane from below. The quick walk of
 // simplex_walk.h comes first; this one makes its end good with the care of simplex.h, or goes on
-// from there.
+// from there. Where the frame before left something (warm_start.h), it is looked at first, and the
+// walk begins there: one support call ends a query for which nothing has changed.
 // Paper: Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
 // objects in three-dimensional space", IEEE J. Robotics and Automation 4(2), 1988; with momentum:
 // Montaut, Le Lidec, Petrik, Sivic, Carpentier, "Collision detection accelerated: an optimization
@@ -14,6 +15,7 @@
 
 #include "algorithms/core/outcome.h"
 #include "algorithms/kernels/simplex.h"
+#include "algorithms/kernels/warm_start.h"
 
 namespace touchstone {
 
@@ -52,14 +54,20 @@ struct Approach {
   NearestPoint<Scalar> nearest;
   Scalar lower = 0;
   Scalar upper = std::numeric_limits<Scalar>::infinity();
+  Vec3<Scalar> direction = Vec3<Scalar>::Zero();  // unit length, of the last plane; zero: none
+  bool as_before = false;  // what the frame before left was all that was needed
   int iterations = 0;
 };
 
+// `start`: what is known from the frame before; null: nothing.
 template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal);
+Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                          const WarmStart* start = nullptr);
 
-extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&);
-extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&);
+extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
+                                         const WarmStart*);
+extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
+                                          const WarmStart*);
 
 // How far the nearest point, as the simplex's weights have it, is from the origin.
 template <class Scalar>

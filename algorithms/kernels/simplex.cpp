@@ -12,7 +12,7 @@ namespace {
 template <class Scalar>
 struct Feature {
   Scalar distance = std::numeric_limits<Scalar>::infinity();
-  Vec3<Scalar> direction;
+  Vec3<Scalar> direction = Vec3<Scalar>::Zero();
   int size = 0;
   std::array<int, 3> vertices;
   std::array<Scalar, 3> weights;
@@ -185,10 +185,18 @@ NearestPoint<Scalar> reduce_to_nearest(Simplex<Scalar>& simplex) {
       if (result.inside) return result;
   }
   const Feature<Scalar> best = search.best();
-  const std::array<DifferencePoint<Scalar>, 4> points = simplex.points;
+  bool in_place = true;
   for (int i = 0; i < best.size; ++i) {
-    simplex.points[i] = points[best.vertices[i]];
     simplex.weights[i] = best.weights[i];
+    in_place = in_place && best.vertices[i] == i;
+  }
+  if (!in_place) {
+    const std::array<DifferencePoint<Scalar>, 4> points = simplex.points;
+    const std::array<CornerPair, 4> corners = simplex.corners;
+    for (int i = 0; i < best.size; ++i) {
+      simplex.points[i] = points[best.vertices[i]];
+      simplex.corners[i] = corners[best.vertices[i]];
+    }
   }
   simplex.size = best.size;
   result.distance = best.distance;

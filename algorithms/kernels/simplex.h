@@ -21,7 +21,8 @@ template <class Scalar>
 struct Simplex {
   int size = 0;
   std::array<DifferencePoint<Scalar>, 4> points;
-  std::array<Scalar, 4> weights;  // of the nearest point; positive, their sum is 1
+  std::array<Scalar, 4> weights;      // of the nearest point; positive, their sum is 1
+  std::array<CornerPair, 4> corners;  // that the points are of, where that is known
 };
 
 template <class Scalar>

@@ -35,20 +35,28 @@ constexpr unsigned all_corners = 0xf;
 #define TOUCHSTONE_LOOPS "algorithms/kernels/simplex_walk.inl"
 #include "algorithms/kernels/every_level.inl"
 
+template <bool numbered, class Scalar>
+Walk<Scalar> walk_here(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                       const WalkStart<Scalar>& start) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::walk_at<numbered>(pair, goal, tolerance, start);
+    case Isa::avx2: return avx2::walk_at<numbered>(pair, goal, tolerance, start);
+    default: return baseline::walk_at<numbered>(pair, goal, tolerance, start);
+  }
+}
+
 }  // namespace
 
 template <class Scalar>
-Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance) {
-  switch (isa()) {
-    case Isa::avx512: return avx512::walk_at(pair, goal, tolerance);
-    case Isa::avx2: return avx2::walk_at(pair, goal, tolerance);
-    default: return baseline::walk_at(pair, goal, tolerance);
-  }
+Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                  const WalkStart<Scalar>& start) {
+  return goal.numbered ? walk_here<true>(pair, goal, tolerance, start)
+                       : walk_here<false>(pair, goal, tolerance, start);
 }
 
 template bool is_surely_inside(const Simplex<float>&);
 template bool is_surely_inside(const Simplex<double>&);
-template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float);
-template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double);
+template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float, const WalkStart<float>&);
+template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double, const WalkStart<double>&);
 
 }  // namespace touchstone

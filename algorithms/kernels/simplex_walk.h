@@ -20,16 +20,32 @@ struct Walk {
   Scalar lower = 0;  // of the distance between the cores, by the last plane, in the pair's unit
   Vec3<Scalar> way = Vec3<Scalar>::Zero();  // that plane's normal, away from the origin; any length
   int iterations = 0;
+  bool moved = false;  // the simplex is not the one that it began with
+};
+
+// Where a walk begins: at the difference of the centres, as a rule.
+template <class Scalar>
+struct WalkStart {
+  explicit WalkStart(const Vec3<Scalar>& towards) : way(towards) {}
+
+  Vec3<Scalar> way;         // from the origin towards the difference, to the simplex' nearest point
+  Simplex<Scalar> simplex;  // may be empty; else only corners of the nearest point's feature
 };
 
 struct WalkGoal {
   bool only_apart = false;  // a plane that separates the bodies is enough
   int most_iterations = 0;
+  bool numbered = false;  // the simplex is wanted with the numbers of its corners
 };
 
-// Walks from the difference of the centres. `tolerance` is of the distance, in the pair's unit.
+// `tolerance` is of the distance, in the pair's unit.
 template <class Scalar>
-Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance);
+Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                  const WalkStart<Scalar>& start);
+template <class Scalar>
+Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance) {
+  return walk(pair, goal, tolerance, WalkStart<Scalar>(-pair.centre_b()));
+}
 
 // Whether the origin is inside a tetrahedron whatever rounding did to its corners.
 template <class Scalar>
@@ -37,7 +53,9 @@ bool is_surely_inside(const Simplex<Scalar>& simplex);
 
 extern template bool is_surely_inside(const Simplex<float>&);
 extern template bool is_surely_inside(const Simplex<double>&);
-extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float);
-extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double);
+extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float,
+                                 const WalkStart<float>&);
+extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double,
+                                  const WalkStart<double>&);
 
 }  // namespace touchstone

@@ -37,24 +37,38 @@ class QuadShape {
     }
   }
 
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector support(const Vector& direction) {
+  // `corner` becomes its number, where the core has corners.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector support(const Vector& direction,
+                                                     std::uint32_t& corner) {
     using Core = typename SupportShape<Scalar>::Core;
     const SupportShape<Scalar>& shape = turned_.shape();
     const Vector d = rows_[0] * direction[0] + rows_[1] * direction[1] + rows_[2] * direction[2];
     if (shape.core == Core::hull && shape.neighbours_begin.empty()) {
       const std::span<const hull_scan::VertexBlock<Scalar>> blocks(shape.vertices);
-      const Vec3<Scalar> v = shape.vertex(furthest_at(blocks, d[0], d[1], d[2]).index);
+      corner = furthest_at(blocks, d[0], d[1], d[2]).index;
+      const Vec3<Scalar> v = shape.scanned_vertex(corner);
       return turn(v.x(), v.y(), v.z());
     }
     if (shape.core == Core::box) {
       const Vec3<Scalar>& e = shape.extents;
+      corner = negative(d[0]) | negative(d[1]) << 1 | negative(d[2]) << 2;
       return turn(std::copysign(e.x(), d[0]), std::copysign(e.y(), d[1]),
                   std::copysign(e.z(), d[2]));
     }
-    return quad(turned_.support(vec<Scalar>(direction)));
+    const Vector point = quad(turned_.support(vec<Scalar>(direction)));
+    switch (shape.core) {
+      case Core::point: corner = 0; break;
+      case Core::segment: corner = negative(d[2]) << 2; break;
+      case Core::hull: corner = turned_.last_corner(); break;
+      default: corner = no_corner;
+    }
+    return point;
   }
 
  private:
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static std::uint32_t negative(Scalar x) {
+    return std::signbit(x) ? 1 : 0;
+  }
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector turn(Scalar x, Scalar y, Scalar z) const {
     return columns_[0] * x + columns_[1] * y + columns_[2] * z;
   }
@@ -143,14 +157,16 @@ class QuickSimplex {
   }
 };
 
-// Points of the difference, and of the two cores; the newest is the last one.
-template <class Scalar>
+// Points of the difference, and of the two cores; the newest is the last one. `numbered`: with the
+// numbers of their corners.
+template <class Scalar, bool numbered>
 struct QuadSimplex {
   using Vector = Quad<Scalar>;
   struct Point {
     Vector difference, a, b;
   };
   Point points[4]{};
+  CornerPair corners[numbered ? 4 : 1];
   int size = 0;
 
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool holds(const Vector& w) const {
@@ -177,25 +193,38 @@ struct QuadSimplex {
     int kept = 0;
     for (int i = 0; i <= newest; ++i) {
       if ((way.corners >> (newest - i) & 1) == 0) continue;
-      if (kept != i) points[kept] = points[i];
+      if (kept != i) {
+        points[kept] = points[i];
+        if constexpr (numbered) corners[kept] = corners[i];
+      }
       ++kept;
     }
     size = kept;
     return way.vector;
   }
 
+  TOUCHSTONE_TARGET void read(const Simplex<Scalar>& simplex) {
+    size = simplex.size;
+    for (int i = 0; i < size; ++i) {
+      const DifferencePoint<Scalar>& point = simplex.points[i];
+      points[i] = {quad(point.difference), quad(point.a), quad(point.b)};
+      if constexpr (numbered) corners[i] = simplex.corners[i];
+    }
+  }
+
   TOUCHSTONE_TARGET void write(Simplex<Scalar>& simplex) const {
     simplex.size = size;
     for (int i = 0; i < size; ++i) {
+      if constexpr (numbered) simplex.corners[i] = corners[i];
       simplex.points[i] = {vec<Scalar>(points[i].difference), vec<Scalar>(points[i].a),
                            vec<Scalar>(points[i].b)};
     }
   }
 };
 
-template <class Scalar>
+template <bool numbered, class Scalar>
 TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal,
-                                       Scalar tolerance) {
+                                       Scalar tolerance, const WalkStart<Scalar>& start) {
   using Vector = Quad<Scalar>;
   // Shorter ones have lost their digits, or are about to. (Squares of lengths.)
   constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
@@ -204,21 +233,23 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
   const Scalar apart = pair.radius() + SupportPair<Scalar>::rounding;
   QuadShape<Scalar> a(pair.a()), b(pair.b());
   const Vector centre_b = quad(pair.centre_b());
-  QuadSimplex<Scalar> simplex;
+  QuadSimplex<Scalar, numbered> simplex;
   Walk<Scalar> found;
-  Vector way = -centre_b;
+  simplex.read(start.simplex);
+  Vector way = quad(start.way);
   Scalar squared = dot(way, way);
   if (!(squared > shortest)) {
     way = Vector{1, 0, 0, 0};
     squared = 1;
   }
   Scalar length = std::sqrt(squared);
-  Scalar nearest = std::numeric_limits<Scalar>::infinity();
+  Scalar nearest = simplex.size > 0 ? length : std::numeric_limits<Scalar>::infinity();
   while (found.iterations < goal.most_iterations) {
     ++found.iterations;
     pair.count_support();
-    const Vector on_a = a.support(-way);
-    const Vector on_b = b.support(way) + centre_b;
+    CornerPair corners;
+    const Vector on_a = a.support(-way, corners.a);
+    const Vector on_b = b.support(way, corners.b) + centre_b;
     const Vector point = on_a - on_b;
     found.lower = dot(way, point) / length;
     if (found.lower > apart && (goal.only_apart || nearest - found.lower <= tolerance)) {
@@ -227,7 +258,9 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
       break;
     }
     if (nearest - found.lower <= as_far && simplex.holds(point)) break;
+    if constexpr (numbered) simplex.corners[simplex.size] = corners;
     simplex.points[simplex.size++] = {point, on_a, on_b};
+    found.moved = true;
     way = simplex.reduce();
     if (simplex.size == 4) {
       simplex.write(found.simplex);

@@ -44,13 +44,10 @@ class CarefulSum {
 template <class Scalar>
 CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
                            const SupportShape<Scalar>& b, const Pose& pose_b) {
-  if (a.centre.isZero(0) && b.centre.isZero(0)) {
+  if (a.is_centred && b.is_centred) {
     return {pose_b.translation - pose_a.translation, 0};
   }
-  const auto near_its_origin = [](const SupportShape<Scalar>& shape) {
-    return shape.centre.cwiseAbs().maxCoeff() <= shape.size;
-  };
-  if (near_its_origin(a) && near_its_origin(b)) {
+  if (a.is_near_origin && b.is_near_origin) {
     return {(pose_b.rotation * b.centre - pose_a.rotation * a.centre) +
                 (pose_b.translation - pose_a.translation),
             0};

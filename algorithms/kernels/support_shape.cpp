@@ -35,10 +35,17 @@ void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
     shape.size = std::max(shape.size, (vertex - shape.centre).stableNorm());
   }
   shape.unit = power_of_two_above(shape.size);
+  shape.is_centred = shape.centre.isZero(0);
+  shape.is_near_origin = shape.centre.cwiseAbs().maxCoeff() <= shape.size;
 
   shape.vertices = hull_scan::blocks_of<Scalar>(vertices.size(), [&](std::size_t k) {
     return ((vertices[k] - shape.centre) / shape.unit).template cast<Scalar>().eval();
   });
+
+  for (std::uint32_t k = 0; k < vertices.size(); ++k) {
+    const Vec3<Scalar> v = shape.scanned_vertex(k);
+    shape.corners.push_back({v.x(), v.y(), v.z()});
+  }
 
   if (vertices.size() <= most_vertices_to_scan || hull.neighbours.size() != vertices.size()) return;
   const auto has_some = [](const std::vector<std::uint32_t>& list) { return !list.empty(); };

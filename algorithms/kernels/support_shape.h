@@ -28,14 +28,21 @@ struct SupportShape {
   explicit SupportShape(const Shape& shape);
 
   Core core = Core::point;
-  double unit = 1;    // metres
-  double size = 0;    // metres: no point of the core is further from the centre
-  double radius = 0;  // metres: of the ball around the core
+  double unit = 1;             // metres
+  double size = 0;             // metres: no point of the core is further from the centre
+  double radius = 0;           // metres: of the ball around the core
+  bool is_centred = true;      // the centre is the body's origin
+  bool is_near_origin = true;  // no component of the centre exceeds the size
   Vec3d centre =
       Vec3d::Zero();  // body coordinates: inside the shape (relatively, where it is flat)
   // Box: half extents; ellipsoid: semi-axes; segment, cylinder, cone: radius, radius, half length.
   Vec3<Scalar> extents = Vec3<Scalar>::Zero();
   std::vector<hull_scan::VertexBlock<Scalar>> vertices;  // hull
+  // The same once more, each in a place of its own: for those that want one and not all.
+  struct alignas(4 * sizeof(Scalar)) Corner {
+    Scalar x, y, z;
+  };
+  std::vector<Corner> corners;
   // Hull: neighbours of vertex i are neighbour[neighbours_begin[i]] up to neighbours_begin[i + 1].
   // Empty where the vertices are few, or the hull does not know them.
   std::vector<std::uint32_t> neighbours_begin, neighbour;
@@ -51,6 +58,11 @@ struct SupportShape {
   // Hull with neighbours: the vertex furthest in the direction, found from this one on.
   std::uint32_t climb(const Vec3<Scalar>& direction, std::uint32_t from) const;
   Vec3<Scalar> vertex(std::uint32_t i) const {
+    const Corner& corner = corners[i];
+    return {corner.x, corner.y, corner.z};
+  }
+  // The same; quicker where all were just looked at.
+  Vec3<Scalar> scanned_vertex(std::uint32_t i) const {
     constexpr std::uint32_t lanes = hull_scan::VertexBlock<Scalar>::size;
     return vertices[i / lanes].vertex(i % lanes);
   }

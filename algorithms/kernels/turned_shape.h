@@ -23,6 +23,15 @@ struct ScanAll : ScanAtBest {
   static constexpr bool climbs = false;
 };
 
+// The corners of a core by numbers: a point has 0, a segment and a box have a bit for each axis,
+// set where the corner is on the negative side, a hull has its vertices'. Round cores have none.
+inline constexpr std::uint32_t no_corner = ~std::uint32_t{0};
+
+// Of the two cores of a point of their difference.
+struct CornerPair {
+  std::uint32_t a = no_corner, b = no_corner;
+};
+
 // A shape turned as its body is, about its centre, in the units of a query.
 template <class Scalar>
 class TurnedShape {
@@ -39,6 +48,19 @@ class TurnedShape {
   // `Scan` looks at all vertices of a hull: that of a level for a caller compiled for it.
   template <class Scan = ScanAtBest>
   Vec3<Scalar> support(const Vec3<Scalar>& direction);
+
+  // Whether the core has a corner of that number.
+  bool has_corner(std::uint32_t number) const { return number < corners(); }
+  // That corner, relative to the centre.
+  Vec3<Scalar> corner(std::uint32_t number) const;
+  // Where a hull is climbed, the next support is looked for from this corner on.
+  void climb_from(std::uint32_t number) {
+    const std::vector<std::uint32_t>& begin = shape_->neighbours_begin;
+    if (std::size_t{number} + 1 < begin.size() && begin[number] < begin[number + 1])
+      vertex_ = number;
+  }
+  // Where a hull is climbed, the number of the last support.
+  std::uint32_t last_corner() const { return vertex_; }
 
   Scalar radius() const { return radius_; }
   const SupportShape<Scalar>& shape() const { return *shape_; }
@@ -58,6 +80,16 @@ class TurnedShape {
     }
     const Scalar factor = radius / std::sqrt(square);
     return {factor * d.x(), factor * d.y(), z};
+  }
+
+  std::uint32_t corners() const {
+    switch (shape_->core) {
+      case Core::point: return 1;
+      case Core::segment:
+      case Core::box: return 8;
+      case Core::hull: return static_cast<std::uint32_t>(shape_->corners.size());
+      default: return 0;
+    }
   }
 
   // Squares below this have lost digits: their root would put points outside of the core.
@@ -106,6 +138,18 @@ inline Vec3<Scalar> TurnedShape<Scalar>::support(const Vec3<Scalar>& direction) 
     case Core::halfspace: break;  // a half-space has no furthest point: see halfspace.h
   }
   return Vec3<Scalar>::Zero();
+}
+
+template <class Scalar>
+inline Vec3<Scalar> TurnedShape<Scalar>::corner(std::uint32_t number) const {
+  const Vec3<Scalar>& e = shape_->extents;
+  const auto side = [&](int axis) { return (number >> axis & 1) != 0 ? -e[axis] : e[axis]; };
+  switch (shape_->core) {
+    case Core::segment: return side(2) * matrix_.col(2);
+    case Core::box: return matrix_ * Vec3<Scalar>{side(0), side(1), side(2)};
+    case Core::hull: return matrix_ * shape_->vertex(number);
+    default: return Vec3<Scalar>::Zero();
+  }
 }
 
 }  // namespace touchstone

@@ -8,7 +8,8 @@
 //          error moves the gap by no more than rounding, as the facet of the Minkowski difference
 //          that belongs to them is as narrow as the axis is uncertain. Flat hulls, segments and
 //          points have the normals and edges of a prism or box of no thickness. Two boxes take the
-//          closed form of their 15 axes.
+//          closed form of their 15 axes. With a PairMemory the axis that separated the pair last
+//          is tried first (kernels/kept_axis.h).
 // Answers: the depth is exact up to rounding, and so are both bounds.
 // Fails:   says not_converged where the greatest gap is below its rounding error (1e-14 of the size
 //          in double, 1e-5 in float), and degenerate for a solid hull that came without faces and
@@ -16,10 +17,12 @@
 //          for hulls of more than 16,384 vertices that the line of their centres does not separate.
 // Cost:    O(Fa Vb + Fb Va + Ea (Fb + Eb)) time, O(F + E) memory.
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "algorithms/kernels/box_box.h"
 #include "algorithms/kernels/flat_sided.h"
+#include "algorithms/kernels/kept_axis.h"
 #include "algorithms/kernels/separating_axis.h"
 #include "algorithms/narrow_phase.h"
 
@@ -32,8 +35,16 @@ class Sat final : public NarrowPhase {
   void bind(std::span<const Shape> shapes) override { shapes_.bind(shapes); }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, Outcome& outcome) {
-      solve_pair(pair, batch.kind_b == ShapeKind::box, batch.task, outcome);
+    shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, std::size_t i) {
+      Axis<Scalar> best;
+      tested_ = 0;
+      if (!pair.far_apart()) {
+        const bool boxes = batch.kind_b == ShapeKind::box;
+        best = batch.memory.empty() ? best_axis(pair, boxes)
+                                    : best_axis(pair, boxes, batch.memory[batch.memory_of[i]]);
+      }
+      pair.report(best, batch.task, true, outcomes[i]);
+      outcomes[i].iterations = tested_;
     });
   }
 
@@ -48,21 +59,30 @@ class Sat final : public NarrowPhase {
   // Under which the axis is noise.
   static constexpr Scalar parallel = 1024 * epsilon;
 
-  void solve_pair(const PolytopePair<Scalar>& pair, bool boxes, Task task, Outcome& outcome) {
-    tested_ = 0;
+  // The one of the greatest gap, or one that separates.
+  Axis<Scalar> best_axis(const PolytopePair<Scalar>& pair, bool boxes) {
+    if (boxes) return box_axis(pair, tested_);
+    Axis<Scalar> best = pair.centre_axis();
+    ++tested_;
+    if (pair.separates(best)) return best;
+    best = pair.face_axis(tested_);
+    if (!pair.separates(best)) test_edges(pair, best);
+    return best;
+  }
+
+  // The same, where that of the frame before may still separate.
+  Axis<Scalar> best_axis(const PolytopePair<Scalar>& pair, bool boxes, PairMemory& memory) {
+    static_assert(sizeof(KeptAxis) <= sizeof memory.bytes);
+    KeptAxis kept;
+    std::memcpy(&kept, memory.bytes.data(), sizeof kept);
     Axis<Scalar> best;
-    if (boxes && !pair.far_apart()) {
-      best = box_axis(pair, tested_);
-    } else if (!pair.far_apart()) {
-      best = pair.centre_axis();
-      ++tested_;
-      if (!pair.separates(best)) {
-        best = pair.face_axis(tested_);
-        if (!pair.separates(best)) test_edges(pair, best);
-      }
+    if (!kept.separates(pair, best, tested_)) {
+      best = best_axis(pair, boxes);
+      if (!pair.separates(best)) return best;
+      kept.keep(pair, best.normal);
     }
-    pair.report(best, task, true, outcome);
-    outcome.iterations = tested_;
+    std::memcpy(memory.bytes.data(), &kept, sizeof kept);
+    return best;
   }
 
   static int sign(Scalar x) { return x > uncertain ? 1 : x < -uncertain ? -1 : 0; }
@@ -155,6 +175,7 @@ TOUCHSTONE_NARROW_PHASE {
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
            .supports = are_flat_sided,
+           .starts_warm = true,
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32) return std::make_unique<Sat<float>>();
              return std::make_unique<Sat<double>>();

@@ -28,8 +28,8 @@ class SatFaces final : public NarrowPhase {
   void bind(std::span<const Shape> shapes) override { shapes_.bind(shapes); }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, Outcome& outcome) {
-      solve_pair(pair, batch.task, outcome);
+    shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, std::size_t i) {
+      solve_pair(pair, batch.task, outcomes[i]);
     });
   }
 

@@ -30,7 +30,7 @@ struct Options {
   std::vector<std::int64_t> seeds = {-1};
   int frames = -1;
   double tolerance = 0, time_limit = 10;
-  bool product = false, rebuild = false;
+  bool product = false, rebuild = false, warm = false;
   // How to go about it.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
 };
@@ -59,6 +59,7 @@ Campaign campaign_of(const Options& options) {
       NarrowPhaseSettings settings{.scalar = scalar};
       if (options.tolerance > 0) settings.tolerance = options.tolerance;
       group.narrow.push_back({entry, settings});
+      if (options.warm && entry->starts_warm) group.narrow.push_back({entry, settings, true});
     }
   }
   group.tasks = options.tasks;
@@ -224,6 +225,8 @@ void add_run(CLI::App& app, int& status) {
                         "Every narrow phase on the pairs of every broad phase"));
   add(command->add_flag("--rebuild", options->rebuild,
                         "Build every frame anew instead of updating"));
+  add(command->add_flag("--warm", options->warm,
+                        "Narrow phases that know it once more, starting from the frame before"));
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -15,7 +15,8 @@ bool BlockRun::matches(const SampleReply& reply, std::size_t c, std::size_t s,
                        const SampleRequest& request) const {
   const MeasuredSet& set = schedule_.sets[s];
   const Checked& checked = *checks_->find(schedule_.contestants[c].label(), set.narrow);
-  const bool skips_first = set.narrow == nullptr && set.starts.front() == 1 && !request.hashed;
+  const bool skips_first =
+      request.skips_first || (set.narrow == nullptr && set.starts.front() == 1 && !request.hashed);
   std::int64_t pairs = 0;
   std::uint64_t hash = 0;
   std::size_t frame = request.frame;
@@ -80,7 +81,8 @@ void BlockRun::add(Taken taken) {
 
 BlockRun::Taken BlockRun::sample(const Place& place, std::size_t c, std::uint32_t frame) {
   const MeasuredSet& set = schedule_.sets[place.set];
-  const SampleRequest request = {.set = set.number, .frame = frame, .frames = set.window};
+  const SampleRequest request = {
+      .set = set.number, .frame = frame, .frames = set.window, .skips_first = set.skips_first};
   RawRow row = row_of(c, place.set, frame);
   row.kind = RowKind::sample;
   row.process = place.process;

@@ -258,6 +258,7 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
                     group(piece).first[i], group(piece).second[i]);
   }
   if (choice.entry->approximate) departure.what += "; approximate by design";
+  if (choice.warm) departure.what += "; warm: the file has the bodies, not what was in memory";
   if (!info.known_defect.empty()) departure.what += "; known defect: " + info.known_defect;
   if (faults.worst_pair) departure.reproduction = write_case(piece, choice, *faults.worst_pair);
   context_->findings->add(std::move(departure));
@@ -276,10 +277,10 @@ std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choi
       .pose_a = poses[a],
       .pose_b = poses[b]};
   const std::filesystem::path file =
-      context_->reproductions / fmt::format("{}-{}-{}-{}-{}.jsonl", choice.entry->info.name,
-                                            to_string(choice.settings.scalar),
-                                            to_string(sets_[piece.set].task),
-                                            sets_[piece.set].kind_name(), reproduction.id);
+      context_->reproductions /
+      fmt::format("{}-{}{}-{}-{}-{}.jsonl", choice.entry->info.name,
+                  to_string(choice.settings.scalar), choice.warm ? "-warm" : "",
+                  to_string(sets_[piece.set].task), sets_[piece.set].kind_name(), reproduction.id);
   std::filesystem::create_directories(context_->reproductions);
   std::ofstream stream(file);
   stream << to_json(reproduction) << '\n';

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "harness/measure/allocations.h"
 #include "harness/measure/block_input.h"
 #include "harness/measure/hardware_counters.h"
+#include "harness/measure/warm_pairs.h"
 #include "harness/run/campaign.h"
 #include "harness/run/clock.h"
 
@@ -24,6 +26,7 @@ struct SampleRequest {
   std::uint32_t frame = 0;   // the first
   std::uint32_t frames = 1;  // how many, going round
   bool hashed = false;       // a broad phase's pairs are hashed, between its frames
+  bool skips_first = false;  // a narrow phase's window goes round past frame 0
 };
 
 // Sums over the window. -1 and NaN where something was not counted.
@@ -86,7 +89,10 @@ class BroadSampler final : public Sampler {
   std::ptrdiff_t at_ = -1;  // the frame that the algorithm holds; -1: none yet
 };
 
-// The pairs of all frames of the window in one piece of work for the executor.
+// The pairs of all frames of the window in one piece of work for the executor. A warm one answers
+// each frame with what the frames before left in memory, as in a scene that is played again and
+// again: at frame 0 nothing is known, and frames that a window does not follow upon are played up
+// to it before the clock starts. So an answer does not depend on the window that it is in.
 class NarrowSampler final : public Sampler {
  public:
   // `sets` outlives it: what a request's number means.
@@ -103,20 +109,38 @@ class NarrowSampler final : public Sampler {
     PairBatch batch;
     std::size_t first;  // outcome
   };
-  // Calls visit(frame) for each frame of the window.
-  template <class Visit>
-  void each_frame(const SampleRequest& request, const Visit& visit) const;
-  // Cuts the pairs of the window, and makes room for their outcomes.
-  std::vector<Chunk> cut(const SampleRequest& request);
+  struct Warm {  // what is kept of a set
+    WarmPairs pairs;
+    std::vector<PairMemory> memory;  // of each slot
+    std::ptrdiff_t at = -1;          // the frame that was answered last; -1: none
+  };
+  std::vector<std::size_t> frames_of(const SampleRequest& request) const;
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes, int worker);
+
+  // Cuts the pairs of the frames.
+  std::vector<Chunk> cut(const NarrowSet& set, std::span<const std::size_t> frames) const;
   // Where the chunks of each of the executor's tasks begin, and the end of the last.
   static std::vector<std::size_t> tasks_of(std::span<const Chunk> chunks);
-  void solve(const Chunk& chunk, int worker);
+  double solve_cold(const NarrowSet& set, std::span<const std::size_t> frames);
+
+  Warm& warm(std::uint32_t set);
+  // Pairs [begin, end) of the frame, as WarmPairs has them.
+  PairBatch batch(Warm& warm, Task task, std::size_t frame, std::size_t begin,
+                  std::size_t end) const;
+  // Answers frames that follow one another, and the one before; seconds.
+  double play(Warm& warm, Task task, std::span<const std::size_t> frames,
+              std::span<Outcome> outcomes);
+  // Until the frame before this one is what was answered last; from frame 0 on if need be.
+  void play_up_to(Warm& warm, Task task, std::size_t frame);
+  double solve_warm(const SampleRequest& request, std::span<const std::size_t> frames);
 
   const BlockInput* input_;
   std::span<const NarrowSet> sets_;
   Executor* executor_;
+  bool starts_warm_;
   std::vector<std::unique_ptr<NarrowPhase>> instances_;  // one a worker
   std::vector<Outcome> outcomes_;
+  std::vector<std::optional<Warm>> warm_;  // of each set, once it was asked about
 };
 
 }  // namespace touchstone

@@ -26,12 +26,13 @@ std::size_t index_of(std::vector<Contestant>& contestants, const Contestant& wan
   return contestants.size() - 1;
 }
 
-// Sweep and prune, or GJK in double; without it the first of ours, else the first.
+// Sweep and prune, or GJK in double, cold; without it the first of ours, else the first.
 std::size_t baseline(std::span<const Contestant> candidates) {
   const auto is_ours = [](const Contestant& c) { return c.info().origin == Origin::ours; };
   const auto is_usual = [](const Contestant& c) {
     return c.info().name == (c.broad != nullptr ? "sweep-and-prune" : "gjk") &&
-           (c.narrow == nullptr || c.narrow->settings.scalar == Precision::float64);
+           (c.narrow == nullptr ||
+            (c.narrow->settings.scalar == Precision::float64 && !c.narrow->warm));
   };
   auto at = std::ranges::find_if(candidates, is_usual);
   if (at == candidates.end()) at = std::ranges::find_if(candidates, is_ours);
@@ -110,6 +111,13 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
     for (std::size_t frame = 0; frame < frames; ++frame) {
       if (pairs.frames[frame].size() > 0) set.starts.push_back(frame);
     }
+    const auto is_warm = [](const Contestant& contestant) { return contestant.narrow->warm; };
+    if (set.starts.back() == 0) {
+      std::erase_if(candidates, is_warm);  // nothing comes before
+      if (candidates.empty()) continue;
+    }
+    set.skips_first = std::ranges::any_of(candidates, is_warm);
+    if (set.skips_first && set.starts.front() == 0) set.starts.erase(set.starts.begin());
     add_set(schedule, std::move(set), candidates);
   }
 

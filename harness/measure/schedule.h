@@ -33,6 +33,8 @@ struct MeasuredSet {
   std::vector<std::vector<std::size_t>> groups;  // of members; each has the baseline
   std::vector<std::size_t> starts;               // frames at which a window may begin
   std::uint32_t window = 1;                      // frames a sample
+  // A member starts warm: frame 0 only comes before the others, and no window goes over it.
+  bool skips_first = false;
 
   std::string key() const { return narrow == nullptr ? "" : set_key(*narrow); }
   // Squares are numbered through all groups of a set: `lap` counts those of one group.

@@ -107,7 +107,21 @@ std::vector<const Entry*> algorithms(Settings& settings, const std::string& key,
   }
 }
 
-// Each algorithm with each scalar that it offers and each tolerance.
+// Cold, warm, or both, cold first.
+std::vector<bool> warm_starts(Settings& settings) {
+  bool cold = false, warm = false;
+  for (const toml::node* node : settings.elements("warm")) {
+    const auto* value = node->as_boolean();
+    if (value == nullptr) settings.of("warm").fail("warm", "expected true, false, or both");
+    (value->get() ? warm : cold) = true;
+  }
+  std::vector<bool> starts;
+  if (cold || !warm) starts.push_back(false);
+  if (warm) starts.push_back(true);
+  return starts;
+}
+
+// Each algorithm with each scalar that it offers, each tolerance and each start that it knows.
 std::vector<NarrowChoice> narrow_choices(Settings& settings) {
   const auto scalars = settings.choices<Precision>("scalars", scalar_names,
                                                    {Precision::float32, Precision::float64});
@@ -128,6 +142,7 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
   std::optional<double> duality_gap;
   TomlTable& gap_holder = settings.of("duality_gap");
   if (gap_holder.has("duality_gap")) duality_gap = gap_holder.number("duality_gap", positive);
+  const std::vector<bool> starts = warm_starts(settings);
   std::vector<NarrowChoice> choices;
   for (const NarrowPhaseEntry* entry : algorithms(settings, "narrow", narrow_phases())) {
     if (duality_gap && !entry->stops_by_duality_gap) {
@@ -139,11 +154,15 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
     for (const Precision scalar : scalars) {
       if (!offers(*entry, scalar)) continue;
       for (const std::optional<double> tolerance : tolerances) {
-        choices.push_back({entry,
-                           {.scalar = scalar,
-                            .tolerance = tolerance,
-                            .max_iterations = max_iterations,
-                            .duality_gap = duality_gap}});
+        const NarrowPhaseSettings own{.scalar = scalar,
+                                      .tolerance = tolerance,
+                                      .max_iterations = max_iterations,
+                                      .duality_gap = duality_gap};
+        // What knows no other start is cold, once.
+        if (!entry->starts_warm) choices.push_back({entry, own});
+        for (const bool warm : starts) {
+          if (entry->starts_warm) choices.push_back({entry, own, warm});
+        }
       }
     }
   }
@@ -171,6 +190,7 @@ std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
     choice("task", task_names, rule.task);
     choice("boxes", box_names, rule.boxes);
     if (table.has("threads")) rule.threads = static_cast<int>(table.integer("threads", 1, 1024));
+    if (table.has("warm")) rule.warm = table.boolean("warm", false);
     if (table.has("counts_above")) {
       rule.counts_above = table.integer("counts_above", 0, greatest_count);
     }
@@ -200,7 +220,7 @@ bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
          names(rule.narrow, cell.narrow) && names(rule.scene, cell.scene) &&
          (!rule.scalar || rule.scalar == cell.scalar) && (!rule.task || rule.task == cell.task) &&
          names(rule.pair_kind, cell.pair_kind) && names(rule.boxes, cell.boxes) &&
-         names(rule.threads, cell.threads) &&
+         names(rule.threads, cell.threads) && (!rule.warm || rule.warm == cell.warm) &&
          (!rule.counts_above || cell.bodies > *rule.counts_above) &&
          (!rule.counts_below || cell.bodies < *rule.counts_below);
 }
@@ -277,6 +297,7 @@ std::string describe(const CampaignRule& rule) {
   add("pair_kind", rule.pair_kind);
   named("boxes", rule.boxes);
   add("threads", rule.threads);
+  add("warm", rule.warm);
   add("counts_above", rule.counts_above);
   add("counts_below", rule.counts_below);
   return text + " }";
@@ -287,7 +308,7 @@ std::string describe(const CampaignRule& rule) {
 std::string NarrowChoice::label() const {
   return narrow_label(entry->info.name, to_string(settings.scalar),
                       settings.tolerance.value_or(Outcome::none),
-                      settings.duality_gap.value_or(Outcome::none));
+                      settings.duality_gap.value_or(Outcome::none), warm);
 }
 
 bool CampaignGroup::admits(const CampaignCell& cell) const {
@@ -318,6 +339,7 @@ std::string description(const Campaign& campaign) {
                           to_string(choice.settings.scalar), choice.settings.tolerance.value_or(0),
                           choice.settings.duality_gap.value_or(0),
                           choice.settings.max_iterations.value_or(0));
+      if (choice.warm) text += " warm";
     }
     for (const Task task : group.tasks) text += fmt::format(" task {}", to_string(task));
     for (const CampaignRule& rule : group.include) text += " include " + describe(rule);

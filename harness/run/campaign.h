@@ -18,6 +18,7 @@ namespace touchstone {
 struct NarrowChoice {
   const NarrowPhaseEntry* entry = nullptr;
   NarrowPhaseSettings settings;
+  bool warm = false;  // each frame is answered with what the frames before left in memory
 
   std::string label() const;  // as narrow_label gives it
 };
@@ -37,6 +38,7 @@ struct CampaignRule {
   std::optional<std::string> pair_kind;  // "box-sphere"
   std::optional<BoxKind> boxes;
   std::optional<int> threads;
+  std::optional<bool> warm;
   std::optional<std::int64_t> counts_above, counts_below;  // bodies
 };
 
@@ -51,6 +53,7 @@ struct CampaignCell {
   std::optional<Precision> scalar;
   std::optional<Task> task;
   std::string pair_kind;
+  std::optional<bool> warm = {};
 };
 
 // A grid: every scene x count x seed x gap x boxes x threads x isa is a block, in which every

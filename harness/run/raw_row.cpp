@@ -75,6 +75,7 @@ void columns(Row& row, Visit visit) {
   visit("noise", row.noise);
   visit("words", row.words);
   visit("stop", row.stop);
+  visit("warm", row.warm);
 }
 
 struct Names {
@@ -150,16 +151,17 @@ void RawRow::take(const BroadPhaseWork& work) {
 }
 
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
-                         double duality_gap) {
+                         double duality_gap, bool warm) {
   std::string label = fmt::format("{} {}", name, scalar);
   if (!std::isnan(tolerance)) label += fmt::format(" {:g}", tolerance);
   if (!std::isnan(duality_gap)) label += fmt::format(" gap {:g}", duality_gap);
+  if (warm) label += " warm";
   return label;
 }
 
 std::string label_of(const RawRow& row) {
   if (row.narrow.empty()) return row.broad;
-  return narrow_label(row.narrow, row.scalar, row.tolerance, row.duality_gap);
+  return narrow_label(row.narrow, row.scalar, row.tolerance, row.duality_gap, row.warm == 1);
 }
 
 std::vector<std::string> raw_header() {

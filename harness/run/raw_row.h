@@ -63,6 +63,7 @@ struct RawRow {
   std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
   std::string status;
   std::string noise, words, stop;
+  std::int64_t warm = -1;  // 1: the narrow phase started from what the frames before left
 
   void take(const BroadPhaseWork& work);
 
@@ -76,9 +77,9 @@ struct RawRow {
 inline constexpr std::string_view status_wrong = "wrong";
 
 // A narrow phase with its settings, as the tables name it: "gjk double", "gjk double 1e-06", "gjk
-// double gap 1e-08". NaN for both is the algorithm's own tolerance.
+// double gap 1e-08", "gjk double warm". NaN for both is the algorithm's own tolerance.
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
-                         double duality_gap);
+                         double duality_gap, bool warm);
 // Of the row's algorithm: a broad phase's name, or a narrow phase's label.
 std::string label_of(const RawRow& row);
 

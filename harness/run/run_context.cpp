@@ -37,6 +37,7 @@ RawRow RunContext::row(std::size_t frame, const NarrowChoice& choice) const {
   result.scalar = to_string(choice.settings.scalar);
   result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
   result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
+  if (choice.warm) result.warm = 1;
   result.phase = Phase::narrow;
   return result;
 }
@@ -73,7 +74,8 @@ bool RunContext::admits(const NarrowChoice& choice, const std::string& broad, Ta
                                .narrow = choice.entry->info.name,
                                .scalar = choice.settings.scalar,
                                .task = task,
-                               .pair_kind = pair_kind});
+                               .pair_kind = pair_kind,
+                               .warm = choice.warm});
 }
 
 std::string RunContext::place(std::size_t frame) const {

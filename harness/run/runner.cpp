@@ -89,6 +89,15 @@ class IsaGuard {
   Isa before_;
 };
 
+// A start is warm by the frame before.
+void expect_frames(const Block& block, const Scene& scene) {
+  const bool warm = std::ranges::any_of(block.group->narrow, &NarrowChoice::warm);
+  if (!warm || scene.frames > 1 || !scene.recording.empty()) return;
+  throw InputError(block.scene_file.string(), 0,
+                   "has 1 frame, and the campaign wants warm starts; expected `frames` of 2 or "
+                   "more, in the scene or the campaign");
+}
+
 // Each distinct scene once.
 class Scenes {
  public:
@@ -98,8 +107,12 @@ class Scenes {
   };
   explicit Scenes(const std::vector<Block>& blocks) {
     for (const Block& block : blocks) {
-      if (loaded_.contains(key(block))) continue;
+      if (const auto at = loaded_.find(key(block)); at != loaded_.end()) {
+        expect_frames(block, at->second.scene);
+        continue;
+      }
       Scene scene = load_scene(block.scene_file, block.overrides);
+      expect_frames(block, scene);
       std::string hash = scene_hash(scene);
       loaded_.emplace(key(block), Loaded{std::move(scene), std::move(hash)});
     }

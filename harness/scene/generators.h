@@ -19,6 +19,7 @@ struct GeneratorInput {
   std::int64_t count;  // bodies, at least one
   std::uint64_t seed;
   std::optional<double> gap = {};  // of all pairs, instead of the file's gaps (metres)
+  int frames = 1;                  // of the scene, where the generator has to know
 
   // Independent random numbers for each thing that is drawn, so that a change of one parameter
   // leaves the others' draws as they were.

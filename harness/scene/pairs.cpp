@@ -8,6 +8,7 @@
 #include "harness/scene/generators.h"
 #include "harness/scene/portable_math.h"
 #include "harness/scene/settle.h"
+#include "harness/scene/sway.h"
 
 namespace touchstone {
 namespace {
@@ -54,8 +55,8 @@ Vec3d world_support(const Scene& scene, const Body& body, const Vec3d& n) {
   return times(r, support_point(scene.shapes[body.shape], transposed_times(r, n)));
 }
 
-constexpr std::string_view placement_names[] = {"facing", "settled"};
-enum class Placement : std::uint8_t { facing, settled };
+constexpr std::string_view placement_names[] = {"facing", "settled", "meeting"};
+enum class Placement : std::uint8_t { facing, settled, meeting };
 
 std::vector<double> read_gaps(GeneratorInput& input) {
   TomlTable& table = input.table;
@@ -83,8 +84,10 @@ std::vector<double> read_gaps(GeneratorInput& input) {
 // line along n. The planes through them then have nothing of either body between them, so that a
 // gap is the distance, exactly; a depth is that along n, and no greater than the bodies are deep
 // there. `settled`, body 2 i + 1 is then moved along the shortest connection until the distance, or
-// depth, is the gap by the exact answer: the nearest features are those of bodies that meet by
-// chance. Pairs stand on a grid, clear of each other.
+// depth, is the gap by the exact answer; where it is that already, vertices still meet vertices.
+// `meeting`, it comes straight towards the other from a random direction until the exact distance,
+// or depth, is the gap: the nearest features are those of bodies that meet by chance. Pairs stand
+// on a grid, clear of each other. With `sway` they move (sway.h).
 Generated make_pairs(GeneratorInput& input) {
   if (input.count % 2 != 0) {
     throw InputError(input.table.file(), 0,
@@ -95,6 +98,7 @@ Generated make_pairs(GeneratorInput& input) {
   const std::vector<double> gaps = read_gaps(input);
   const auto placement =
       static_cast<Placement>(input.table.choice("placement", placement_names, 0));
+  const Sway sway = read_sway(input);
   Generated made;
   Scene& scene = made.scene;
   scene = make_bodies(input, {}, true, input.count);
@@ -108,23 +112,32 @@ Generated make_pairs(GeneratorInput& input) {
   std::uint32_t side = 1;
   while (std::uint64_t{side} * side * side < pairs) ++side;
   Random places = input.random(GeneratorInput::place_stream);
+  Random motions = input.random(GeneratorInput::velocity_stream);
   oracle::Oracle oracle;
   for (std::uint32_t i = 0; i < pairs; ++i) {
     Body& a = scene.bodies[2 * i];
     Body& b = scene.bodies[2 * i + 1];
     const double gap = gaps[i % gaps.size()];
     a.pose.translation = cell * Vec3d(i % side, i / side % side, i / side / side);
+    Vec3d n;
     const auto face = [&] {
-      const Vec3d n = places.on_sphere();
+      n = places.on_sphere();
       b.pose.translation =
           a.pose.translation + (world_support(scene, a, n) + gap * n - world_support(scene, b, -n));
     };
     face();
-    if (placement == Placement::settled) {
+    if (placement != Placement::facing) {
       const oracle::Solid solid_a(scene.shapes[a.shape]), solid_b(scene.shapes[b.shape]);
       constexpr int most_tries = 100;
       int tries = 1;
-      while (!settle(oracle, solid_a, a.pose, solid_b, b.pose, gap)) {
+      const auto is_placed = [&] {
+        if (placement == Placement::settled) {
+          return settle(oracle, solid_a, a.pose, solid_b, b.pose, gap);
+        }
+        b.pose.translation = a.pose.translation + (3 * reach + std::max(gap, 0.0)) * n;
+        return meet(oracle, solid_a, a.pose, solid_b, b.pose, -n, gap);
+      };
+      while (!is_placed()) {
         if (++tries > most_tries) {
           throw InputError(input.table.file(), 0,
                            fmt::format("no place found for bodies {} and {} at the distance {}: "
@@ -133,8 +146,13 @@ Generated make_pairs(GeneratorInput& input) {
         }
         face();
       }
+      if (sway.share > 0) {
+        const Vec3d normal = oracle.measure({solid_a, a.pose}, {solid_b, b.pose}).normal;
+        if (length(normal) > 0) n = normal / length(normal);
+      }
     }
     a.moving = b.moving = false;
+    set_swaying(sway, n, gap, reach, motions, a, b);
     scene.pairs.push_back({2 * i, 2 * i + 1});
   }
   made.side = cell * side;

@@ -240,6 +240,11 @@ class BodyReader {
   std::map<std::string, Placed> named_;
 };
 
+int frames_of_pairs(TomlTable& table, const SceneOverrides& overrides) {
+  const std::int64_t asked = table.integer("frames", 1, most_frames, 1);
+  return overrides.frames == -1 ? static_cast<int>(asked) : overrides.frames;
+}
+
 Scene generate(TomlTable& table, ShapeReader& shapes, const SceneOverrides& overrides) {
   std::vector<std::string_view> names;
   for (const Generator& generator : generators()) names.push_back(generator.name);
@@ -253,6 +258,7 @@ Scene generate(TomlTable& table, ShapeReader& shapes, const SceneOverrides& over
   }
   if (generator.name != "pairs") refuse_gap(table.file(), overrides);
   GeneratorInput input{table, shapes, count, read_seed(table, overrides), overrides.gap};
+  if (generator.name == "pairs") input.frames = frames_of_pairs(table, overrides);
   Generated made = generator.make(input);
   made.scene.motion.seed = input.random(GeneratorInput::motion_stream).next();
   read_motion(table, made.side, made.scene.motion);
@@ -309,7 +315,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   int frames = 1;
   if (table.contains("generator")) {
     scene = generate(table, shapes, overrides);
-    frames = scene.pairs.empty() ? generated_frames : 1;  // pairs stand still
+    frames = scene.pairs.empty() ? generated_frames : 1;
   } else {
     if (table.contains("body")) {
       lines = BodyReader(table, shapes, scene).read();

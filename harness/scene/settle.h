@@ -11,4 +11,9 @@ namespace touchstone {
 bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
             const oracle::Solid& b, Pose& at_b, double distance);
 
+// Moves b straight on along `way`, a unit vector, to where the signed distance is right, as
+// exactly: from a place where it is greater, to the first such place. False where there is none.
+bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, const oracle::Solid& b,
+          Pose& at_b, const Vec3d& way, double distance);
+
 }  // namespace touchstone

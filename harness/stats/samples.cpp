@@ -41,7 +41,8 @@ const std::vector<std::string> optional = {"seed",
                                            "allocations",
                                            "allocated_bytes",
                                            "rebuild",
-                                           "isa_limit"};
+                                           "isa_limit",
+                                           "warm"};
 
 // A row's fields by the columns' names.
 class Fields {
@@ -189,7 +190,7 @@ class Reader {
     std::string label = row.text("broad");
     if (set.key.narrow()) {
       label = narrow_label(row.text("narrow"), row.text("scalar"), row.number("tolerance"),
-                           row.number("duality_gap"));
+                           row.number("duality_gap"), row.text("warm") == "1");
     }
     if (label.empty()) row.fail("broad", "expected an algorithm here or in column narrow");
     const std::string twin = row.text("twin");

@@ -31,7 +31,8 @@ class Resume : public testing::Test {
                   "shapes = ['box', 'sphere']\n");
     folder_.write("c.toml",
                   "scenes = 'scene.toml'\ncounts = [30, 40]\nbroad = ['naive', 'uniform-grid']\n"
-                  "narrow = ['gjk', 'sat']\nscalars = 'double'\nsquares = 6\nseconds = 0.05\n"
+                  "narrow = ['gjk', 'sat']\nwarm = [false, true]\nscalars = 'double'\nsquares = "
+                  "6\nseconds = 0.05\n"
                   "threads = 1\n");
   }
   Campaign campaign() const { return read_campaign(folder_.path() / "c.toml"); }

@@ -38,6 +38,37 @@ TEST_F(CampaignFile, HasDefaultsForEverythingButTheScenes) {
     EXPECT_TRUE(offers(*choice.entry, choice.settings.scalar));
 }
 
+TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
+  const auto labels = [&](const std::string& warm) {
+    const Campaign campaign =
+        read("scenes = 'a.toml'\nnarrow = ['gjk', 'mpr']\nscalars = 'double'\n" + warm);
+    std::vector<std::string> all;
+    for (const NarrowChoice& choice : campaign.groups[0].narrow) all.push_back(choice.label());
+    return all;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(labels(""), ElementsAre("gjk double", "mpr double"));
+  EXPECT_THAT(labels("warm = false"), ElementsAre("gjk double", "mpr double"));
+  EXPECT_THAT(labels("warm = true"), ElementsAre("gjk double warm", "mpr double"));
+  EXPECT_THAT(labels("warm = [true, false]"),
+              ElementsAre("gjk double", "gjk double warm", "mpr double"));
+  EXPECT_THAT(fault("scenes = 'a.toml'\nwarm = 'yes'"), testing::HasSubstr("c.toml:2: warm"));
+  EXPECT_NE(description(read("scenes = 'a.toml'\nwarm = true")),
+            description(read("scenes = 'a.toml'")));
+  EXPECT_EQ(description(read("scenes = 'a.toml'\nwarm = false")),
+            description(read("scenes = 'a.toml'")));
+
+  const Campaign ruled =
+      read("scenes = 'a.toml'\nexclude = [{narrow = 'gjk', warm = true, task = 'distance'}]");
+  CampaignCell cell;
+  cell.narrow = "gjk";
+  cell.task = Task::distance;
+  cell.warm = true;
+  EXPECT_FALSE(ruled.groups[0].admits(cell));
+  cell.warm = false;
+  EXPECT_TRUE(ruled.groups[0].admits(cell));
+}
+
 TEST_F(CampaignFile, KeysOfLargeCells) {
   const Campaign plain = read("scenes = 'a.toml'");
   EXPECT_EQ(plain.groups[0].isa, std::vector<std::optional<Isa>>{std::nullopt});

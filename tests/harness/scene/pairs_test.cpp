@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algorithms/oracle/oracle.h"
+#include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
@@ -134,6 +135,51 @@ TEST(Pairs, BadRequestsAreRefused) {
   EXPECT_THAT(without_gaps("generator = \"uniform\"\n"), HasSubstr("a gap of 0.1 was asked for"));
   EXPECT_THAT(without_gaps("[[body]]\nshape = {type = \"sphere\", radius = 1}\n"),
               HasSubstr("a gap of 0.1 was asked for"));
+}
+
+TEST(Pairs, SwayingOnesStayAboutAsFarApart) {
+  for (const double gap : {0.1, 1e-3, 1e-6, -1e-3, -0.1}) {
+    const Scene scene = load(
+        "count = 40\nshapes = [\"box\", \"ellipsoid\", {type = \"hull\", points = 30}]\n"
+        "placement = \"meeting\"\nsway = 0.2\nframes = 21\n",
+        {.gap = gap});
+    oracle::Oracle oracle;
+    ScenePlayer player(scene, BoxKind::tight);
+    std::vector<Pose> before(player.poses().begin(), player.poses().end());
+    int near = 0, all = 0, on_its_side = 0, moved = 0;
+    do {
+      const bool middle = player.frame() == 10;
+      for (const IndexPair& pair : scene.pairs) {
+        const oracle::Solid a(scene.shapes[scene.bodies[pair.a].shape]),
+            b(scene.shapes[scene.bodies[pair.b].shape]);
+        const oracle::Measure found =
+            oracle.measure({a, player.poses()[pair.a]}, {b, player.poses()[pair.b]});
+        if (middle) {
+          EXPECT_NEAR(found.middle(), gap, 2e-6 * std::abs(gap) + 1e-13);
+        }
+        ++all;
+        near += std::abs(found.middle() - gap) <= 0.25 * std::abs(gap);
+        on_its_side += (found.middle() > 0) == (gap > 0);
+        moved += before[pair.a].rotation != player.poses()[pair.a].rotation &&
+                 before[pair.b].translation != player.poses()[pair.b].translation;
+      }
+      before.assign(player.poses().begin(), player.poses().end());
+    } while (player.next());
+    EXPECT_GT(near, all * 3 / 4) << gap;
+    EXPECT_GT(on_its_side, all * 9 / 10) << gap;
+    EXPECT_EQ(moved, all / 21 * 20) << gap;
+  }
+}
+
+TEST(Pairs, SwayIsRefusedWhereItMakesNoSense) {
+  const auto fault = [](const std::string& keys) { return input_fault([&] { load(keys); }); };
+  EXPECT_THAT(fault("count = 2\nsway = -0.1\n"), testing::HasSubstr("scene.toml:3: sway"));
+  EXPECT_THAT(fault("count = 2\nsway = 0.1\nmotion = \"brownian\"\n"),
+              testing::HasSubstr("motion"));
+  EXPECT_THAT(fault("count = 2\nsway = 0.1\nframes = 3\nstep = 0.1\n"), testing::HasSubstr("step"));
+  const Scene still = load("count = 4\nframes = 5\n"), swaying = load("count = 4\nsway = 0.1\n");
+  for (const Body& body : still.bodies) EXPECT_FALSE(body.moving);
+  for (const Body& body : swaying.bodies) EXPECT_FALSE(body.moving);  // of one frame
 }
 
 }  // namespace

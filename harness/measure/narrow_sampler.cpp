@@ -1,0 +1,218 @@
+// What a narrow phase does when it is asked for a sample.
+#include <algorithm>
+#include <functional>
+
+#include "harness/measure/outcome_hash.h"
+#include "harness/measure/sampler.h"
+
+namespace touchstone {
+namespace {
+
+// Pairs that one task of the executor answers: enough to hide the cost of handing it out, few
+// enough to share a small group between two threads.
+constexpr std::size_t pairs_a_task = 256;
+
+void count(std::int64_t& sum, std::int32_t value) {
+  if (value >= 0) sum = std::max<std::int64_t>(sum, 0) + value;
+}
+
+}  // namespace
+
+NarrowSampler::NarrowSampler(const NarrowChoice& choice, const BlockInput& input,
+                             std::span<const NarrowSet> sets, Executor& executor)
+    : input_(&input),
+      sets_(sets),
+      executor_(&executor),
+      starts_warm_(choice.warm),
+      warm_(sets.size()) {
+  for (int worker = 0; worker < executor.width(); ++worker) {
+    instances_.push_back(choice.entry->make(choice.settings));
+    instances_.back()->bind(input.shapes);
+  }
+}
+
+std::vector<std::size_t> NarrowSampler::frames_of(const SampleRequest& request) const {
+  const std::size_t all = input_->frames.size();
+  const std::size_t first = request.skips_first ? 1 : 0;
+  std::vector<std::size_t> frames;
+  for (std::uint32_t i = 0; i < request.frames; ++i) {
+    frames.push_back(first + (request.frame - first + i) % (all - first));
+  }
+  return frames;
+}
+
+std::vector<NarrowSampler::Chunk> NarrowSampler::cut(const NarrowSet& set,
+                                                     std::span<const std::size_t> frames) const {
+  std::vector<Chunk> chunks;
+  std::size_t total = 0;
+  for (const std::size_t frame : frames) {
+    const PairGroup& group = set.frames[frame];
+    for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task) {
+      const std::size_t end = std::min(begin + pairs_a_task, group.size());
+      chunks.push_back(
+          {group.batch(set.task, input_->shape_of, input_->frames[frame].poses, begin, end),
+           total + begin});
+    }
+    total += group.size();
+  }
+  return chunks;
+}
+
+std::vector<std::size_t> NarrowSampler::tasks_of(std::span<const Chunk> chunks) {
+  std::vector<std::size_t> tasks = {0};
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    pairs += chunks[i].batch.size();
+    if (pairs < pairs_a_task && i + 1 < chunks.size()) continue;
+    tasks.push_back(i + 1);
+    pairs = 0;
+  }
+  return tasks;
+}
+
+void NarrowSampler::solve(const PairBatch& batch, std::span<Outcome> outcomes, int worker) {
+  instances_[static_cast<std::size_t>(worker)]->solve(batch, outcomes);
+}
+
+double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size_t> frames) {
+  const std::vector<Chunk> chunks = cut(set, frames);
+  const std::vector<std::size_t> tasks = tasks_of(chunks);
+  // By reference, so that std::function does not allocate.
+  const auto work = [&](std::size_t task, int worker) {
+    for (std::size_t i = tasks[task]; i < tasks[task + 1]; ++i) {
+      const Chunk& chunk = chunks[i];
+      solve(chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()), worker);
+    }
+  };
+  const Stopwatch watch;
+  executor_->run(tasks.size() - 1, std::cref(work));
+  return watch.seconds();
+}
+
+NarrowSampler::Warm& NarrowSampler::warm(std::uint32_t set) {
+  std::optional<Warm>& warm = warm_[set];
+  if (!warm) {
+    warm.emplace(Warm{WarmPairs(sets_[set], pairs_a_task), {}});
+    warm->memory.resize(warm->pairs.slots());
+  }
+  return *warm;
+}
+
+PairBatch NarrowSampler::batch(Warm& warm, Task task, std::size_t frame, std::size_t begin,
+                               std::size_t end) const {
+  const WarmPairs::Frame& pairs = warm.pairs.frame(frame);
+  PairBatch batch =
+      pairs.pairs.batch(task, input_->shape_of, input_->frames[frame].poses, begin, end);
+  batch.memory = warm.memory;
+  batch.memory_of = std::span(pairs.slots).subspan(begin, end - begin);
+  return batch;
+}
+
+double NarrowSampler::play(Warm& warm, Task task, std::span<const std::size_t> frames,
+                           std::span<Outcome> outcomes) {
+  std::vector<std::size_t> firsts;
+  std::size_t total = 0;
+  for (const std::size_t frame : frames) {
+    firsts.push_back(total);
+    total += warm.pairs.frame(frame).slots.size();
+  }
+  const auto work = [&](std::size_t part, int worker) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const WarmPairs::Frame& frame = warm.pairs.frame(frames[i]);
+      const std::size_t begin = frame.begins[part], end = frame.begins[part + 1];
+      if (begin == end) continue;
+      solve(batch(warm, task, frames[i], begin, end),
+            outcomes.subspan(firsts[i] + begin, end - begin), worker);
+    }
+  };
+  const Stopwatch watch;
+  executor_->run(warm.pairs.tasks(), std::cref(work));
+  const double seconds = watch.seconds();
+  warm.at = static_cast<std::ptrdiff_t>(frames.back());
+  // Back into the order of the set.
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::vector<std::uint32_t>& places = warm.pairs.frame(frames[i]).places;
+    if (places.empty()) continue;
+    const std::span<Outcome> own = outcomes.subspan(firsts[i], places.size());
+    const std::vector<Outcome> solved(own.begin(), own.end());
+    for (std::size_t k = 0; k < places.size(); ++k) own[places[k]] = solved[k];
+  }
+  return seconds;
+}
+
+void NarrowSampler::play_up_to(Warm& warm, Task task, std::size_t frame) {
+  if (frame > 0 && warm.at == static_cast<std::ptrdiff_t>(frame) - 1) return;
+  std::ranges::fill(warm.memory, PairMemory{});
+  warm.at = -1;
+  std::vector<Outcome> untold;
+  for (std::size_t before = 0; before < frame; ++before) {
+    untold.assign(warm.pairs.frame(before).slots.size(), Outcome{});
+    play(warm, task, std::array{before}, untold);
+  }
+}
+
+double NarrowSampler::solve_warm(const SampleRequest& request,
+                                 std::span<const std::size_t> frames) {
+  const Task task = sets_[request.set].task;
+  Warm& kept = warm(request.set);
+  double seconds = 0;
+  std::size_t first = 0;
+  while (!frames.empty()) {
+    // Frames in a row, until the scene begins again.
+    std::size_t row = 1, pairs = kept.pairs.frame(frames[0]).slots.size();
+    for (; row < frames.size() && frames[row] == frames[row - 1] + 1; ++row) {
+      pairs += kept.pairs.frame(frames[row]).slots.size();
+    }
+    play_up_to(kept, task, frames[0]);
+    seconds += play(kept, task, frames.subspan(0, row), std::span(outcomes_).subspan(first, pairs));
+    first += pairs;
+    frames = frames.subspan(row);
+  }
+  return seconds;
+}
+
+SampleReply NarrowSampler::sample(const SampleRequest& request) {
+  const NarrowSet& set = sets_[request.set];
+  const std::vector<std::size_t> frames = frames_of(request);
+  std::size_t total = 0;
+  for (const std::size_t frame : frames) total += set.frames[frame].size();
+  outcomes_.assign(total, Outcome{});
+  SampleReply reply;
+  reply.query = starts_warm_ ? solve_warm(request, frames) : solve_cold(set, frames);
+  reply.pairs = static_cast<std::int64_t>(outcomes_.size());
+  reply.contacts = 0;
+  for (const Outcome& outcome : outcomes_) {
+    reply.contacts +=
+        outcome.answer == Answer::touching || outcome.answer == Answer::overlapping ? 1 : 0;
+    count(reply.iterations, outcome.iterations);
+    count(reply.support_calls, outcome.support_calls);
+  }
+  std::size_t first = 0;
+  for (const std::size_t frame : frames) {
+    const PairGroup& group = set.frames[frame];
+    reply.pair_hash += group_hash(group);
+    reply.outcome_hash += outcome_hash(group, std::span(outcomes_).subspan(first, group.size()));
+    first += group.size();
+  }
+  return reply;
+}
+
+Allocations NarrowSampler::count_allocations(const SampleRequest& request) {
+  const std::size_t frame = request.frame;
+  std::vector<Chunk> chunks = cut(sets_[request.set], std::array{frame});
+  std::vector<PairMemory> before;
+  if (starts_warm_) {
+    Warm& kept = warm(request.set);
+    before = kept.memory;
+    chunks = {{batch(kept, sets_[request.set].task, frame, 0, outcomes_.size()), 0}};
+  }
+  const AllocationCount counted;
+  for (const Chunk& chunk : chunks) {
+    solve(chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()), 0);
+  }
+  const Allocations allocations = counted.so_far();
+  if (starts_warm_) warm(request.set).memory = std::move(before);
+  return allocations;
+}
+
+}  // namespace touchstone

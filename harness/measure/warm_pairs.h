@@ -1,0 +1,34 @@
+// The pairs of a set as they are asked about warm: each with a memory of its own over all frames.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "harness/measure/block_input.h"
+
+namespace touchstone {
+
+// Two bodies have the same slot of memory in every frame in which they are a pair. The slots are
+// cut into tasks, and the pairs of a frame are put in order so that those of a task are together:
+// then one worker can answer a task's pairs frame after frame, and no other writes to their memory.
+class WarmPairs {
+ public:
+  WarmPairs(const NarrowSet& set, std::size_t slots_a_task);
+
+  struct Frame {
+    PairGroup pairs;                    // as in the set, within each task
+    std::vector<std::uint32_t> slots;   // of each pair
+    std::vector<std::uint32_t> places;  // of each pair in the set's frame; empty: the same order
+    std::vector<std::size_t> begins;    // of each task's pairs, and the end of the last
+  };
+  const Frame& frame(std::size_t i) const { return frames_[i]; }
+  std::size_t slots() const { return slots_; }
+  std::size_t tasks() const { return tasks_; }
+
+ private:
+  std::size_t slots_ = 0, tasks_ = 0;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace touchstone
