@@ -23,7 +23,7 @@ void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scala
 template <class Scalar>
 void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
                              const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
-                             Outcome& outcome) {
+                             WarmStart* start, Outcome& outcome) {
   if (task != Task::distance && balls_are_apart(a, pose_a, b, pose_b)) {
     outcome.answer = Answer::separated;
     outcome.status = Status::ok;
@@ -31,18 +31,29 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
     return;
   }
   SupportPair<Scalar> pair(a, pose_a, b, pose_b);
-  solve_pair(pair, task, outcome);
+  solve_pair(pair, task, start, outcome);
 }
 
 template <class Scalar>
-void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome) {
+Approach<Scalar> GjkQuery<Scalar>::approach_from(SupportPair<Scalar>& pair,
+                                                 const ApproachGoal<Scalar>& goal,
+                                                 WarmStart* start) {
+  if (start == nullptr) return approach(pair, goal);
+  const Approach<Scalar> found = approach(pair, goal, start);
+  if (!found.as_before) start->keep(pair, found.simplex, found.direction);
+  return found;
+}
+
+template <class Scalar>
+void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start,
+                                  Outcome& outcome) {
   using End = typename Approach<Scalar>::End;
   const ApproachGoal<Scalar> goal{.task = task,
                                   .tolerance = tolerance(pair.is_polytope()),
                                   .duality_gap = settings_.duality_gap,
                                   .most_iterations = settings_.gjk_cap,
                                   .momentum = settings_.momentum};
-  const Approach<Scalar> found = approach(pair, goal);
+  const Approach<Scalar> found = approach_from(pair, goal, start);
   outcome.iterations = found.iterations;
   if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
@@ -76,6 +87,7 @@ void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, Outcome&
 template <class Scalar>
 void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found,
                                      Task task, Outcome& outcome) {
+  constexpr Scalar open = 4 * rounding;  // what may be called a contact, and is none
   const Scalar radius = pair.radius();
   const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
   const bool on_core = !found.nearest.inside && off_core(found.simplex) <= 4 * rounding;
@@ -103,8 +115,10 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<S
   if (inside && (known || task != Task::penetration)) outcome.status = Status::ok;
   if (!inside && depth.end == ExpansionEnd::flat) outcome.status = Status::degenerate;
   if (task == Task::intersect || (inside && task == Task::distance)) return;
-  write(pair, -(radius + depth.upper), -(radius + depth.upper), -(radius + depth.lower),
-        depth.normal, depth.a, depth.b, outcome);
+  // Where the origin may be outside of the polytope, its faces bound nothing from the other side.
+  const Scalar least = inside ? radius + depth.lower : std::min(radius + depth.lower, -open);
+  write(pair, -(radius + depth.upper), -(radius + depth.upper), -least, depth.normal, depth.a,
+        depth.b, outcome);
 }
 
 template class GjkQuery<float>;

@@ -8,6 +8,7 @@
 #include "algorithms/core/outcome.h"
 #include "algorithms/kernels/expanding_polytope.h"
 #include "algorithms/kernels/gjk_approach.h"
+#include "algorithms/kernels/warm_start.h"
 
 namespace touchstone {
 
@@ -25,9 +26,10 @@ class GjkQuery {
       : settings_(settings), polytope_(settings.epa_cap) {}
 
   // Of bounded bodies. A verdict is `ok` only where a bound proves it beyond rounding. Bodies whose
-  // balls are apart are not walked between, but for their distance.
+  // balls are apart are not walked between, but for their distance. Begins where `start` says,
+  // unless it is null, and leaves there what was found.
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
-             const Pose& pose_b, Task task, Outcome& outcome);
+             const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
 
   // Of a distance between the bodies, in the pair's unit.
   Scalar tolerance(bool polytopes) const {
@@ -40,7 +42,9 @@ class GjkQuery {
  private:
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
-  void solve_pair(SupportPair<Scalar>& pair, Task task, Outcome& outcome);
+  void solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start, Outcome& outcome);
+  Approach<Scalar> approach_from(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                                 WarmStart* start);
   void solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
                      Outcome& outcome);
 

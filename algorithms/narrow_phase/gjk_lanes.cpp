@@ -45,7 +45,7 @@ class GjkInLanes final : public NarrowPhase {
       const std::uint32_t i = left_[k];
       const std::uint32_t a = batch.first[i], b = batch.second[i];
       query_.solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]],
-                   batch.poses[b], batch.task, outcomes[i]);
+                   batch.poses[b], batch.task, nullptr, outcomes[i]);
     }
   }
 
