@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   add_draw(app, status);
   add_record(app, status);
   add_trade(app, status);
+  add_advise(app, status);
   try {
     app.parse(argc, argv);
     return status;

@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::size_t bodies_a_task = 256;
 
-Pose placed(const Pose& body, const Pose& part) {
-  return {body.rotation * part.rotation, body.rotation * part.translation + body.translation};
-}
-
 void include(Aabb& all, const Aabb& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     all.min[axis] = std::min(all.min[axis], box.min[axis]);

@@ -14,14 +14,38 @@ std::string_view body_kind_name(std::size_t kind) {
   return kind == mesh_body ? "mesh" : to_string(all_shape_kinds[kind]);
 }
 
+// Whether it is the body itself, for bodies of that kind: a sphere's sphere, the hull of a hull.
+bool is_the_body(Form form, std::size_t kind) {
+  const auto is = [&](ShapeKind shape) { return kind == static_cast<std::size_t>(shape); };
+  switch (form) {
+    case Form::as_given: return true;
+    case Form::sphere: return is(ShapeKind::sphere);
+    case Form::box:
+    case Form::oriented_box: return is(ShapeKind::box);
+    case Form::capsule: return is(ShapeKind::capsule);
+    case Form::hull: return is(ShapeKind::hull);
+    case Form::icosphere: return is(ShapeKind::box) || is(ShapeKind::hull);
+    case Form::parts:
+    case Form::mesh: return kind != mesh_body;  // convex already, and without a mesh
+    case Form::dop14:
+    case Form::dop18:
+    case Form::dop26:
+    case Form::reduced_hull: break;
+  }
+  return false;
+}
+
 std::string Representations::name() const {
   std::string listed;
-  std::optional<Representation> common;
+  std::optional<Representation> common;  // of those that are not as given
+  for (const auto& one : of) {
+    if (one && one->form != Form::as_given) common = one;
+  }
   bool same = true;
   for (std::size_t kind = 0; kind < body_kinds; ++kind) {
     if (!of[kind]) continue;
-    if (common && *common != *of[kind]) same = false;
-    common = of[kind];
+    const bool own = of[kind]->form == Form::as_given;
+    if (common && (own ? !is_the_body(common->form, kind) : *of[kind] != *common)) same = false;
     listed += fmt::format("{}{}={}", listed.empty() ? "" : ",", body_kind_name(kind),
                           to_string(*of[kind]));
   }

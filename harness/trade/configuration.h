@@ -18,11 +18,15 @@ inline constexpr std::size_t mesh_body = all_shape_kinds.size();
 inline constexpr std::size_t body_kinds = all_shape_kinds.size() + 1;
 std::string_view body_kind_name(std::size_t kind);
 
+// Whether it is the body itself, for bodies of that kind: a sphere's sphere, the hull of a hull.
+bool is_the_body(Form form, std::size_t kind);
+
 // What stands for the bodies of each kind; none: as given. Half-spaces always are.
 struct Representations {
   std::array<std::optional<Representation>, body_kinds> of;
 
-  // "hull-16", or "box=sphere,hull=hull-16" where kinds differ.
+  // "hull-16", or "box=sphere,hull=hull-16" where kinds differ otherwise than that some kind's own
+  // shape is what the others have.
   std::string name() const;
   friend bool operator==(const Representations&, const Representations&) = default;
 };

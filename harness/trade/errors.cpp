@@ -11,10 +11,6 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 constexpr double no_value = 1;  // the error of who gives no number: all of the size
 
-bool in_contact(Answer answer) {
-  return answer == Answer::touching || answer == Answer::overlapping;
-}
-
 bool before(const IndexPair& a, const IndexPair& b) { return a.a != b.a ? a.a < b.a : a.b < b.b; }
 
 double share(std::int64_t part, std::int64_t whole) {

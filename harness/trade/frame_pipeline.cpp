@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "harness/run/clock.h"
 
@@ -10,14 +11,6 @@ namespace {
 
 constexpr std::size_t queries_a_piece = 256;
 constexpr std::size_t pairs_a_task = 32;  // of bodies with many parts
-
-bool in_contact(Answer answer) {
-  return answer == Answer::touching || answer == Answer::overlapping;
-}
-
-Pose placed_in(const Pose& body, const Pose& part) {
-  return {body.rotation * part.rotation, body.rotation * part.translation + body.translation};
-}
 
 double& of(StageSeconds& seconds, Stage stage) { return seconds[static_cast<std::size_t>(stage)]; }
 
@@ -71,7 +64,7 @@ void FramePipeline::prepare(std::size_t frame, bool anew) {
     const StandIn& stand_in = *stand_ins_->of[body];
     if (stand_in.parts.size() != 1) return;
     part_poses_[stand_ins_->first[body]] =
-        placed_in(frames_->frames[frame].poses[body], stand_in.parts[0].pose);
+        placed(frames_->frames[frame].poses[body], stand_in.parts[0].pose);
   };
   if (anew) {
     std::ranges::fill(placed_at_, 0U);
@@ -99,7 +92,9 @@ void FramePipeline::find_pairs(bool anew) {
   watch.restart();
   // Where no box is new, neither is any pair.
   if (changed) {
-    broad_->find_pairs(sink_);
+    if (broad_->find_pairs(sink_) != Status::ok) {
+      throw std::runtime_error("the broad phase gave up: its store was full");
+    }
     ++counters_.searches;
   }
   of(seconds_, Stage::find_pairs) = watch.seconds();
@@ -125,11 +120,11 @@ void FramePipeline::place(std::uint32_t body, std::uint32_t part) {
   if (stand_in.parts.size() == 1) return;
   const bool moves = frames_->moves[body] != 0;
   const auto stamp = static_cast<std::uint32_t>(frame_ + 1);
-  std::uint32_t& placed = placed_at_[part];
-  if (placed == stamp || (placed != 0 && !moves)) return;
-  placed = stamp;
-  part_poses_[part] = placed_in(frames_->frames[frame_].poses[body],
-                                stand_in.parts[part - stand_ins_->first[body]].pose);
+  std::uint32_t& at = placed_at_[part];
+  if (at == stamp || (at != 0 && !moves)) return;
+  at = stamp;
+  part_poses_[part] = placed(frames_->frames[frame_].poses[body],
+                             stand_in.parts[part - stand_ins_->first[body]].pose);
 }
 
 void FramePipeline::split_into_parts() {

@@ -35,6 +35,10 @@ struct PipelineCounters {
   std::int64_t witnesses = 0;  // queries that gave witness points; only where they are counted
 };
 
+inline bool in_contact(Answer answer) {
+  return answer == Answer::touching || answer == Answer::overlapping;
+}
+
 // The answer for a pair of bodies, taken as it is given even where the algorithm did not converge.
 // Of several parts: in contact if some pair of parts is, else unknown if one is, with the least
 // signed distance of them all.

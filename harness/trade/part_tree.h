@@ -43,6 +43,11 @@ class PartTree {
   double offset_ = 0;
 };
 
+// A part's pose in the world.
+inline Pose placed(const Pose& body, const Pose& part) {
+  return {body.rotation * part.rotation, body.rotation * part.translation + body.translation};
+}
+
 // Parts of a, and of b.
 using PartPair = std::pair<std::uint32_t, std::uint32_t>;
 

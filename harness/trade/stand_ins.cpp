@@ -1,5 +1,7 @@
 #include "harness/trade/stand_ins.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -11,6 +13,8 @@
 
 namespace touchstone {
 namespace {
+
+constexpr std::size_t most_error_bodies = 48;
 
 bool is_plain(const Pose& pose) {
   return pose.rotation == Mat3d::Identity() && pose.translation == Vec3d::Zero();
@@ -58,27 +62,6 @@ double reach_of(const std::vector<Part>& parts) {
   return reach * (1 + rounding);
 }
 
-// Whether it is the body itself, for bodies of that kind: a sphere's sphere, the hull of a hull.
-bool is_the_body(Form form, std::size_t kind) {
-  const auto is = [&](ShapeKind shape) { return kind == static_cast<std::size_t>(shape); };
-  switch (form) {
-    case Form::as_given: return true;
-    case Form::sphere: return is(ShapeKind::sphere);
-    case Form::box:
-    case Form::oriented_box: return is(ShapeKind::box);
-    case Form::capsule: return is(ShapeKind::capsule);
-    case Form::hull: return is(ShapeKind::hull);
-    case Form::icosphere: return is(ShapeKind::box) || is(ShapeKind::hull);
-    case Form::parts:
-    case Form::mesh: return kind != mesh_body;  // convex already, and without a mesh
-    case Form::dop14:
-    case Form::dop18:
-    case Form::dop26:
-    case Form::reduced_hull: break;
-  }
-  return false;
-}
-
 bool same_shape(const Shape& a, const Shape& b) {
   return a.kind == b.kind && a.radius == b.radius && a.half_length == b.half_length &&
          a.half_extents == b.half_extents && a.radii == b.radii && a.hull == b.hull &&
@@ -96,8 +79,8 @@ StandIn::StandIn(std::vector<Part> from, const Shape& body)
   reach = parts[0].shape.kind == ShapeKind::halfspace ? 0 : reach_of(parts);
 }
 
-StandInLibrary::StandInLibrary(const SceneFrames& frames, Representing representing)
-    : frames_(&frames), representing_(std::move(representing)) {}
+StandInLibrary::StandInLibrary(const SceneFrames& frames, Representing representing, double seconds)
+    : frames_(&frames), representing_(std::move(representing)), most_seconds_(seconds) {}
 
 Representation StandInLibrary::wanted(const Representations& representations,
                                       std::size_t body) const {
@@ -148,12 +131,17 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
   all->first.push_back(0);
   std::map<const StandIn*, std::vector<std::uint32_t>> shapes_of;  // of the parts of each
   std::array<int, all_shape_kinds.size()> bodies_with{};
+  double spent = 0;
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     const Made& one = made(scene.bodies[body].shape, wanted(representations, body));
     if (one.stand_in == nullptr) throw InputError(one.fault);
     const StandIn& stand_in = *one.stand_in;
     auto [numbers, fresh] = shapes_of.try_emplace(&stand_in);
     if (fresh) {
+      spent += one.seconds;
+      if (spent > most_seconds_) {
+        throw InputError(fmt::format("takes more than {:.3g} s to make", most_seconds_));
+      }
       all->kept_.push_back(one.stand_in);
       all->hulls += stand_in.hulls;
       for (const Part& part : stand_in.parts) {
@@ -192,12 +180,15 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
 std::vector<RepresentationError> StandInLibrary::errors(const Representations& representations) {
   std::vector<RepresentationError> errors;
   const Scene& scene = *frames_->scene;
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+  const Stopwatch watch;
+  const std::size_t step = (scene.bodies.size() + most_error_bodies - 1) / most_error_bodies;
+  for (std::size_t body = 0; body < scene.bodies.size(); body += step) {
     const std::uint32_t shape = scene.bodies[body].shape;
     if (scene.shapes[shape].kind == ShapeKind::halfspace) continue;
     const Representation representation = wanted(representations, body);
     Made& one = made(shape, representation);
     if (!one.has_error) {
+      if (!errors.empty() && watch.seconds() > most_seconds_) break;
       const Mesh* mesh = frames_->mesh_of[shape];
       // What is given stands for itself, unless there is a mesh, whose hull it is.
       if (representation.form != Form::as_given || mesh != nullptr) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -56,16 +57,18 @@ struct StandIns {
 // Makes each representation of each shape once, however many configurations have it.
 class StandInLibrary {
  public:
-  // The frames outlive it.
-  StandInLibrary(const SceneFrames& frames, Representing representing);
+  // The frames outlive it. A representation whose making takes longer than `seconds` for all bodies
+  // together is none.
+  StandInLibrary(const SceneFrames& frames, Representing representing,
+                 double seconds = std::numeric_limits<double>::infinity());
 
   // The same with as_given for kinds that the scene has and that were left open, and without those
   // that it has not, or that are the body itself: those that mean the same for the scene are equal.
   Representations complete(Representations representations) const;
   // Of complete ones, as all below. Throws InputError where some body cannot be represented so.
   std::shared_ptr<const StandIns> get(const Representations& representations);
-  // Errors of what stands for each body, in their order; half-spaces, which have no size, are left
-  // out.
+  // Errors of what stands for bodies: of all, or of about 48, evenly picked; half-spaces, which
+  // have no size, are left out.
   std::vector<RepresentationError> errors(const Representations& representations);
   // Seconds that it took to make them.
   double seconds(const Representations& representations) const;
@@ -84,6 +87,7 @@ class StandInLibrary {
 
   const SceneFrames* frames_;
   Representing representing_;
+  double most_seconds_;
   std::map<Key, Made> made_;
   std::map<std::string, std::shared_ptr<const StandIns>> whole_;
 };

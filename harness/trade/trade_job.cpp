@@ -11,8 +11,9 @@
 namespace touchstone {
 namespace {
 
-constexpr double truth_share = 0.2;   // of the seconds
-constexpr double least_timing = 0.4;  // of the seconds, whatever the rest took
+constexpr double preparation_share = 0.03;  // of the seconds, for one representation
+constexpr double truth_share = 0.2;         // of the seconds
+constexpr double least_timing = 0.4;        // of the seconds, whatever the rest took
 constexpr std::size_t most_truth_frames = 16;
 
 int frames_of(const TradeRequest& request) {
@@ -32,7 +33,7 @@ void put_baseline_first(std::vector<TradeOutcome>& points) {
 TradeScene::TradeScene(const TradeRequest& request, const Representing& representing)
     : scene(load_scene(request.scene, request.overrides)),
       frames(scene, frames_of(request)),
-      library(frames, representing) {}
+      library(frames, representing, preparation_share * request.seconds) {}
 
 TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
                           const std::filesystem::path& folder,

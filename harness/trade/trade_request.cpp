@@ -196,7 +196,9 @@ TradeRequest read_trade(const std::filesystem::path& file) {
   request.seconds = table.number("seconds", positive, 150.0);
   request.measure = static_cast<ErrorMeasure>(table.choice(
       "error", error_measure_names, static_cast<std::size_t>(default_measure(request.task))));
-  for (TomlTable& grid : table.tables("grid")) request.grids.push_back(read_grid(grid));
+  if (table.has("grid")) {
+    for (TomlTable& grid : table.tables("grid")) request.grids.push_back(read_grid(grid));
+  }
   table.finish();
   top.finish();
   return request;

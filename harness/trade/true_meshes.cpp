@@ -12,13 +12,10 @@
 namespace touchstone {
 namespace {
 
-Pose placed(const Pose& body, const Pose& part) {
-  return {body.rotation * part.rotation, body.rotation * part.translation + body.translation};
-}
-
 Representing triangles_for_meshes() {
-  return {[](const Shape&, const Mesh* mesh, const Representation&) { return triangles_of(*mesh); },
-          {}};
+  return {
+      [](const Shape&, const Mesh* mesh, const Representation&) { return triangle_parts(*mesh); },
+      {}};
 }
 
 Representations meshes_as_they_are() {
@@ -29,7 +26,7 @@ Representations meshes_as_they_are() {
 
 }  // namespace
 
-std::vector<Part> triangles_of(const Mesh& mesh) {
+std::vector<Part> triangle_parts(const Mesh& mesh) {
   std::vector<Part> parts;
   parts.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {

@@ -12,7 +12,7 @@
 namespace touchstone {
 
 // The mesh's triangles, each a flat hull, in the mesh's own frame.
-std::vector<Part> triangles_of(const Mesh& mesh);
+std::vector<Part> triangle_parts(const Mesh& mesh);
 
 // Whether a point lies inside of a closed mesh (metres, its frame): the winding number by solid
 // angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A mesh with

@@ -71,8 +71,4 @@ inline TradeGrid grid_with(const std::string& narrow,
   return grid;
 }
 
-inline bool is_contact(Answer answer) {
-  return answer == Answer::touching || answer == Answer::overlapping;
-}
-
 }  // namespace touchstone

@@ -1,0 +1,111 @@
+#include "harness/trade/advise.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/harness/trade/trade_scenes.h"
+
+namespace touchstone {
+namespace {
+
+struct Asked {
+  explicit Asked(const std::string& scene_text) {
+    request.scene = folder.write("scene.toml", scene_text);
+    request.threads = 1;
+    request.seconds = 1;
+    TradeGrid grid = grid_with("gjk");
+    grid.narrow = {
+        parse_chain("closed-form+gjk"), parse_chain("gjk"), parse_chain("certified"), {}};
+    grid.boxes = {{}, {BoxChoice::Kind::loose, 0}};
+    grid.representations = {{}, all_as(Form::sphere)};
+    request.grids = {grid};
+  }
+  Advice advice(const ErrorBudget& budget) {
+    TradeScene scene(request, representing);
+    return advise(request, scene, representing, budget, [](const auto&) {});
+  }
+
+  TemporaryFolder folder;
+  TradeRequest request;
+  Representing representing = simple_representing();
+};
+
+const std::string boxes = "generator = \"uniform\"\ncount = 100\noverlaps = 6\nframes = 6\n";
+
+TEST(Advise, MeetsTheBudgetThereAndElsewhere) {
+  Asked asked(boxes);
+  const Advice exact = asked.advice({.most = 0});
+  ASSERT_TRUE(exact.best);
+  EXPECT_EQ(exact.best->error, 0);
+  EXPECT_EQ(exact.held_out.errors.wrong_share(), 0);
+  EXPECT_GT(exact.held_out.errors.near, 100);
+  EXPECT_THAT(exact.held_out_on, testing::HasSubstr("other seeds"));
+  EXPECT_FALSE(exact.next_better);  // no error is left
+  EXPECT_LT(exact.within_budget, exact.configurations);
+
+  // Without a narrow phase it is the quickest, and wrong; a better one is named.
+  const Advice rough = asked.advice({.most = 1, .no_false_negatives = true});
+  ASSERT_TRUE(rough.best);
+  EXPECT_EQ(rough.best->evaluation.errors.false_negatives, 0);
+  EXPECT_EQ(rough.within_budget, rough.configurations);
+  EXPECT_TRUE(rough.best->point.configuration.narrow.empty());
+  ASSERT_TRUE(rough.next_better);
+  EXPECT_LT(rough.next_better->error, rough.best->error);
+}
+
+TEST(Advise, SpheresGetTheClosedFormAndNoHull) {
+  Asked asked(boxes + "shapes = [\"sphere\"]\n");
+  const Advice advice = asked.advice({.most = 0});
+  ASSERT_TRUE(advice.best);
+  EXPECT_EQ(chain_name(advice.best->point.configuration.narrow), "closed-form");
+  EXPECT_EQ(advice.best->evaluation.counters.hulls_built, 0);
+}
+
+TEST(Advise, WhatNothingMeetsIsSaid) {
+  Asked asked(boxes);
+  asked.request.grids[0].narrow = {NarrowChain{}};
+  EXPECT_FALSE(asked.advice({.most = 1e-3}).best);
+}
+
+TEST(Advise, AListedSceneIsHeldOutByItsFrames) {
+  std::string listed = "frames = 8\n";
+  for (int i = 0; i < 30; ++i) {
+    listed +=
+        "[[body]]\nshape = {type = \"box\", half_extents = [1, 1, 1]}\n"
+        "translation = [" +
+        std::to_string(i) + ".5, 0, 0]\nvelocity = [0, " + std::to_string(i % 5 - 2) +
+        ", 0]\nangular_velocity = [0, 0, 1]\n";
+  }
+  Asked asked(listed);
+  const Advice advice = asked.advice({.most = 0});
+  ASSERT_TRUE(advice.best);
+  EXPECT_THAT(advice.held_out_on, testing::HasSubstr("other frames"));
+  EXPECT_GT(advice.held_out.errors.near, 30);
+}
+
+TEST(Advise, ABudgetWithoutMissesCountsUnansweredContacts) {
+  Evaluation evaluation;
+  evaluation.errors.near = 1000;
+  evaluation.errors.contacts = 500;
+  const ErrorBudget lenient{.most = 0.1}, strict{.most = 0.1, .no_false_negatives = true};
+  const auto both = [&] {
+    return std::pair(meets(lenient, ErrorMeasure::verdicts, evaluation, {}),
+                     meets(strict, ErrorMeasure::verdicts, evaluation, {}));
+  };
+  EXPECT_EQ(both(), std::pair(true, true));
+  evaluation.errors.bins[0].failed = evaluation.errors.failed = 1;
+  EXPECT_EQ(both(), std::pair(true, false));
+  evaluation.errors.bins[0].failed = 0;
+  evaluation.errors.bins[gap_bins - 1].failed = 1;  // apart
+  EXPECT_EQ(both(), std::pair(true, true));
+  evaluation.errors.false_negatives = 1;
+  EXPECT_EQ(both(), std::pair(true, false));
+  evaluation.errors.false_positives = 200;
+  EXPECT_EQ(both(), std::pair(false, false));
+  evaluation.status = "crashed";
+  evaluation.errors = {};
+  EXPECT_EQ(both(), std::pair(false, false));
+}
+
+}  // namespace
+}  // namespace touchstone
