@@ -136,7 +136,8 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
     found.as_before = true;
     return found;
   }
-  if (goal.momentum == Momentum::none && !goal.duality_gap &&
+  const bool may_switch = goal.momentum == Momentum::where_it_pays && pair.is_smooth();
+  if (goal.momentum != Momentum::nesterov && !may_switch && !goal.duality_gap &&
       walk_first(pair, goal, begin, start != nullptr, found)) {
     return found;
   }
@@ -146,8 +147,14 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
   int stalled = 0;
   bool accelerated = goal.momentum == Momentum::nesterov;
   NesterovDirection<Scalar> nesterov(pair.is_polytope(), -pair.centre_b());
+  // The unit is up to twice the size of the larger body.
+  constexpr Scalar near = 0.5;
   while (found.iterations < goal.most_iterations) {
     ++found.iterations;
+    if (may_switch && found.iterations == 2 && found.upper - radius < near) {
+      accelerated = true;
+      nesterov = {false, found.nearest.distance * found.nearest.direction};
+    }
     const DifferencePoint<Scalar> point = pair.support(direction);
     found.direction = direction;
     const Scalar lower = -direction.dot(point.difference);

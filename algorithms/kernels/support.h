@@ -101,7 +101,8 @@ class SupportPair {
   Scalar radius_b() const { return b_.radius(); }
   Scalar radius() const { return a_.radius() + b_.radius(); }
   bool is_polytope() const { return is_polytope_; }  // both cores are
-  double unit() const { return unit_; }              // metres, a power of two
+  bool is_smooth() const { return is_smooth_; }  // neither has a corner or an edge, one is no point
+  double unit() const { return unit_; }          // metres, a power of two
   // A support call is one point of the difference.
   int support_calls() const { return support_calls_; }
 
@@ -117,7 +118,7 @@ class SupportPair {
   TurnedShape<Scalar> a_, b_;
   Vec3<Scalar> centre_b_;
   Vec3d origin_;  // body a's centre in the world, metres
-  bool is_polytope_, climbs_;
+  bool is_polytope_, is_smooth_, climbs_;
   int support_calls_ = 0;
 };
 

@@ -67,6 +67,7 @@ struct SupportShape {
     return vertices[i / lanes].vertex(i % lanes);
   }
   bool is_polytope() const { return core <= Core::box || core == Core::hull; }
+  bool is_smooth() const { return core == Core::point || core == Core::ellipsoid; }
 };
 
 template <class Scalar>

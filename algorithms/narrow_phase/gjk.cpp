@@ -9,14 +9,15 @@
 //          Never answers `touching`. The query is in gjk_query.h, its loop in gjk_approach.h, with
 //          a quick walk before it.
 //          With a PairMemory it starts warm (kernels/warm_start.h): from the last tetrahedron, the
-//          last separating plane, or the last simplex; EPA does not. gjk-nesterov starts cold.
+//          last separating plane, or the last simplex; EPA does not. The others start cold.
 // Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a part of
 //          the pair's size. Depth of smooth, nearly round bodies far inside each other: EPA's cap
 //          comes first, not_converged with bounds.
 //          gjk-nesterov looks along a direction with momentum (Montaut, Le Lidec, Petrik, Sivic,
 //          Carpentier, "Collision detection accelerated: an optimization perspective", RSS 2022,
 //          algorithm 3; its normalised form where a core has corners) until that brings nothing
-//          new, and is plain GJK from there on.
+//          new, and is plain GJK from there on. gjk-switched does so only where it pays: between
+//          bodies without corners that are less than about their size apart.
 // Cost:    O(1) space; a few support calls for each digit on smooth shapes, finite on polytopes.
 //          Caps: 128 iterations of GJK, 256 of EPA. Tolerance, as a part of the size: 1e-10
 //          (double) or 1e-5 (float); polytopes go on until nothing is left but rounding.
@@ -101,15 +102,21 @@ TOUCHSTONE_NARROW_PHASE {
   const std::string depth =
       "; van den Bergen, \"Proximity queries and penetration depth computation on 3D game "
       "objects\", GDC 2001";
-  return {entry({.name = "gjk",
-                 .citation = "Gilbert, Johnson, Keerthi, \"A fast procedure for computing the "
-                             "distance between complex objects in three-dimensional space\", IEEE "
-                             "J. Robotics and Automation 4(2), 1988" +
-                             depth},
-                true, make<Momentum::none>),
-          entry({.name = "gjk-nesterov",
-                 .citation = "Montaut, Le Lidec, Petrik, Sivic, Carpentier, \"Collision detection "
-                             "accelerated: an optimization perspective\", RSS 2022" +
-                             depth},
-                false, make<Momentum::nesterov>)};
+  return {
+      entry({.name = "gjk",
+             .citation = "Gilbert, Johnson, Keerthi, \"A fast procedure for computing the "
+                         "distance between complex objects in three-dimensional space\", IEEE "
+                         "J. Robotics and Automation 4(2), 1988" +
+                         depth},
+            true, make<Momentum::none>),
+      entry({.name = "gjk-nesterov",
+             .citation = "Montaut, Le Lidec, Petrik, Sivic, Carpentier, \"Collision detection "
+                         "accelerated: an optimization perspective\", RSS 2022" +
+                         depth},
+            false, make<Momentum::nesterov>),
+      entry({.name = "gjk-switched",
+             .citation = "Gilbert, Johnson, Keerthi, 1988, and where bodies are smooth and near "
+                         "Montaut, Le Lidec, Petrik, Sivic, Carpentier, RSS 2022" +
+                         depth},
+            false, make<Momentum::where_it_pays>)};
 }
