@@ -43,10 +43,10 @@ std::string describe(const TradeOutcome& outcome, ErrorMeasure measure) {
       outcome.error, to_string(measure), errors.near, errors.false_positives + errors.far,
       errors.false_negatives, errors.failed);
   text += fmt::format(
-      "  needs          {} hulls built, {} shapes bound, {} updates and {} queries in {} frames, "
+      "  needs          {} hulls built, {} shapes bound; for the frames looked at {} updates, {} "
+      "queries, "
       "{} witness points\n",
-      work.hulls_built, work.shapes_bound, work.updates, work.queries, work.updates + work.builds,
-      work.witnesses);
+      work.hulls_built, work.shapes_bound, work.updates, work.queries, work.witnesses);
   return text;
 }
 
