@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   add_pairs(app, status);
   add_draw(app, status);
   add_record(app, status);
+  add_represent(app, status);
   try {
     app.parse(argc, argv);
     return status;

@@ -23,5 +23,6 @@ void add_compare(CLI::App& app, int& status);
 void add_tables(CLI::App& app, int& status);
 void add_draw(CLI::App& app, int& status);
 void add_record(CLI::App& app, int& status);
+void add_represent(CLI::App& app, int& status);
 
 }  // namespace touchstone
