@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   add_record(app, status);
   add_trade(app, status);
   add_advise(app, status);
+  add_represent(app, status);
   try {
     app.parse(argc, argv);
     return status;

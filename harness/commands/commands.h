@@ -28,5 +28,6 @@ void add_draw(CLI::App& app, int& status);
 void add_record(CLI::App& app, int& status);
 void add_trade(CLI::App& app, int& status);
 void add_advise(CLI::App& app, int& status);
+void add_represent(CLI::App& app, int& status);
 
 }  // namespace touchstone

@@ -15,11 +15,9 @@ namespace touchstone {
 // beside the sharpest concave edges), and parts are joined again while that adds little. A piece
 // that is not closed is one part, its hull.
 //
-// Why it holds the solid: a cut puts a point on each edge that crosses it, once for both sides, and
-// closes each side by triangles from the cut's rim to one point within it. So the windings of the
-// two closed sides sum to that of the whole, wherever the points were rounded to; where a winding
-// is not zero, that of a connected piece is not, and there one is in that piece's hull. What the
-// rounding moves the surface by is added around each hull.
+// Why it holds the solid: where the winding number of the mesh is not zero, that of one of the
+// pieces that it is cut into is not (mesh_cut.h), and there one is in that piece's hull. What the
+// rounding of cuts moves the surface by is added around each hull.
 //
 // `most` parts or, for 0, cuts until each hull has at most a hundredth of the body's volume too
 // much, at most 64 parts.

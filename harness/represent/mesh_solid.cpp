@@ -113,23 +113,18 @@ double Surface::distance(const Vec3d& x) const {
   return nearest;
 }
 
-std::vector<Vec3d> spread_points(const std::vector<Triangle>& surface, std::size_t count) {
-  std::vector<Vec3d> points;
+std::vector<SurfacePoint> spread_points(const std::vector<Triangle>& surface, std::size_t count) {
+  std::vector<SurfacePoint> points;
   double area = 0;
-  for (const Triangle& t : surface) {
-    points.insert(points.end(), {t.a, t.b, t.c});
-    area += t.normal().norm();
-  }
-  const auto less = [](const Vec3d& a, const Vec3d& b) {
-    return std::array{a.x(), a.y(), a.z()} < std::array{b.x(), b.y(), b.z()};
-  };
-  std::sort(points.begin(), points.end(), less);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (const Triangle& t : surface) area += t.normal().norm();
   // Evenly along the areas one after another, and by two of the plastic number's powers within.
   double before = 0;
   std::size_t made = 0;
   for (const Triangle& t : surface) {
-    before += t.normal().norm();
+    const double here = t.normal().norm();
+    const Vec3d normal = here > 0 ? Vec3d(t.normal() / here) : Vec3d(Vec3d::Zero());
+    for (const Vec3d& corner : {t.a, t.b, t.c}) points.push_back({corner, normal});
+    before += here;
     while (area > 0 && made < count &&
            (static_cast<double>(made) + 0.5) / static_cast<double>(count) * area < before) {
       ++made;
@@ -139,7 +134,7 @@ std::vector<Vec3d> spread_points(const std::vector<Triangle>& surface, std::size
         u = 1 - u;
         v = 1 - v;
       }
-      points.push_back(t.a + u * (t.b - t.a) + v * (t.c - t.a));
+      points.push_back({t.a + u * (t.b - t.a) + v * (t.c - t.a), normal});
     }
   }
   return points;

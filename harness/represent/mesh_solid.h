@@ -41,7 +41,12 @@ class Surface {
   std::vector<double> radii_;
 };
 
-// Corners, and `count` points spread evenly over the area, the same each time.
-std::vector<Vec3d> spread_points(const std::vector<Triangle>& surface, std::size_t count);
+// A point of a surface and the unit normal there (zero on a triangle without area).
+struct SurfacePoint {
+  Vec3d at, normal;
+};
+// The corners of every triangle, and `count` points spread evenly over the area, the same each
+// time.
+std::vector<SurfacePoint> spread_points(const std::vector<Triangle>& surface, std::size_t count);
 
 }  // namespace touchstone

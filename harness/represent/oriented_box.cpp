@@ -153,6 +153,7 @@ Mat3d fitting_axes(const LocalBody& body) {
     axes.col(k) = box.pose.rotation.col(longest);
     size[longest] = -1;
   }
+  if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   return axes;
 }
 

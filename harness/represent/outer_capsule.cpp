@@ -155,7 +155,8 @@ Part outer_capsule(const LocalBody& body) {
   const Mat3d frame = frame_with_z(fit.direction);
   const Vec3d axis = frame.col(2);
   const Vec3d centre = body.snap(fit.beside + 0.5 * (fit.low + fit.high) * axis);
-  const double half = 0.5 * (fit.high - fit.low);
+  double half = 0.5 * (fit.high - fit.low);
+  if (half < 1e-9 * body.size) half = 0;  // a ball
   part.pose = {frame, centre};
   part.shape.half_length = half;
   // To any point of the segment as it is placed; the nearest is not farther.

@@ -35,7 +35,7 @@ Part outer_icosphere(const LocalBody& body, int level);
 std::vector<Vec3d> farthest_vertices(const std::vector<Vec3d>& vertices, int count);
 // Half the sum of directions of a k-DOP: one of each opposite pair.
 std::vector<Vec3d> dop_normals(int directions);
-// The longest, middle and shortest axis of the oriented box.
+// The longest, middle and shortest axis of the oriented box, right-handed.
 Mat3d fitting_axes(const LocalBody& body);
 
 }  // namespace touchstone

@@ -121,7 +121,7 @@ PlacedSolid::PlacedSolid(const Shape& shape, const Pose& pose, const Mat3d& turn
   }
   auto hull = std::make_shared<Hull>(*near.hull);
   for (Vec3d& v : hull->vertices) v = pose_(v);
-  if (hull->dimension == 3 && hull->faces.empty()) {
+  if (polytope_ && hull->dimension == 3 && hull->faces.empty()) {
     throw InputError("the faces of a hull are not known; expected one that is no sliver");
   }
   if (polytope_) extremes_ = hull->vertices;
@@ -133,6 +133,7 @@ PlacedSolid::PlacedSolid(const Shape& shape, const Pose& pose, const Mat3d& turn
     }
   }
   surface_ = Surface(std::move(triangles));
+  volume_ = own_volume();
   low_ = high_ = extremes_.front();
   for (const Vec3d& p : extremes_) {
     low_ = low_.cwiseMin(p);
@@ -148,7 +149,7 @@ Vec3d PlacedSolid::rounded(const Vec3d& direction, double end) const {
   return pose_(shape_.radius * out + Vec3d(0, 0, end * shape_.half_length));
 }
 
-double PlacedSolid::volume() const {
+double PlacedSolid::own_volume() const {
   const double r = shape_.radius, length = 2 * shape_.half_length;
   constexpr double pi = std::numbers::pi;
   switch (shape_.kind) {
@@ -183,6 +184,14 @@ double PlacedSolid::signed_distance(const Vec3d& x) const {
   double beyond = -infinity;
   for (const Plane& plane : planes_) beyond = std::max(beyond, plane.normal.dot(x) - plane.offset);
   return !planes_.empty() && beyond <= 0 ? beyond : surface_.distance(x);
+}
+
+SurfacePoint PlacedSolid::way_out(const Vec3d& x) const {
+  const auto beyond = [&](const Plane& plane) { return plane.normal.dot(x) - plane.offset; };
+  const Plane& nearest =
+      *std::max_element(planes_.begin(), planes_.end(),
+                        [&](const Plane& a, const Plane& b) { return beyond(a) < beyond(b); });
+  return {x - beyond(nearest) * nearest.normal, nearest.normal};
 }
 
 std::optional<std::pair<double, double>> PlacedSolid::along_z(double x, double y) const {

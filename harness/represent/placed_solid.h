@@ -16,9 +16,11 @@ class PlacedSolid {
   // faces are not known.
   PlacedSolid(const Shape& shape, const Pose& pose, const Mat3d& turn = Mat3d::Identity());
 
-  double volume() const;
+  double volume() const { return volume_; }
   // Metres: from x to the surface, negative inside. Closed form; of an ellipsoid to 1e-12 of it.
   double signed_distance(const Vec3d& x) const;
+  // For x inside a polytope: the point of its nearest face's plane that is nearest, and the normal.
+  SurfacePoint way_out(const Vec3d& x) const;
   // Where the line of points (x, y, z) is inside.
   std::optional<std::pair<double, double>> along_z(double x, double y) const;
 
@@ -34,13 +36,14 @@ class PlacedSolid {
   double greatest(const Function& f) const;
 
   bool is_polytope() const { return polytope_; }
-  bool solid() const { return volume() > 0; }
+  bool solid() const { return volume_ > 0; }
   const std::vector<Plane>& planes() const { return planes_; }                   // of polytopes
   const std::vector<Triangle>& surface() const { return surface_.triangles(); }  // near it if round
   Vec3d low() const { return low_; }
   Vec3d high() const { return high_; }
 
  private:
+  double own_volume() const;
   Vec3d local(const Vec3d& x) const { return pose_.rotation.transpose() * (x - pose_.translation); }
   std::optional<std::pair<double, double>> along_line(const Vec3d& from, const Vec3d& by) const;
   // The point of the rim (of the end of that sign) or ellipsoid in a direction.
@@ -50,7 +53,7 @@ class PlacedSolid {
   Pose pose_;
   Vec3d low_, high_;
   std::vector<Vec3d> extremes_;
-  double radius_ = 0;
+  double radius_ = 0, volume_ = 0;
   bool polytope_ = false;
   std::vector<Plane> planes_;
   Surface surface_{{}};

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t surface_points = 2048;
+constexpr double way_step = 1e-7;  // of about unit size: into what lies beyond a surface
 
 void set_volumes(double body, double added, double lost, RepresentationError& error) {
   const auto part = [&](double v) { return v > 0 ? (body > 0 ? v / body : infinity) : 0; };
@@ -60,8 +61,19 @@ void compare_convex(const PlacedSolid& body, const PlacedSolid& part, double tol
   if (body_volume == 0 && part_volume > 0) error.volume_deviation = infinity;
 }
 
-// Points of the surface of the union: those of each part's that are not inside another.
-std::vector<Vec3d> points_of_union(const std::vector<PlacedSolid>& parts, double tolerance) {
+// Whether the way out of one part at a point of its surface leads into another.
+bool is_covered(const std::vector<PlacedSolid>& parts, const PlacedSolid& part,
+                const SurfacePoint& p) {
+  const Vec3d out = part.solid() ? Vec3d(p.at + way_step * p.normal) : p.at;
+  return std::any_of(parts.begin(), parts.end(), [&](const PlacedSolid& other) {
+    return &other != &part && other.solid() && (out.array() >= other.low().array()).all() &&
+           (out.array() <= other.high().array()).all() && other.signed_distance(out) < 0;
+  });
+}
+
+// Points of the surface of the union: those of each part's from which the way out does not lead
+// into another.
+std::vector<Vec3d> points_of_union(const std::vector<PlacedSolid>& parts) {
   double area = 0;
   const auto area_of = [](const PlacedSolid& part) {
     double sum = 0;
@@ -72,13 +84,9 @@ std::vector<Vec3d> points_of_union(const std::vector<PlacedSolid>& parts, double
   std::vector<Vec3d> points;
   for (const PlacedSolid& part : parts) {
     const double share = area > 0 ? area_of(part) / area : 1;
-    for (const Vec3d& p :
-         spread_points(part.surface(), static_cast<std::size_t>(share * surface_points) + 1)) {
-      const bool covered = std::any_of(parts.begin(), parts.end(), [&](const PlacedSolid& other) {
-        return &other != &part && other.solid() && (p.array() >= other.low().array()).all() &&
-               (p.array() <= other.high().array()).all() && other.signed_distance(p) < -tolerance;
-      });
-      if (!covered) points.push_back(p);
+    const auto count = static_cast<std::size_t>(share * surface_points) + 1;
+    for (const SurfacePoint& p : spread_points(part.surface(), count)) {
+      if (!is_covered(parts, part, p)) points.push_back(p.at);
     }
   }
   return points;
@@ -90,24 +98,30 @@ double distance_to_points(const std::vector<Vec3d>& points, const Vec3d& x) {
   return std::sqrt(least);
 }
 
-// From the surface of the union, which of several parts is known by its points inside.
+// From the surface of the union. Inside, it is known by the ways straight out that lead into no
+// other part, and by its points.
 double distance_to_union(const std::vector<PlacedSolid>& parts, const std::vector<Vec3d>& points,
                          const Vec3d& x) {
-  double nearest = infinity;
+  double nearest = infinity, out = infinity;
   for (const PlacedSolid& part : parts) {
-    const Vec3d out = (part.low() - x).cwiseMax(x - part.high()).cwiseMax(0.0);
-    if (out.norm() >= nearest) continue;
-    nearest = std::min(nearest, part.signed_distance(x));
+    const Vec3d beyond = (part.low() - x).cwiseMax(x - part.high()).cwiseMax(0.0);
+    if (beyond.norm() >= nearest) continue;
+    const double distance = part.signed_distance(x);
+    nearest = std::min(nearest, distance);
+    if (distance >= 0) continue;
+    if (parts.size() == 1) return -distance;
+    if (part.is_polytope() && !is_covered(parts, part, part.way_out(x))) {
+      out = std::min(out, -distance);
+    }
   }
-  if (nearest >= 0) return nearest;
-  return parts.size() == 1 ? -nearest : distance_to_points(points, x);
+  return nearest >= 0 ? nearest : std::min(out, distance_to_points(points, x));
 }
 
-// Half the greatest distance that a point of the area may have from those that stand for it.
+// About the greatest distance that a point of the area has from those that stand for it.
 double spacing_of(const std::vector<Triangle>& surface) {
   double area = 0;
   for (const Triangle& t : surface) area += t.normal().norm() / 2;
-  return std::sqrt(area / surface_points);
+  return 1.5 * std::sqrt(area / surface_points);
 }
 
 void compare_unions(const WholeBody& body, const std::vector<PlacedSolid>& parts,
@@ -122,14 +136,14 @@ void compare_unions(const WholeBody& body, const std::vector<PlacedSolid>& parts
   error.volume_deviation = overlap.deviation > 0 ? overlap.deviation / overlap.body : 0;
 
   const Surface surface(body.surface);
-  const std::vector<Vec3d> points = points_of_union(parts, 1e-9);
+  const std::vector<Vec3d> points = points_of_union(parts);
   std::vector<Triangle> of_parts;
   for (const PlacedSolid& part : parts) {
     of_parts.insert(of_parts.end(), part.surface().begin(), part.surface().end());
   }
   for (const Vec3d& p : points) error.hausdorff = std::max(error.hausdorff, surface.distance(p));
-  for (const Vec3d& p : spread_points(body.surface, surface_points)) {
-    error.hausdorff = std::max(error.hausdorff, distance_to_union(parts, points, p));
+  for (const SurfacePoint& p : spread_points(body.surface, surface_points)) {
+    error.hausdorff = std::max(error.hausdorff, distance_to_union(parts, points, p.at));
   }
   error.hausdorff_deviation = std::max(spacing_of(body.surface), spacing_of(of_parts));
 }

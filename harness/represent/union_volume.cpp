@@ -9,6 +9,8 @@ namespace {
 
 constexpr int lattices = 8, lines = 4096;
 constexpr int cells = 64;  // each way, in which triangles are sought
+// With more planes than this a polytope is cheaper by its triangles.
+constexpr std::size_t few_planes = 64;
 
 using Intervals = std::vector<std::pair<double, double>>;
 
@@ -114,12 +116,19 @@ Overlap overlap_of(const std::vector<PlacedSolid>& body,
       for (const Vec3d& p : {t.a, t.b, t.c}) widen(p);
     }
   }
-  std::vector<Columns> columns;
+  std::vector<Columns> columns, of_parts;
   for (const auto& surface : closed) columns.emplace_back(surface, low, high);
+  for (const PlacedSolid& solid : body) {
+    if (solid.planes().size() > few_planes) columns.emplace_back(solid.surface(), low, high);
+  }
+  for (const PlacedSolid& solid : parts) {
+    if (solid.planes().size() > few_planes) of_parts.emplace_back(solid.surface(), low, high);
+  }
   const double area = (high.x() - low.x()) * (high.y() - low.y());
   const auto add_lines = [](const std::vector<PlacedSolid>& solids, double x, double y,
                             Intervals& intervals) {
     for (const PlacedSolid& solid : solids) {
+      if (solid.planes().size() > few_planes) continue;
       if (x < solid.low().x() || x > solid.high().x()) continue;
       if (const auto line = solid.along_z(x, y)) intervals.push_back(*line);
     }
@@ -138,6 +147,7 @@ Overlap overlap_of(const std::vector<PlacedSolid>& body,
       add_lines(body, x, y, in_body);
       for (const Columns& surface : columns) surface.add(x, y, in_body);
       add_lines(parts, x, y, in_parts);
+      for (const Columns& surface : of_parts) surface.add(x, y, in_parts);
       here.body += join(in_body) * area / lines;
       here.parts += join(in_parts) * area / lines;
       here.both += common_length(in_body, in_parts) * area / lines;

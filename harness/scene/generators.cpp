@@ -26,7 +26,7 @@ Scene make_bodies(GeneratorInput& input, const ShapeMixDefaults& defaults, bool 
   Random shapes = input.random(GeneratorInput::shape_stream);
   const std::vector<TurnedShape> mix =
       make_shape_mix(input.table, input.shapes, count, defaults, shapes);
-  for (const TurnedShape& entry : mix) scene.shapes.push_back(entry.shape);
+  for (const TurnedShape& entry : mix) scene.add_shape(entry.shape, entry.mesh);
   const bool turn = input.table.boolean("turned", turned);
   Random poses = input.random(GeneratorInput::pose_stream);
   scene.bodies.resize(static_cast<std::size_t>(count));

@@ -29,9 +29,8 @@ Generated make_ground(GeneratorInput& input) {
   Shape slab;
   slab.kind = ShapeKind::box;
   slab.half_extents = {made.side / 2, made.side / 2, thickness / 2};
-  made.scene.shapes.push_back(slab);
   Body ground;
-  ground.shape = static_cast<std::uint32_t>(made.scene.shapes.size() - 1);
+  ground.shape = made.scene.add_shape(slab);
   ground.pose.translation.z() = -thickness / 2;
   ground.moving = false;
   made.scene.bodies.insert(made.scene.bodies.begin(), ground);

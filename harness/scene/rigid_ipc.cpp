@@ -283,8 +283,9 @@ class Importer {
       Shape shape;
       shape.kind = ShapeKind::hull;
       shape.hull = make_reduced_hull(part.vertices);
-      parts.push_back({static_cast<std::uint32_t>(scene_.shapes.size()), centre});
-      scene_.shapes.push_back(std::move(shape));
+      const std::uint32_t index =
+          scene_.add_shape(std::move(shape), std::make_shared<Mesh>(std::move(part)));
+      parts.push_back({index, centre});
     }
     return parts;
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
+#include "harness/scene/mesh.h"
 
 namespace touchstone {
 
@@ -55,6 +57,9 @@ struct Motion {
 struct Scene {
   std::string name;  // the file's stem, unless it says otherwise
   std::vector<Shape> shapes;
+  // Of shapes that are the convex hulls of meshes: those, in the same frame; null for the others.
+  // Empty where no shape has one.
+  std::vector<std::shared_ptr<const Mesh>> meshes;
   // The last Motion::churn of them are not there at frame 0.
   std::vector<Body> bodies;
   int frames = 1;  // at least one
@@ -65,6 +70,18 @@ struct Scene {
   // The pairs that narrow phases are asked about, sorted, a < b, where the scene lists them instead
   // of leaving it to a broad phase; the same in every frame. Empty otherwise.
   std::vector<IndexPair> pairs;
+
+  std::uint32_t add_shape(Shape shape, std::shared_ptr<const Mesh> mesh = nullptr) {
+    shapes.push_back(std::move(shape));
+    if (mesh != nullptr || !meshes.empty()) {
+      meshes.resize(shapes.size());
+      meshes.back() = std::move(mesh);
+    }
+    return static_cast<std::uint32_t>(shapes.size() - 1);
+  }
+  const Mesh* mesh_of(std::size_t shape) const {
+    return shape < meshes.size() ? meshes[shape].get() : nullptr;
+  }
 
   // Bodies that are there at a time: the same in every frame.
   std::size_t size() const {

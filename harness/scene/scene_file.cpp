@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "algorithms/core/bounds.h"
 #include "harness/io/aabbs.h"
+#include "harness/scene/body_reader.h"
 #include "harness/scene/generated_motion.h"
 #include "harness/scene/generators.h"
 #include "harness/scene/polytope.h"
@@ -96,150 +96,6 @@ void read_motion_of_listed(TomlTable& table, const SceneOverrides& overrides, Sc
   }
 }
 
-// Row-major, and kept as it stands where it is a rotation to a thousandth.
-Mat3d read_matrix(TomlTable& table) {
-  const std::vector<double> m = table.numbers("rotation", 9, any_number);
-  Mat3d rotation;
-  rotation << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
-  const double error = (rotation.transpose() * rotation - Mat3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error <= 1e-3) || rotation.determinant() < 0) {
-    table.fail("rotation", fmt::format("the columns are not orthonormal or not right-handed (off "
-                                       "by {:.3g}); expected a rotation matrix, row by row",
-                                       error));
-  }
-  return rotation;
-}
-
-Mat3d read_rotation(TomlTable& table) {
-  if (table.has("rotation")) {
-    if (table.contains("quaternion_wxyz")) {
-      table.fail("quaternion_wxyz", "given beside rotation; expected one of the two");
-    }
-    return read_matrix(table);
-  }
-  if (!table.has("quaternion_wxyz")) return Mat3d::Identity();
-  const std::vector<double> q = table.numbers("quaternion_wxyz", 4, any_number);
-  // Scaled first, so that no square overflows or vanishes.
-  const double size = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
-  if (!(size > 0)) {
-    table.fail("quaternion_wxyz", "found [0, 0, 0, 0]; expected a quaternion that is not zero");
-  }
-  return rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
-}
-
-// A scene file's lists of shapes and bodies.
-class BodyReader {
- public:
-  BodyReader(TomlTable& table, ShapeReader& shapes, Scene& scene)
-      : table_(table), shapes_(shapes), scene_(scene) {}
-
-  // Returns the line of each body.
-  std::vector<std::int64_t> read() {
-    if (table_.has("shapes")) {
-      TomlTable named = table_.inside("shapes", "shapes");
-      for (const std::string& name : named.keys()) {
-        TomlTable shape = named.inside(name, "shapes." + name);
-        named_.emplace(name, add(shape));
-      }
-    }
-    std::vector<std::int64_t> lines;
-    for (TomlTable& body : table_.tables("body")) {
-      read_body(body);
-      lines.resize(scene_.bodies.size(), body.line());
-    }
-    return lines;
-  }
-
- private:
-  struct Placed {
-    std::uint32_t shape = 0;
-    Mat3d turn = Mat3d::Identity();
-  };
-
-  Placed add(TomlTable& table) {
-    const TurnedShape turned = shapes_.read(table);
-    table.finish();
-    scene_.shapes.push_back(turned.shape);
-    return {static_cast<std::uint32_t>(scene_.shapes.size() - 1), turned.turn};
-  }
-
-  // The key "shape" is a name or a table; "mesh" and "scale" stand in the body itself.
-  Placed shape_of(TomlTable& body) {
-    const toml::node* node = body.node("shape");
-    if (node == nullptr && body.contains("mesh")) return mesh_of(body);
-    if (node == nullptr) body.fail("shape", "missing; expected a table, a name or a mesh");
-    if (body.contains("mesh")) body.fail("mesh", "given beside shape; expected one of the two");
-    if (!node->is_string()) {
-      TomlTable shape = body.inside("shape", body.where() + ": shape");
-      return add(shape);
-    }
-    const std::string name = body.text("shape");
-    const auto found = named_.find(name);
-    if (found != named_.end()) return found->second;
-    std::string names;
-    for (const auto& [known, placed] : named_) names += (names.empty() ? "" : ", ") + known;
-    body.fail("shape", fmt::format("found \"{}\"; expected one of the names in [shapes]: {}", name,
-                                   names.empty() ? "there are none" : names));
-  }
-
-  // Bodies of one mesh and scale share their shape.
-  Placed mesh_of(TomlTable& body) {
-    return {index_of(shapes_.read(body).shape), Mat3d::Identity()};
-  }
-
-  std::uint32_t index_of(const Shape& shape) {
-    const auto same = std::find_if(
-        scene_.shapes.begin(), scene_.shapes.end(),
-        [&](const Shape& other) { return other.hull != nullptr && other.hull == shape.hull; });
-    const auto index = static_cast<std::uint32_t>(same - scene_.shapes.begin());
-    if (same == scene_.shapes.end()) scene_.shapes.push_back(shape);
-    return index;
-  }
-
-  void read_body(TomlTable& table) {
-    const bool parts = table.contains("mesh") && table.boolean("parts", false);
-    const Placed placed = parts ? Placed{} : shape_of(table);
-    const bool halfspace = !parts && scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
-    Body body;
-    body.shape = placed.shape;
-    body.pose.rotation = product(read_rotation(table), placed.turn);
-    body.pose.translation = table.vector("translation", any_number, Vec3d::Zero());
-    body.velocity = table.vector("velocity", any_number, Vec3d::Zero());
-    body.angular_velocity = table.vector("angular_velocity", any_number, Vec3d::Zero());
-    body.moving = table.boolean("moving", !halfspace);
-    if (parts) {
-      add_parts(table, body);
-    } else {
-      scene_.bodies.push_back(body);
-    }
-    table.finish();
-  }
-
-  // A body for each part of the mesh, where it is in the whole.
-  void add_parts(TomlTable& table, const Body& whole) {
-    if (whole.angular_velocity != Vec3d::Zero()) {
-      table.fail("angular_velocity",
-                 "given with parts, which do not turn about a common origin; "
-                 "expected parts = false or no angular_velocity");
-    }
-    for (const MeshPart& part : shapes_.read_parts(table)) {
-      Body body = whole;
-      body.shape = index_of(part.shape);
-      for (int k = 0; k < 3; ++k) {
-        body.pose.translation[k] += whole.pose.rotation(k, 0) * part.centre.x() +
-                                    whole.pose.rotation(k, 1) * part.centre.y() +
-                                    whole.pose.rotation(k, 2) * part.centre.z();
-      }
-      scene_.bodies.push_back(body);
-    }
-  }
-
-  TomlTable& table_;
-  ShapeReader& shapes_;
-  Scene& scene_;
-  std::map<std::string, Placed> named_;
-};
-
 int frames_of_pairs(TomlTable& table, const SceneOverrides& overrides) {
   const std::int64_t asked = table.integer("frames", 1, most_frames, 1);
   return overrides.frames == -1 ? static_cast<int>(asked) : overrides.frames;
@@ -318,7 +174,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
     frames = scene.pairs.empty() ? generated_frames : 1;
   } else {
     if (table.contains("body")) {
-      lines = BodyReader(table, shapes, scene).read();
+      lines = read_bodies(table, shapes, scene);
     } else {
       const std::filesystem::path imported =
           shapes.existing_file(table, "import", "a .json or .aabbs file");

@@ -68,9 +68,12 @@ ShapeReader::MeshAndScale ShapeReader::mesh_and_scale(TomlTable& table) const {
 
 TurnedShape ShapeReader::read_mesh_hull(TomlTable& table) {
   const MeshAndScale key = mesh_and_scale(table);
-  std::shared_ptr<const Hull>& hull = hulls_[key];
-  if (hull == nullptr) hull = make_reduced_hull(read_scaled(key).vertices);
-  return {hull_shape(hull), Mat3d::Identity()};
+  TurnedShape& known = hulls_[key];
+  if (known.mesh == nullptr) {
+    known.mesh = std::make_shared<Mesh>(read_scaled(key));
+    known.shape = hull_shape(make_reduced_hull(known.mesh->vertices));
+  }
+  return known;
 }
 
 const std::vector<MeshPart>& ShapeReader::read_parts(TomlTable& table) {
@@ -85,7 +88,8 @@ const std::vector<MeshPart>& ShapeReader::read_parts(TomlTable& table) {
     }
     const Vec3d centre = 0.5 * low + 0.5 * high;
     for (Vec3d& v : part.vertices) v -= centre;
-    found->second.push_back({hull_shape(make_reduced_hull(part.vertices)), centre});
+    const Shape shape = hull_shape(make_reduced_hull(part.vertices));
+    found->second.push_back({shape, std::make_shared<Mesh>(std::move(part)), centre});
   }
   if (found->second.empty()) {
     table.fail("parts", "the mesh has no triangles, so no parts; expected parts = false");

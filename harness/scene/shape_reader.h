@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "algorithms/core/shape.h"
+#include "harness/scene/mesh.h"
 #include "harness/scene/toml_table.h"
 
 namespace touchstone {
@@ -17,6 +19,7 @@ namespace touchstone {
 struct TurnedShape {
   Shape shape;
   Mat3d turn = Mat3d::Identity();
+  std::shared_ptr<const Mesh> mesh = nullptr;  // of which the shape is the convex hull
 };
 
 // The names of all shapes that a file can give: all_shape_kinds in order.
@@ -25,7 +28,8 @@ std::span<const std::string_view> shape_names();
 // A part of a mesh as its convex hull about the centre of the part's box.
 struct MeshPart {
   Shape shape;
-  Vec3d centre;  // in the mesh's frame, scaled
+  std::shared_ptr<const Mesh> mesh;  // of the part, about the same centre
+  Vec3d centre;                      // in the mesh's frame, scaled
 };
 
 class ShapeReader {
@@ -55,7 +59,7 @@ class ShapeReader {
   std::filesystem::path folder_;
   std::string get_;
   // Each mesh and scale is read once and shared.
-  std::map<MeshAndScale, std::shared_ptr<const Hull>> hulls_;
+  std::map<MeshAndScale, TurnedShape> hulls_;
   std::map<MeshAndScale, std::vector<MeshPart>> parts_;
 };
 

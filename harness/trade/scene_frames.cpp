@@ -19,6 +19,7 @@ bool same(const Pose& a, const Pose& b) {
 
 SceneFrames::SceneFrames(const Scene& from, int most_frames)
     : scene(&from), mesh_of(from.shapes.size(), nullptr), moves(from.bodies.size(), 0) {
+  for (std::size_t i = 0; i < mesh_of.size(); ++i) mesh_of[i] = from.mesh_of(i);
   if (!from.recording.empty()) {
     throw InputError(from.name + " is a recording of boxes; expected a scene with bodies");
   }

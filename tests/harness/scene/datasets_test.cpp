@@ -43,6 +43,39 @@ TEST(Home, IsAFurnishedFlat) {
   EXPECT_LT(pairs, 10000u);
 }
 
+struct MadeScene {
+  const char* file;
+  std::size_t bodies, least_pairs, most_pairs;  // of boxes, in the first frame
+};
+
+TEST(MadeScenes, AreThereAndMoveALittle) {
+  for (const MadeScene& made :
+       {MadeScene{"rock_pile.toml", 251, 500, 3000}, MadeScene{"crowd.toml", 1025, 700, 5000},
+        MadeScene{"arch.toml", 118, 100, 400}, MadeScene{"chain_net.toml", 2800, 3000, 30000}}) {
+    SCOPED_TRACE(made.file);
+    const Scene scene = load_scene(datasets / made.file);
+    EXPECT_EQ(scene.bodies.size(), made.bodies);
+    EXPECT_GE(scene.frames, 16);
+    ScenePlayer player(scene, BoxKind::tight);
+    std::size_t pairs = 0, moved = 0;
+    const std::vector<Aabb> first(player.boxes().begin(), player.boxes().end());
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      for (std::size_t j = i + 1; j < scene.size(); ++j) pairs += overlap(first[i], first[j]);
+    }
+    EXPECT_GE(pairs, made.least_pairs);
+    EXPECT_LE(pairs, made.most_pairs);
+    while (player.frame() + 1 < scene.frames) player.next();
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      const float by = std::abs(player.boxes()[i].min[0] - first[i].min[0]) +
+                       std::abs(player.boxes()[i].min[1] - first[i].min[1]) +
+                       std::abs(player.boxes()[i].min[2] - first[i].min[2]);
+      moved += by > 1e-4f;
+      EXPECT_LT(by, 1.5f);
+    }
+    EXPECT_GT(moved, scene.size() / 2);
+  }
+}
+
 TEST(Home, EachPieceIsOneFileUnderAMegabyteInAll) {
   std::uintmax_t bytes = 0;
   int pieces = 0;
@@ -78,6 +111,15 @@ TEST_F(Parts, AreBodiesWhereTheyAreInTheWhole) {
       "        {mesh = \"two.obj\"}]\n");
   ASSERT_EQ(scene.bodies.size(), 5u);
   EXPECT_EQ(scene.shapes.size(), 3u) << "bodies of the same part share it";
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    ASSERT_NE(scene.mesh_of(i), nullptr);
+    EXPECT_EQ(scene.mesh_of(i)->triangles.size(), i < 2 ? 4u : 8u);
+    // In the same frame as the hull.
+    for (const Vec3d& v : scene.shapes[i].hull->vertices) {
+      EXPECT_NE(std::find(scene.mesh_of(i)->vertices.begin(), scene.mesh_of(i)->vertices.end(), v),
+                scene.mesh_of(i)->vertices.end());
+    }
+  }
   EXPECT_EQ(scene.bodies[0].shape, scene.bodies[2].shape);
   // About the centre of each part's box: (0.5, 0.5, 0.5) and (6, 1, 1); turned, (-y, x, z).
   EXPECT_LT((scene.bodies[0].pose.translation - Vec3d(-0.5, 0.5, 1.5)).norm(), 1e-14);

@@ -1,0 +1,201 @@
+// touchstone represent: what stands for a scene's bodies, from coarse to fine, and how far off it
+// is.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "harness/commands/commands.h"
+#include "harness/error.h"
+#include "harness/io/csv.h"
+#include "harness/represent/representation.h"
+#include "harness/run/text_table.h"
+#include "harness/scene/scene.h"
+
+namespace touchstone {
+namespace {
+
+struct Options {
+  std::string scene, out;
+  std::vector<std::string> forms = {"sphere",  "box",     "oriented-box", "dop-14",
+                                    "dop-18",  "dop-26",  "capsule",      "hull-8",
+                                    "hull-16", "hull-32", "hull",         "parts"};
+  std::string side = "outer";
+  SceneOverrides overrides;
+};
+
+std::vector<Representation> representations(const Options& options) {
+  std::vector<Representation> list;
+  for (const std::string& form : options.forms) {
+    Representation r = parse_representation(form);
+    if (r.side != Side::outer) {
+      throw InputError(
+          fmt::format("--forms {}: expected forms without a side; --side inner or "
+                      "--side nearest is for all of them",
+                      form));
+    }
+    if (r.form != Form::as_given && r.form != Form::mesh) {
+      r.side = options.side == "inner"     ? Side::inner
+               : options.side == "nearest" ? Side::nearest
+                                           : Side::outer;
+    }
+    list.push_back(r);
+  }
+  return list;
+}
+
+struct Measured {
+  RepresentationError error;
+  std::size_t parts = 0, vertices = 0;
+  double seconds = 0;
+  std::string words;  // why there is none
+};
+
+Measured measure(const Shape& shape, const Mesh* mesh, const Representation& r) {
+  Measured m;
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<Part> parts = represent(shape, mesh, r);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    m.seconds = time.count();
+    m.parts = parts.size();
+    for (const Part& part : parts) {
+      if (part.shape.kind == ShapeKind::box) m.vertices += 8;
+      if (part.shape.hull != nullptr) m.vertices += part.shape.hull->vertices.size();
+    }
+    m.error = representation_error(shape, mesh, parts);
+  } catch (const InputError& none) {
+    m.words = none.what();
+  }
+  return m;
+}
+
+// Of one representation over all shapes.
+struct Summary {
+  std::vector<double> volume, hausdorff;  // parts of the volume; of the size
+  std::size_t missing = 0, parts = 0;
+  double seconds = 0;
+};
+
+std::string shown(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinite";
+}
+
+// Mean, the least value that at least 99 in 100 do not exceed, and the greatest.
+void add_cells(std::vector<double> values, std::vector<std::string>& row) {
+  if (values.empty()) {
+    row.insert(row.end(), {"", "", ""});
+    return;
+  }
+  std::sort(values.begin(), values.end());
+  double sum = 0;
+  for (double v : values) sum += v;
+  const double count = static_cast<double>(values.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.99 * count)) - 1;
+  for (double v : {sum / count, values[rank], values.back()}) row.push_back(shown(v));
+}
+
+void print(const Scene& scene, const std::vector<Representation>& list,
+           const std::vector<Summary>& summaries) {
+  TextTable table({"representation", "shapes", "none", "parts", "volume mean", "p99", "greatest",
+                   "hausdorff mean", "p99", "greatest", "ms each"});
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Summary& s = summaries[i];
+    const std::size_t made = s.volume.size();
+    std::vector<std::string> row = {to_string(list[i]), fmt::format("{}", made),
+                                    fmt::format("{}", s.missing), fmt::format("{}", s.parts)};
+    add_cells(s.volume, row);
+    add_cells(s.hausdorff, row);
+    row.push_back(made == 0 ? "" : shown(1e3 * s.seconds / static_cast<double>(made)));
+    table.add(std::move(row));
+  }
+  fmt::print(
+      "{}: volume (added and lost, as parts of the body's) and Hausdorff distance (as a part of "
+      "the "
+      "diameter of its bounding ball) of each shape\n\n{}",
+      scene.name, table.text(page_width()));
+}
+
+void run(const Options& options) {
+  const std::vector<Representation> list = representations(options);
+  check_output(options.out);
+  const Scene scene = load_scene(options.scene, options.overrides);
+  std::map<std::uint32_t, std::size_t> bodies;
+  for (const Body& body : scene.bodies) ++bodies[body.shape];
+  if (bodies.empty()) {
+    throw InputError(options.scene, 0, "a recording of boxes; expected a scene with bodies");
+  }
+  CsvWriter csv(options.out, {"scene", "shape", "kind", "bodies", "triangles", "form", "status",
+                              "added", "lost", "volume_deviation", "hausdorff", "hausdorff_of_size",
+                              "hausdorff_deviation", "size", "parts", "vertices", "seconds"});
+  std::vector<Summary> summaries(list.size());
+  for (const auto& [shape, users] : bodies) {
+    const Mesh* mesh = scene.mesh_of(shape);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Shape& given = scene.shapes[shape];
+      if (given.kind == ShapeKind::halfspace) continue;
+      const Measured m = measure(given, mesh, list[i]);
+      const bool made = m.words.empty();
+      csv.field(scene.name).field(static_cast<std::int64_t>(shape)).field(to_string(given.kind));
+      csv.field(users);
+      csv.field(mesh == nullptr ? std::size_t{0} : mesh->triangles.size());
+      csv.field(to_string(list[i])).field(made ? "ok" : m.words);
+      const double none = std::nan("");
+      for (double value : {m.error.added, m.error.lost, m.error.volume_deviation, m.error.hausdorff,
+                           m.error.size > 0 ? m.error.hausdorff / m.error.size : 0,
+                           m.error.hausdorff_deviation, m.error.size}) {
+        csv.field(made ? value : none);
+      }
+      csv.field(m.parts).field(m.vertices).field(made ? m.seconds : none);
+      csv.end_row();
+      Summary& s = summaries[i];
+      if (!made) {
+        ++s.missing;
+        continue;
+      }
+      s.volume.push_back(m.error.volume_error());
+      s.hausdorff.push_back(m.error.size > 0 ? m.error.hausdorff / m.error.size : 0);
+      s.parts += m.parts;
+      s.seconds += m.seconds;
+    }
+  }
+  csv.close();
+  print(scene, list, summaries);
+}
+
+}  // namespace
+
+void add_represent(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "represent", "What stands for a scene's bodies, from ball to mesh, and how far off it is");
+  command->add_option("scene", options->scene, "Scene file: .toml or rigid-ipc's .json")
+      ->required();
+  command
+      ->add_option(
+          "--forms", options->forms,
+          "Of: as-given, sphere, box, oriented-box, dop-14, dop-18, dop-26, capsule, hull-K "
+          "(at most K vertices, from 8), hull, parts, parts-K (at most K), mesh, icosphere-L "
+          "(0 to 5)")
+      ->delimiter(',')
+      ->capture_default_str();
+  command
+      ->add_option("--side", options->side,
+                   "outer: holds the body; inner: inside it; nearest: of the body's volume")
+      ->check(CLI::IsMember({"outer", "inner", "nearest"}))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "One row for each shape and form (CSV)")->required();
+  command->add_option("--count", options->overrides.count, "Bodies of a generated scene")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->overrides.seed, "Seed of a generated scene")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([options, &status] {
+    run(*options);
+    status = exit_done;
+  });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,16 @@
+// The bodies that a scene file lists.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "harness/scene/scene.h"
+#include "harness/scene/shape_reader.h"
+
+namespace touchstone {
+
+// Reads [shapes.NAME] and [[body]] (datasets/README.md) into the scene. Returns the line of each
+// body. Throws InputError with the place.
+std::vector<std::int64_t> read_bodies(TomlTable& table, ShapeReader& shapes, Scene& scene);
+
+}  // namespace touchstone

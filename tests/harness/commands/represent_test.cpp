@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+
+#include "harness/commands/commands.h"
+#include "harness/error.h"
+#include "harness/io/csv.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+class Represent : public testing::Test {
+ protected:
+  Represent()
+      : scene_(
+            folder_.write("s.toml",
+                          "body = [{shape = {type = \"sphere\", radius = 2}},\n"
+                          "{shape = {type = \"hull\", vertices = [[0,0,0],[1,0,0],[0,1,0]]}},\n"
+                          "{shape = {type = \"halfspace\", normal = [0,0,1], offset = 0}},\n"
+                          "{mesh = \"t.obj\"}, {mesh = \"t.obj\", translation = [1, 2, 3]}]\n")) {
+    folder_.write("t.obj",
+                  "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  }
+
+  struct Row {
+    std::string kind, form, status;
+    double bodies, triangles, parts;
+  };
+  std::vector<Row> run(std::vector<std::string> arguments) {
+    CLI::App app;
+    int status = -1;
+    add_represent(app, status);
+    const std::string out = (folder_.path() / "errors.csv").string();
+    arguments.insert(arguments.begin(), {"represent", scene_.string(), "--out", out});
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    app.parse(arguments);
+    EXPECT_EQ(status, exit_done);
+    std::vector<Row> rows;
+    CsvReader(out, {"kind", "form", "status", "bodies", "triangles", "parts"})
+        .read([&](const CsvReader::Row& row) {
+          rows.push_back({std::string(row.text(0)), std::string(row.text(1)),
+                          std::string(row.text(2)), row.number(3), row.number(4), row.number(5)});
+        });
+    return rows;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path scene_;
+};
+
+TEST_F(Represent, OneRowForEachShapeAndForm) {
+  const std::vector<Row> rows = run({"--forms", "sphere,hull-8,mesh"});
+  ASSERT_EQ(rows.size(), 9u);
+  EXPECT_EQ(rows[0].kind, "sphere");
+  EXPECT_EQ(rows[0].form, "sphere");
+  EXPECT_EQ(rows[0].status, "ok");
+  EXPECT_THAT(rows[2].status, testing::HasSubstr("without a mesh"));
+  EXPECT_EQ(rows[8].form, "mesh");
+  EXPECT_EQ(rows[8].status, "ok");
+  EXPECT_EQ(rows[8].bodies, 2);
+  EXPECT_EQ(rows[8].triangles, 4);
+  EXPECT_EQ(rows[8].parts, 4);
+}
+
+TEST_F(Represent, ASideIsForAllForms) {
+  const std::vector<Row> rows = run({"--forms", "sphere,box", "--side", "inner"});
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[1].form, "box inner");
+  EXPECT_EQ(rows[1].status, "ok");
+  EXPECT_NE(rows[2].status, "ok") << "of a flat body";
+  EXPECT_EQ(rows[4].status, "ok");
+}
+
+TEST_F(Represent, RefusesWhatIsNone) {
+  EXPECT_THROW(run({"--forms", "ball"}), InputError);
+  EXPECT_THROW(run({"--forms", "sphere inner"}), InputError);
+  EXPECT_THROW(run({"--side", "left"}), CLI::ParseError);
+}
+
+}  // namespace
+}  // namespace touchstone
