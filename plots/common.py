@@ -201,6 +201,15 @@ def parser_of(description):
     return parser
 
 
+def parser_with_program(description):
+    parser = parser_of(description)
+    parser.add_argument("--program", help="the built touchstone, which then writes the tables first, "
+                        "beside the figures; without it those in RESULTS are taken")
+    parser.add_argument("--noisy", action="store_true",
+                        help="with --program: keep what was measured under noise")
+    return parser
+
+
 def run_on(read, figures, description, arguments=None):
     """The command line of a script that reads a folder's rows itself: `read` gives of a folder what
     the figures are drawn from."""
@@ -219,12 +228,7 @@ def run_on(read, figures, description, arguments=None):
 def run(figures, description):
     """The command line of a script. `figures`: name -> function of Tables that gives a figure, or
     None where the tables hold nothing to draw."""
-    parser = parser_of(description)
-    parser.add_argument("--program", help="the built touchstone, which then writes the tables first, "
-                        "beside the figures; without it those in RESULTS are taken")
-    parser.add_argument("--noisy", action="store_true",
-                        help="with --program: keep what was measured under noise")
-    options = parser.parse_args()
+    options = parser_with_program(description).parse_args()
     out = options.out or os.path.join(options.results, "figures")
 
     def work():

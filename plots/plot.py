@@ -27,10 +27,9 @@ FIGURES = {
 
 def sweep_in(arguments):
     """The arguments that matter to the maps of a stress sweep, where the results are one."""
-    folders = [a for a in arguments if not a.startswith("-") and os.path.exists(os.path.join(a, "stress.csv"))]
-    if not folders:
+    options = common.parser_with_program(__doc__).parse_args(arguments)
+    if not os.path.exists(os.path.join(options.results, "stress.csv")):
         return None
-    options, _ = common.parser_of(__doc__).parse_known_args(arguments)
     return [options.results] + (["--out", options.out] if options.out else [])
 
 

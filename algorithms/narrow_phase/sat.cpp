@@ -12,8 +12,9 @@
 // Answers: the depth is exact up to rounding, and so are both bounds.
 // Fails:   says not_converged where the greatest gap is below its rounding error (1e-14 of the size
 //          in double, 1e-5 in float), and degenerate for a solid hull that came without faces and
-//          that no axis tried separates, and for matrices that are far from rotations; capacity
-//          for hulls of more than 16,384 vertices that the line of their centres does not separate.
+//          that no axis tried separates, and for matrices that are far from rotations. Capacity
+//          for a hull of more than 16,384 vertices that the line of their centres does not
+//          separate, and for two of some thousand each that no face normal does.
 // Cost:    O(Fa Vb + Fb Va + Ea (Fb + Eb)) time, O(F + E) memory.
 #include <cmath>
 #include <limits>
@@ -45,6 +46,7 @@ class Sat final : public NarrowPhase {
   static constexpr Scalar uncertain = 16 * epsilon;
   // Sine of the angle of two edges under which their axis is looked after.
   static constexpr Scalar almost_parallel = Scalar{0.5};
+  static constexpr std::size_t most_edge_pairs = std::size_t{1} << 27;
   // Under which the axis is noise.
   static constexpr Scalar parallel = 1024 * epsilon;
 
@@ -58,11 +60,24 @@ class Sat final : public NarrowPhase {
       ++tested_;
       if (!pair.separates(best)) {
         best = pair.face_axis(tested_);
-        if (!pair.separates(best)) test_edges(pair, best);
+        if (!pair.separates(best)) {
+          if (pair.complete() && too_many_edges(pair)) {
+            outcome.answer = Answer::unknown;
+            outcome.status = Status::capacity;
+            outcome.iterations = tested_;
+            return;
+          }
+          test_edges(pair, best);
+        }
       }
     }
     pair.report(best, task, true, outcome);
     outcome.iterations = tested_;
+  }
+
+  // Looking at all pairs of edges would take half a second.
+  static bool too_many_edges(const PolytopePair<Scalar>& pair) {
+    return pair.a().shape->edges.size() * pair.b().shape->edges.size() > most_edge_pairs;
   }
 
   static int sign(Scalar x) { return x > uncertain ? 1 : x < -uncertain ? -1 : 0; }
