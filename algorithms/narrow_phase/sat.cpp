@@ -13,8 +13,9 @@
 // Answers: the depth is exact up to rounding, and so are both bounds.
 // Fails:   says not_converged where the greatest gap is below its rounding error (1e-14 of the size
 //          in double, 1e-5 in float), and degenerate for a solid hull that came without faces and
-//          that no axis tried separates, and for matrices that are far from rotations; capacity
-//          for hulls of more than 16,384 vertices that the line of their centres does not separate.
+//          that no axis tried separates, and for matrices that are far from rotations. Capacity
+//          for a hull of more than 16,384 vertices that the line of their centres does not
+//          separate, and for two of some thousand each that no face normal does.
 // Cost:    O(Fa Vb + Fb Va + Ea (Fb + Eb)) time, O(F + E) memory.
 #include <cmath>
 #include <cstring>
@@ -38,12 +39,18 @@ class Sat final : public NarrowPhase {
     shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, std::size_t i) {
       Axis<Scalar> best;
       tested_ = 0;
+      gave_up_ = false;
       if (!pair.far_apart()) {
         const bool boxes = batch.kind_b == ShapeKind::box;
         best = batch.memory.empty() ? best_axis(pair, boxes)
                                     : best_axis(pair, boxes, batch.memory[batch.memory_of[i]]);
       }
-      pair.report(best, batch.task, true, outcomes[i]);
+      if (gave_up_) {
+        outcomes[i].answer = Answer::unknown;
+        outcomes[i].status = Status::capacity;
+      } else {
+        pair.report(best, batch.task, true, outcomes[i]);
+      }
       outcomes[i].iterations = tested_;
     });
   }
@@ -56,6 +63,7 @@ class Sat final : public NarrowPhase {
   static constexpr Scalar uncertain = 16 * epsilon;
   // Sine of the angle of two edges under which their axis is looked after.
   static constexpr Scalar almost_parallel = Scalar{0.5};
+  static constexpr std::size_t most_edge_pairs = std::size_t{1} << 27;
   // Under which the axis is noise.
   static constexpr Scalar parallel = 1024 * epsilon;
 
@@ -66,7 +74,9 @@ class Sat final : public NarrowPhase {
     ++tested_;
     if (pair.separates(best)) return best;
     best = pair.face_axis(tested_);
-    if (!pair.separates(best)) test_edges(pair, best);
+    if (pair.separates(best)) return best;
+    gave_up_ = pair.complete() && too_many_edges(pair);
+    if (!gave_up_) test_edges(pair, best);
     return best;
   }
 
@@ -83,6 +93,11 @@ class Sat final : public NarrowPhase {
     }
     std::memcpy(memory.bytes.data(), &kept, sizeof kept);
     return best;
+  }
+
+  // Looking at all pairs of edges would take half a second.
+  static bool too_many_edges(const PolytopePair<Scalar>& pair) {
+    return pair.a().shape->edges.size() * pair.b().shape->edges.size() > most_edge_pairs;
   }
 
   static int sign(Scalar x) { return x > uncertain ? 1 : x < -uncertain ? -1 : 0; }
@@ -162,6 +177,7 @@ class Sat final : public NarrowPhase {
   FlatSidedShapes<Scalar> shapes_;
   std::vector<std::uint32_t> crossing_;  // edges of b whose arcs may cross that of one of a
   int tested_ = 0;
+  bool gave_up_ = false;  // pairs of edges are left that were not looked at
 };
 
 }  // namespace

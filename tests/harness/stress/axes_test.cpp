@@ -11,6 +11,7 @@
 
 #include "harness/check/pair_size.h"
 #include "harness/check/plain_math.h"
+#include "harness/run/solve_case.h"
 #include "harness/stress/stress_cell.h"
 #include "harness/stress/stress_shapes.h"
 
@@ -278,6 +279,28 @@ TEST(RingedHull, IsConvexAndClosedAtEveryCount) {
       }
     }
   }
+}
+
+// Instead of taking seconds.
+TEST(RingedHull, TwoLargeOnesAreMoreThanSatWillLookAt) {
+  const auto solved = [](std::size_t vertices, double apart, const char* name) {
+    Case c;
+    c.shape_a.kind = ShapeKind::hull;
+    c.shape_a.hull = ringed_hull(vertices, Vec3d(1, 0.75, 0.5));
+    c.shape_b = c.shape_a;
+    c.pose_b.translation = {apart, 0.25, 0.125};
+    return solve_case(*find_narrow_phase(name), {}, c, Task::penetration);
+  };
+  for (const char* name : {"sat", "sat-faces"}) {
+    EXPECT_EQ(solved(1000, 1, name).status, Status::ok);
+    EXPECT_EQ(solved(1000, 1, name).answer, Answer::overlapping);
+    EXPECT_EQ(solved(100'000, 1, name).status, Status::capacity);
+    EXPECT_EQ(solved(100'000, 1, name).answer, Answer::unknown);
+    EXPECT_EQ(solved(100'000, 3, name).answer, Answer::separated);
+    EXPECT_EQ(solved(100'000, 3, name).status, Status::ok);
+  }
+  EXPECT_EQ(solved(10'000, 1, "sat").status, Status::capacity);
+  EXPECT_EQ(solved(10'000, 3, "sat").answer, Answer::separated);
 }
 
 }  // namespace
