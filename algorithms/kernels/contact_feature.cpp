@@ -17,6 +17,7 @@ template <class Scalar>
 struct Placed {
   const FeatureShape<Scalar>& shape;
   const Mat3<Scalar>& matrix;
+  const Mat3<Scalar>& turn;  // the same without the body's scale, which may vanish when squared
   const Vec3<Scalar>& centre;
   const Vec3<Scalar>& direction;
   Scalar radius;
@@ -36,7 +37,7 @@ struct Placed {
   bool is_level(const Vec3<Scalar>& edge) const {
     const Scalar along = local.dot(edge);
     return along * along <=
-           greatest_tilt<Scalar> * greatest_tilt<Scalar> * (matrix * edge).squaredNorm();
+           greatest_tilt<Scalar> * greatest_tilt<Scalar> * (turn * edge).squaredNorm();
   }
 };
 
@@ -52,9 +53,9 @@ Vec3<Scalar> turned_normal(const Mat3<Scalar>& m, const Vec3<Scalar>& normal) {
 template <class Scalar>
 void find_on_box(Placed<Scalar>& body) {
   const Vec3<Scalar>& half = body.shape.support.extents;
-  const Mat3<Scalar>& m = body.matrix;
-  const std::array<Vec3<Scalar>, 3> normals = {m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)),
-                                               m.col(0).cross(m.col(1))};
+  const Mat3<Scalar>&m = body.matrix, &t = body.turn;
+  const std::array<Vec3<Scalar>, 3> normals = {t.col(1).cross(t.col(2)), t.col(2).cross(t.col(0)),
+                                               t.col(0).cross(t.col(1))};
   const std::array<Scalar, 3> along = {normals[0].dot(body.direction),
                                        normals[1].dot(body.direction),
                                        normals[2].dot(body.direction)};
@@ -119,7 +120,7 @@ void find_on_hull(Placed<Scalar>& body) {
   Vec3<Scalar> best_normal = Vec3<Scalar>::Zero();
   Scalar greatest = 0, least = greatest_tilt<Scalar> * greatest_tilt<Scalar>;
   for (const std::uint32_t face : faces.around(vertex)) {
-    const Vec3<Scalar> outward = turned_normal(body.matrix, faces.normal(face));
+    const Vec3<Scalar> outward = turned_normal(body.turn, faces.normal(face));
     const Scalar along = outward.dot(body.direction), length = outward.norm();
     if (along > greatest * length) {
       greatest = along / length;
@@ -131,7 +132,7 @@ void find_on_hull(Placed<Scalar>& body) {
     const auto at = std::find(loop.begin(), loop.end(), vertex);
     const std::uint32_t end = at + 1 == loop.end() ? loop.front() : *(at + 1);
     const Vec3<Scalar> edge = hull.vertex(end) - hull.vertex(vertex);
-    const Scalar climb = body.local.dot(edge), square = (body.matrix * edge).squaredNorm();
+    const Scalar climb = body.local.dot(edge), square = (body.turn * edge).squaredNorm();
     if (square > 0 && climb * climb < least * square) {
       least = climb * climb / square;
       best_end = end;
@@ -162,7 +163,7 @@ void find_on_turned(Placed<Scalar>& body, bool cone) {
   const Scalar radius = body.shape.support.extents.x(), half = body.shape.support.extents.z();
   const Scalar side = std::copysign(Scalar{1}, body.local.z());
   const Vec3<Scalar> to_rim = radius * rim_direction(body.local);
-  const Vec3<Scalar> outward = turned_normal<Scalar>(body.matrix, {0, 0, side});
+  const Vec3<Scalar> outward = turned_normal<Scalar>(body.turn, {0, 0, side});
   if (!(cone && side > 0) && body.is_across(outward)) {
     for (int k = 0; k < rim_corners; ++k) {
       const Scalar angle = 2 * std::numbers::pi_v<Scalar> * static_cast<Scalar>(k) / rim_corners;
@@ -218,15 +219,20 @@ HullFaces<Scalar>::HullFaces(const Hull& hull) {
 }
 
 template <class Scalar>
-void find_feature(const FeatureShape<Scalar>& shape, const TurnedShape<Scalar>& turned,
-                  const Vec3<Scalar>& centre, const Vec3<Scalar>& direction,
-                  ContactFeature<Scalar>& feature) {
+void find_feature(const FeatureShape<Scalar>& shape, const Mat3<Scalar>& rotation,
+                  const TurnedShape<Scalar>& turned, const Vec3<Scalar>& centre,
+                  const Vec3<Scalar>& direction, ContactFeature<Scalar>& feature) {
   using Core = typename SupportShape<Scalar>::Core;
   feature.points.clear();
   feature.normal.setZero();
   feature.numbered = false;
-  Placed<Scalar> body{shape,     turned.matrix(), centre,
-                      direction, turned.radius(), turned.matrix().transpose() * direction,
+  Placed<Scalar> body{shape,
+                      turned.matrix(),
+                      rotation,
+                      centre,
+                      direction,
+                      turned.radius(),
+                      rotation.transpose() * direction,
                       feature};
   switch (shape.support.core) {
     case Core::segment: return find_on_segment(body);
@@ -240,9 +246,11 @@ void find_feature(const FeatureShape<Scalar>& shape, const TurnedShape<Scalar>& 
 
 template class HullFaces<float>;
 template class HullFaces<double>;
-template void find_feature(const FeatureShape<float>&, const TurnedShape<float>&,
-                           const Vec3<float>&, const Vec3<float>&, ContactFeature<float>&);
-template void find_feature(const FeatureShape<double>&, const TurnedShape<double>&,
-                           const Vec3<double>&, const Vec3<double>&, ContactFeature<double>&);
+template void find_feature(const FeatureShape<float>&, const Mat3<float>&,
+                           const TurnedShape<float>&, const Vec3<float>&, const Vec3<float>&,
+                           ContactFeature<float>&);
+template void find_feature(const FeatureShape<double>&, const Mat3<double>&,
+                           const TurnedShape<double>&, const Vec3<double>&, const Vec3<double>&,
+                           ContactFeature<double>&);
 
 }  // namespace touchstone

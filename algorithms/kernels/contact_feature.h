@@ -75,19 +75,21 @@ struct ContactFeature {
 template <class Scalar>
 inline constexpr Scalar greatest_tilt = Scalar{0.42};  // 25 degrees
 
-// The feature that supports the body in the direction (unit), about `centre`. The rim of a cylinder
+// The feature that supports the body in the direction (unit), about `centre`; `rotation` is that of
+// its pose. The rim of a cylinder
 // or cone is a polygon in it that has the furthest point as a corner.
 template <class Scalar>
-void find_feature(const FeatureShape<Scalar>& shape, const TurnedShape<Scalar>& turned,
-                  const Vec3<Scalar>& centre, const Vec3<Scalar>& direction,
-                  ContactFeature<Scalar>& feature);
+void find_feature(const FeatureShape<Scalar>& shape, const Mat3<Scalar>& rotation,
+                  const TurnedShape<Scalar>& turned, const Vec3<Scalar>& centre,
+                  const Vec3<Scalar>& direction, ContactFeature<Scalar>& feature);
 
 extern template class HullFaces<float>;
 extern template class HullFaces<double>;
-extern template void find_feature(const FeatureShape<float>&, const TurnedShape<float>&,
-                                  const Vec3<float>&, const Vec3<float>&, ContactFeature<float>&);
-extern template void find_feature(const FeatureShape<double>&, const TurnedShape<double>&,
-                                  const Vec3<double>&, const Vec3<double>&,
-                                  ContactFeature<double>&);
+extern template void find_feature(const FeatureShape<float>&, const Mat3<float>&,
+                                  const TurnedShape<float>&, const Vec3<float>&, const Vec3<float>&,
+                                  ContactFeature<float>&);
+extern template void find_feature(const FeatureShape<double>&, const Mat3<double>&,
+                                  const TurnedShape<double>&, const Vec3<double>&,
+                                  const Vec3<double>&, ContactFeature<double>&);
 
 }  // namespace touchstone

@@ -91,7 +91,6 @@ void ContactRegion<Scalar>::cut_by_polygon(Scalar rounding) {
     const Seen& to = outline_[k + 1 < outline_.size() ? k + 1 : 0];
     const Scalar x = to.x - from.x, y = to.y - from.y;
     const Scalar length = std::sqrt(x * x + y * y);
-    if (!(length > rounding)) continue;
     const Scalar factor = turn / length;
     const Line line{-y * factor, x * factor, (y * from.x - x * from.y) * factor};
     cut([&](const Seen& s) { return line.at(s); }, from.edge, rounding);
@@ -115,21 +114,24 @@ void ContactRegion<Scalar>::cut_by_segment(Scalar rounding) {
 }
 
 template <class Scalar>
-void ContactRegion<Scalar>::merge_neighbours(Scalar distance) {
+void ContactRegion<Scalar>::merge_neighbours(std::vector<Seen>& loop, Scalar distance) {
   const auto near = [&](const Seen& p, const Seen& q) {
     return std::abs(p.x - q.x) <= distance && std::abs(p.y - q.y) <= distance;
   };
+  bool apart = !loop.empty() && !near(loop.back(), loop.front());
+  for (std::size_t k = 1; k < loop.size(); ++k) apart = apart && !near(loop[k - 1], loop[k]);
+  if (apart) return;
   // Of two the first keeps its place, and the second its edge.
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < subject_.size(); ++k) {
-    if (kept > 0 && near(subject_[kept - 1], subject_[k])) {
-      subject_[kept - 1].edge = subject_[k].edge;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    if (kept > 0 && near(loop[kept - 1], loop[k])) {
+      loop[kept - 1].edge = loop[k].edge;
     } else {
-      subject_[kept++] = subject_[k];
+      loop[kept++] = loop[k];
     }
   }
-  if (kept > 1 && near(subject_[kept - 1], subject_[0])) --kept;
-  subject_.resize(kept);
+  if (kept > 1 && near(loop[kept - 1], loop[0])) --kept;
+  loop.resize(kept);
 }
 
 template <class Scalar>
@@ -141,7 +143,7 @@ void ContactRegion<Scalar>::cut_where_apart(const Line& height, bool subject_is_
 
 template <class Scalar>
 void ContactRegion<Scalar>::finish(const Line& height, bool subject_is_a, Scalar rounding) {
-  merge_neighbours(4 * rounding);
+  merge_neighbours(subject_, 4 * rounding);
   if (subject_.empty()) return;
   std::uint16_t before = subject_.back().edge;
   for (const Seen& s : subject_) {
@@ -160,12 +162,21 @@ void ContactRegion<Scalar>::find(const ContactFeature<Scalar>& a, const ContactF
   corners_.clear();
   if (a.points.empty() || b.points.empty()) return;
   frame_ = Frame(normal);
-  // A segment is never what a polygon is cut by.
-  const bool subject_is_a = a.points.size() == 2;
-  const ContactFeature<Scalar>& other = subject_is_a ? b : a;
-  see(subject_is_a ? a : b, subject_is_a ? first_of_a : first_of_b, subject_);
-  see(other, subject_is_a ? first_of_b : first_of_a, outline_);
-  const Line height = height_of(other, outline_);
+  see(a, first_of_a, subject_);
+  see(b, first_of_b, outline_);
+  // What is as narrow as rounding is a segment or a point.
+  merge_neighbours(subject_, 4 * rounding);
+  merge_neighbours(outline_, 4 * rounding);
+  if (subject_.size() < 2 || outline_.size() < 2) return;
+  // A segment is never what a polygon is cut by, and of two polygons the lesser is cut less.
+  const auto extent = [](const std::vector<Seen>& loop) {
+    const Seen &p = loop[0], &q = loop[loop.size() / 2];
+    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
+  };
+  const bool subject_is_a =
+      outline_.size() > 2 && (subject_.size() == 2 || extent(subject_) < extent(outline_));
+  if (!subject_is_a) std::swap(subject_, outline_);
+  const Line height = height_of(subject_is_a ? b : a, outline_);
   // First, as it may leave little for the others to cut.
   cut_where_apart(height, subject_is_a, rounding);
   if (outline_.size() > 2) {

@@ -81,7 +81,7 @@ class ContactRegion {
   void cut_where_apart(const Line& height, bool subject_is_a, Scalar rounding);
   // The corners, from what is left of the subject and the other feature's height above each place.
   void finish(const Line& height, bool subject_is_a, Scalar rounding);
-  void merge_neighbours(Scalar distance);
+  static void merge_neighbours(std::vector<Seen>& loop, Scalar distance);
 
   Frame frame_;
   std::vector<Seen> subject_, cut_, outline_;

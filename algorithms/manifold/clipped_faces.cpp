@@ -13,7 +13,7 @@
 //          capsule is its axis with a radius. Against a half-space no more is cut than the depth.
 // Answers: points are on the surface, or in the body, up to rounding (1e-13 of the size in double,
 //          1e-4 in float) and that of the world's coordinates; the greatest depth is the depth of
-//          the penetration to 1e-9 and 1e-4.
+//          the penetration to 1e-8 and 1e-4.
 //          In float an area that is below rounding across, or where the bodies part within it, is
 //          one or two points.
 // Fails:   as sat and gjk do: not_converged within rounding of touching, and where EPA ends at its
@@ -94,6 +94,7 @@ class ClippedFaces final : public ContactManifold {
     std::uint32_t index;  // of the shape
 
     const SupportShape<Scalar>& support() const { return shape.support; }
+    Mat3<Scalar> rotation() const { return pose.rotation.template cast<Scalar>(); }
   };
 
   static constexpr Scalar rounding = 4 * SupportPair<Scalar>::rounding;
@@ -173,7 +174,7 @@ bool ClippedFaces<Scalar>::write(const Deepest& deepest, double unit, bool numbe
   } else {
     for (const std::uint32_t k : choose_four(corners, rounding)) add(corners[k]);
   }
-  double found = -1;
+  double found = -std::numeric_limits<double>::infinity();
   for (const ContactPoint& point : manifold.contacts()) found = std::max(found, point.depth);
   return found >= deepest.depth - unit * static_cast<double>(least_digits);
 }
@@ -238,8 +239,8 @@ template <class Scalar>
 bool ClippedFaces<Scalar>::solve_pair(SupportPair<Scalar>& pair, const Placed& a, const Placed& b,
                                       const Deepest& deepest, Manifold& manifold) {
   const Vec3<Scalar> normal = deepest.normal.template cast<Scalar>();
-  find_feature<Scalar>(a.shape, pair.a(), Vec3<Scalar>::Zero(), normal, feature_a_);
-  find_feature<Scalar>(b.shape, pair.b(), pair.centre_b(), -normal, feature_b_);
+  find_feature<Scalar>(a.shape, a.rotation(), pair.a(), Vec3<Scalar>::Zero(), normal, feature_a_);
+  find_feature<Scalar>(b.shape, b.rotation(), pair.b(), pair.centre_b(), -normal, feature_b_);
   region_.find(feature_a_, feature_b_, normal, rounding);
   return write(
       deepest, pair.unit(), feature_a_.numbered && feature_b_.numbered,
@@ -257,7 +258,7 @@ void ClippedFaces<Scalar>::solve_plane(const Placed& a, const Placed& b, Manifol
   const double unit = power_of_two_above(a.support().reach(a.pose.rotation));
   TurnedShape<Scalar> turned(a.support(), a.pose.rotation, unit);
   const Vec3<Scalar> normal = deepest.normal.template cast<Scalar>();
-  find_feature<Scalar>(a.shape, turned, Vec3<Scalar>::Zero(), normal, feature_a_);
+  find_feature<Scalar>(a.shape, a.rotation(), turned, Vec3<Scalar>::Zero(), normal, feature_a_);
   feature_b_.number = 0;
   const Scalar height = normal.dot(turned.support(normal)) + turned.radius() -
                         static_cast<Scalar>(deepest.depth / unit);

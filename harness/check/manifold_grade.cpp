@@ -42,10 +42,13 @@ ManifoldTruth manifold_truth(const Case& c) {
   ManifoldTruth truth;
   truth.size = pair_size(c);
   if (!(truth.size > 0)) truth.size = 1;
-  Outcome outcome = solve_case(oracle(), {}, c, Task::penetration);
-  truth.depth = outcome.answer == Answer::overlapping ? -outcome.distance
-                : outcome.answer == Answer::touching  ? 0
-                                                      : -std::numeric_limits<double>::infinity();
+  const Outcome outcome = solve_case(oracle(), {}, c, Task::penetration);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  truth.depth = truth.least_depth = truth.greatest_depth = -infinity;
+  if (outcome.answer == Answer::separated || outcome.answer == Answer::unknown) return truth;
+  truth.depth = -outcome.distance;
+  truth.least_depth = -outcome.upper;
+  truth.greatest_depth = -outcome.lower;
   return truth;
 }
 
@@ -73,7 +76,10 @@ ManifoldGrade grade(const Case& c, const ManifoldTruth& truth, const Manifold& m
   result.off_body /= truth.size;
   result.off_line /= truth.size;
   result.apart /= truth.size;
-  result.depth_error = truth.overlap() ? std::abs(deepest - truth.depth) / truth.size : 0;
+  if (truth.overlap()) {
+    const double off = std::max(truth.least_depth - deepest, deepest - truth.greatest_depth);
+    result.depth_error = std::max(0.0, off) / truth.size;
+  }
 
   const AreaFrame frame = area_frame(c, manifold.normal);
   const std::optional<std::vector<AreaPoint>> area = touching_area(c, frame);

@@ -15,7 +15,7 @@ struct Limits {
   double off_body, depth_error;
 };
 constexpr Limits limits_of(Precision scalar) {
-  return scalar == Precision::float64 ? Limits{1e-13, 1e-9} : Limits{1e-5, 1e-4};
+  return scalar == Precision::float64 ? Limits{1e-13, 1e-8} : Limits{1e-4, 1e-4};
 }
 constexpr double least_area = 0.9;  // of the best four, in double
 

@@ -10,6 +10,8 @@ namespace {
 
 using Vec = Vec3<Real>;
 
+constexpr Real least_cosine = 0.93969262L;  // of 20 degrees
+
 Vec wide(const Vec3d& v) { return v.cast<Real>(); }
 
 // A face in the frame's place: corners, empty for a half-space, and the plane's outward normal.
@@ -62,6 +64,27 @@ std::vector<Face> faces_of(const Shape& shape, const Pose& pose, const Vec& orig
     faces.push_back(std::move(face));
   }
   return faces;
+}
+
+// Of the faces with a corner that is furthest in the direction the one most nearly across it.
+const Face& supporting_face(const std::vector<Face>& faces, const Vec& direction) {
+  if (faces.size() == 1) return faces[0];  // a half-space
+  const auto height = [&](const Face& face) {
+    Real greatest = direction.dot(face.point);
+    for (const Vec& v : face.corners) greatest = std::max(greatest, direction.dot(v));
+    return greatest;
+  };
+  Real greatest = height(faces[0]), size = 0;
+  for (const Face& face : faces) {
+    greatest = std::max(greatest, height(face));
+    size = std::max(size, (face.point - faces[0].point).norm());
+  }
+  const Face* best = nullptr;
+  for (const Face& face : faces) {
+    if (height(face) < greatest - 1e-14L * size) continue;
+    if (best == nullptr || face.normal.dot(direction) > best->normal.dot(direction)) best = &face;
+  }
+  return *best;
 }
 
 // a x + b y + c >= 0, a length.
@@ -149,12 +172,9 @@ std::optional<std::vector<AreaPoint>> touching_area(const Case& c, const AreaFra
   const std::vector<Face> of_a = faces_of(c.shape_a, c.pose_a, frame.origin);
   const std::vector<Face> of_b = faces_of(c.shape_b, c.pose_b, frame.origin);
   if (of_a.empty() || of_b.empty()) return std::nullopt;
-  const auto along = [&](const Face& p, const Face& q) {
-    return p.normal.dot(frame.normal) < q.normal.dot(frame.normal);
-  };
-  const Face& a = *std::max_element(of_a.begin(), of_a.end(), along);
-  const Face& b = *std::min_element(of_b.begin(), of_b.end(), along);
-  if (!(a.normal.dot(frame.normal) > 0.5L) || !(b.normal.dot(frame.normal) < -0.5L)) {
+  const Face &a = supporting_face(of_a, frame.normal), &b = supporting_face(of_b, -frame.normal);
+  if (!(a.normal.dot(frame.normal) > least_cosine) ||
+      !(b.normal.dot(frame.normal) < -least_cosine)) {
     return std::vector<AreaPoint>();
   }
   const Line height_a = height_of(a, frame), height_b = height_of(b, frame);

@@ -24,11 +24,11 @@ struct AreaFrame {
 
 AreaFrame area_frame(const Case& c, const Vec3d& normal);
 
-// The corners of the polygon in which the face of a that is most nearly along the normal and that
-// of b that is most nearly against it overlap, seen along the normal, where one is below the other.
+// The corners of the polygon in which the face of a that lies furthest along the normal and that of
+// b that lies furthest against it overlap, seen along the normal, where one is below the other.
 // Every two lines of the outlines, and of the faces' intersection, are brought to an intersection;
-// the corners are those that no line cuts off. Empty where there is no area, nullopt where a body
-// has no faces.
+// the corners are those that no line cuts off. Empty where there is no area or a face is more than
+// 20 degrees off, nullopt where a body has no faces.
 std::optional<std::vector<AreaPoint>> touching_area(const Case& c, const AreaFrame& frame);
 
 // Of the convex hull of the points.

@@ -177,7 +177,9 @@ std::string page_text(const ManifoldOptions& options, const ManifoldTally& tally
       "corners of the touching area span of which one is the deepest; at most 1. *Area of all*: as "
       "a "
       "part of the whole. The touching area is where the two faces overlap as seen along the "
-      "algorithm's normal.\n\n",
+      "algorithm's normal.\n\n"
+      "Peers are given the shapes without the margins that they would add, as their files in "
+      "`algorithms/peers` say.\n\n",
       command, options.algorithms);
   if (options.settled) {
     for (const SettledFamily& family : settled_families()) {

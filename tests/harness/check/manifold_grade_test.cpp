@@ -7,6 +7,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/check/manifold_tally.h"
+#include "harness/check/regimes.h"
 #include "harness/check/settled_pairs.h"
 #include "harness/check/touching_area.h"
 #include "harness/run/solve_manifold.h"
@@ -45,6 +46,42 @@ TEST(ManifoldGrade, OursOnEveryFamily) {
     EXPECT_THAT(tally.ours_wrong(), testing::IsEmpty());
     EXPECT_GT(with_area, static_cast<int>(settled_families().size()) * 9);
   }
+}
+
+// Pairs of every kind and pose, at every gap and depth, degenerate and extreme: points are on their
+// bodies, and the deepest is among them.
+TEST(ManifoldGrade, OursOnEveryRegime) {
+  int apart = 0, common = 0, several = 0;
+  for (const Regime& regime : regimes()) {
+    for (std::uint64_t i = 0; i < 12; ++i) {
+      const Case c = make(regime, 11, i);
+      if (!offers(ours(), c.shape_a.kind, c.shape_b.kind)) continue;
+      for (const Precision scalar : {Precision::float64, Precision::float32}) {
+        const Manifold manifold = solve_manifold(ours(), {.scalar = scalar}, c);
+        several += manifold.count > 1 ? 1 : 0;
+        if (manifold.answer == Answer::separated) {
+          EXPECT_EQ(manifold.count, 0);
+          ++apart;
+          continue;
+        }
+        const ManifoldTruth truth = manifold_truth(c);
+        common += truth.overlap() ? 1 : 0;
+        const ManifoldGrade graded = grade(c, truth, manifold);
+        const double rounding = coordinate_rounding(c, truth);
+        const double limit = scalar == Precision::float64 ? 1e-13 : 1e-4;
+        EXPECT_LE(graded.off_body, limit + rounding) << c.id;
+        EXPECT_LE(graded.off_line, limit + 2 * rounding) << c.id;
+        EXPECT_EQ(graded.apart, 0) << c.id;
+        if (manifold.status != Status::ok) continue;
+        EXPECT_FALSE(graded.missed) << c.id;
+        EXPECT_LE(graded.depth_error, (scalar == Precision::float64 ? 1e-8 : 1e-4) + rounding)
+            << c.id;
+      }
+    }
+  }
+  EXPECT_GT(apart, 200);
+  EXPECT_GT(common, 200);
+  EXPECT_GT(several, 100);
 }
 
 TEST(ManifoldGrade, SeesWhatIsWrong) {
