@@ -72,6 +72,18 @@ Axis<Scalar> box_axis(const PolytopePair<Scalar>& pair, int& tested) {
   return best;
 }
 
+template <class Scalar>
+Axis<Scalar> box_axis_along(const PolytopePair<Scalar>& pair, const Vec3<Scalar>& normal) {
+  Scalar gap = normal.dot(pair.b().origin);
+  for (const PlacedPolytope<Scalar>* box : {&pair.a(), &pair.b()}) {
+    const Vec3<Scalar> own = box->matrix.transpose() * normal;
+    gap -= box->scale * own.cwiseAbs().dot(box->shape->vertex(7));
+  }
+  return {gap, normal};
+}
+
+template Axis<float> box_axis_along(const PolytopePair<float>&, const Vec3<float>&);
+template Axis<double> box_axis_along(const PolytopePair<double>&, const Vec3<double>&);
 template Axis<float> box_axis(const PolytopePair<float>&, int&);
 template Axis<double> box_axis(const PolytopePair<double>&, int&);
 

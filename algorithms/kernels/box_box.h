@@ -13,6 +13,12 @@ namespace touchstone {
 template <class Scalar>
 Axis<Scalar> box_axis(const PolytopePair<Scalar>& pair, int& tested);
 
+// PolytopePair::axis_along for two boxes.
+template <class Scalar>
+Axis<Scalar> box_axis_along(const PolytopePair<Scalar>& pair, const Vec3<Scalar>& normal);
+
+extern template Axis<float> box_axis_along(const PolytopePair<float>&, const Vec3<float>&);
+extern template Axis<double> box_axis_along(const PolytopePair<double>&, const Vec3<double>&);
 extern template Axis<float> box_axis(const PolytopePair<float>&, int&);
 extern template Axis<double> box_axis(const PolytopePair<double>&, int&);
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "algorithms/kernels/box_box.h"
+
 namespace touchstone {
 namespace {
 
@@ -31,14 +33,15 @@ void KeptAxis::keep(const PolytopePair<Scalar>& pair, const Vec3<Scalar>& normal
 }
 
 template <class Scalar>
-bool KeptAxis::separates(const PolytopePair<Scalar>& pair, Axis<Scalar>& axis, int& tested) {
+bool KeptAxis::separates(const PolytopePair<Scalar>& pair, bool boxes, Axis<Scalar>& axis,
+                         int& tested) {
   if (seen != Seen::by_a && seen != Seen::by_b) return false;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const bool by_a = seen == Seen::by_a;
     const Vec3<Scalar> normal = by_a ? in_world(pair.a(), of_a) : in_world(pair.b(), of_b);
     if (!normal.isZero(0)) {
       ++tested;
-      axis = pair.axis_along(normal);
+      axis = boxes ? box_axis_along(pair, normal) : pair.axis_along(normal);
       if (pair.separates(axis)) {
         if (by_a) {
           of_b = seen_by(pair.b(), normal);
@@ -55,7 +58,7 @@ bool KeptAxis::separates(const PolytopePair<Scalar>& pair, Axis<Scalar>& axis, i
 
 template void KeptAxis::keep(const PolytopePair<float>&, const Vec3<float>&);
 template void KeptAxis::keep(const PolytopePair<double>&, const Vec3<double>&);
-template bool KeptAxis::separates(const PolytopePair<float>&, Axis<float>&, int&);
-template bool KeptAxis::separates(const PolytopePair<double>&, Axis<double>&, int&);
+template bool KeptAxis::separates(const PolytopePair<float>&, bool, Axis<float>&, int&);
+template bool KeptAxis::separates(const PolytopePair<double>&, bool, Axis<double>&, int&);
 
 }  // namespace touchstone

@@ -24,12 +24,12 @@ struct KeptAxis {
   void keep(const PolytopePair<Scalar>& pair, const Vec3<Scalar>& normal);
   // True where an axis separates, which is then `axis`. `tested` is raised by the number of axes.
   template <class Scalar>
-  bool separates(const PolytopePair<Scalar>& pair, Axis<Scalar>& axis, int& tested);
+  bool separates(const PolytopePair<Scalar>& pair, bool boxes, Axis<Scalar>& axis, int& tested);
 };
 
 extern template void KeptAxis::keep(const PolytopePair<float>&, const Vec3<float>&);
 extern template void KeptAxis::keep(const PolytopePair<double>&, const Vec3<double>&);
-extern template bool KeptAxis::separates(const PolytopePair<float>&, Axis<float>&, int&);
-extern template bool KeptAxis::separates(const PolytopePair<double>&, Axis<double>&, int&);
+extern template bool KeptAxis::separates(const PolytopePair<float>&, bool, Axis<float>&, int&);
+extern template bool KeptAxis::separates(const PolytopePair<double>&, bool, Axis<double>&, int&);
 
 }  // namespace touchstone

@@ -86,7 +86,7 @@ class Sat final : public NarrowPhase {
     KeptAxis kept;
     std::memcpy(&kept, memory.bytes.data(), sizeof kept);
     Axis<Scalar> best;
-    if (!kept.separates(pair, best, tested_)) {
+    if (!kept.separates(pair, boxes, best, tested_)) {
       best = best_axis(pair, boxes);
       if (!pair.separates(best)) return best;
       kept.keep(pair, best.normal);
