@@ -38,7 +38,9 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
       EXPECT_EQ(row[5], "pairs");
       EXPECT_EQ(row[6], "float");
     }
-    if (row[1] == "manifold") EXPECT_EQ(row[5], "manifold");
+    if (row[1] == "manifold") {
+      EXPECT_EQ(row[5], "manifold");
+    }
   }
 }
 

@@ -75,7 +75,9 @@ TEST(ManifoldCommand, GradesEveryFamilyOfEveryAlgorithm) {
   const Ran ran = run_program("manifold --settled 3 --grade --page " + page.string());
   EXPECT_EQ(ran.status, 0) << ran.text;
   for (const ManifoldEntry& entry : contact_manifolds()) {
-    if (is_built(entry.info)) EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
+    if (is_built(entry.info)) {
+      EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
+    }
   }
   std::ifstream file(page);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
