@@ -38,6 +38,11 @@ class SatFaces final : public NarrowPhase {
     int tested = 0;
     Axis<Scalar> best;
     if (!pair.far_apart()) best = pair.face_axis(tested);
+    // Without faces to go by there is this one axis that needs none.
+    if (!pair.far_apart() && !pair.complete() && !pair.separates(best)) {
+      best = pair.centre_axis();
+      ++tested;
+    }
     pair.report(best, task, false, outcome);
     outcome.iterations = tested;
   }
