@@ -63,7 +63,7 @@ def draw(tables):
                               elinewidth=0.6, capthick=0.6, **style)
             axes.set_yscale("log")
             axes.grid(True)
-            axes.set_xticks(range(len(distances)), [f"{distance:g}" for distance in distances])
+            axes.set_xticks(range(len(distances)), [f"{distance:g}" for distance in distances], rotation=60)
             if line == 0:
                 axes.set_title(shapes, loc="left")
             if column == 0:
