@@ -3,7 +3,6 @@
 #include <sys/time.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <csignal>
 #include <functional>
@@ -18,7 +17,7 @@ namespace touchstone {
 namespace {
 
 constexpr double clock_factor = 20;  // of the processor's time
-constexpr double bind_seconds = 5;   // of the processor
+constexpr double bind_seconds = 3;   // of the processor
 constexpr std::size_t memory = std::size_t{1} << 30;
 constexpr std::size_t many_vertices = 5000;
 
@@ -38,6 +37,14 @@ bool is_large(const Shape& shape) {
 // What a child keeps of large bodies from query to query.
 using Bound = std::map<const Case*, std::unique_ptr<BoundCase>>;
 
+struct Asked {
+  struct Range {
+    std::size_t first, end;
+  };
+  std::vector<ItemState> states;  // of each place
+  std::vector<Range> by_clock;    // places that timed out, but not by the processor's time
+};
+
 class Asker {
  public:
   Asker(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
@@ -49,12 +56,12 @@ class Asker {
   }
 
   // Those of the queries that are at these places.
-  IsolationReport ask(std::span<const std::size_t> places, SharedArray<Outcome>& outcomes) const {
+  Asked ask(std::span<const std::size_t> places, SharedArray<Outcome>& outcomes) const {
     const IsolationLimits isolation = {.item_seconds = clock_factor * limits_.seconds,
                                        .setup_seconds = clock_factor * bind_seconds,
                                        .failures = limits_.lost,
                                        .memory = memory};
-    return isolate(places.size(), isolation, [&]() -> ItemWork {
+    const IsolationReport report = isolate(places.size(), isolation, [&]() -> ItemWork {
       const auto bound = std::make_shared<Bound>();
       limit_processor_time(bind_seconds);
       for (std::size_t i = 0; large_ && i < places.size(); ++i) {
@@ -70,6 +77,16 @@ class Asker {
         limit_processor_time(0);
       };
     });
+    Asked asked = {report.states, {}};
+    for (const IsolationFailure& failure : report.failures) {
+      const std::size_t end = failure.in_setup ? places.size() : failure.item + 1;
+      if (failure.signal == SIGPROF) {
+        std::fill(asked.states.begin() + static_cast<std::ptrdiff_t>(failure.item),
+                  asked.states.begin() + static_cast<std::ptrdiff_t>(end), ItemState::timed_out);
+      }
+      if (failure.state == ItemState::timed_out) asked.by_clock.push_back({failure.item, end});
+    }
+    return asked;
   }
 
  private:
@@ -89,28 +106,20 @@ std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhas
   SharedArray<Outcome> outcomes(queries.size());
   std::vector<std::size_t> all(queries.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  IsolationReport report = asker.ask(all, outcomes);
-  for (const IsolationFailure& failure : report.failures) {
-    ItemState& state = report.states[failure.item];
-    if (failure.signal == SIGPROF) {
-      // What was bound in vain is bound for all.
-      const std::size_t end = failure.in_setup ? report.states.size() : failure.item + 1;
-      std::fill(report.states.begin() + static_cast<std::ptrdiff_t>(failure.item),
-                report.states.begin() + static_cast<std::ptrdiff_t>(end), ItemState::timed_out);
-    }
-    // By the clock: if it was the machine that stood still, the second time tells.
-    if (failure.state == ItemState::timed_out && !failure.in_setup) {
-      const std::array<std::size_t, 1> again = {failure.item};
-      state = asker.ask(again, outcomes).states[0];
-    }
+  Asked asked = asker.ask(all, outcomes);
+  // If it was the machine that stood still, the second time tells.
+  for (const Asked::Range& range : asked.by_clock) {
+    const std::span<const std::size_t> again(all.data() + range.first, range.end - range.first);
+    std::ranges::copy(asker.ask(again, outcomes).states,
+                      asked.states.begin() + static_cast<std::ptrdiff_t>(range.first));
   }
   std::vector<Outcome> result(outcomes.span().begin(), outcomes.span().end());
   for (std::size_t i = 0; i < result.size(); ++i) {
-    if (report.states[i] == ItemState::done) continue;
+    if (asked.states[i] == ItemState::done) continue;
     result[i] = Outcome{};
-    result[i].status = report.states[i] == ItemState::not_run     ? Status::unsupported
-                       : report.states[i] == ItemState::timed_out ? Status::timed_out
-                                                                  : Status::crashed;
+    result[i].status = asked.states[i] == ItemState::not_run     ? Status::unsupported
+                       : asked.states[i] == ItemState::timed_out ? Status::timed_out
+                                                                 : Status::crashed;
   }
   return result;
 }

@@ -296,9 +296,9 @@ TEST(RingedHull, TwoLargeOnesAreMoreThanSatWillLookAt) {
     EXPECT_EQ(solved(1000, 1, name).answer, Answer::overlapping);
     EXPECT_EQ(solved(100'000, 1, name).status, Status::capacity);
     EXPECT_EQ(solved(100'000, 1, name).answer, Answer::unknown);
-    EXPECT_EQ(solved(100'000, 3, name).answer, Answer::separated);
-    EXPECT_EQ(solved(100'000, 3, name).status, Status::ok);
   }
+  EXPECT_EQ(solved(100'000, 3, "sat").answer, Answer::separated);
+  EXPECT_EQ(solved(100'000, 3, "sat").status, Status::ok);
   EXPECT_EQ(solved(10'000, 1, "sat").status, Status::capacity);
   EXPECT_EQ(solved(10'000, 3, "sat").answer, Answer::separated);
 }
