@@ -199,9 +199,9 @@ def make_rock_pile(count=250, kinds=24, radius=1.1):
 # --- crowd -----------------------------------------------------------------------------------------
 
 def figure(phase, height):
-    """The parts of a walking figure, x ahead, z up, its feet at z = 0: shape, place, attitude. Sizes
-    are shares of its height; phase in turns of a double step."""
-    parts = []
+    """The parts of a walking figure, x ahead, z up, its lower foot on z = 0: shape, place, attitude.
+    Sizes are shares of its height; phase in turns of a double step."""
+    parts, soles = [], []
     down = (0, 0, -1)
 
     def bone(name, start, angle, span, radius):
@@ -233,11 +233,12 @@ def figure(phase, height):
         ankle = bone("shin", knee, 0.42 * leg + 0.1 - bend, 0.235, 0.035)
         tilt = turn_about((0, 1, 0), 0.25 * bend - 0.2 * leg)
         block(0.07, 0.026, 0.018, add(ankle, rotate(tilt, (0.04 * height, 0, -0.005 * height))), tilt)
+        soles += [add(parts[-1][1], rotate(tilt, (x * height, 0, -0.018 * height)))[2] for x in (-0.07, 0.07)]
         shoulder = add(neck, rotate(twist, (0, side * 0.143 * height, -0.03 * height)))
         elbow = bone("arm", shoulder, -0.45 * leg, 0.17, 0.03)
         hand = bone("forearm", elbow, -0.45 * leg + 0.35, 0.15, 0.024)
         parts.append((f'shape = {{type = "sphere", radius = {number(0.028 * height)}}}', hand, (1, 0, 0, 0)))
-    return parts
+    return [(shape, add(at, (0, 0, -min(soles))), q) for shape, at, q in parts]
 
 
 def make_crowd(rows=8, columns=8, spacing=0.95):
@@ -246,7 +247,7 @@ def make_crowd(rows=8, columns=8, spacing=0.95):
     for i, j in itertools.product(range(rows), range(columns)):
         height, speed = rng.uniform(1.55, 1.9), rng.uniform(1.0, 1.5)
         heading = rng.gauss(0, 0.15) + (math.pi if j % 2 else 0)  # in rows past each other
-        start = (i * spacing + rng.uniform(-0.2, 0.2), j * spacing * 0.75 + rng.uniform(-0.1, 0.1), 0.06)
+        start = (i * spacing + rng.uniform(-0.2, 0.2), j * spacing * 0.75 + rng.uniform(-0.1, 0.1), 0)
         phase = rng.random()
         first = figure(phase, height)
         last = figure(phase + speed * TIME / (0.83 * height), height)

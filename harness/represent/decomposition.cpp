@@ -22,9 +22,12 @@ constexpr int most_parts = 64;
 constexpr double enough = 0.01;        // of the body's volume
 constexpr double worth_a_part = 1e-4;  // of the body's volume
 constexpr std::size_t concave_edges = 12;
+constexpr std::size_t neighbours = 8;  // with which joining is tried
 
 struct Piece {
-  Mesh mesh;
+  Mesh mesh;                   // no triangles where it was joined of several
+  std::vector<Vec3d> corners;  // of its hull
+  Vec3d middle = Vec3d::Zero();
   double hull_volume = 0, volume = 0;
   int cuts = 0;        // that its points may have come from
   bool whole = false;  // not to be cut
@@ -32,14 +35,21 @@ struct Piece {
   double concavity() const { return whole ? 0 : hull_volume - volume; }
 };
 
-double hull_volume(const std::vector<Vec3d>& points) {
+void measure_hull(const std::vector<Vec3d>& points, Piece& piece) {
   const std::shared_ptr<const Hull> hull = make_reduced_hull(points);
-  return hull->faces.empty() ? 0 : volume_of(triangles_of(*hull));
+  piece.corners = hull->vertices;
+  piece.hull_volume = hull->faces.empty() ? 0 : volume_of(triangles_of(*hull));
+  for (const Vec3d& v : piece.corners) {
+    piece.middle += v / static_cast<double>(piece.corners.size());
+  }
 }
 
 Piece measured(Mesh mesh, int cuts, bool whole) {
-  Piece piece{std::move(mesh), 0, 0, cuts, whole};
-  piece.hull_volume = hull_volume(piece.mesh.vertices);
+  Piece piece;
+  piece.mesh = std::move(mesh);
+  piece.cuts = cuts;
+  piece.whole = whole;
+  measure_hull(piece.mesh.vertices, piece);
   piece.volume = std::abs(volume_of(triangles_of(piece.mesh)));
   return piece;
 }
@@ -109,57 +119,88 @@ std::vector<Piece> best_cut(const Piece& piece, const Mat3d& axes) {
   return best;
 }
 
+std::vector<Vec3d> both(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  std::vector<Vec3d> all = a;
+  all.insert(all.end(), b.begin(), b.end());
+  return all;
+}
+
 Piece joined(const Piece& a, const Piece& b) {
-  Mesh mesh = a.mesh;  // of points alone: joined pieces are not cut again
-  mesh.triangles.clear();
-  mesh.vertices.insert(mesh.vertices.end(), b.mesh.vertices.begin(), b.mesh.vertices.end());
-  mesh.vertices = make_reduced_hull(mesh.vertices)->vertices;
-  Piece piece{std::move(mesh), 0, a.volume + b.volume, std::max(a.cuts, b.cuts) + 1, true};
-  piece.hull_volume = hull_volume(piece.mesh.vertices);
+  Piece piece;
+  piece.mesh.vertices = both(a.mesh.vertices, b.mesh.vertices);
+  piece.volume = a.volume + b.volume;
+  piece.cuts = std::max(a.cuts, b.cuts);
+  piece.whole = true;
+  measure_hull(both(a.corners, b.corners), piece);
   return piece;
 }
 
-// Joins the pair that adds least while there are too many or it adds hardly anything.
-void join(std::vector<Piece>& pieces, std::size_t most, double volume) {
-  const auto price = [](const Piece& a, const Piece& b) {
-    return joined(a, b).hull_volume - a.hull_volume - b.hull_volume;
-  };
-  std::map<std::pair<std::size_t, std::size_t>, double> prices;
-  std::vector<std::optional<Piece>> live(pieces.begin(), pieces.end());
-  const auto consider = [&](std::size_t i, std::size_t j) {
-    prices[{i, j}] = price(*live[i], *live[j]);
-  };
-  for (std::size_t i = 0; i < live.size(); ++i) {
-    for (std::size_t j = i + 1; j < live.size(); ++j) consider(i, j);
+// Joins pieces that are near each other: always the pair that adds least, while there are too many
+// pieces or it adds hardly anything.
+class Joiner {
+ public:
+  Joiner(std::vector<Piece> pieces, double volume)
+      : live_(pieces.begin(), pieces.end()), count_(pieces.size()), volume_(volume) {}
+
+  std::vector<Piece> join(std::size_t most) {
+    price_all();
+    while (count_ > 1) {
+      if (prices_.empty()) price_all();
+      const auto least =
+          std::min_element(prices_.begin(), prices_.end(),
+                           [](const auto& a, const auto& b) { return a.second < b.second; });
+      if (count_ <= most && least->second > worth_a_part * volume_) break;
+      const auto [grown, gone] = least->first;
+      live_[grown] = joined(*live_[grown], *live_[gone]);
+      live_[gone].reset();
+      --count_;
+      std::erase_if(prices_, [i = grown, j = gone](const auto& p) {
+        const auto& [a, b] = p.first;
+        return a == i || b == i || a == j || b == j;
+      });
+      price(grown);
+    }
+    std::vector<Piece> result;
+    for (std::optional<Piece>& piece : live_) {
+      if (piece) result.push_back(std::move(*piece));
+    }
+    return result;
   }
-  std::size_t count = pieces.size();
-  while (count > 1) {
-    const auto least =
-        std::min_element(prices.begin(), prices.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (count <= most && least->second > worth_a_part * volume) break;
-    const auto [i, j] = least->first;
-    live[i] = joined(*live[i], *live[j]);
-    live[j].reset();
-    --count;
-    std::erase_if(prices, [&, gone = j, grown = i](const auto& p) {
-      const auto& [a, b] = p.first;
-      return a == gone || b == gone || a == grown || b == grown;
-    });
-    for (std::size_t k = 0; k < live.size(); ++k) {
-      if (k != i && live[k]) consider(std::min(i, k), std::max(i, k));
+
+ private:
+  void price_all() {
+    for (std::size_t i = 0; i < live_.size(); ++i) {
+      if (live_[i]) price(i);
     }
   }
-  pieces.clear();
-  for (std::optional<Piece>& piece : live) {
-    if (piece) pieces.push_back(std::move(*piece));
+  // With the nearest others.
+  void price(std::size_t i) {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t j = 0; j < live_.size(); ++j) {
+      if (j != i && live_[j]) near.emplace_back((live_[j]->middle - live_[i]->middle).norm(), j);
+    }
+    std::sort(near.begin(), near.end());
+    if (near.size() > neighbours) near.resize(neighbours);
+    for (const auto& [distance, j] : near) {
+      const auto [at, is_new] = prices_.try_emplace({std::min(i, j), std::max(i, j)});
+      if (!is_new) continue;
+      Piece whole;
+      measure_hull(both(live_[i]->corners, live_[j]->corners), whole);
+      at->second = whole.hull_volume - live_[i]->hull_volume - live_[j]->hull_volume;
+    }
   }
-}
+
+  std::vector<std::optional<Piece>> live_;
+  std::size_t count_;
+  double volume_;
+  std::map<std::pair<std::size_t, std::size_t>, double> prices_;
+};
 
 Part part_around(const LocalBody& body, const Piece& piece) {
   Part part;
   part.shape.kind = ShapeKind::hull;
-  // A rounded point is off by less than 8 units of its coordinates; six points around each hold a ball.
+  // A rounded point is off by less than 8 units of its coordinates; six points around each hold a
+  // ball.
   const double moved = piece.cuts * 16 * epsilon * (body.size + body.middle.norm());
   LocalBody grown = body;
   grown.points.clear();
@@ -188,8 +229,9 @@ std::vector<Part> decompose(const LocalBody& body, int most) {
     volume += pieces.back().whole ? pieces.back().hull_volume : pieces.back().volume;
   }
   if (pieces.empty()) throw InputError("the mesh has no triangles, so no parts; expected some");
-  const auto limit = static_cast<std::size_t>(most > 0 ? most : most_parts);
   // Somewhat more than asked for, as joining makes up for cuts that were not the best.
+  const std::size_t limit =
+      most > 0 ? static_cast<std::size_t>(most) : std::max(pieces.size(), std::size_t{most_parts});
   while (pieces.size() < limit + limit / 2) {
     const auto worst = std::max_element(
         pieces.begin(), pieces.end(),
@@ -203,7 +245,7 @@ std::vector<Part> decompose(const LocalBody& body, int most) {
     pieces.erase(worst);
     std::move(parts.begin(), parts.end(), std::back_inserter(pieces));
   }
-  join(pieces, limit, volume);
+  pieces = Joiner(std::move(pieces), volume).join(limit);
   std::vector<Part> parts;
   for (const Piece& piece : pieces) parts.push_back(part_around(body, piece));
   return parts;

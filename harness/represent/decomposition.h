@@ -20,7 +20,7 @@ namespace touchstone {
 // rounding of cuts moves the surface by is added around each hull.
 //
 // `most` parts or, for 0, cuts until each hull has at most a hundredth of the body's volume too
-// much, at most 64 parts.
+// much, at most 64 parts, or as many as the mesh has pieces that do not hang together.
 std::vector<Part> decompose(const LocalBody& body, int most);
 
 }  // namespace touchstone

@@ -44,7 +44,19 @@ bool is_closed(const Mesh& mesh) {
 
 std::vector<MeshPiece> pieces_of(const Mesh& mesh) {
   std::vector<MeshPiece> pieces;
-  for (Mesh& part : connected_parts(welded(mesh))) {
+  Mesh rest;
+  for (Mesh& part : connected_parts(mesh)) {
+    if (is_closed(part)) {
+      pieces.push_back({std::move(part), true});
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(rest.vertices.size());
+    rest.vertices.insert(rest.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const auto& [a, b, c] : part.triangles) {
+      rest.triangles.push_back({first + a, first + b, first + c});
+    }
+  }
+  for (Mesh& part : connected_parts(welded(rest))) {
     const bool closed = is_closed(part);
     pieces.push_back({std::move(part), closed});
   }

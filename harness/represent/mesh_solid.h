@@ -8,10 +8,11 @@
 
 namespace touchstone {
 
-// Vertices at one place are one. Triangles that hang together by edges are a part; where every edge
-// is used as often in one direction as in the other the part is closed, and its solid is where its
-// winding number is not zero. A part that is not closed encloses nothing of its own, so that its
-// convex hull is its solid. The solid of the mesh is the union.
+// Triangles that hang together by edges are a part; where every edge is used as often in one
+// direction as in the other the part is closed, and its solid is where its winding number is not
+// zero. Of the parts that are not closed as the file has them, vertices at one place are made one;
+// those that still are not enclose nothing of their own, so that their convex hull is their solid.
+// The solid of the mesh is the union.
 struct MeshPiece {
   Mesh mesh;
   bool closed = false;

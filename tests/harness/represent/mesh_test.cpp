@@ -130,6 +130,22 @@ TEST(Meshes, AsTrianglesTheyAreTheSurface) {
   EXPECT_LT(error.hausdorff, 1e-12);
 }
 
+TEST(Meshes, PiecesThatShareAFaceStayTwoAndATriangleSoupIsOne) {
+  Mesh two = angle_bracket();
+  const Mesh one = two;  // another, on top
+  for (const Vec3d& v : one.vertices) two.vertices.push_back(v + Vec3d::UnitZ());
+  for (const auto& [a, b, c] : one.triangles) two.triangles.push_back({a + 12, b + 12, c + 12});
+  EXPECT_EQ(pieces_of(two).size(), 2u);
+  Mesh soup;
+  for (const Triangle& t : triangles_of(angle_bracket())) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    soup.vertices.insert(soup.vertices.end(), {t.a, t.b, t.c});
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  ASSERT_EQ(pieces_of(soup).size(), 1u);
+  EXPECT_TRUE(pieces_of(soup)[0].closed);
+}
+
 TEST(Meshes, OpenOnesHaveNothingInside) {
   Mesh mesh = angle_bracket();
   mesh.triangles.pop_back();
