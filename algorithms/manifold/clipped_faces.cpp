@@ -13,8 +13,8 @@
 //          capsule is its axis with a radius. Against a half-space no more is cut than the depth.
 // Answers: points are on the surface, or in the body, up to rounding (1e-13 of the size in double,
 //          1e-4 in float) and that of the world's coordinates; the greatest depth is the depth of
-//          the penetration to 1e-8 and 1e-4. The one point of curved bodies is, where EPA found
-//          it, up to 1e-9 of the size off the line of the normal.
+//          the penetration to 1e-8 and 1e-4. Points of cylinders, cones and ellipsoids are up
+//          to 1e-9 of the size off the line of the normal, which is EPA's tolerance.
 //          In float an area that is below rounding across, or where the bodies part within it, is
 //          one or two points.
 // Fails:   as sat and gjk do: not_converged within rounding of touching, and where EPA ends at its
