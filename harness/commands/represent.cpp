@@ -75,14 +75,12 @@ Measured measure(const Shape& shape, const Mesh* mesh, const Representation& r) 
 
 // Of one representation over all shapes.
 struct Summary {
-  std::vector<double> volume, hausdorff;  // parts of the volume; of the size
-  std::size_t missing = 0, parts = 0;
+  std::vector<double> volume, hausdorff;  // parts of the volume, where there is one; of the size
+  std::size_t missing = 0, flat = 0, parts = 0;
   double seconds = 0;
 };
 
-std::string shown(double value) {
-  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinite";
-}
+std::string shown(double value) { return fmt::format("{:.4g}", value); }
 
 // Mean, the least value that at least 99 in 100 do not exceed, and the greatest.
 void add_cells(std::vector<double> values, std::vector<std::string>& row) {
@@ -100,13 +98,14 @@ void add_cells(std::vector<double> values, std::vector<std::string>& row) {
 
 void print(const Scene& scene, const std::vector<Representation>& list,
            const std::vector<Summary>& summaries) {
-  TextTable table({"representation", "shapes", "none", "parts", "volume mean", "p99", "greatest",
-                   "hausdorff mean", "p99", "greatest", "ms each"});
+  TextTable table({"representation", "shapes", "none", "flat", "parts", "volume mean", "p99",
+                   "greatest", "hausdorff mean", "p99", "greatest", "ms each"});
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Summary& s = summaries[i];
-    const std::size_t made = s.volume.size();
+    const std::size_t made = s.hausdorff.size();
     std::vector<std::string> row = {to_string(list[i]), fmt::format("{}", made),
-                                    fmt::format("{}", s.missing), fmt::format("{}", s.parts)};
+                                    fmt::format("{}", s.missing), fmt::format("{}", s.flat),
+                                    fmt::format("{}", s.parts)};
     add_cells(s.volume, row);
     add_cells(s.hausdorff, row);
     row.push_back(made == 0 ? "" : shown(1e3 * s.seconds / static_cast<double>(made)));
@@ -156,7 +155,11 @@ void run(const Options& options) {
         ++s.missing;
         continue;
       }
-      s.volume.push_back(m.error.volume_error());
+      if (std::isfinite(m.error.volume_error())) {
+        s.volume.push_back(m.error.volume_error());
+      } else {
+        ++s.flat;
+      }
       s.hausdorff.push_back(m.error.size > 0 ? m.error.hausdorff / m.error.size : 0);
       s.parts += m.parts;
       s.seconds += m.seconds;
