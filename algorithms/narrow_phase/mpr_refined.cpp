@@ -34,10 +34,10 @@ namespace touchstone {
 namespace {
 
 // What a PairMemory holds: the last normal, from a to b in world axes (zero: none), and whether it
-// was proven to have the least depth.
+// was proven to have the least depth (not 0: a memory of foreign bytes must be safe to read).
 struct Memory {
   std::array<double, 3> normal{};
-  bool is_least = false;
+  std::uint64_t is_least = 0;
 };
 static_assert(sizeof(Memory) <= sizeof(PairMemory));
 
@@ -58,7 +58,7 @@ class RefinedDepth {
     const bool has_depth = outcome.answer == Answer::overlapping && task == Task::penetration;
     const Vec3<Scalar>& normal = has_depth ? best_.normal : search_.normal();
     for (int k = 0; k < 3; ++k) last.normal[k] = static_cast<double>(normal[k]);
-    last.is_least = has_depth && is_least();
+    last.is_least = has_depth && is_least() ? 1 : 0;
     std::memcpy(memory->bytes.data(), &last, sizeof last);
   }
 
@@ -87,7 +87,7 @@ class RefinedDepth {
     outcome.status = Status::ok;
     if (warm) {
       furthest = search_.support(normal);
-      if (!search_.separated() && task == Task::penetration && last.is_least) {
+      if (!search_.separated() && task == Task::penetration && last.is_least != 0) {
         settle_from(normal, furthest);
         if (!search_.separated()) look_around(nullptr);
         if (is_least()) {
