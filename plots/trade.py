@@ -93,6 +93,8 @@ def draw(rows, facts):
     axes.set_xscale("log")
     # Below the least error there is room for those that make none.
     axes.set_yscale("symlog", linthresh=floor, linscale=0.6)
+    # By hand: left alone, a tick of a tenth of the floor is drawn on that of zero.
+    axes.set_yticks([0] + [floor * 10**k for k in range(round(math.log10(max(1, top) / floor)) + 1)])
     milliseconds = [r["seconds"] * 1e3 for r in rows]
     axes.set_xlim(min(milliseconds) / 1.25, max(milliseconds) * 1.25)
     axes.set_ylim(-0.25 * floor, top * 1.6)
