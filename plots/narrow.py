@@ -1,5 +1,5 @@
-"""Time a query by the distance or depth of the pairs: the best of ours against the best of each library, with 95 %
-intervals; a column a kind of pairs, a line a task."""
+"""Time a query by the distance or depth of the pairs: the fastest right one of ours against that of each library, with
+95 % intervals, and under it how far its worst answer is off; a column a kind of pairs, a line a task."""
 
 import re
 import sys
@@ -10,6 +10,9 @@ import best
 import common
 
 TASKS = ["intersect", "distance", "penetration"]
+RIGHT = 1e-3  # of the pair's size: as narrow_best.csv has it
+NO_ERROR = 1e-17  # where an exact answer is drawn
+KEY = ("scene_hash", "bodies", "boxes", "threads", "task", "pair_kind", "algorithm")
 PLACED = re.compile(r"(?P<shapes>.+) (?P<side>gap|depth) (?P<size>[-+.e0-9]+)$")
 
 
@@ -25,24 +28,50 @@ def placed(row):
     return (kinds if shapes == "primitives" else shapes), size if found["side"] == "gap" else -size
 
 
-def draw(tables):
+def panels_of(tables):
+    """The rows of each task and kind of pairs, without who is wrong or far off."""
+    errors = {tuple(row[c] for c in KEY): row for row in tables["agreement"]}
     panels = {}
     for row in tables["times"]:
         place = placed(row)
-        if place is None:
+        graded = errors.get(tuple(row[c] for c in KEY))
+        if place is None or graded is None or graded["wrong"] or (graded["worst_error"] or 0) > RIGHT:
             continue
         shapes, distance = place
-        panels.setdefault((row["task"], shapes), []).append({**row, "distance": distance})
+        panels.setdefault((row["task"], shapes), []).append(
+            {**row, "distance": distance, "error": graded["worst_error"]})
+    return panels
+
+
+def draw_times(axes, points, style):
+    y = [row["seconds"] * 1e9 for _, row in points]
+    low, high = ([abs((row["seconds"] if row[end] is None else row[end]) - row["seconds"]) * 1e9
+                  for _, row in points] for end in ("seconds_low", "seconds_high"))
+    axes.errorbar([x for x, _ in points], y, yerr=[low, high], capsize=1.2, elinewidth=0.6, capthick=0.6, **style)
+
+
+def draw_errors(axes, points, style):
+    axes.plot([x for x, _ in points], [max(row["error"] or 0, NO_ERROR) for _, row in points], **style)
+
+
+def draw(tables):
+    panels = panels_of(tables)
     if not panels:
         return None
-    tasks = [task for task in TASKS if any(t == task for t, _ in panels)]
+    # A verdict that is drawn is right: it has no line of errors.
+    lines = []
+    for task in TASKS:
+        if any(t == task for t, _ in panels):
+            lines.append((task, f"{task}: ns a query", draw_times))
+            if task != "intersect":
+                lines.append((task, "worst error", draw_errors))
     columns = common.in_order(shapes for _, shapes in panels)
     bests = {key: best.of(rows, "distance") for key, rows in panels.items()}
     styles = best.styles_of({name for found in bests.values() for name, _ in found})
     figure, grid = common.pyplot.subplots(
-        len(tasks), len(columns), squeeze=False, sharey=True, constrained_layout=True,
-        figsize=(common.PAGE_WIDTH * 1.5, 0.4 + 1.5 * len(tasks)))
-    for line, task in enumerate(tasks):
+        len(lines), len(columns), squeeze=False, sharey="row", constrained_layout=True,
+        figsize=(common.PAGE_WIDTH * 1.5, 0.4 + 1.35 * len(lines)))
+    for line, (task, label, draw_points) in enumerate(lines):
         for column, shapes in enumerate(columns):
             axes = grid[line][column]
             found = bests.get((task, shapes))
@@ -54,21 +83,16 @@ def draw(tables):
             for name, style in styles.items():
                 points = sorted((distances.index(distance), row)
                                 for (own, distance), row in found.items() if own == name)
-                if not points:
-                    continue
-                y = [row["seconds"] * 1e9 for _, row in points]
-                low, high = ([abs((row["seconds"] if row[end] is None else row[end]) - row["seconds"]) * 1e9
-                              for _, row in points] for end in ("seconds_low", "seconds_high"))
-                axes.errorbar([x for x, _ in points], y, yerr=[low, high], capsize=1.2,
-                              elinewidth=0.6, capthick=0.6, **style)
+                if points:
+                    draw_points(axes, points, style)
             axes.set_yscale("log")
             axes.grid(True)
             axes.set_xticks(range(len(distances)), [f"{distance:g}" for distance in distances], rotation=60)
             if line == 0:
                 axes.set_title(shapes, loc="left")
             if column == 0:
-                axes.set_ylabel(f"{task}: ns a query")
-            if line + 1 == len(tasks):
+                axes.set_ylabel(label)
+            if line + 1 == len(lines):
                 axes.set_xlabel("distance (m)")
     common.legend_below(figure, [Line2D([], [], label=name, **style)
                                  for name, style in styles.items()], columns=9)
