@@ -72,11 +72,14 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
   EXPECT_TRUE(std::filesystem::exists(out() / "machine.csv"));
 }
 
+// Every broad phase with some narrow phases, and every narrow phase with one broad phase.
 TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
   const Campaign c = campaign(
-      "broad = 'ours'\nnarrow = 'ours'\nthreads = [1, 2, 3]\npairing = 'product'\nframes = 2\n"
-      "tasks = ['intersect', 'distance', 'penetration']\nboxes = ['tight', 'loose']\n"
-      "seconds = 1e-6");
+      "threads = [1, 2, 3]\npairing = 'product'\nframes = 2\nboxes = ['tight', 'loose']\n"
+      "tasks = ['intersect', 'distance', 'penetration']\n"
+      "seconds = 1e-6\nsquares = 6\nrounds = 1\nprocesses = 1\n"
+      "[[group]]\nbroad = 'ours'\nnarrow = ['gjk', 'closed-form']\nscalars = 'double'\n"
+      "[[group]]\nbroad = 'hilbert-pyramid'\nnarrow = 'ours'\n");
   const RunResult result = run_campaign(c, out());
   EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
   std::map<std::string, std::set<std::string>> by_cell;
