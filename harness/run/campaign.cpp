@@ -9,13 +9,20 @@
 namespace touchstone {
 namespace {
 
+// "hulls_8" is the name of "hulls_8 gap 0.1" too.
+bool is_called(std::string_view scene, std::string_view name) {
+  if (!scene.starts_with(name)) return false;
+  const std::string_view rest = scene.substr(name.size());
+  return rest.empty() || rest.starts_with(" gap ") || rest.starts_with(" depth ");
+}
+
 bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
   const bool narrow = !cell.narrow.empty();
   const auto names = [](const auto& wanted, const auto& value) {
     return !wanted || *wanted == value;
   };
   return (!rule.broad || (!narrow && *rule.broad == cell.broad)) &&
-         names(rule.narrow, cell.narrow) && names(rule.scene, cell.scene) &&
+         names(rule.narrow, cell.narrow) && (!rule.scene || is_called(cell.scene, *rule.scene)) &&
          (!rule.scalar || rule.scalar == cell.scalar) && (!rule.task || rule.task == cell.task) &&
          names(rule.pair_kind, cell.pair_kind) && names(rule.boxes, cell.boxes) &&
          names(rule.threads, cell.threads) && (!rule.warm || rule.warm == cell.warm) &&

@@ -32,7 +32,7 @@ enum class Pairing : std::uint8_t {
 // Which cells a rule is about: those of which all that it names holds.
 struct CampaignRule {
   std::optional<std::string> broad, narrow;  // a rule that names one is about no cell of the other
-  std::optional<std::string> scene;          // its name
+  std::optional<std::string> scene;          // its name, which may leave out the gap
   std::optional<Precision> scalar;
   std::optional<Task> task;
   std::optional<std::string> pair_kind;  // "box-sphere"

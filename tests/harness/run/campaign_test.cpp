@@ -69,6 +69,23 @@ TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
   EXPECT_TRUE(ruled.groups[0].admits(cell));
 }
 
+TEST_F(CampaignFile, RulesNameAPlacedSceneWithOrWithoutItsGap) {
+  const auto admits = [&](const std::string& named, const std::string& scene) {
+    const Campaign ruled =
+        read("scenes = 'a.toml'\nexclude = [{scene = '" + named + "', narrow = 'gjk'}]");
+    CampaignCell cell;
+    cell.scene = scene;
+    cell.narrow = "gjk";
+    return ruled.groups[0].admits(cell);
+  };
+  EXPECT_FALSE(admits("hulls", "hulls"));
+  EXPECT_FALSE(admits("hulls", "hulls gap 0.1"));
+  EXPECT_FALSE(admits("hulls", "hulls depth 0.1"));
+  EXPECT_FALSE(admits("hulls gap 0.1", "hulls gap 0.1"));
+  EXPECT_TRUE(admits("hulls gap 0.1", "hulls gap 0.001"));
+  EXPECT_TRUE(admits("hulls", "hulls_8 gap 0.1"));
+}
+
 TEST_F(CampaignFile, KeysOfLargeCells) {
   const Campaign plain = read("scenes = 'a.toml'");
   EXPECT_EQ(plain.groups[0].isa, std::vector<std::optional<Isa>>{std::nullopt});
