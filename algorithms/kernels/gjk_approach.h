@@ -66,6 +66,10 @@ template <class Scalar>
 Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
                           const WarmStart* start = nullptr);
 
+template <class Scalar>
+using ApproachFunction = Approach<Scalar> (*)(SupportPair<Scalar>&, const ApproachGoal<Scalar>&,
+                                              const WarmStart*);
+
 extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
                                          const WarmStart*);
 extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,

@@ -38,8 +38,8 @@ template <class Scalar>
 Approach<Scalar> GjkQuery<Scalar>::approach_from(SupportPair<Scalar>& pair,
                                                  const ApproachGoal<Scalar>& goal,
                                                  WarmStart* start) {
-  if (start == nullptr) return approach(pair, goal);
-  const Approach<Scalar> found = approach(pair, goal, start);
+  const Approach<Scalar> found = approach_(pair, goal, start);
+  if (start == nullptr) return found;
   if (!found.as_before) start->keep(pair, found.simplex, found.direction);
   return found;
 }

@@ -31,6 +31,9 @@ class GjkQuery {
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
              const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
 
+  // From now on walks by this one, which is for the cores that are to come, and not by `approach`.
+  void walk_by(ApproachFunction<Scalar> function) { approach_ = function; }
+
   // Of a distance between the bodies, in the pair's unit.
   Scalar tolerance(bool polytopes) const {
     const double smooth = sizeof(Scalar) == 8 ? 1e-10 : 1e-5;
@@ -49,6 +52,7 @@ class GjkQuery {
                      Outcome& outcome);
 
   GjkQuerySettings settings_;
+  ApproachFunction<Scalar> approach_ = approach<Scalar>;
   ExpandingPolytope<Scalar> polytope_;
 };
 

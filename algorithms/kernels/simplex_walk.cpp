@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/kernels/simplex_walk_levels.inl"
+
 namespace touchstone {
 // The determinants of its corners by threes, each with the origin, keep their signs. With corners
 // no longer than m that are off by r = 107 u (proven_rounding says why; u is half of epsilon) they
@@ -25,33 +27,11 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   return least > enough || most < -enough;
 }
 
-namespace {
-
-using real_lanes::Quad;
-
-constexpr unsigned all_corners = 0xf;
-
-#define TOUCHSTONE_LANES hull_scan
-#define TOUCHSTONE_LOOPS "algorithms/kernels/simplex_walk.inl"
-#include "algorithms/kernels/every_level.inl"
-
-template <bool numbered, class Scalar>
-Walk<Scalar> walk_here(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
-                       const WalkStart<Scalar>& start) {
-  switch (isa()) {
-    case Isa::avx512: return avx512::walk_at<numbered>(pair, goal, tolerance, start);
-    case Isa::avx2: return avx2::walk_at<numbered>(pair, goal, tolerance, start);
-    default: return baseline::walk_at<numbered>(pair, goal, tolerance, start);
-  }
-}
-
-}  // namespace
-
 template <class Scalar>
 Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
                   const WalkStart<Scalar>& start) {
-  return goal.numbered ? walk_here<true>(pair, goal, tolerance, start)
-                       : walk_here<false>(pair, goal, tolerance, start);
+  return goal.numbered ? walk_here<true, AnyCore, AnyCore>(pair, goal, tolerance, start)
+                       : walk_here<false, AnyCore, AnyCore>(pair, goal, tolerance, start);
 }
 
 template bool is_surely_inside(const Simplex<float>&);

@@ -38,25 +38,27 @@ class QuadShape {
   }
 
   // `corner` becomes its number, where the core has corners.
+  template <class Which>
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector support(const Vector& direction,
                                                      std::uint32_t& corner) {
     using Core = typename SupportShape<Scalar>::Core;
     const SupportShape<Scalar>& shape = turned_.shape();
+    const Core core = Which::of(shape);
     const Vector d = rows_[0] * direction[0] + rows_[1] * direction[1] + rows_[2] * direction[2];
-    if (shape.core == Core::hull && shape.neighbours_begin.empty()) {
+    if (core == Core::hull && shape.neighbours_begin.empty()) {
       const std::span<const hull_scan::VertexBlock<Scalar>> blocks(shape.vertices);
       corner = furthest_at(blocks, d[0], d[1], d[2]).index;
       const Vec3<Scalar> v = shape.scanned_vertex(corner);
       return turn(v.x(), v.y(), v.z());
     }
-    if (shape.core == Core::box) {
+    if (core == Core::box) {
       const Vec3<Scalar>& e = shape.extents;
       corner = negative(d[0]) | negative(d[1]) << 1 | negative(d[2]) << 2;
       return turn(std::copysign(e.x(), d[0]), std::copysign(e.y(), d[1]),
                   std::copysign(e.z(), d[2]));
     }
-    const Vector point = quad(turned_.support(vec<Scalar>(direction)));
-    switch (shape.core) {
+    const Vector point = quad(turned_.template support<ScanAtBest, Which>(vec<Scalar>(direction)));
+    switch (core) {
       case Core::point: corner = 0; break;
       case Core::segment: corner = negative(d[2]) << 2; break;
       case Core::hull: corner = turned_.last_corner(); break;
@@ -222,7 +224,7 @@ struct QuadSimplex {
   }
 };
 
-template <bool numbered, class Scalar>
+template <bool numbered, class WhichA, class WhichB, class Scalar>
 TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal,
                                        Scalar tolerance, const WalkStart<Scalar>& start) {
   using Vector = Quad<Scalar>;
@@ -248,8 +250,8 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     ++found.iterations;
     pair.count_support();
     CornerPair corners;
-    const Vector on_a = a.support(-way, corners.a);
-    const Vector on_b = b.support(way, corners.b) + centre_b;
+    const Vector on_a = a.template support<WhichA>(-way, corners.a);
+    const Vector on_b = b.template support<WhichB>(way, corners.b) + centre_b;
     const Vector point = on_a - on_b;
     found.lower = dot(way, point) / length;
     if (found.lower > apart && (goal.only_apart || nearest - found.lower <= tolerance)) {

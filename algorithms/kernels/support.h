@@ -80,12 +80,12 @@ class SupportPair {
               const Pose& pose_b);
 
   // The point of the difference of the cores, A - B, that lies furthest in the direction. Counted.
-  template <class Scan = ScanAtBest>
+  template <class Scan = ScanAtBest, class WhichA = AnyCore, class WhichB = AnyCore>
   DifferencePoint<Scalar> support(const Vec3<Scalar>& direction) {
     ++support_calls_;
     DifferencePoint<Scalar> point;
-    point.a = a_.template support<Scan>(direction);
-    point.b = b_.template support<Scan>(-direction) + centre_b_;
+    point.a = a_.template support<Scan, WhichA>(direction);
+    point.b = b_.template support<Scan, WhichB>(-direction) + centre_b_;
     point.difference = point.a - point.b;
     return point;
   }

@@ -10,20 +10,22 @@
 
 namespace touchstone {
 
+enum class SupportCore : std::uint8_t {
+  point,
+  segment,
+  box,
+  cylinder,
+  cone,
+  ellipsoid,
+  hull,
+  halfspace
+};
+
 // A shape made ready for one scalar type, once for each scene. The core is stored relative to
 // `centre` and divided by the power of two `unit`, so that its coordinates are at most 1.
 template <class Scalar>
 struct SupportShape {
-  enum class Core : std::uint8_t {
-    point,
-    segment,
-    box,
-    cylinder,
-    cone,
-    ellipsoid,
-    hull,
-    halfspace
-  };
+  using Core = SupportCore;
 
   explicit SupportShape(const Shape& shape);
 

@@ -23,6 +23,22 @@ struct ScanAll : ScanAtBest {
   static constexpr bool climbs = false;
 };
 
+// Which core a shape has: as it says itself, at run time, ...
+struct AnyCore {
+  template <class Scalar>
+  static SupportCore of(const SupportShape<Scalar>& shape) {
+    return shape.core;
+  }
+};
+// ... or this one, known when the code is compiled.
+template <SupportCore core>
+struct KnownCore {
+  template <class Scalar>
+  static constexpr SupportCore of(const SupportShape<Scalar>&) {
+    return core;
+  }
+};
+
 // The corners of a core by numbers: a point has 0, a segment and a box have a bit for each axis,
 // set where the corner is on the negative side, a hull has its vertices'. Round cores have none.
 inline constexpr std::uint32_t no_corner = ~std::uint32_t{0};
@@ -45,8 +61,9 @@ class TurnedShape {
 
   // The point of the core that lies furthest in the direction, relative to the centre. The
   // direction need not have unit length, but its square must neither overflow nor vanish.
-  // `Scan` looks at all vertices of a hull: that of a level for a caller compiled for it.
-  template <class Scan = ScanAtBest>
+  // `Scan` looks at all vertices of a hull: that of a level for a caller compiled for it. `Which`
+  // says which core it is.
+  template <class Scan = ScanAtBest, class Which = AnyCore>
   Vec3<Scalar> support(const Vec3<Scalar>& direction);
 
   // Whether the core has a corner of that number.
@@ -103,12 +120,13 @@ class TurnedShape {
 };
 
 template <class Scalar>
-template <class Scan>
+template <class Scan, class Which>
 inline Vec3<Scalar> TurnedShape<Scalar>::support(const Vec3<Scalar>& direction) {
+  const Core core = Which::of(*shape_);
   const Vec3<Scalar>& e = shape_->extents;
-  if (shape_->core == Core::point) return Vec3<Scalar>::Zero();
+  if (core == Core::point) return Vec3<Scalar>::Zero();
   const Vec3<Scalar> d = matrix_.transpose() * direction;
-  switch (shape_->core) {
+  switch (core) {
     case Core::segment: return std::copysign(e.z(), d.z()) * matrix_.col(2);
     case Core::box:
       return matrix_ * Vec3<Scalar>{std::copysign(e.x(), d.x()), std::copysign(e.y(), d.y()),

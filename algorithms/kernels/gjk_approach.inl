@@ -1,3 +1,5 @@
+// The loop of gjk_approach.h for one way to find the cores' support points, `Cores`. Included by
+// the files that compile it for some; local to each, so that what is called once is inlined there.
 #include "algorithms/kernels/gjk_approach.h"
 
 #include <algorithm>
@@ -82,14 +84,14 @@ bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const W
 }
 
 // Whether the quick walk is all that was needed; if not, how far it came.
-template <class Scalar>
+template <class Cores, class Scalar>
 bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
                 const WalkStart<Scalar>& begin, bool numbered, Approach<Scalar>& found) {
   using End = typename Approach<Scalar>::End;
   const WalkGoal first{.only_apart = goal.task != Task::distance,
                        .most_iterations = goal.most_iterations,
                        .numbered = numbered};
-  const Walk<Scalar> quick = walk(pair, first, goal.tolerance, begin);
+  const Walk<Scalar> quick = Cores::walk(pair, first, goal.tolerance, begin);
   found.iterations += quick.iterations;
   if (quick.moved) found.simplex = quick.simplex;
   if (quick.end == WalkEnd::apart) {
@@ -116,11 +118,9 @@ bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
   return true;
 }
 
-}  // namespace
-
-template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                          const WarmStart* start) {
+template <class Cores, class Scalar>
+Approach<Scalar> approach_by(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                             const WarmStart* start) {
   using End = typename Approach<Scalar>::End;
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const Task task = goal.task;
@@ -132,13 +132,15 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
   Simplex<Scalar>& simplex = found.simplex;
 
   WalkStart<Scalar> begin(-pair.centre_b());
-  if (start != nullptr && resume(pair, goal, *start, begin, found)) {
-    found.as_before = true;
-    return found;
+  if constexpr (Cores::start_warm) {
+    if (start != nullptr && resume(pair, goal, *start, begin, found)) {
+      found.as_before = true;
+      return found;
+    }
   }
   const bool may_switch = goal.momentum == Momentum::where_it_pays && pair.is_smooth();
   if (goal.momentum != Momentum::nesterov && !may_switch && !goal.duality_gap &&
-      walk_first(pair, goal, begin, start != nullptr, found)) {
+      walk_first<Cores>(pair, goal, begin, start != nullptr, found)) {
     return found;
   }
   const Scalar length = begin.way.norm();
@@ -155,7 +157,7 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
       accelerated = true;
       nesterov = {false, found.nearest.distance * found.nearest.direction};
     }
-    const DifferencePoint<Scalar> point = pair.support(direction);
+    const DifferencePoint<Scalar> point = Cores::support(pair, direction);
     found.direction = direction;
     const Scalar lower = -direction.dot(point.difference);
     const bool of_normal = task == Task::penetration && !accelerated;
@@ -223,9 +225,5 @@ Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>&
   return found;
 }
 
-template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
-                                  const WarmStart*);
-template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
-                                   const WarmStart*);
-
+}  // namespace
 }  // namespace touchstone

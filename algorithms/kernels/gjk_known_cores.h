@@ -1,0 +1,27 @@
+// GJK's loop compiled for two cores that are known: no support call asks which they are.
+//
+// There is one for each two of the seven bounded cores, whose support maps are seven different
+// pieces of code: point (sphere), segment (capsule), box, cylinder, cone, ellipsoid, hull. How a
+// hull is searched is a matter of that hull, and still asked. They start cold.
+#pragma once
+
+#include <array>
+
+#include "algorithms/kernels/gjk_approach.h"
+
+namespace touchstone {
+
+inline constexpr std::size_t known_cores = static_cast<std::size_t>(SupportCore::halfspace);
+
+// What `approach` of gjk_approach.h finds, to the last bit, by a's core and b's, of which a's comes
+// first in the order of SupportCore, or is the same; null for others.
+template <class Scalar>
+using ApproachTable = std::array<std::array<ApproachFunction<Scalar>, known_cores>, known_cores>;
+
+template <class Scalar>
+ApproachTable<Scalar> approaches_of_known_cores();
+
+extern template ApproachTable<float> approaches_of_known_cores();
+extern template ApproachTable<double> approaches_of_known_cores();
+
+}  // namespace touchstone

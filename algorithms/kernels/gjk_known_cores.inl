@@ -1,0 +1,32 @@
+// Fills a part of the table of gjk_known_cores.h: included by the files that share the compiling.
+#include "algorithms/kernels/gjk_approach.inl"
+#include "algorithms/kernels/gjk_known_cores.h"
+#include "algorithms/kernels/simplex_walk_levels.inl"
+
+namespace touchstone {
+namespace {
+
+template <SupportCore a, SupportCore b>
+struct KnownCores {
+  static constexpr bool start_warm = false;
+
+  template <class Scalar>
+  static DifferencePoint<Scalar> support(SupportPair<Scalar>& pair, const Vec3<Scalar>& direction) {
+    return pair.template support<ScanAtBest, KnownCore<a>, KnownCore<b>>(direction);
+  }
+  template <class Scalar>
+  static Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                           const WalkStart<Scalar>& start) {
+    return walk_here<false, KnownCore<a>, KnownCore<b>>(pair, goal, tolerance, start);
+  }
+};
+
+// Core a with each of the others, none of which comes before it.
+template <SupportCore a, SupportCore... others, class Scalar>
+void add_pairs(ApproachTable<Scalar>& table) {
+  const auto place = [](SupportCore core) { return static_cast<std::size_t>(core); };
+  ((table[place(a)][place(others)] = &approach_by<KnownCores<a, others>, Scalar>), ...);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,18 @@
+// The parts of the table of gjk_known_cores.h: seven pairs of cores each, named after the first of
+// the two. Each is compiled in a file of its own, so that they are compiled side by side.
+#pragma once
+
+#include "algorithms/kernels/gjk_known_cores.h"
+
+namespace touchstone {
+
+void add_points(ApproachTable<float>& table);
+void add_points(ApproachTable<double>& table);
+void add_segments_and_hulls(ApproachTable<float>& table);
+void add_segments_and_hulls(ApproachTable<double>& table);
+void add_boxes_and_ellipsoids(ApproachTable<float>& table);
+void add_boxes_and_ellipsoids(ApproachTable<double>& table);
+void add_cylinders_and_cones(ApproachTable<float>& table);
+void add_cylinders_and_cones(ApproachTable<double>& table);
+
+}  // namespace touchstone

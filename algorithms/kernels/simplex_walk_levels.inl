@@ -1,0 +1,32 @@
+// The walk of simplex_walk.h at the level of vector instructions in use, compiled for the two cores
+// that it is told, or for any. Included by the files that compile it for some; local to each.
+#include <cmath>
+#include <limits>
+
+#include "algorithms/kernels/simplex_walk.h"
+
+namespace touchstone {
+namespace {
+
+using real_lanes::Quad;
+
+constexpr unsigned all_corners = 0xf;
+
+#define TOUCHSTONE_LANES hull_scan
+#define TOUCHSTONE_LOOPS "algorithms/kernels/simplex_walk.inl"
+#include "algorithms/kernels/every_level.inl"
+
+template <bool numbered, class WhichA, class WhichB, class Scalar>
+Walk<Scalar> walk_here(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                       const WalkStart<Scalar>& start) {
+  switch (isa()) {
+    case Isa::avx512:
+      return avx512::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start);
+    case Isa::avx2: return avx2::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start);
+    default: return baseline::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start);
+  }
+}
+
+}  // namespace
+
+}  // namespace touchstone
