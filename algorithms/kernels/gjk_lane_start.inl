@@ -76,6 +76,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   std::memcpy(&walkers.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
   walkers.corners_a[lane] = a.vertices;
   walkers.corners_b[lane] = b.vertices;
+  // Looked at once the other lanes have theirs.
+  if (a.vertices != nullptr) fetch_blocks(a.vertices, a.block_count);
+  if (b.vertices != nullptr) fetch_blocks(b.vertices, b.block_count);
+  walkers.blocks_a[lane] = a.block_count;
+  walkers.blocks_b[lane] = b.block_count;
   return Loaded::walks;
 }
 
@@ -142,6 +147,17 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned scale_columns(Vectors<Scalar> colum
                           Lanes::less(greatest, Lanes::broadcast(Scalar(1.001)))));
 }
 
+// What a pair will be read of, a while before.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void fetch_bodies(const PairTable<Scalar>& table,
+                                                      const LaneGoal<Scalar>& goal,
+                                                      std::uint32_t pair) {
+  for (const std::uint32_t body : {table.pairs.first[pair], table.pairs.second[pair]}) {
+    fetch(&table.pairs.poses[body], sizeof(Pose));
+    fetch(&goal.shapes[table.pairs.shape_of[body]], sizeof(LaneShape<Scalar>));
+  }
+}
+
 // Gives the next pairs of the queue to the lanes that do not walk, and the places of those that the
 // lanes do not take to `left`; how many are there then.
 template <class Scalar>
@@ -151,10 +167,12 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
                                           Walkers<Scalar>& walkers, std::size_t left) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
+  constexpr std::size_t ahead = 8;  // pairs
   unsigned fresh = 0;
   for (std::size_t lane = 0; lane < Lanes::width && next < queue.size(); ++lane) {
     if ((walkers.active >> lane & 1) != 0) continue;
     while (next < queue.size()) {
+      if (next + ahead < queue.size()) fetch_bodies(table, goal, queue[next + ahead]);
       const std::uint32_t place = queue[next++];
       const Loaded loaded = load_pair<Scalar>(table, goal, place, lane, walkers);
       if (loaded == Loaded::walks) {
@@ -184,10 +202,18 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
   walkers.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
   walkers.radius_a = sizes[1];
   walkers.radius_b = sizes[3];
-  turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a, goal.vertices_a,
-                    nullptr, walkers.a);
-  turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b, goal.vertices_b,
-                    &walkers.centre_b, walkers.b);
+  if (goal.scans_a) {
+    std::ranges::copy(columns_a, walkers.a);
+  } else {
+    turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a,
+                      goal.vertices_a, nullptr, walkers.a);
+  }
+  if (goal.scans_b) {
+    std::ranges::copy(columns_b, walkers.b);
+  } else {
+    turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b,
+                      goal.vertices_b, &walkers.centre_b, walkers.b);
+  }
 
   walkers.doubtful |= fresh & ~usable;
   walkers.active |= fresh & usable;

@@ -17,8 +17,9 @@ struct LaneSimplex {
 
 template <class Scalar>
 struct LaneStep {
-  Vectors<Scalar> way;     // through the nearest point, of any length
-  unsigned found, inside;  // lanes, as bits: a way, or the origin surely inside
+  Vectors<Scalar> way;  // through the nearest point, of any length
+  // Lanes, as bits: a way; the origin surely inside; inside as it seems, but too near a face.
+  unsigned found, inside, unsure;
 };
 
 template <class Scalar, bool points>
@@ -28,52 +29,97 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void put_where(typename RealLanes<Scalar>::M
   if constexpr (points) to.on_a = select<Scalar>(mask, from.on_a, to.on_a);
 }
 
-// Whether the origin is inside a tetrahedron whatever rounding did to its corners: the determinants
-// of its corners by threes, each with the origin, keep their signs. `sides` are those of the faces
-// at a. Corners that are off by r change that of p, q and s by no more than r (|q||s| + |p||s| +
-// |p||q|) <= r (p^2 + q^2 + s^2) and what r^2 adds, for which r is half as much again; its own
-// rounding is less than 20 u times the same squares and the greatest length.
+// Lanes, of those asked for, in which the origin is inside a tetrahedron whatever rounding did to
+// its corners: the determinants of its corners by threes, each with the origin, keep their signs.
+// `sides` are those of the faces at a. Corners that are off by r change that of p, q and s by no
+// more than r (|q x s| + |p x s| + |p x q|) + r^2 (|p| + |q| + |s|) + r^3; its own rounding is less
+// than 20 u times the squares of the lengths and the greatest length. As |q||s| + |p||s| + |p||q|
+// <= p^2 + q^2 + s^2, there is a quick test that is enough for most; where the origin is near a
+// face only the products themselves say so.
 template <class Scalar>
-TOUCHSTONE_TARGET unsigned surely_inside(const LaneSimplex<Scalar>& simplex,
-                                         const Vectors<Scalar>& a,
+TOUCHSTONE_TARGET unsigned surely_inside(const Vectors<Scalar>& a, const Vectors<Scalar>& b,
+                                         const Vectors<Scalar>& c, const Vectors<Scalar>& d,
                                          const typename RealLanes<Scalar>::Real sides[3],
-                                         Scalar corner_error) {
+                                         Scalar corner_error, unsigned asked) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
-  const Vectors<Scalar>&b = simplex.b.point, &c = simplex.c.point, &d = simplex.d.point;
   const Real opposite =
       dot<Scalar>(b, cross<Scalar>(difference<Scalar>(d, b), difference<Scalar>(c, b)));
+  const Real all[4] = {sides[0], sides[1], sides[2], opposite};
+  const auto keep_signs = [&](const Real errors[4]) TOUCHSTONE_TARGET {
+    Real least = all[0] - errors[0], most = all[0] + errors[0];
+    for (int k = 1; k < 4; ++k) {
+      least = Lanes::min(least, all[k] - errors[k]);
+      most = Lanes::max(most, all[k] + errors[k]);
+    }
+    const Real zero = Lanes::broadcast(0);
+    return asked & Lanes::bits(either(Lanes::less(zero, least), Lanes::less(most, zero)));
+  };
   const Real aa = dot<Scalar>(a, a), bb = dot<Scalar>(b, b);
   const Real cc = dot<Scalar>(c, c), dd = dot<Scalar>(d, d);
-  const Real longest = Lanes::sqrt(Lanes::max(Lanes::max(aa, bb), Lanes::max(cc, dd)));
-  const Real error =
-      Lanes::broadcast(Scalar(1.5) * corner_error) + 20 * unit_roundoff<Scalar> * longest;
-  const Real errors[4] = {error * (aa + bb + cc), error * (aa + cc + dd), error * (aa + dd + bb),
-                          error * (bb + cc + dd)};
-  const Real all[4] = {sides[0], sides[1], sides[2], opposite};
-  Real least = all[0] - errors[0], most = all[0] + errors[0];
-  for (int k = 1; k < 4; ++k) {
-    least = Lanes::min(least, all[k] - errors[k]);
-    most = Lanes::max(most, all[k] + errors[k]);
+  const Real squares[4] = {aa + bb + cc, aa + cc + dd, aa + dd + bb, bb + cc + dd};
+  const Real greatest = Lanes::max(Lanes::max(aa, bb), Lanes::max(cc, dd));
+  const Real longest = Lanes::sqrt(greatest);
+  const Real rounding = 20 * unit_roundoff<Scalar> * longest;
+  const Real error = Lanes::broadcast(Scalar(1.5) * corner_error) + rounding;
+  Real errors[4];
+  for (int k = 0; k < 4; ++k) errors[k] = error * squares[k];
+  const unsigned quickly = keep_signs(errors);
+  if (quickly == asked) return quickly;
+  const auto area = [](const Vectors<Scalar>& p, const Vectors<Scalar>& q) TOUCHSTONE_TARGET {
+    const Vectors<Scalar> product = cross<Scalar>(p, q);
+    return Lanes::sqrt(dot<Scalar>(product, product));
+  };
+  const Real ab = area(a, b), ac = area(a, c), ad = area(a, d);
+  const Real bc = area(b, c), cd = area(c, d), db = area(d, b);
+  // The areas' own rounding comes to 16 u of the greatest square, and what is relative to 1 / 64.
+  const Real areas[4] = {ab + bc + ac, ac + cd + ad, ad + db + ab, bc + cd + db};
+  const Scalar r = corner_error * (Scalar(1) + Scalar(1) / 64);
+  const Real rest =
+      (16 * unit_roundoff<Scalar> * greatest + 3 * r * longest) + Lanes::broadcast(r * r);
+  for (int k = 0; k < 4; ++k) errors[k] = r * (areas[k] + rest) + rounding * squares[k];
+  return quickly | keep_signs(errors);
+}
+
+// The same of a double pyramid: the face of b, c and d, and the corners a and e on its two sides.
+// An origin that is too near that face for either half is well inside one of the three tetrahedra
+// around the axis a e.
+template <class Scalar>
+TOUCHSTONE_TARGET unsigned surely_between(const Vectors<Scalar>& a, const Vectors<Scalar>& e,
+                                          const Vectors<Scalar>& b, const Vectors<Scalar>& c,
+                                          const Vectors<Scalar>& d, Scalar corner_error,
+                                          unsigned asked) {
+  using Real = typename RealLanes<Scalar>::Real;
+  const Vectors<Scalar>* const ring[4] = {&b, &c, &d, &b};
+  const Vectors<Scalar> ae = difference<Scalar>(e, a);
+  unsigned inside = 0;
+  for (int k = 0; k < 3 && inside != asked; ++k) {
+    const Vectors<Scalar>&p = *ring[k], &q = *ring[k + 1];
+    const Vectors<Scalar> ap = difference<Scalar>(p, a), aq = difference<Scalar>(q, a);
+    const Real sides[3] = {dot<Scalar>(a, cross<Scalar>(ae, ap)),
+                           dot<Scalar>(a, cross<Scalar>(ap, aq)),
+                           dot<Scalar>(a, cross<Scalar>(aq, ae))};
+    inside |= surely_inside<Scalar>(a, e, p, q, sides, corner_error, asked);
   }
-  const Real zero = Lanes::broadcast(0);
-  return Lanes::bits(either(Lanes::less(zero, least), Lanes::less(most, zero)));
+  return inside;
 }
 
 // In the lanes `on`: the simplex becomes the feature that is nearest, which the new corner is on.
 // `solid`: some lane has d. Regions are told apart by the products of edges: bc is that of the
 // edges from the new corner, which is a, to b and to c. Where rounding lets them overlap, the
-// first is taken of corner, edges ad, ac, ab, faces adb, acd, abc.
+// first is taken of corner, edges ad, ac, ab, faces adb, acd, abc. Where the origin is inside, sure
+// or not, the simplex stays as it was.
 template <class Scalar, bool points, bool solid>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scalar>& simplex,
                                                                const Corner<Scalar>& corner,
-                                                               typename RealLanes<Scalar>::Mask on,
+                                                               typename RealLanes<Scalar>::Mask set,
                                                                Scalar corner_error) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   using Mask = typename Lanes::Mask;
   const Real zero = Lanes::broadcast(0);
   const Corner<Scalar> b = simplex.b, c = simplex.c, d = simplex.d;
+  Mask on = set;
   const Mask has_b = both(on, simplex.has_b), has_c = both(on, simplex.has_c);
   const Mask no_c = without(on, has_c), none = without(on, on);
   const Vectors<Scalar>& a = corner.point;
@@ -93,7 +139,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
   Mask face_b = without(without(has_c, b_from_c), c_from_b);
   Mask edge_d = none, face_c = none, face_d = none;
   LaneStep<Scalar> step;
-  step.inside = 0;
+  step.inside = step.unsure = 0;
   Vectors<Scalar> edge = select<Scalar>(edge_c, ac, ab);
   Real square = Lanes::select(edge_c, cc, bb), along = Lanes::select(edge_c, along_c, along_b);
   if constexpr (solid) {
@@ -125,12 +171,18 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
     normal = select<Scalar>(face_d, adb, select<Scalar>(face_c, acd, normal));
     side = Lanes::select(face_d, sides[2], Lanes::select(face_c, sides[1], side));
     step.inside = Lanes::bits(without(has_d, either(either(out_b, out_c), out_d)));
-    if (step.inside != 0) step.inside &= surely_inside<Scalar>(simplex, a, sides, corner_error);
+    if (step.inside != 0) {
+      const unsigned all = step.inside;
+      on = without(on, Lanes::mask(all));
+      step.inside = surely_inside<Scalar>(a, b.point, c.point, d.point, sides, corner_error, all);
+      step.unsure = all & ~step.inside;
+    }
   }
 
   const Mask on_corner = without(on, past);
-  const Mask on_edge = without(either(either(edge_b, edge_c), edge_d), on_corner);
-  const Mask on_face = without(without(either(either(face_b, face_c), face_d), on_corner), on_edge);
+  const Mask on_edge = both(on, without(either(either(edge_b, edge_c), edge_d), on_corner));
+  const Mask on_face =
+      both(on, without(without(either(either(face_b, face_c), face_d), on_corner), on_edge));
   const Real one = Lanes::broadcast(1), inverse = one / square;
   Vectors<Scalar> way = moved<Scalar>(a, along * inverse, edge);
   // What is left along the edge is rounding, and would tilt the support plane.
@@ -142,12 +194,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
 
   // What is kept beside a: of ab and abc first b, of ad and adb first d, and c of the others.
   const Mask by_b = without(without(face_b, face_c), face_d);
-  const Mask first_b = either(without(without(edge_b, edge_c), edge_d), both(by_b, on_face));
-  put_where<Scalar, points>(by_b, c, simplex.d);
-  if constexpr (solid) put_where<Scalar, points>(face_d, b, simplex.d);
+  const Mask first_b =
+      both(on, either(without(without(edge_b, edge_c), edge_d), both(by_b, on_face)));
+  put_where<Scalar, points>(both(on, by_b), c, simplex.d);
+  if constexpr (solid) put_where<Scalar, points>(both(on, face_d), b, simplex.d);
   put_where<Scalar, points>(first_b, b, simplex.c);
   if constexpr (solid) {
-    put_where<Scalar, points>(either(edge_d, both(face_d, on_face)), d, simplex.c);
+    put_where<Scalar, points>(both(on, either(edge_d, both(face_d, on_face))), d, simplex.c);
   }
   put_where<Scalar, points>(on, corner, simplex.b);
   simplex.has_b = either(simplex.has_b, on);

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "algorithms/kernels/fetch.h"
 #include "algorithms/kernels/pair_lanes.h"
 #include "algorithms/kernels/support.h"
 
@@ -23,7 +24,8 @@ struct LaneGoal {
   const LaneShape<Scalar>* shapes;
   const hull_scan::VertexBlock<Scalar>* some_vertices;  // of a hull, where there is one
   int halves_a, halves_b;                               // of a box 3, of a segment 1, else none
-  std::uint32_t vertices_a, vertices_b;  // the most of a hull, in fours; of others none
+  std::uint32_t vertices_a, vertices_b;  // turned: the most of a hull, in fours; of others none
+  bool scans_a, scans_b;                 // hulls that are not turned
   bool round;                            // a body has a radius
   bool centred;                          // all centres are the origins of the bodies
   bool distances;
@@ -50,9 +52,26 @@ struct CornerError {
   static constexpr Scalar shifted = 104 * unit_roundoff<Scalar>;
 };
 
-#define TOUCHSTONE_LANES real_lanes
+#define TOUCHSTONE_LANES hull_scan
 #define TOUCHSTONE_LOOPS "algorithms/kernels/gjk_lanes.inl"
 #include "algorithms/kernels/every_level.inl"
+
+// At the level in use; in doubles not at the lowest.
+template <class Scalar>
+std::size_t walk_here(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
+                      std::span<const std::uint32_t> queue, std::size_t left) {
+  if (queue.empty()) return left;
+  switch (isa()) {
+    case Isa::avx512: return avx512::walk_all(table, goal, queue, left);
+    case Isa::avx2: return avx2::walk_all(table, goal, queue, left);
+    case Isa::baseline: break;
+  }
+  if constexpr (std::is_same_v<Scalar, float>) {
+    return baseline::walk_all(table, goal, queue, left);
+  } else {
+    return left;
+  }
+}
 
 int halves_of(ShapeKind kind) {
   return kind == ShapeKind::box ? 3 : kind == ShapeKind::capsule ? 1 : 0;
@@ -64,6 +83,7 @@ template <class Scalar>
 void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
                             std::span<const SupportShape<Scalar>> support_shapes) {
   centred_ = all_fit_ = true;
+  some_scan_ = false;
   most_vertices_ = 0;
   some_vertices_ = nullptr;
   shapes_.assign(shapes.size(), {});
@@ -77,16 +97,20 @@ void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
     lane.fits = takes(shapes[i].kind);
     if (shapes[i].kind == ShapeKind::hull) {
       lane.vertices = shape.vertices.data();
-      const std::size_t count = shapes[i].hull->vertices.size();
-      lane.vertex_count = static_cast<std::uint32_t>(count);
-      // Far from its origin, its centre must be turned with care.
-      lane.fits = count <= most_lane_vertices && shape.centre.cwiseAbs().maxCoeff() <= shape.size;
+      lane.block_count = static_cast<std::uint32_t>(shape.vertices.size());
+      // Far from its origin, its centre must be turned with care; climbing is not for lanes.
+      lane.fits = shape.is_near_origin && shape.neighbours_begin.empty();
+      lane.scans = lane.fits && shapes[i].hull->vertices.size() > most_turned_vertices;
     }
     all_fit_ = all_fit_ && lane.fits;
     if (!lane.fits) continue;
-    centred_ = centred_ && shape.centre.isZero(0);
-    if (lane.vertices != nullptr) some_vertices_ = lane.vertices;
-    most_vertices_ = std::max(most_vertices_, lane.vertex_count);
+    centred_ = centred_ && shape.is_centred;
+    some_scan_ = some_scan_ || lane.scans;
+    if (lane.vertices == nullptr) continue;
+    some_vertices_ = lane.vertices;
+    if (lane.scans) continue;
+    const std::size_t count = shapes[i].hull->vertices.size();
+    most_vertices_ = std::max(most_vertices_, static_cast<std::uint32_t>(count));
   }
 }
 
@@ -94,15 +118,18 @@ template <class Scalar>
 std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
                                     const Goal& asked, std::span<Outcome> outcomes,
                                     std::uint32_t* left) {
+  const bool hull_a = kind_a == ShapeKind::hull, hull_b = kind_b == ShapeKind::hull;
   // In fours, as vertices are turned; a block has copies of the first behind the last.
   const std::uint32_t vertices = (most_vertices_ + 3) / 4 * 4;
-  const LaneGoal<Scalar> goal{
+  const LaneGoal<Scalar> turned{
       .shapes = shapes_.data(),
       .some_vertices = some_vertices_,
       .halves_a = halves_of(kind_a),
       .halves_b = halves_of(kind_b),
-      .vertices_a = kind_a == ShapeKind::hull ? vertices : 0,
-      .vertices_b = kind_b == ShapeKind::hull ? vertices : 0,
+      .vertices_a = hull_a ? vertices : 0,
+      .vertices_b = hull_b ? vertices : 0,
+      .scans_a = false,
+      .scans_b = false,
       .round = kind_a <= ShapeKind::capsule,
       .centred = centred_,
       .distances = asked.task == Task::distance,
@@ -110,43 +137,36 @@ std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const Bo
       .corner_error = centred_ ? CornerError<Scalar>::centred : CornerError<Scalar>::shifted,
       .tolerance = asked.tolerance,
       .most_iterations = static_cast<Scalar>(asked.most_iterations)};
-  // Without wider vectors, lanes of doubles are slower than one pair at a time.
-  constexpr bool wants_avx2 = std::is_same_v<Scalar, double>;
-  const bool none = wants_avx2 && isa() == Isa::baseline;
+  LaneGoal<Scalar> scanned = turned;
+  scanned.vertices_a = scanned.vertices_b = 0;
+  scanned.scans_a = hull_a;
+  scanned.scans_b = hull_b;
   while (places_.size() < pairs.first.size()) {
     places_.push_back(static_cast<std::uint32_t>(places_.size()));
   }
   const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
-  if (none) {
+  // Without wider vectors, lanes of doubles are slower than one pair at a time.
+  constexpr bool wants_avx2 = std::is_same_v<Scalar, double>;
+  if (wants_avx2 && isa() == Isa::baseline) {
     std::ranges::copy(places, left);
     return places.size();
   }
-  std::span<const std::uint32_t> queue = places;
-  std::size_t left_count = 0;
-  if (!all_fit_) {
-    queue_.clear();
-    for (const std::uint32_t i : places) {
-      const bool fit = shapes_[pairs.shape_of[pairs.first[i]]].fits &&
-                       shapes_[pairs.shape_of[pairs.second[i]]].fits;
-      if (fit) {
-        queue_.push_back(i);
-      } else {
-        left[left_count++] = i;
-      }
-    }
-    queue = queue_;
-  }
   const PairTable<Scalar> table{pairs, nullptr, outcomes.data(), left};
-  switch (isa()) {
-    case Isa::avx512: return avx512::walk_all(table, goal, queue, left_count);
-    case Isa::avx2: return avx2::walk_all(table, goal, queue, left_count);
-    case Isa::baseline: break;
+  if (all_fit_ && !some_scan_) return walk_here(table, turned, places, 0);
+  turned_.clear();
+  scanned_.clear();
+  std::size_t left_count = 0;
+  for (const std::uint32_t i : places) {
+    const LaneShape<Scalar>& a = shapes_[pairs.shape_of[pairs.first[i]]];
+    const LaneShape<Scalar>& b = shapes_[pairs.shape_of[pairs.second[i]]];
+    if (!a.fits || !b.fits) {
+      left[left_count++] = i;
+    } else {
+      (a.scans || b.scans ? scanned_ : turned_).push_back(i);
+    }
   }
-  if constexpr (wants_avx2) {
-    return left_count;
-  } else {
-    return baseline::walk_all(table, goal, queue, left_count);
-  }
+  left_count = walk_here<Scalar>(table, turned, turned_, left_count);
+  return walk_here<Scalar>(table, scanned, scanned_, left_count);
 }
 
 template class GjkLanes<float>;

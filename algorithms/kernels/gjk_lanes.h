@@ -4,11 +4,14 @@
 // objects in three-dimensional space", IEEE J. Robotics and Automation 4(2), 1988. Where the
 // nearest feature of a simplex is: Ericson, "Real-Time Collision Detection", 2005, section 9.5.
 //
-// Spheres, capsules, boxes, and hulls of at most `most_lane_vertices`; matrices whose greatest
-// entry is about that of a rotation. What the lanes answer is proven by the same bounds as in
-// simplex_walk.h: a support plane, a tetrahedron around the origin, a point of the difference that
-// is nearer than the radii; distances between both. All else is handed back for a walk that takes
-// its time. The same bits at every level of vector instructions, in any batch.
+// Spheres, capsules, boxes, and hulls whose vertices are all looked at; matrices whose greatest
+// entry is about that of a rotation. Hulls of at most `most_turned_vertices` are turned into their
+// lane, and every lane looks at the next vertex of its own; greater ones are scanned one lane after
+// the other, sixteen vertices at a time, which waits for nothing either, and then all lanes take
+// the step together. What the lanes answer is proven by the same bounds as in simplex_walk.h: a
+// support plane, a tetrahedron around the origin, a point of the difference that is nearer than the
+// radii; distances between both. All else is handed back for a walk that takes its time. The same
+// bits at every level of vector instructions, in any batch.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +25,7 @@
 
 namespace touchstone {
 
-inline constexpr std::uint32_t most_lane_vertices = hull_scan::VertexBlock<float>::size;
+inline constexpr std::uint32_t most_turned_vertices = hull_scan::VertexBlock<float>::size;
 
 // What the lanes need of a shape.
 template <class Scalar>
@@ -31,9 +34,10 @@ struct LaneShape {
   alignas(32) double numbers[4];
   alignas(32) Scalar extents[4];  // capsule, box: of the core, in its unit; and nothing
   alignas(32) double centre[3];   // as SupportShape's
-  std::uint32_t vertex_count;     // hull
+  std::uint32_t block_count;      // hull
   bool fits;                      // the lanes take it
-  const hull_scan::VertexBlock<Scalar>* vertices;  // hull: sixteen, copies of the first among them
+  bool scans;                     // ... as a hull of more vertices than are turned
+  const hull_scan::VertexBlock<Scalar>* vertices;  // hull: so many blocks
 };
 
 template <class Scalar>
@@ -57,11 +61,13 @@ class GjkLanes {
  private:
   std::vector<LaneShape<Scalar>> shapes_;
   const hull_scan::VertexBlock<Scalar>* some_vertices_ = nullptr;  // of a hull that fits
-  std::uint32_t most_vertices_ = 0;                                // of those
+  std::uint32_t most_vertices_ = 0;                                // of those that are turned
   bool all_fit_ = true;
+  bool some_scan_ = false;
   bool centred_ = true;  // the centres of all that fit are the origins of their bodies
   std::vector<std::uint32_t> places_;  // 0, 1, 2...
-  std::vector<std::uint32_t> queue_;   // scratch: the places of pairs that fit
+  // Scratch: the places of pairs that fit, without such as scan, and with.
+  std::vector<std::uint32_t> turned_, scanned_;
 };
 
 extern template class GjkLanes<float>;

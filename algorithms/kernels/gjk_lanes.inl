@@ -13,11 +13,13 @@ struct Walkers {
   // As loaded, a quad a lane: numbers of the poses (see load_pair), sizes; and where vertices are.
   Quad<Scalar> poses[6][width], sizes[width], extents_a[width], extents_b[width];
   const hull_scan::VertexBlock<Scalar>*corners_a[width], *corners_b[width];
+  std::uint32_t blocks_a[width], blocks_b[width];
   double unit[width];  // metres
   std::uint32_t place[width];
 
-  // Vertices, those of b with its centre; or the half edges of a box, the half of a segment.
-  Vectors<Scalar> a[most_lane_vertices], b[most_lane_vertices];
+  // Vertices, those of b with its centre; or the half edges of a box, the half of a segment; or the
+  // columns of a matrix, where vertices are scanned.
+  Vectors<Scalar> a[most_turned_vertices], b[most_turned_vertices];
   Vectors<Scalar> centre_b;
   Real radius_a, radius_b;
 
@@ -27,9 +29,13 @@ struct Walkers {
   Real along;           // the nearest point along the way, times its length
   Real plane;           // the newest support plane, so too
   Real count;           // of iterations
+  // Of lanes that pierce: the corner on this side of the simplex, while they look for one behind
+  // it.
+  Vectors<Scalar> before;
 
   // Lanes that walk, and those that have ended, by how; as bits.
   unsigned active = 0, apart = 0, inside = 0, shallow = 0, doubtful = 0;
+  unsigned piercing = 0;  // of those that walk
 
   unsigned ended() const { return apart | inside | shallow | doubtful; }
 };
@@ -79,6 +85,38 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_corner(const Vector
   return corner;
 }
 
+// Of the vertices of each lane, the one furthest in its direction, turned by the matrix of these
+// columns.
+template <class Scalar>
+TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
+    const hull_scan::VertexBlock<Scalar>* const* blocks, const std::uint32_t* block_counts,
+    const Vectors<Scalar> columns[3], const Vectors<Scalar>& direction, unsigned active) {
+  using Real = typename RealLanes<Scalar>::Real;
+  constexpr std::size_t width = RealLanes<Scalar>::width;
+  constexpr std::uint32_t size = hull_scan::VertexBlock<Scalar>::size;
+  const Real turned[3] = {dot<Scalar>(columns[0], direction), dot<Scalar>(columns[1], direction),
+                          dot<Scalar>(columns[2], direction)};
+  alignas(64) Scalar x[width]{}, y[width]{}, z[width]{};
+  alignas(64) Scalar towards[3][width];
+  std::memcpy(towards, turned, sizeof towards);
+  for (; active != 0; active &= active - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(active));
+    const std::span<const hull_scan::VertexBlock<Scalar>> all(blocks[lane], block_counts[lane]);
+    const std::uint32_t best =
+        furthest_at(all, towards[0][lane], towards[1][lane], towards[2][lane]).index;
+    const hull_scan::VertexBlock<Scalar>& block = blocks[lane][best / size];
+    x[lane] = block.x[best % size];
+    y[lane] = block.y[best % size];
+    z[lane] = block.z[best % size];
+  }
+  Real of[3];
+  std::memcpy(&of[0], x, sizeof x);
+  std::memcpy(&of[1], y, sizeof y);
+  std::memcpy(&of[2], z, sizeof z);
+  return moved<Scalar>(moved<Scalar>(scaled<Scalar>(of[0], columns[0]), of[1], columns[1]), of[2],
+                       columns[2]);
+}
+
 // One step of every lane that walks.
 template <class Scalar, bool points>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
@@ -89,14 +127,24 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   const Vectors<Scalar> way = walkers.way;
 
   Corner<Scalar> corner;
-  corner.on_a =
-      goal.vertices_a != 0
-          ? furthest_vertex<Scalar, false>(walkers.a, goal.vertices_a, way)
-          : furthest_corner<Scalar, false>(walkers.a, goal.halves_a, {zero, zero, zero}, way);
-  const Vectors<Scalar> on_b =
-      goal.vertices_b != 0
-          ? furthest_vertex<Scalar, true>(walkers.b, goal.vertices_b, way)
-          : furthest_corner<Scalar, true>(walkers.b, goal.halves_b, walkers.centre_b, way);
+  Vectors<Scalar> on_b;
+  if (goal.scans_a) {
+    corner.on_a = scanned_vertex<Scalar>(walkers.corners_a, walkers.blocks_a, walkers.a,
+                                         {-way.x, -way.y, -way.z}, walkers.active);
+  } else if (goal.vertices_a != 0) {
+    corner.on_a = furthest_vertex<Scalar, false>(walkers.a, goal.vertices_a, way);
+  } else {
+    corner.on_a = furthest_corner<Scalar, false>(walkers.a, goal.halves_a, {zero, zero, zero}, way);
+  }
+  if (goal.scans_b) {
+    on_b =
+        scanned_vertex<Scalar>(walkers.corners_b, walkers.blocks_b, walkers.b, way, walkers.active);
+    on_b = moved<Scalar>(on_b, Lanes::broadcast(1), walkers.centre_b);
+  } else if (goal.vertices_b != 0) {
+    on_b = furthest_vertex<Scalar, true>(walkers.b, goal.vertices_b, way);
+  } else {
+    on_b = furthest_corner<Scalar, true>(walkers.b, goal.halves_b, walkers.centre_b, way);
+  }
   corner.point = difference<Scalar>(corner.on_a, on_b);
 
   const Real radius = walkers.radius_a + walkers.radius_b;
@@ -104,6 +152,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   unsigned stop = Lanes::bits(Lanes::less((radius + margin) * walkers.length, plane));
   if constexpr (points) {
     stop &= ~Lanes::bits(Lanes::less(goal.tolerance * walkers.length, walkers.along - plane));
+    stop &= ~walkers.piercing;
   }
   const auto active = Lanes::mask(walkers.active);
   walkers.plane = Lanes::select(active, plane, walkers.plane);
@@ -111,6 +160,17 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   stop &= walkers.active;
   walkers.apart |= stop;
   walkers.active &= ~stop;
+  const unsigned pierced = walkers.piercing & walkers.active;
+  walkers.piercing = 0;
+  if (pierced != 0) {
+    const LaneSimplex<Scalar>& face = walkers.simplex;
+    const unsigned between =
+        surely_between<Scalar>(walkers.before, corner.point, face.b.point, face.c.point,
+                               face.d.point, goal.corner_error, pierced);
+    walkers.inside |= between;
+    walkers.doubtful |= pierced & ~between;
+    walkers.active &= ~pierced;
+  }
   if (walkers.active == 0) return;
 
   const auto on = Lanes::mask(walkers.active);
@@ -126,13 +186,20 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   const Real along = dot<Scalar>(step.way, corner.point);
   // So written that NaN ends the walk.
   const auto nearer = Lanes::less(along * walkers.length, walkers.along * length);
-  unsigned going =
-      step.found &
+  const unsigned in_time =
+      Lanes::bits(Lanes::less(walkers.count, Lanes::broadcast(goal.most_iterations)));
+  const unsigned going =
+      in_time & step.found &
       Lanes::bits(both(nearer, Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square)));
-  going &= Lanes::bits(Lanes::less(walkers.count, Lanes::broadcast(goal.most_iterations)));
-  walkers.way = select<Scalar>(on, step.way, way);
-  walkers.length = Lanes::select(on, length, walkers.length);
-  walkers.along = Lanes::select(on, along, walkers.along);
+  // Too near the face that it came through: the corner behind that tells.
+  walkers.piercing = walkers.active & step.unsure & in_time;
+  const auto turns = Lanes::mask(walkers.piercing);
+  const auto goes = without(on, turns);
+  walkers.way =
+      select<Scalar>(goes, step.way, select<Scalar>(turns, {-way.x, -way.y, -way.z}, way));
+  walkers.length = Lanes::select(goes, length, walkers.length);
+  walkers.along = Lanes::select(goes, along, walkers.along);
+  walkers.before = select<Scalar>(turns, corner.point, walkers.before);
   const unsigned inside = walkers.active & step.inside;
   unsigned shallow = 0;
   if (goal.round) {
@@ -141,8 +208,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   }
   walkers.inside |= inside;
   walkers.shallow |= shallow;
-  walkers.doubtful |= walkers.active & ~going & ~inside & ~shallow;
-  walkers.active &= going & ~inside & ~shallow;
+  const unsigned stays = (going | walkers.piercing) & ~inside & ~shallow;
+  walkers.doubtful |= walkers.active & ~stays & ~inside & ~shallow;
+  walkers.active &= stays;
 }
 
 template <class Scalar, bool points>

@@ -50,9 +50,18 @@ Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolera
 // Whether the origin is inside a tetrahedron whatever rounding did to its corners.
 template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex);
+// An origin that is too near the face of a tetrahedron's first three corners for it to be surely
+// inside is well inside one of the three around the axis from its last corner to one beyond that
+// face: then the simplex becomes that one, and this is true.
+template <class Scalar>
+bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind,
+                 const CornerPair& corners);
 
 extern template bool is_surely_inside(const Simplex<float>&);
 extern template bool is_surely_inside(const Simplex<double>&);
+extern template bool goes_around(Simplex<float>&, const DifferencePoint<float>&, const CornerPair&);
+extern template bool goes_around(Simplex<double>&, const DifferencePoint<double>&,
+                                 const CornerPair&);
 extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float,
                                  const WalkStart<float>&);
 extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double,

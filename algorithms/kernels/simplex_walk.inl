@@ -263,18 +263,29 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     if constexpr (numbered) simplex.corners[simplex.size] = corners;
     simplex.points[simplex.size++] = {point, on_a, on_b};
     found.moved = true;
+    const Vector before_way = way;
     way = simplex.reduce();
     if (simplex.size == 4) {
       simplex.write(found.simplex);
-      if (is_surely_inside(found.simplex)) found.end = WalkEnd::inside;
+      if (!is_surely_inside(found.simplex)) {
+        // Too near the face that it came through: the corner behind that tells.
+        pair.count_support();
+        ++found.iterations;
+        const Vector behind_a = a.template support<WhichA>(before_way, corners.a);
+        const Vector behind_b = b.template support<WhichB>(-before_way, corners.b) + centre_b;
+        const DifferencePoint<Scalar> behind{vec<Scalar>(behind_a - behind_b),
+                                             vec<Scalar>(behind_a), vec<Scalar>(behind_b)};
+        if (!goes_around(found.simplex, behind, corners)) return found;
+      }
+      found.end = WalkEnd::inside;
       return found;
     }
     squared = dot(way, way);
     length = std::sqrt(squared);
-    const Scalar before = nearest;
+    const Scalar last = nearest;
     nearest = dot(way, simplex.points[0].difference) / length;
     // So written that NaN ends the walk.
-    if (!(squared > shortest) || !(nearest < before)) break;
+    if (!(squared > shortest) || !(nearest < last)) break;
   }
   simplex.write(found.simplex);
   return found;

@@ -22,7 +22,8 @@ using namespace test;
 constexpr std::array scalars{Precision::float32, Precision::float64};
 constexpr std::array all_tasks{Task::intersect, Task::distance, Task::penetration};
 
-constexpr std::array<Kinds, 10> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sphere},
+// Hulls of at most sixteen vertices are turned into the lanes; of the others some are scanned.
+constexpr std::array<Kinds, 12> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sphere},
                                                {ShapeKind::sphere, ShapeKind::capsule},
                                                {ShapeKind::sphere, ShapeKind::box},
                                                {ShapeKind::sphere, ShapeKind::hull},
@@ -31,19 +32,22 @@ constexpr std::array<Kinds, 10> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sp
                                                {ShapeKind::capsule, ShapeKind::hull},
                                                {ShapeKind::box, ShapeKind::box},
                                                {ShapeKind::box, ShapeKind::hull},
-                                               {ShapeKind::hull, ShapeKind::hull}}};
+                                               {ShapeKind::hull, ShapeKind::hull},
+                                               {ShapeKind::capsule, ShapeKind::hull, 60},
+                                               {ShapeKind::hull, ShapeKind::hull, 60}}};
 
 const NarrowPhaseEntry& entry() { return *find_narrow_phase("gjk-lanes"); }
 
 std::string name(Kinds kinds, Precision scalar, Task task, Sort sort) {
-  return std::string(to_string(kinds.a)) + "-" + std::string(to_string(kinds.b)) + " " +
-         std::string(to_string(scalar)) + " " + std::string(to_string(task)) + " sort " +
-         std::to_string(static_cast<int>(sort));
+  return std::string(to_string(kinds.a)) + "-" + std::string(to_string(kinds.b)) + " of " +
+         std::to_string(kinds.hull_points) + " " + std::string(to_string(scalar)) + " " +
+         std::string(to_string(task)) + " sort " + std::to_string(static_cast<int>(sort));
 }
 
 TEST(GjkLanes, AnswerBatchesOfEveryLengthAlike) {
   for (const Kinds kinds :
-       {Kinds{ShapeKind::capsule, ShapeKind::box}, Kinds{ShapeKind::hull, ShapeKind::hull}}) {
+       {Kinds{ShapeKind::capsule, ShapeKind::box}, Kinds{ShapeKind::hull, ShapeKind::hull},
+        Kinds{ShapeKind::hull, ShapeKind::hull, 60}}) {
     const Pairs pairs = hard_pairs(11, kinds, Sort::plain, 1000);
     for (const Precision scalar : scalars) {
       for (const Task task : all_tasks) {
@@ -185,7 +189,7 @@ void expect_few_left() {
       const double scale = sort == Sort::scaled ? 1e-5 : 1, far = sort == Sort::remote ? 1e6 : 0;
       for (int k = 0; k < 400; ++k) {
         const auto draw = [&](ShapeKind kind) {
-          Shape shape = random_shape(random, kind, false);
+          Shape shape = random_shape(random, kind, false, kinds.hull_points);
           shape.radius *= scale;
           shape.half_length *= scale;
           shape.half_extents *= scale;
@@ -227,7 +231,7 @@ TEST(GjkLanes, LeaveFewPairs) {
   if (isa_of_machine() != Isa::baseline) expect_few_left<double>();
 }
 
-// Hulls of more vertices than the lanes take, and hulls far from their own origin, among others.
+// Hulls far from their own origin, among others of few vertices and of many.
 TEST(GjkLanes, AnswerWhatDoesNotFit) {
   Random random(16);
   oracle::Oracle oracle;

@@ -1,4 +1,4 @@
-// Pairs of spheres, capsules, boxes and small hulls that are hard to tell apart, at random.
+// Pairs of spheres, capsules, boxes and hulls that are hard to tell apart, at random.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,6 +22,7 @@ namespace touchstone::test {
 
 struct Kinds {
   ShapeKind a, b;
+  std::size_t hull_points = 16;  // at most
 };
 struct Pairs {
   std::vector<Shape> shapes;
@@ -53,13 +54,13 @@ inline double power(Random& random, double low, double high) {
   return std::pow(10.0, uniform(random, low, high));
 }
 
-// Four to sixteen points; hard: in a plane, along a line, one, or about so.
-inline Shape random_small_hull(Random& random, bool hard) {
-  std::vector<Vec3d> points(4 + random() % 13);
+// Four points or more; hard: in a plane, along a line, one, or about so.
+inline Shape random_hull(Random& random, std::size_t most_points, bool hard) {
+  std::vector<Vec3d> points(4 + random() % (most_points - 3));
   Vec3d stretch = Vec3d::Ones();
   int dimension = 3;
   if (hard) {
-    points.resize(1 + random() % 16);
+    points.resize(1 + random() % most_points);
     for (int axis = 0; axis < 3; ++axis) {
       stretch[axis] = random() % 4 == 0 ? 0 : power(random, -5, 0);
       if (stretch[axis] == 0) --dimension;
@@ -70,8 +71,8 @@ inline Shape random_small_hull(Random& random, bool hard) {
   return bare_hull(std::move(points), dimension);
 }
 
-inline Shape random_shape(Random& random, ShapeKind kind, bool hard) {
-  if (kind == ShapeKind::hull) return random_small_hull(random, hard);
+inline Shape random_shape(Random& random, ShapeKind kind, bool hard, std::size_t hull_points = 16) {
+  if (kind == ShapeKind::hull) return random_hull(random, hull_points, hard);
   Shape shape;
   shape.kind = kind;
   const auto length = [&] {
@@ -97,7 +98,8 @@ inline constexpr std::array all_sorts{Sort::plain,  Sort::parallel, Sort::stacke
 // of lengths.
 inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort sort, Pairs& pairs) {
   const bool slivers = sort == Sort::slivers;
-  Shape a = random_shape(random, kinds.a, slivers), b = random_shape(random, kinds.b, slivers);
+  Shape a = random_shape(random, kinds.a, slivers, kinds.hull_points);
+  Shape b = random_shape(random, kinds.b, slivers, kinds.hull_points);
   Pose pose_a{random_rotation(random), random_direction(random)};
   Pose pose_b{random_rotation(random), Vec3d::Zero()};
   if (sort == Sort::parallel || sort == Sort::stacked) {
