@@ -40,7 +40,7 @@ Approach<Scalar> GjkQuery<Scalar>::approach_from(SupportPair<Scalar>& pair,
                                                  WarmStart* start) {
   if (start == nullptr) return approach(pair, goal);
   const Approach<Scalar> found = approach(pair, goal, start);
-  if (!found.as_before) start->keep(pair, found.simplex, found.direction);
+  if (!found.as_before) start->keep(found.simplex, found.direction);
   return found;
 }
 

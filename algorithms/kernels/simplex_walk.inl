@@ -43,7 +43,7 @@ class QuadShape {
     using Core = typename SupportShape<Scalar>::Core;
     const SupportShape<Scalar>& shape = turned_.shape();
     const Vector d = rows_[0] * direction[0] + rows_[1] * direction[1] + rows_[2] * direction[2];
-    if (shape.core == Core::hull && shape.neighbours_begin.empty()) {
+    if (shape.core == Core::hull && shape.cells.empty()) {
       const std::span<const hull_scan::VertexBlock<Scalar>> blocks(shape.vertices);
       corner = furthest_at(blocks, d[0], d[1], d[2]).index;
       const Vec3<Scalar> v = shape.scanned_vertex(corner);
