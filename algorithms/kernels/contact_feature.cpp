@@ -99,9 +99,7 @@ void find_on_box(Placed<Scalar>& body) {
 template <class Scalar>
 std::uint32_t furthest_vertex(const Placed<Scalar>& body) {
   const SupportShape<Scalar>& hull = body.shape.support;
-  const std::uint32_t vertex = hull.neighbours_begin.empty()
-                                   ? ScanAtBest::furthest(hull, body.local)
-                                   : hull.climb(body.local, hull.climb_from);
+  const std::uint32_t vertex = hull.furthest(body.local);
   if (!body.shape.complete || !body.shape.faces.around(vertex).empty()) return vertex;
   // It stands twice, or inside of a face.
   const auto loops = body.shape.faces.all_loops();

@@ -53,7 +53,6 @@ bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const W
             WalkStart<Scalar>& begin, Approach<Scalar>& found) {
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const bool only_apart = goal.task != Task::distance;
-  start.look_from(pair);
   Vec3<Scalar> direction = Vec3<Scalar>::Zero();
   if (start.size == 0 || (only_apart && start.size < 4)) {
     direction = start.unit_direction<Scalar>();

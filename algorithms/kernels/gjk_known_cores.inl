@@ -12,7 +12,7 @@ struct KnownCores {
 
   template <class Scalar>
   static DifferencePoint<Scalar> support(SupportPair<Scalar>& pair, const Vec3<Scalar>& direction) {
-    return pair.template support<ScanAtBest, KnownCore<a>, KnownCore<b>>(direction);
+    return pair.template support<KnownCore<a>, KnownCore<b>>(direction);
   }
   template <class Scalar>
   static Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,

@@ -40,7 +40,7 @@ Approach<Scalar> GjkQuery<Scalar>::approach_from(SupportPair<Scalar>& pair,
                                                  WarmStart* start) {
   const Approach<Scalar> found = approach_(pair, goal, start);
   if (start == nullptr) return found;
-  if (!found.as_before) start->keep(pair, found.simplex, found.direction);
+  if (!found.as_before) start->keep(found.simplex, found.direction);
   return found;
 }
 

@@ -16,7 +16,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Scalar reach_at(TurnedShape<Scalar>& turned,
   if (shape.core == Core::box) {
     return std::abs(dx) * e.x() + std::abs(dy) * e.y() + std::abs(dz) * e.z();
   }
-  if (shape.core == Core::hull && shape.neighbours_begin.empty()) {
+  if (shape.core == Core::hull && shape.cells.empty()) {
     const std::span<const hull_scan::VertexBlock<Scalar>> blocks(shape.vertices);
     return furthest_at(blocks, dx, dy, dz).value;
   }

@@ -12,7 +12,6 @@
 
 #include "algorithms/core/shape.h"
 #include "algorithms/kernels/support_shape.h"
-#include "algorithms/kernels/turned_shape.h"
 
 namespace touchstone {
 
@@ -77,7 +76,7 @@ class AllThatMayBe {
 // terms that are at most twice those of the reach, since the centre is in the hull's box.
 struct BestByScan {
   double operator()(const ProvenShape& body, const Vec3d& g) const {
-    const std::uint32_t best = ScanAtBest::furthest(body.support, g);
+    const std::uint32_t best = body.support.furthest(g);
     // The last block is filled up with the first vertex.
     const std::vector<Vec3d>& vertices = body.shape->hull->vertices;
     return g.dot(vertices[best < vertices.size() ? best : 0]);

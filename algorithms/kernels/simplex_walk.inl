@@ -45,7 +45,7 @@ class QuadShape {
     const SupportShape<Scalar>& shape = turned_.shape();
     const Core core = Which::of(shape);
     const Vector d = rows_[0] * direction[0] + rows_[1] * direction[1] + rows_[2] * direction[2];
-    if (core == Core::hull && shape.neighbours_begin.empty()) {
+    if (core == Core::hull && shape.cells.empty()) {
       const std::span<const hull_scan::VertexBlock<Scalar>> blocks(shape.vertices);
       corner = furthest_at(blocks, d[0], d[1], d[2]).index;
       const Vec3<Scalar> v = shape.scanned_vertex(corner);
@@ -57,7 +57,7 @@ class QuadShape {
       return turn(std::copysign(e.x(), d[0]), std::copysign(e.y(), d[1]),
                   std::copysign(e.z(), d[2]));
     }
-    const Vector point = quad(turned_.template support<ScanAtBest, Which>(vec<Scalar>(direction)));
+    const Vector point = quad(turned_.template support<Which>(vec<Scalar>(direction)));
     switch (core) {
       case Core::point: corner = 0; break;
       case Core::segment: corner = negative(d[2]) << 2; break;

@@ -109,8 +109,7 @@ SupportPair<Scalar>::SupportPair(const CentreOffset& offset, const SupportShape<
       centre_b_((offset.vector * (1 / unit_)).template cast<Scalar>()),
       origin_(pose_a(a.centre)),
       is_polytope_(a.is_polytope() && b.is_polytope()),
-      is_smooth_(!is_polytope_ && a.is_smooth() && b.is_smooth()),
-      climbs_(!a.neighbours_begin.empty() || !b.neighbours_begin.empty()) {}
+      is_smooth_(!is_polytope_ && a.is_smooth() && b.is_smooth()) {}
 
 template bool balls_are_apart(const SupportShape<float>&, const Pose&, const SupportShape<float>&,
                               const Pose&);

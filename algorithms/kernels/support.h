@@ -72,20 +72,18 @@ class SupportPair {
   static constexpr Scalar proven_rounding = 128 * std::numeric_limits<Scalar>::epsilon();
 
   // What the proof asks for: lengths that are below the unit. (`power_of_two_above` ends there.)
-  // Support points that are found by climbing may not be the furthest; `support<ScanAll>` are.
   bool is_in_range() const { return unit_ < 0x1p959; }
-  bool climbs() const { return climbs_; }
 
   SupportPair(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
               const Pose& pose_b);
 
   // The point of the difference of the cores, A - B, that lies furthest in the direction. Counted.
-  template <class Scan = ScanAtBest, class WhichA = AnyCore, class WhichB = AnyCore>
+  template <class WhichA = AnyCore, class WhichB = AnyCore>
   DifferencePoint<Scalar> support(const Vec3<Scalar>& direction) {
     ++support_calls_;
     DifferencePoint<Scalar> point;
-    point.a = a_.template support<Scan, WhichA>(direction);
-    point.b = b_.template support<Scan, WhichB>(-direction) + centre_b_;
+    point.a = a_.template support<WhichA>(direction);
+    point.b = b_.template support<WhichB>(-direction) + centre_b_;
     point.difference = point.a - point.b;
     return point;
   }
@@ -118,7 +116,7 @@ class SupportPair {
   TurnedShape<Scalar> a_, b_;
   Vec3<Scalar> centre_b_;
   Vec3d origin_;  // body a's centre in the world, metres
-  bool is_polytope_, is_smooth_, climbs_;
+  bool is_polytope_, is_smooth_;
   int support_calls_ = 0;
 };
 

@@ -8,8 +8,8 @@
 namespace touchstone {
 namespace {
 
-// Where a hull has more vertices than this, climbing along its edges beats looking at all of them.
-constexpr std::size_t most_vertices_to_scan = 192;
+// Where a hull has more vertices than this, a table of directions beats looking at all of them.
+constexpr std::size_t most_vertices_to_scan = 128;
 
 // How far the body's origin is inside the faces (metres); none where there are no faces.
 double origin_depth(const Hull& hull) {
@@ -38,24 +38,19 @@ void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
   shape.is_centred = shape.centre.isZero(0);
   shape.is_near_origin = shape.centre.cwiseAbs().maxCoeff() <= shape.size;
 
-  shape.vertices = hull_scan::blocks_of<Scalar>(vertices.size(), [&](std::size_t k) {
-    return ((vertices[k] - shape.centre) / shape.unit).template cast<Scalar>().eval();
-  });
-
-  for (std::uint32_t k = 0; k < vertices.size(); ++k) {
-    const Vec3<Scalar> v = shape.scanned_vertex(k);
-    shape.corners.push_back({v.x(), v.y(), v.z()});
+  std::vector<Vec3<Scalar>> scaled;
+  scaled.reserve(vertices.size());
+  shape.corners.reserve(vertices.size());
+  for (const Vec3d& vertex : vertices) {
+    scaled.push_back(((vertex - shape.centre) / shape.unit).template cast<Scalar>());
+    shape.corners.push_back({scaled.back().x(), scaled.back().y(), scaled.back().z()});
   }
-
-  if (vertices.size() <= most_vertices_to_scan || hull.neighbours.size() != vertices.size()) return;
-  const auto has_some = [](const std::vector<std::uint32_t>& list) { return !list.empty(); };
-  const auto first = std::find_if(hull.neighbours.begin(), hull.neighbours.end(), has_some);
-  if (first == hull.neighbours.end()) return;
-  shape.climb_from = static_cast<std::uint32_t>(first - hull.neighbours.begin());
-  shape.neighbours_begin.push_back(0);
-  for (const std::vector<std::uint32_t>& list : hull.neighbours) {
-    shape.neighbour.insert(shape.neighbour.end(), list.begin(), list.end());
-    shape.neighbours_begin.push_back(static_cast<std::uint32_t>(shape.neighbour.size()));
+  if (scaled.size() > most_vertices_to_scan &&
+      scaled.size() <= DirectionCells<Scalar>::most_vertices) {
+    shape.cells = DirectionCells<Scalar>(scaled);
+  } else {
+    shape.vertices =
+        hull_scan::blocks_of<Scalar>(scaled.size(), [&](std::size_t k) { return scaled[k]; });
   }
 }
 
@@ -110,24 +105,6 @@ std::vector<SupportShape<Scalar>> make_support_shapes(std::span<const Shape> sha
   result.reserve(shapes.size());
   for (const Shape& shape : shapes) result.emplace_back(shape);
   return result;
-}
-
-// From vertex to better neighbour: on a convex surface the last one is the best.
-template <class Scalar>
-std::uint32_t SupportShape<Scalar>::climb(const Vec3<Scalar>& d, std::uint32_t from) const {
-  const auto value = [&](std::uint32_t i) { return d.dot(vertex(i)); };
-  Scalar best = value(from);
-  for (std::uint32_t at = from;;) {
-    for (std::uint32_t k = neighbours_begin[at]; k < neighbours_begin[at + 1]; ++k) {
-      const Scalar candidate = value(neighbour[k]);
-      if (candidate > best) {
-        best = candidate;
-        from = neighbour[k];
-      }
-    }
-    if (from == at) return at;
-    at = from;
-  }
 }
 
 template struct SupportShape<float>;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algorithms/core/shape.h"
+#include "algorithms/kernels/direction_cells.h"
 #include "algorithms/kernels/hull_scan.h"
 
 namespace touchstone {
@@ -39,16 +40,14 @@ struct SupportShape {
       Vec3d::Zero();  // body coordinates: inside the shape (relatively, where it is flat)
   // Box: half extents; ellipsoid: semi-axes; segment, cylinder, cone: radius, radius, half length.
   Vec3<Scalar> extents = Vec3<Scalar>::Zero();
-  std::vector<hull_scan::VertexBlock<Scalar>> vertices;  // hull
+  // Hull: its vertices, to look at all of them; or, where they are many, `cells` of them.
+  std::vector<hull_scan::VertexBlock<Scalar>> vertices;
+  DirectionCells<Scalar> cells;
   // The same once more, each in a place of its own: for those that want one and not all.
   struct alignas(4 * sizeof(Scalar)) Corner {
     Scalar x, y, z;
   };
   std::vector<Corner> corners;
-  // Hull: neighbours of vertex i are neighbour[neighbours_begin[i]] up to neighbours_begin[i + 1].
-  // Empty where the vertices are few, or the hull does not know them.
-  std::vector<std::uint32_t> neighbours_begin, neighbour;
-  std::uint32_t climb_from = 0;  // a vertex that has neighbours
   // Half-space: as in Shape.
   Vec3d normal = Vec3d::UnitZ();
   double offset = 0;
@@ -57,13 +56,17 @@ struct SupportShape {
   double reach(const Mat3d& rotation) const {
     return size * rotation.cwiseAbs().maxCoeff() + radius;
   }
-  // Hull with neighbours: the vertex furthest in the direction, found from this one on.
-  std::uint32_t climb(const Vec3<Scalar>& direction, std::uint32_t from) const;
+  // Hull: the vertex furthest in the direction.
+  std::uint32_t furthest(const Vec3<Scalar>& direction) const {
+    if (!cells.empty()) return cells.number(cells.furthest(direction).place);
+    return hull_scan::furthest(std::span<const hull_scan::VertexBlock<Scalar>>(vertices),
+                               direction);
+  }
   Vec3<Scalar> vertex(std::uint32_t i) const {
     const Corner& corner = corners[i];
     return {corner.x, corner.y, corner.z};
   }
-  // The same; quicker where all were just looked at.
+  // The same, of a hull without cells; quicker where all were just looked at.
   Vec3<Scalar> scanned_vertex(std::uint32_t i) const {
     constexpr std::uint32_t lanes = hull_scan::VertexBlock<Scalar>::size;
     return vertices[i / lanes].vertex(i % lanes);

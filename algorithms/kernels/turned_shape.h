@@ -5,23 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithms/kernels/hull_scan.h"
 #include "algorithms/kernels/support_shape.h"
 
 namespace touchstone {
-
-// How a hull's furthest vertex is found: by looking at all, or by climbing where it has neighbours.
-struct ScanAtBest {
-  static constexpr bool climbs = true;
-  template <class Scalar>
-  static std::uint32_t furthest(const SupportShape<Scalar>& hull, const Vec3<Scalar>& d) {
-    return hull_scan::furthest(std::span<const hull_scan::VertexBlock<Scalar>>(hull.vertices), d);
-  }
-};
-
-struct ScanAll : ScanAtBest {
-  static constexpr bool climbs = false;
-};
 
 // Which core a shape has: as it says itself, at run time, ...
 struct AnyCore {
@@ -56,28 +42,22 @@ class TurnedShape {
   TurnedShape(const SupportShape<Scalar>& shape, const Mat3d& rotation, double unit)
       : shape_(&shape),
         matrix_((rotation * (shape.unit / unit)).template cast<Scalar>()),
-        radius_(static_cast<Scalar>(shape.radius / unit)),
-        vertex_(shape.climb_from) {}
+        radius_(static_cast<Scalar>(shape.radius / unit)) {}
 
   // The point of the core that lies furthest in the direction, relative to the centre. The
   // direction need not have unit length, but its square must neither overflow nor vanish.
-  // `Scan` looks at all vertices of a hull: that of a level for a caller compiled for it. `Which`
-  // says which core it is.
-  template <class Scan = ScanAtBest, class Which = AnyCore>
+  // `Which` says which core it is.
+  template <class Which = AnyCore>
   Vec3<Scalar> support(const Vec3<Scalar>& direction);
 
   // Whether the core has a corner of that number.
   bool has_corner(std::uint32_t number) const { return number < corners(); }
   // That corner, relative to the centre.
   Vec3<Scalar> corner(std::uint32_t number) const;
-  // Where a hull is climbed, the next support is looked for from this corner on.
-  void climb_from(std::uint32_t number) {
-    const std::vector<std::uint32_t>& begin = shape_->neighbours_begin;
-    if (std::size_t{number} + 1 < begin.size() && begin[number] < begin[number + 1])
-      vertex_ = number;
+  // Of a hull, the number of the last support.
+  std::uint32_t last_corner() const {
+    return shape_->cells.empty() ? vertex_ : shape_->cells.number(vertex_);
   }
-  // Where a hull is climbed, the number of the last support.
-  std::uint32_t last_corner() const { return vertex_; }
 
   Scalar radius() const { return radius_; }
   const SupportShape<Scalar>& shape() const { return *shape_; }
@@ -116,11 +96,11 @@ class TurnedShape {
   const SupportShape<Scalar>* shape_;
   Mat3<Scalar> matrix_;
   Scalar radius_;
-  std::uint32_t vertex_;  // hull: where the last support was found
+  std::uint32_t vertex_ = 0;  // hull: the last support, by its place in the cells where it has them
 };
 
 template <class Scalar>
-template <class Scan, class Which>
+template <class Which>
 inline Vec3<Scalar> TurnedShape<Scalar>::support(const Vec3<Scalar>& direction) {
   const Core core = Which::of(*shape_);
   const Vec3<Scalar>& e = shape_->extents;
@@ -149,8 +129,11 @@ inline Vec3<Scalar> TurnedShape<Scalar>::support(const Vec3<Scalar>& direction) 
       return matrix_ * e.cwiseProduct(stretched / std::sqrt(square));
     }
     case Core::hull:
-      vertex_ = !Scan::climbs || shape_->neighbours_begin.empty() ? Scan::furthest(*shape_, d)
-                                                                  : shape_->climb(d, vertex_);
+      if (!shape_->cells.empty()) {
+        vertex_ = shape_->cells.furthest(d).place;
+        return matrix_ * shape_->cells.vertex(vertex_);
+      }
+      vertex_ = shape_->furthest(d);
       return matrix_ * shape_->vertex(vertex_);
     case Core::point:
     case Core::halfspace: break;  // a half-space has no furthest point: see halfspace.h

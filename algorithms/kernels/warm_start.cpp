@@ -5,14 +5,12 @@
 namespace touchstone {
 
 template <class Scalar>
-void WarmStart::keep(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex,
-                     const Vec3<Scalar>& unit_direction) {
+void WarmStart::keep(const Simplex<Scalar>& simplex, const Vec3<Scalar>& unit_direction) {
   size = static_cast<std::uint32_t>(simplex.size);
   for (int i = 0; i < simplex.size; ++i) {
     corners[i] = simplex.corners[i];
     if (corners[i].a == no_corner || corners[i].b == no_corner) size = 0;
   }
-  if (size == 0) corners[0] = {pair.a().last_corner(), pair.b().last_corner()};
   for (int axis = 0; axis < 3; ++axis) direction[axis] = static_cast<float>(unit_direction[axis]);
 }
 
@@ -41,8 +39,8 @@ Vec3<Scalar> WarmStart::unit_direction() const {
   return usable ? Vec3<Scalar>(kept / std::sqrt(squared)) : Vec3<Scalar>::Zero();
 }
 
-template void WarmStart::keep(SupportPair<float>&, const Simplex<float>&, const Vec3<float>&);
-template void WarmStart::keep(SupportPair<double>&, const Simplex<double>&, const Vec3<double>&);
+template void WarmStart::keep(const Simplex<float>&, const Vec3<float>&);
+template void WarmStart::keep(const Simplex<double>&, const Vec3<double>&);
 template void WarmStart::place(SupportPair<float>&, Simplex<float>&) const;
 template void WarmStart::place(SupportPair<double>&, Simplex<double>&) const;
 template Vec3<float> WarmStart::unit_direction() const;

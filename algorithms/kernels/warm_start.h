@@ -4,9 +4,9 @@
 // whatever the numbers, they are points of the difference, and what is found from them is as right
 // as from any other start. The same for a direction: any plane that has the difference on its far
 // side proves that the bodies are apart.
-// Papers: van den Bergen, "A fast and robust GJK implementation for collision detection of convex
+// Paper: van den Bergen, "A fast and robust GJK implementation for collision detection of convex
 // objects", J. Graphics Tools 4(2), 1999 (the last separating axis, and the last simplex, are where
-// the next frame begins); Cameron, "Enhancing GJK", ICRA 1997 (supports climb from the last one).
+// the next frame begins).
 #pragma once
 
 #include <array>
@@ -19,33 +19,24 @@ namespace touchstone {
 // The same for both scalars; all zeros: nothing is known.
 struct WarmStart {
   std::uint32_t size = 0;  // corners of the last simplex; 0: not known, or round cores
-  // Four, where the origin was inside. Without a simplex the first is the last support's.
+  // Four, where the origin was inside.
   std::array<CornerPair, 4> corners;
   std::array<float, 3> direction{};  // from a to b, world axes, unit length; zero: not known
 
   template <class Scalar>
-  void keep(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex,
-            const Vec3<Scalar>& unit_direction);
+  void keep(const Simplex<Scalar>& simplex, const Vec3<Scalar>& unit_direction);
 
   // Puts the simplex where its corners are now; of size 0 where there is none, or it is not one of
   // these cores.
   template <class Scalar>
   void place(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex) const;
-  // Lets supports of hulls that are climbed be looked for from the first corner on.
-  template <class Scalar>
-  void look_from(SupportPair<Scalar>& pair) const {
-    pair.a().climb_from(corners[0].a);
-    pair.b().climb_from(corners[0].b);
-  }
   // Unit length, or zero.
   template <class Scalar>
   Vec3<Scalar> unit_direction() const;
 };
 
-extern template void WarmStart::keep(SupportPair<float>&, const Simplex<float>&,
-                                     const Vec3<float>&);
-extern template void WarmStart::keep(SupportPair<double>&, const Simplex<double>&,
-                                     const Vec3<double>&);
+extern template void WarmStart::keep(const Simplex<float>&, const Vec3<float>&);
+extern template void WarmStart::keep(const Simplex<double>&, const Vec3<double>&);
 extern template void WarmStart::place(SupportPair<float>&, Simplex<float>&) const;
 extern template void WarmStart::place(SupportPair<double>&, Simplex<double>&) const;
 extern template Vec3<float> WarmStart::unit_direction() const;

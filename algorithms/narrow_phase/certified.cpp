@@ -156,13 +156,8 @@ bool Certified::walk_decides(Pair& pair, Outcome& outcome) const {
   Walk<double> found = walk(pair, {.only_apart = true, .most_iterations = most_iterations}, 0.0);
   outcome.iterations = found.iterations;
   switch (found.end) {
-    case WalkEnd::apart: {
-      double lower = found.lower;
-      if (pair.climbs()) {
-        lower = found.way.dot(pair.support<ScanAll>(-found.way).difference) / found.way.norm();
-      }
-      return lower > pair.radius() + Pair::proven_rounding && say(Answer::separated, outcome);
-    }
+    case WalkEnd::apart:
+      return found.lower > pair.radius() + Pair::proven_rounding && say(Answer::separated, outcome);
     case WalkEnd::inside: return say(Answer::overlapping, outcome);
     default: break;
   }
@@ -186,8 +181,7 @@ bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBo
     return task != Task::penetration && simplex.size == 4 && is_surely_inside(simplex) &&
            say(Answer::overlapping, outcome);
   }
-  if (task == Task::penetration && !pair.climbs() &&
-      found.lower > pair.radius() + Pair::proven_rounding) {
+  if (task == Task::penetration && found.lower > pair.radius() + Pair::proven_rounding) {
     return say(Answer::separated, outcome);
   }
   if (task != Task::penetration && is_within_radius(pair, simplex)) {
