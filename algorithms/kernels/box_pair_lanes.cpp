@@ -59,13 +59,12 @@ template <class Scalar>
 std::size_t BoxPairLanes<Scalar>::solve(const BodyPairs& pairs, Task task,
                                         std::span<Outcome> outcomes, std::uint32_t* left) const {
   const PairTable<Scalar> table{pairs, halves_.data(), outcomes.data(), left};
-  const bool depth = task == Task::penetration;
   switch (isa()) {
-    case Isa::avx512: return avx512::solve_boxes(table, depth);
-    case Isa::avx2: return avx2::solve_boxes(table, depth);
+    case Isa::avx512: return avx512::solve_boxes(table, task);
+    case Isa::avx2: return avx2::solve_boxes(table, task);
     case Isa::baseline: break;
   }
-  return baseline::solve_boxes(table, depth);
+  return baseline::solve_boxes(table, task);
 }
 
 template class BoxPairLanes<float>;

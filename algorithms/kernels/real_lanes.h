@@ -4,8 +4,9 @@
 // correctly rounded, so a lane has the same bits at every level.
 //
 // RealLanes<Scalar> has `width` lanes, its vectors Real (with the operators of the language) and
-// Mask, and Quad, four scalars. `greatest` is of all lanes. Of quads 0, 4, 8... `join` makes a
-// vector, and `transpose` turns four such vectors, of the quads of all lanes, into four of their
+// Mask, and Quad, four scalars. `greatest` is of all lanes, `max_abs` the greater of two without
+// their signs. Of quads 0, 4, 8... `join` makes a vector, `join_at` of those at the addresses 0, 4,
+// 8..., and `transpose` turns four such vectors, of the quads of all lanes, into four of their
 // first numbers, their second and so on.
 #pragma once
 
@@ -49,6 +50,7 @@ struct RealLanes {
   }
   static TOUCHSTONE_INLINE Real max(Real a, Real b) { return a > b ? a : b; }
   static TOUCHSTONE_INLINE Real min(Real a, Real b) { return a < b ? a : b; }
+  static TOUCHSTONE_INLINE Real max_abs(Real a, Real b) { return max(abs(a), abs(b)); }
   static TOUCHSTONE_INLINE Scalar greatest(Real x) {
     const Scalar even = x[0] > x[2] ? x[0] : x[2], odd = x[1] > x[3] ? x[1] : x[3];
     return even > odd ? even : odd;
@@ -60,6 +62,11 @@ struct RealLanes {
     return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
   }
   static TOUCHSTONE_INLINE Real join(const Quad<Scalar>* quads) { return quads[0]; }
+  static TOUCHSTONE_INLINE Real join_at(const Scalar* const* at) {
+    Real quad;
+    std::memcpy(&quad, at[0], sizeof quad);
+    return quad;
+  }
   static TOUCHSTONE_INLINE Mask mask(unsigned bits) {
     const auto set = [bits](unsigned lane) { return -static_cast<Integer>(bits >> lane & 1); };
     return Mask{set(0), set(1), set(2), set(3)};
@@ -101,6 +108,9 @@ struct RealLanes<float> {
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm256_min_ps(a, b);
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real max_abs(Real a, Real b) {
+    return max(abs(a), abs(b));
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE float greatest(Real x) {
     const __m128 four = _mm_max_ps(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1));
@@ -153,6 +163,9 @@ struct RealLanes<double> {
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm256_min_pd(a, b);
   }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real max_abs(Real a, Real b) {
+    return max(abs(a), abs(b));
+  }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE double greatest(Real x) {
     const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(x), _mm256_extractf128_pd(x, 1));
     return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
@@ -168,6 +181,9 @@ struct RealLanes<double> {
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real join(const Quad<double>* quads) {
     return quads[0];
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real join_at(const double* const* at) {
+    return _mm256_loadu_pd(at[0]);
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE void transpose(Real r[4]) {
     const __m256d a = _mm256_unpacklo_pd(r[0], r[1]), b = _mm256_unpackhi_pd(r[0], r[1]);
@@ -206,6 +222,9 @@ struct RealLanes<float> {
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm512_min_ps(a, b);
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real max_abs(Real a, Real b) {
+    return _mm512_range_ps(a, b, 0b1011);
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE float greatest(Real x) {
     return avx2::RealLanes<float>::greatest(
@@ -253,6 +272,9 @@ struct RealLanes<double> {
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real min(Real a, Real b) {
     return _mm512_min_pd(a, b);
   }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real max_abs(Real a, Real b) {
+    return _mm512_range_pd(a, b, 0b1011);
+  }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE double greatest(Real x) {
     return avx2::RealLanes<double>::greatest(
         _mm256_max_pd(_mm512_castpd512_pd256(x), _mm512_extractf64x4_pd(x, 1)));
@@ -264,6 +286,10 @@ struct RealLanes<double> {
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real join(const Quad<double>* quads) {
     return _mm512_insertf64x4(_mm512_castpd256_pd512(quads[0]), quads[4], 1);
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Real join_at(const double* const* at) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(at[0])),
+                              _mm256_loadu_pd(at[4]), 1);
   }
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE void transpose(Real r[4]) {
     const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
