@@ -7,15 +7,18 @@ template <class Scalar>
 struct LeastAxis {
   using Real = typename RealLanes<Scalar>::Real;
   Real gap, square;  // of the axis' length
-  Real measure;      // (gap / size)^2
+  Real measure;      // (gap / size)^2, of a face by rounding less
   Real edge_a, edge_b;
 };
 
+// The measure of a face is lowered by more than rounding: where edges are square to a face their
+// axis is the face's, which has the better witness points.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_face(
     const BoxProducts<Scalar>& seen, typename RealLanes<Scalar>::Real inverse_size) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
+  constexpr Scalar as_good = 1 - 64 * GapError<Scalar>::u;
   const Real none = Lanes::broadcast(-1);
   Real greatest = seen.face_gaps[0], edge_a = Lanes::broadcast(0), edge_b = none;
   for (int k = 1; k < 6; ++k) {
@@ -26,7 +29,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_face(
     if (k >= 3) edge_b = Lanes::select(better, number, edge_b);
   }
   const Real part = greatest * inverse_size;
-  return {greatest, Lanes::broadcast(1), part * part, edge_a, edge_b};
+  return {greatest, Lanes::broadcast(1), as_good * part * part, edge_a, edge_b};
 }
 
 // The axis of edges i and j, in the lanes where its depth is less. Nothing here leaves the scalar's
@@ -37,14 +40,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void take_less(const EdgeAxis<Scalar>& axis,
                                                    LeastAxis<Scalar>& least) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
-  // Less by more than rounding: where edges are square to a face their axis is the face's, which
-  // has the better witness points. Edges that are parallel up to rounding have no axis.
-  constexpr Scalar u = GapError<Scalar>::u, as_good = 1 - 64 * u;
-  const Real square = axis.first * axis.first + axis.second * axis.second;
-  const auto parallel = Lanes::less(length_bound<Scalar>(axis), Lanes::broadcast(4 * u));
+  const Real square = square_length<Scalar>(axis);
+  const auto parallel = Lanes::less(square, Lanes::broadcast(GapError<Scalar>::parallel));
   const Real counted = Lanes::select(parallel, Lanes::broadcast(0), square);
   const Real part = axis.gap * inverse_size, measure = part * part;
-  const auto better = Lanes::less(measure * least.square, least.measure * (as_good * counted));
+  const auto better = Lanes::less(measure * least.square, least.measure * counted);
   least.gap = Lanes::select(better, axis.gap, least.gap);
   least.square = Lanes::select(better, square, least.square);
   least.measure = Lanes::select(better, measure, least.measure);

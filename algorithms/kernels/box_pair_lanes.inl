@@ -75,11 +75,10 @@ struct EdgeAxis {
   typename RealLanes<Scalar>::Real first, second, gap;
 };
 
-// No less than the axis' length.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real length_bound(
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real square_length(
     const EdgeAxis<Scalar>& axis) {
-  return RealLanes<Scalar>::abs(axis.first) + RealLanes<Scalar>::abs(axis.second);
+  return axis.first * axis.first + axis.second * axis.second;
 }
 
 // Those of edge i of a with each edge of b.
@@ -134,16 +133,16 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, 
   judge_by_edges<Scalar>(seen, signs);
   if (signs.open() == 0) return;
   const Real error = GapError<Scalar>::fine * seen.size;
-  const Real parallel = Lanes::broadcast(4 * GapError<Scalar>::u);
+  const Real parallel = Lanes::broadcast(GapError<Scalar>::parallel);
   unsigned apart = 0, open = 0;
   for (int i = 0; i < 3; ++i) {
     EdgeAxis<Scalar> axes[3];
     edge_axes<Scalar>(seen, i, axes);
     for (const EdgeAxis<Scalar>& axis : axes) {
-      const Real length = length_bound<Scalar>(axis);
+      // No less than the axis' length.
+      const Real length = Lanes::abs(axis.first) + Lanes::abs(axis.second);
       const Real most = error * length;
-      // Edges that are parallel up to rounding add no facet that is wide enough to matter.
-      const unsigned counts = ~Lanes::bits(Lanes::less(length, parallel));
+      const unsigned counts = ~Lanes::bits(Lanes::less(square_length<Scalar>(axis), parallel));
       apart |= Lanes::bits(Lanes::less(most, axis.gap)) & counts;
       open |= ~Lanes::bits(Lanes::less(axis.gap, -most)) & counts;
     }

@@ -59,23 +59,30 @@ class BoxLoader {
   const PairTable<Scalar>& table_;
 };
 
-// Numbers in float are narrowed quad by quad, after the offset was taken, and stored. Quads that
-// were just stored are not read as longer vectors before the processor has written them: each group
-// is gathered while the one before it is looked at.
+// Numbers in float are narrowed quad by quad, after the offset was taken, and stored. Where four
+// quads make a vector they are stored side by side, each at its place. A processor that reads such
+// a vector waits until all four are written, so each group is gathered while the one before it is
+// looked at.
 template <>
 class BoxLoader<float> {
   using Lanes = RealLanes<float>;
 
  public:
   TOUCHSTONE_TARGET explicit BoxLoader(const PairTable<float>& table) : table_(table) {
-    if (!table.pairs.first.empty()) gather(0);
+    if (side_by_side) gather(0);
   }
 
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(std::size_t begin, BoxColumns<float>& boxes) {
-    if (begin + Lanes::width < table_.pairs.first.size()) gather(begin + Lanes::width);
-    const Rows& rows = rows_[begin / Lanes::width % 2];
+    gather(side_by_side ? begin + Lanes::width : begin);
+    const Rows& rows = rows_of(begin);
     Lanes::Real columns[7][4];
-    for (std::size_t k = 0; k < 7; ++k) placed_columns<float>(rows[k], columns[k]);
+    for (std::size_t k = 0; k < 7; ++k) {
+      if constexpr (side_by_side) {
+        placed_columns<float>(rows[k], columns[k]);
+      } else {
+        columns_of<float>(rows[k], columns[k]);
+      }
+    }
     boxes.a[0] = {columns[0][0], columns[0][1], columns[0][2]};
     boxes.a[1] = {columns[0][3], columns[1][0], columns[1][1]};
     boxes.a[2] = {columns[1][2], columns[1][3], columns[4][0]};
@@ -88,18 +95,25 @@ class BoxLoader<float> {
   }
 
  private:
+  static constexpr bool side_by_side = Lanes::width == 16;
+
   // Quads of the matrices' first eight numbers; the ninth of a beside the offset; half extents,
-  // those of b beside the ninth of its matrix. Each is at its place.
+  // those of b beside the ninth of its matrix.
   using Rows = Quad<float>[7][Lanes::width];
 
-  // The pairs from `begin` on.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Rows& rows_of(std::size_t begin) {
+    return rows_[begin / Lanes::width % 2];
+  }
+
+  // The pairs from `begin` on, if there are any.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void gather(std::size_t begin) {
+    if (begin >= table_.pairs.first.size()) return;
     Group<float> group;
     start_group<float>(table_, begin, group);
-    Rows& rows = rows_[begin / Lanes::width % 2];
+    Rows& rows = rows_of(begin);
 #pragma GCC unroll 16
     for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-      const std::size_t at = place<Lanes>(lane);
+      const std::size_t at = side_by_side ? place<Lanes>(lane) : lane;
       const std::uint32_t first = group.first[lane], second = group.second[lane];
       const Pose &a = table_.pairs.poses[first], &b = table_.pairs.poses[second];
       rows[0][at] = convert<float>(pose_quad(a, 0));
