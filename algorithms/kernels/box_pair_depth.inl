@@ -2,52 +2,77 @@
 // box_pair_lanes.inl.
 
 // What a lane's least depth is along: a product of edges, by their numbers, or a face normal of
-// that box whose number is not below zero.
+// that box whose number is not below zero. The gap is along the axis times its length.
 template <class Scalar>
 struct LeastAxis {
-  typename RealLanes<Scalar>::Real square;  // of the depth
-  typename RealLanes<Scalar>::Real edge_a, edge_b;
+  using Real = typename RealLanes<Scalar>::Real;
+  Real gap, square;  // of the axis' length
+  Real measure;      // (gap / size)^2, of a face by rounding less
+  Real edge_a, edge_b;
 };
 
+// The measure of a face is lowered by more than rounding: where edges are square to a face their
+// axis is the face's, which has the better witness points.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_axis(const BoxProducts<Scalar>& seen) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_face(
+    const BoxProducts<Scalar>& seen, typename RealLanes<Scalar>::Real inverse_size) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
+  constexpr Scalar as_good = 1 - 64 * GapError<Scalar>::u;
   const Real none = Lanes::broadcast(-1);
-  const Real numbers[3] = {Lanes::broadcast(0), Lanes::broadcast(1), Lanes::broadcast(2)};
-  LeastAxis<Scalar> least{none, none, none};
-  Real greatest = seen.face_gaps[0];
-  for (int k = 0; k < 6; ++k) {
+  Real greatest = seen.face_gaps[0], edge_a = Lanes::broadcast(0), edge_b = none;
+  for (int k = 1; k < 6; ++k) {
     const auto better = Lanes::less(greatest, seen.face_gaps[k]);
+    const Real number = Lanes::broadcast(static_cast<Scalar>(k % 3));
     greatest = Lanes::max(seen.face_gaps[k], greatest);
-    if (k == 0) {
-      least.edge_a = numbers[0];
-    } else if (k < 3) {
-      least.edge_a = Lanes::select(better, numbers[k], least.edge_a);
-    } else {
-      least.edge_a = Lanes::select(better, none, least.edge_a);
-      least.edge_b = Lanes::select(better, numbers[k - 3], least.edge_b);
-    }
+    edge_a = Lanes::select(better, k < 3 ? number : none, edge_a);
+    if (k >= 3) edge_b = Lanes::select(better, number, edge_b);
   }
-  least.square = greatest * greatest;
-  // Less by more than rounding: where edges are square to a face their axis is the face's, which
-  // has the better witness points. Edges that are parallel up to rounding have no axis.
-  const Real as_good = Lanes::broadcast(1 - 64 * GapError<Scalar>::u);
-  const Real parallel = Lanes::broadcast(16 * GapError<Scalar>::u * GapError<Scalar>::u);
-  const Real infinite = Lanes::broadcast(std::numeric_limits<Scalar>::infinity());
+  const Real part = greatest * inverse_size;
+  return {greatest, Lanes::broadcast(1), as_good * part * part, edge_a, edge_b};
+}
+
+// The axis of edges i and j, in the lanes where its depth is less. Nothing here leaves the scalar's
+// range: of lanes that overlap no gap that counts is below 4 u 160 u of the size.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void take_less(const EdgeAxis<Scalar>& axis, int i, int j,
+                                                   typename RealLanes<Scalar>::Real inverse_size,
+                                                   LeastAxis<Scalar>& least) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  const Real square = square_length<Scalar>(axis);
+  const auto parallel = Lanes::less(square, Lanes::broadcast(GapError<Scalar>::parallel));
+  const Real counted = Lanes::select(parallel, Lanes::broadcast(0), square);
+  const Real part = axis.gap * inverse_size, measure = part * part;
+  const auto better = Lanes::less(measure * least.square, least.measure * counted);
+  least.gap = Lanes::select(better, axis.gap, least.gap);
+  least.square = Lanes::select(better, square, least.square);
+  least.measure = Lanes::select(better, measure, least.measure);
+  least.edge_a = Lanes::select(better, Lanes::broadcast(static_cast<Scalar>(i)), least.edge_a);
+  least.edge_b = Lanes::select(better, Lanes::broadcast(static_cast<Scalar>(j)), least.edge_b);
+}
+
+// Of lanes that overlap; and says which of the open ones do, which are those that it finds deeper
+// along all axes than twice `fine` allows for.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_axis(const BoxProducts<Scalar>& seen,
+                                                                 Signs& signs) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  const Real inverse_size = Lanes::broadcast(1) / seen.size;
+  LeastAxis<Scalar> least = least_face<Scalar>(seen, inverse_size);
+  Real greatest = seen.face_gap;
   for (int i = 0; i < 3; ++i) {
+    EdgeAxis<Scalar> axes[3];
+    edge_axes<Scalar>(seen, i, axes);
     for (int j = 0; j < 3; ++j) {
-      const EdgeAxis<Scalar> axis = edge_axis<Scalar>(seen, i, j);
-      const Real length = axis.first * axis.first + axis.second * axis.second;
-      // In this order nothing leaves the scalar's range.
-      const Real square =
-          Lanes::select(Lanes::less(length, parallel), infinite, axis.gap / length * axis.gap);
-      const auto better = Lanes::less(square, least.square * as_good);
-      least.square = Lanes::select(better, square, least.square);
-      least.edge_a = Lanes::select(better, numbers[i], least.edge_a);
-      least.edge_b = Lanes::select(better, numbers[j], least.edge_b);
+      greatest = Lanes::max(greatest, axes[j].gap);
+      take_less<Scalar>(axes[j], i, j, inverse_size, least);
     }
   }
+  constexpr Scalar sure = 2 * GapError<Scalar>::fine;
+  signs.overlapping |= signs.open() & Lanes::bits(Lanes::less(greatest, Lanes::broadcast(0))) &
+                       Lanes::bits(Lanes::less(sure * sure * least.square, least.measure));
   return least;
 }
 
@@ -134,16 +159,15 @@ TOUCHSTONE_TARGET void slide_together(const BoxProducts<Scalar>& seen, Contact<S
 // The contacts of those lanes that are known to overlap; those of them whose points are found.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Scalar>& seen,
+                                                           const LeastAxis<Scalar>& least,
                                                            unsigned overlapping,
                                                            Contact<Scalar>& contact) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
-  const LeastAxis<Scalar> least = least_axis<Scalar>(seen);
   const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
   const auto face_a = Lanes::less(least.edge_b, zero), face_b = Lanes::less(least.edge_a, zero);
   const auto& p = seen.products;
   auto& [depth, normal, on_a, on_b] = contact;
-  depth = Lanes::sqrt(least.square);
   Real edge_a[3], edge_b[3];
   for (int k = 0; k < 3; ++k) {
     edge_a[k] =
@@ -158,12 +182,15 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
   const Real square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
   const Real between =
       normal[0] * seen.offset_a[0] + normal[1] * seen.offset_a[1] + normal[2] * seen.offset_a[2];
-  Real length = Lanes::sqrt(square);
-  length = one / Lanes::select(Lanes::less(between, zero), -length, length);
-  for (Real& x : normal) x = x * length;
+  const Real edges = Lanes::select(face_a, zero, Lanes::select(face_b, zero, one));
+  const auto is_edges = Lanes::less(zero, edges);
+  Real inverse = one / Lanes::sqrt(square);
+  depth = -least.gap * Lanes::select(is_edges, inverse, one);
+  const Real inverse_square = inverse * inverse;
+  inverse = Lanes::select(Lanes::less(between, zero), -inverse, inverse);
+  for (Real& x : normal) x = x * inverse;
 
   // The corner of each that is deepest in the other; of two edges, their middles.
-  const Real edges = Lanes::select(face_a, zero, Lanes::select(face_b, zero, one));
   for (int k = 0; k < 3; ++k) {
     const Real half = seen.half_a[k] - seen.half_a[k] * edges * edge_a[k];
     on_a[k] = Lanes::select(Lanes::less(normal[k], zero), -half, half);
@@ -186,8 +213,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
     slide_a += from_a * edge_a[k];
     cosine += edge_a[k] * edge_b[k];
   }
-  const auto is_edges = Lanes::less(zero, edges);
-  slide_b = Lanes::select(is_edges, slide_b / square, zero);
+  slide_b = Lanes::select(is_edges, slide_b * inverse_square, zero);
   slide_a = Lanes::select(is_edges, slide_a + slide_b * cosine, zero);
   for (int k = 0; k < 3; ++k) {
     on_a[k] += slide_a * edge_a[k];
@@ -224,11 +250,12 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> to_world(
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned write_depths(const PairTable<Scalar>& table, std::size_t begin,
                                         const BoxColumns<Scalar>& boxes,
-                                        const BoxProducts<Scalar>& seen, unsigned overlapping) {
+                                        const BoxProducts<Scalar>& seen,
+                                        const LeastAxis<Scalar>& least, unsigned overlapping) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   Contact<Scalar> contact;
-  overlapping = find_contacts<Scalar>(seen, overlapping, contact);
+  overlapping = find_contacts<Scalar>(seen, least, overlapping, contact);
   const Vectors<Scalar> normal = to_world<Scalar>(boxes.a, contact.normal);
   const Vectors<Scalar> on_a = to_world<Scalar>(boxes.a, contact.on_a);
   const Vectors<Scalar> on_b = to_world<Scalar>(boxes.a, contact.on_b);

@@ -29,13 +29,15 @@ using real_lanes::Quad;
 // the pair is replaced by one whose first box is at rest and whose second has the rounded products
 // for its matrix: its bodies are off by n + 4 u, its matrix's columns as normals by
 // sqrt(3) (4 greatest_skew + 20 u), and each product of edges is known to its last digit but one.
-// `fine` is the sum of all that, for a gap as a part of the axis' length.
+// `fine` is the sum of all that, for a gap as a part of the axis' length. Edges whose axis has a
+// square below `parallel` are taken for parallel: they add no facet that is wide enough to matter.
 template <class Scalar>
 struct GapError {
   static constexpr bool is_float = std::is_same_v<Scalar, float>;
   static constexpr Scalar u = unit_roundoff<Scalar>;
   static constexpr Scalar coarse = (is_float ? 64 : 128) * u;
   static constexpr Scalar fine = (is_float ? 160 : 320) * u;
+  static constexpr Scalar parallel = 16 * u * u;
 };
 
 #define TOUCHSTONE_LANES real_lanes
@@ -59,13 +61,12 @@ template <class Scalar>
 std::size_t BoxPairLanes<Scalar>::solve(const BodyPairs& pairs, Task task,
                                         std::span<Outcome> outcomes, std::uint32_t* left) const {
   const PairTable<Scalar> table{pairs, halves_.data(), outcomes.data(), left};
-  const bool depth = task == Task::penetration;
   switch (isa()) {
-    case Isa::avx512: return avx512::solve_boxes(table, depth);
-    case Isa::avx2: return avx2::solve_boxes(table, depth);
+    case Isa::avx512: return avx512::solve_boxes(table, task);
+    case Isa::avx2: return avx2::solve_boxes(table, task);
     case Isa::baseline: break;
   }
-  return baseline::solve_boxes(table, depth);
+  return baseline::solve_boxes(table, task);
 }
 
 template class BoxPairLanes<float>;

@@ -1,6 +1,7 @@
 // What loops over pairs of bodies, one pair a lane of real_lanes.h, are given and write.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -106,12 +106,15 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_numbers(const PairTable<Scalar>& 
   }
 }
 
-// By the lowest bit.
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_answer(unsigned apart, Outcome& outcome) {
-  static_assert(static_cast<int>(Answer::separated) == 0);
-  constexpr auto common = static_cast<unsigned>(Answer::overlapping);
-  outcome.answer = static_cast<Answer>(common - common * (apart & 1));
-  outcome.status = Status::ok;
+// Of the lane whose bit is the lowest.
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_answer(unsigned overlapping, Outcome& outcome) {
+  static_assert(static_cast<int>(Answer::separated) == 0 && static_cast<int>(Status::ok) == 0);
+  static_assert(offsetof(Outcome, status) == offsetof(Outcome, answer) + sizeof(Answer));
+  // Both at once.
+  constexpr unsigned common = static_cast<unsigned>(Answer::overlapping)
+                              << (std::endian::native == std::endian::big ? 8 : 0);
+  const auto both = static_cast<std::uint16_t>((overlapping & 1) * common);
+  std::memcpy(&outcome.answer, &both, sizeof both);
   outcome.iterations = 0;
 }
 
@@ -127,13 +130,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::size_t write_answers(const PairTable<Sc
   const unsigned answered = apart | overlapping;
   if (end == width && (~answered & ((1u << width) - 1)) == 0) {
     for (std::size_t lane = 0; lane < width; ++lane) {
-      write_answer(apart >> lane, table.outcomes[begin + lane]);
+      write_answer(~apart >> lane, table.outcomes[begin + lane]);
     }
     return left;
   }
   for (std::size_t lane = 0; lane < end; ++lane) {
     if ((answered >> lane & 1) != 0) {
-      write_answer(apart >> lane, table.outcomes[begin + lane]);
+      write_answer(~apart >> lane, table.outcomes[begin + lane]);
     } else {
       table.left[left++] = static_cast<std::uint32_t>(begin + lane);
     }

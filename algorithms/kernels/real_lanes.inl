@@ -18,7 +18,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void columns_of(const Quad<Scalar>* quads,
   RealLanes<Scalar>::transpose(columns);
 }
 
-// And back: lane l's quad is at place(l) of them.
+// And back: lane l's quad is at place(l) of them, its place.
 template <class Lanes>
 constexpr std::size_t place(std::size_t lane) {
   return lane % 4 * (Lanes::width / 4) + lane / 4;
@@ -31,6 +31,17 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void quads_of(typename RealLanes<Scalar>::Re
   for (std::size_t k = 0; k < 4; ++k) {
     std::memcpy(quads + k * (Lanes::width / 4), &columns[k], sizeof columns[k]);
   }
+}
+
+// Four vectors from quads that are at their places.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void placed_columns(
+    const Quad<Scalar>* quads, typename RealLanes<Scalar>::Real columns[4]) {
+  using Lanes = RealLanes<Scalar>;
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::memcpy(&columns[k], quads + k * (Lanes::width / 4), sizeof columns[k]);
+  }
+  Lanes::transpose(columns);
 }
 
 // A vector of three dimensions in each lane.
