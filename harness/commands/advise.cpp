@@ -4,12 +4,15 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "harness/commands/commands.h"
 #include "harness/commands/trade.h"
+#include "harness/error.h"
 #include "harness/run/build_info.h"
-#include "harness/stats/markdown.h"
-#include "harness/trade/advise.h"
+#include "harness/trade/advice_files.h"
+#include "harness/trade/advice_list.h"
 
 namespace touchstone {
 namespace {
@@ -17,86 +20,76 @@ namespace {
 struct Options {
   TradeRequest request;
   ErrorBudget budget;
-  std::string scene, out, error;
+  std::string scene, list, out, error;
+  bool verify = false;
+  int draws = 3;
 };
 
-std::string interval(const TimedPoint& timed) {
-  if (std::isnan(timed.low)) return "";
-  return fmt::format(" ({:.4g} to {:.4g})", timed.low * 1e3, timed.high * 1e3);
+// For CLI::Option::check. Zero is an error that one may ask for, NaN is none.
+std::string error_fault(const std::string& text) {
+  if (CLI::NonNegativeNumber(text).empty() && !std::isnan(std::stod(text))) return "";
+  return fmt::format("found '{}'; expected a finite number >= 0", text);
 }
 
-std::string describe(const TradeOutcome& outcome, ErrorMeasure measure) {
-  const Configuration& c = outcome.point.configuration;
-  const PointErrors& errors = outcome.evaluation.errors;
-  const PipelineCounters& work = outcome.evaluation.counters;
-  std::string text = fmt::format("  bodies as      {}\n", c.representations.name());
-  if (c.broad != nullptr) {
-    text += fmt::format("  boxes          {}\n  broad phase    {}\n", c.boxes.name(),
-                        c.broad->info.name);
+void say(const std::string& text) { fmt::print(stderr, "{}\n", text); }
+
+// The exit status of one scene.
+int advise(const AdviceTask& task, const std::filesystem::path& folder, int draws,
+           VerificationRows* rows) {
+  const Representing ours = representing();
+  TradeScene scene(task.request, ours);
+  std::filesystem::create_directories(folder);
+  const Advice advice = touchstone::advise(task.request, scene, ours, task.budget, say);
+  write_advice(advice, task.request, task.budget, scene, folder);
+  fmt::print("{}", advice_text(advice, task.request, task.budget, scene));
+  if (!advice.best) {
+    if (rows != nullptr) rows->write(task.request, task.budget, scene, nullptr);
+    return exit_measured_wrong;
   }
-  text += fmt::format("  narrow phase   {}\n", c.narrow_name());
-  text += fmt::format("  costs          {:.4g} ms a frame{}, and {:.3g} s beforehand\n",
-                      outcome.timed.seconds * 1e3, interval(outcome.timed), outcome.preparation);
-  text += fmt::format(
-      "  error          {:.3g} ({}): of {} pairs near each other {} false contacts, {} missed, {} "
-      "without an answer\n",
-      outcome.error, to_string(measure), errors.near, errors.false_positives + errors.far,
-      errors.false_negatives, errors.failed);
-  text += fmt::format(
-      "  needs          {} hulls built, {} shapes bound; for the frames looked at {} updates, {} "
-      "queries, "
-      "{} witness points\n",
-      work.hulls_built, work.shapes_bound, work.updates, work.queries, work.witnesses);
-  return text;
+  fmt::print("\n{}: `touchstone run` measures it again\n", (folder / "advice.toml").string());
+  if (rows == nullptr) return exit_done;
+  const Verification verification =
+      verify(task.request, scene, ours, advice.best->point.configuration, task.budget,
+             advice_draws + 1, draws, folder / "grid", say);
+  rows->write(task.request, task.budget, scene, &verification);
+  fmt::print("\n{}", verification_text(verification));
+  return verification.holds() ? exit_done : exit_measured_wrong;
 }
 
 int advise(Options& options) {
-  TradeRequest& request = options.request;
-  request.scene = options.scene;
-  request.name = request.scene.stem().string() + "-advice";
-  take_measure(options.error, request);
-  const Representing ours = representing();
-  TradeScene scene(request, ours);
-  const std::filesystem::path folder = trade_folder(options.out, request.name);
-  std::filesystem::create_directories(folder);
-  const Advice advice =
-      touchstone::advise(request, scene, ours, options.budget,
-                         [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
-  const std::string budget =
-      fmt::format("{} at most {}{}", to_string(request.measure), options.budget.most,
-                  options.budget.no_false_negatives ? ", no contact missed" : "");
-  std::string text =
-      fmt::format("{}: {}; {} configurations, {} within the budget, {} timed\n\n", scene.scene.name,
-                  budget, advice.configurations, advice.within_budget, advice.timed);
-  if (!advice.best) {
-    fmt::print("{}Nothing that was tried meets the budget.\n", text);
-    return exit_measured_wrong;
-  }
-  text += fmt::format("Cheapest: {}\n{}", advice.best->point.configuration.name(),
-                      describe(*advice.best, request.measure));
-  text += fmt::format(
-      "  elsewhere      {:.3g} on {}: {} pairs, {} missed\n\n",
-      error_of(advice.held_out.errors, advice.best->representation, request.measure),
-      advice.held_out_on, advice.held_out.errors.near, advice.held_out.errors.false_negatives);
-  if (advice.next_better) {
-    text += fmt::format("Next better: {}, for {:.3g} times the time\n{}",
-                        advice.next_better->point.configuration.name(),
-                        advice.next_better->timed.seconds / advice.best->timed.seconds,
-                        describe(*advice.next_better, request.measure));
+  std::vector<AdviceTask> tasks;
+  std::filesystem::path folder;
+  if (!options.list.empty()) {
+    tasks = read_advice_list(options.list, options.request);
+    folder = options.out.empty() ? std::filesystem::path(source_folder) / "results/local/advice"
+                                 : std::filesystem::path(options.out);
   } else {
-    text += "Nothing that was tried is better.\n";
+    AdviceTask& task = tasks.emplace_back();
+    task.request = options.request;
+    task.request.scene = options.scene;
+    task.name = task.request.scene.stem().string();
+    task.request.name = task.name + "-advice";
+    take_measure(options.error, task.request);
+    task.budget = options.budget;
+    folder = trade_folder(options.out, task.request.name);
   }
-  request.grids = {grid_of(advice.best->point.configuration)};
-  if (advice.next_better) request.grids.push_back(grid_of(advice.next_better->point.configuration));
-  stats::write_text(folder / "advice.toml",
-                    trade_toml(request, folder,
-                               "The cheapest with " + budget +
-                                   ", and the next better behind it.\n"
-                                   "Measured by: touchstone run advice.toml"));
-  stats::write_text(folder / "advice.txt", text);
-  fmt::print("{}\n{}: `touchstone run` measures it again\n", text,
-             (folder / "advice.toml").string());
-  return exit_done;
+  // What is no scene is told before hours of work.
+  for (const AdviceTask& task : tasks) TradeScene(task.request, representing());
+  std::filesystem::create_directories(folder);
+  std::optional<VerificationRows> rows;
+  if (options.verify) rows.emplace(folder / "verification.csv", options.draws);
+  int status = exit_done;
+  for (const AdviceTask& task : tasks) {
+    const int found = advise(task, options.list.empty() ? folder : folder / task.name,
+                             options.draws, rows ? &*rows : nullptr);
+    if (found != exit_done) status = found;
+    if (tasks.size() > 1) fmt::print("\n");
+  }
+  if (rows) {
+    rows->close();
+    fmt::print("\n{}: a row for each scene\n", (folder / "verification.csv").string());
+  }
+  return status;
 }
 
 }  // namespace
@@ -105,21 +98,43 @@ void add_advise(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "advise", "The cheapest configuration for a scene that is right enough, by measuring");
-  command->add_option("scene", options->scene, "Scene file: .toml or rigid-ipc's .json")
-      ->required();
+  CLI::Option* scene =
+      command->add_option("scene", options->scene, "Scene file: .toml or rigid-ipc's .json");
+  CLI::Option* list =
+      command->add_option("--list", options->list, "File of scenes, each with its own error");
   command->add_option("--max-error", options->budget.most, "The greatest error that will do")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_flag("--no-false-negatives", options->budget.no_false_negatives,
-                    "No contact may be missed, or be left without an answer");
+      ->check(error_fault)
+      ->capture_default_str()
+      ->excludes(list);
+  command
+      ->add_flag("--no-false-negatives", options->budget.no_false_negatives,
+                 "No contact may be missed, or be left without an answer")
+      ->excludes(list);
   command->add_option("--error", options->error, "What counts as the error of a configuration")
       ->check(CLI::IsMember(
-          std::vector<std::string>(error_measure_names.begin(), error_measure_names.end())));
+          std::vector<std::string>(error_measure_names.begin(), error_measure_names.end())))
+      ->excludes(list);
+  CLI::Option* verify = command->add_flag(
+      "--verify", options->verify,
+      "Hold the advice against the full grid, and against scenes that were not looked at");
+  command->add_option("--seeds", options->draws, "How many such scenes")
+      ->check(CLI::Range(1, 100))
+      ->needs(verify)
+      ->capture_default_str();
   command->add_option(
       "--out", options->out,
       "Folder for advice.toml (default: results/local/trade-NAME-advice in the project)");
   add_trade_axes(*command, options->request);
-  command->callback([options, &status] { status = advise(*options); });
+  for (const char* name : {"--task", "--count", "--seed"}) {
+    command->get_option(name)->excludes(list);
+  }
+  scene->excludes(list);
+  command->callback([options, scene, list, &status] {
+    if (scene->count() + list->count() == 0) {
+      throw InputError("advise: no scene; expected a scene file, or --list FILE");
+    }
+    status = advise(*options);
+  });
 }
 
 }  // namespace touchstone

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
 #include "harness/error.h"
 #include "harness/run/build_info.h"
@@ -94,7 +95,7 @@ void add_trade_axes(CLI::App& command, TradeRequest& request) {
   command.add_option("--seed", request.overrides.seed, "Seed of a generated scene")
       ->check(CLI::NonNegativeNumber);
   command.add_option("--seconds", request.seconds, "For all of it, about")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number)
       ->capture_default_str();
 }
 

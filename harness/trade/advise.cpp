@@ -5,23 +5,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <span>
 
-#include "harness/error.h"
 #include "harness/run/clock.h"
 
 namespace touchstone {
 namespace {
 
 constexpr double truth_share = 0.15;  // of the seconds; as much again for what is held out
-constexpr std::size_t frames_at_first = 2, most_frames = 8, held_out_frames = 4;
-constexpr int held_out_seeds = 2;
+constexpr std::size_t frames_at_first = 2, most_frames = 8;
 constexpr std::size_t finalists = 4;
 constexpr double hopeless = 4;             // times the time of the quickest, by one reading
+constexpr double first_search = 0.6;       // of the seconds left, where more is to be tried
+constexpr double least_search = 0.3;       // of all seconds, whatever came before
 constexpr double enough_for_better = 0.3;  // of the seconds of a search, for that of the next
 
 class Search {
  public:
-  Search(TradeRequest& request, TradeScene& scene, const Representing& representing,
+  Search(const TradeRequest& request, TradeScene& scene, const Representing& representing,
          const ErrorBudget& budget, const std::function<void(const std::string&)>& said)
       : request_(request),
         scene_(scene),
@@ -30,74 +32,113 @@ class Search {
         said_(said) {}
 
   Advice run() {
-    find_candidates();
-    advice_.configurations = all_.size();
-    for (const std::size_t frames : {frames_at_first, most_frames}) drop_by_error(frames);
-    advice_.within_budget = candidates_.size();
+    const bool chooses_grids = request_.grids.empty();
+    std::vector<std::size_t> order = sampling_order(scene_.frames.frames.size());
+    order.resize(std::min(order.size(), most_frames));
+    truth_ = find_truth(scene_.frames, order, truth_share * request_.seconds, request_.threads);
+    candidates_ = within_budget(chooses_grids ? usual_grids() : request_.grids);
     said_(fmt::format("{} of {} configurations are within the budget ({:.0f} s)",
                       candidates_.size(), all_.size(), watch_.seconds()));
-    std::vector<std::size_t> ranked = halve(candidates_, request_.seconds - watch_.seconds());
-    for (const std::size_t i : ranked) {
-      if (!holds_elsewhere(all_[i])) {
-        said_(all_[i].point.configuration.name() + " is over the budget on " + advice_.held_out_on +
-              ", and dropped");
-        continue;
-      }
-      advice_.best = all_[i];
-      break;
-    }
+    std::vector<std::size_t> ranked =
+        halve(candidates_, (chooses_grids ? first_search : 1) * seconds_left());
+    if (chooses_grids && !ranked.empty()) ranked = with_like(ranked);
+    advice_.configurations = all_.size();
+    advice_.within_budget = candidates_.size();
+    choose(ranked);
     if (advice_.best) find_next_better();
+    advice_.hulls_built = scene_.library.hulls();
     return std::move(advice_);
   }
 
  private:
-  void find_candidates() {
-    if (request_.grids.empty()) {
-      request_.grids = default_grids(request_.task, fastest_broad(scene_.frames, scene_.library));
-      add_kinds(scene_.frames, request_.grids);
+  double seconds_left() const { return request_.seconds - watch_.seconds(); }
+
+  std::vector<TradeGrid> usual_grids() {
+    std::vector<TradeGrid> grids =
+        default_grids(request_.task, fastest_broad(scene_.frames, scene_.library));
+    add_kinds(scene_.frames, grids);
+    for (TradeGrid& grid : grids) {
+      for (Representations& representations : grid.representations) {
+        representations.of[static_cast<std::size_t>(ShapeKind::sphere)].reset();
+      }
     }
-    GridPoints grid = expand(request_.grids, scene_.frames, scene_.library, request_.task);
+    return grids;
+  }
+
+  // Adds what these grids have and nobody tried yet; of that, what is within the budget.
+  std::vector<std::size_t> within_budget(std::span<const TradeGrid> grids) {
+    GridPoints grid = expand(grids, scene_.frames, scene_.library, request_.task);
+    std::vector<std::size_t> added;
     for (TradePoint& point : grid.points) {
-      candidates_.push_back(all_.size());
+      if (!names_.insert(point.configuration.name()).second) continue;
+      added.push_back(all_.size());
       TradeOutcome& outcome = all_.emplace_back();
       outcome.point = std::move(point);
       const Representations& representations = outcome.point.configuration.representations;
       outcome.representation = spread_of(scene_.library.errors(representations));
       outcome.preparation = scene_.library.seconds(representations);
     }
-    const std::vector<std::size_t> order = sampling_order(scene_.frames.frames.size());
-    // Every second one is held out.
-    std::vector<std::size_t> wanted;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const bool taken = i % 2 == 0 || order.size() < 4;
-      if (taken && wanted.size() < most_frames) wanted.push_back(order[i]);
-      if (!taken && held_out_.size() < held_out_frames) held_out_.push_back(order[i]);
+    for (const std::size_t frames : {frames_at_first, most_frames}) drop_by_error(frames, added);
+    return added;
+  }
+
+  // Winners of different axes need not have met: the best with every other broad phase, and with
+  // every other narrow phase.
+  std::vector<std::size_t> with_like(std::vector<std::size_t> ranked) {
+    const std::vector<TradeGrid> grids =
+        grids_like(all_[ranked.front()].point.configuration, request_.task);
+    const std::vector<std::size_t> like = within_budget(grids);
+    said_(fmt::format("{} more like {} ({:.0f} s)", like.size(),
+                      all_[ranked.front()].point.configuration.name(), watch_.seconds()));
+    candidates_.insert(candidates_.end(), like.begin(), like.end());
+    const auto behind =
+        ranked.begin() + static_cast<std::ptrdiff_t>(std::min(ranked.size(), finalists));
+    std::vector<std::size_t> again(ranked.begin(), behind);
+    again.insert(again.end(), like.begin(), like.end());
+    again = halve(std::move(again), seconds_left());
+    again.insert(again.end(), behind, ranked.end());
+    return again;
+  }
+
+  void choose(std::span<const std::size_t> ranked) {
+    if (ranked.empty()) return;
+    HeldOutScenes elsewhere(request_, representing_, 1, advice_draws,
+                            truth_share * request_.seconds / advice_draws);
+    advice_.held_out_on = elsewhere.name();
+    for (const std::size_t i : ranked) {
+      if (!std::isfinite(all_[i].timed.seconds)) continue;
+      advice_.held_out = elsewhere.grade(all_[i].point.configuration, budget_);
+      if (all_within(advice_.held_out)) {
+        advice_.best = all_[i];
+        return;
+      }
+      said_(all_[i].point.configuration.name() + " is over the budget on " + elsewhere.name() +
+            ", and dropped");
     }
-    truth_ = find_truth(scene_.frames, wanted, truth_share * request_.seconds, request_.threads);
   }
 
   bool within(const TradeOutcome& outcome) const {
     return meets(budget_, request_.measure, outcome.evaluation, outcome.representation);
   }
 
-  void drop_by_error(std::size_t frames) {
+  void drop_by_error(std::size_t frames, std::vector<std::size_t>& members) {
     const std::span<const FrameTruth> known(truth_.data(), std::min(frames, truth_.size()));
     std::vector<TradePoint> points;
-    for (const std::size_t i : candidates_) points.push_back(all_[i].point);
+    for (const std::size_t i : members) points.push_back(all_[i].point);
     std::vector<Evaluation> found = evaluate(scene_.frames, points, known, request_.task);
     std::vector<std::size_t> left;
-    for (std::size_t k = 0; k < candidates_.size(); ++k) {
-      TradeOutcome& outcome = all_[candidates_[k]];
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      TradeOutcome& outcome = all_[members[k]];
       outcome.evaluation = std::move(found[k]);
       outcome.error = error_of(outcome.evaluation.errors, outcome.representation, request_.measure);
-      if (within(outcome)) left.push_back(candidates_[k]);
+      if (within(outcome)) left.push_back(members[k]);
     }
-    candidates_ = std::move(left);
+    members = std::move(left);
   }
 
   double rough(std::size_t i) const { return std::max(1e-7, all_[i].evaluation.rough_seconds()); }
 
-  // Times them, the fewer the longer, and keeps the faster half; the quickest first.
+  // Times them, the fewer the longer, and keeps the faster half; gives all, the quickest first.
   std::vector<std::size_t> halve(std::vector<std::size_t> left, double seconds) {
     if (left.empty()) return left;
     std::ranges::stable_sort(left, {}, [&](std::size_t i) { return rough(i); });
@@ -106,16 +147,23 @@ class Search {
     advice_.timed += left.size();
     std::size_t stages = 1;
     for (std::size_t n = left.size(); n > finalists; n = (n + 1) / 2) ++stages;
-    const double share = std::max(seconds, 0.3 * request_.seconds) / static_cast<double>(stages);
+    const double share =
+        std::max(seconds, least_search * request_.seconds) / static_cast<double>(stages);
+    std::vector<std::size_t> slower;
     for (;;) {
       const bool last = left.size() <= finalists;
       time(left, share, last ? 3 : 1);
       std::ranges::stable_sort(left, [&](std::size_t i, std::size_t j) {
         return all_[i].timed.seconds < all_[j].timed.seconds;
       });
-      if (last) return left;
-      left.resize(std::max(finalists, (left.size() + 1) / 2));
+      if (last) break;
+      const auto half =
+          left.begin() + static_cast<std::ptrdiff_t>(std::max(finalists, (left.size() + 1) / 2));
+      slower.insert(slower.begin(), half, left.end());
+      left.erase(half, left.end());
     }
+    left.insert(left.end(), slower.begin(), slower.end());
+    return left;
   }
 
   void time(const std::vector<std::size_t>& members, double seconds, int processes) {
@@ -141,56 +189,6 @@ class Search {
     advice_.twin = times.twin;
   }
 
-  // Of other seeds where the scene has them, of other frames where it has not.
-  bool holds_elsewhere(const TradeOutcome& outcome) {
-    if (!std::isfinite(outcome.timed.seconds)) return false;
-    const std::optional<bool> seeds = holds_at_other_seeds(outcome);
-    if (seeds) return *seeds;
-    if (held_out_.empty()) {
-      advice_.held_out = outcome.evaluation;
-      advice_.held_out_on = "nothing else: the scene has one frame";
-      return true;
-    }
-    if (held_out_truth_.empty()) {
-      // From frame 0 on, whose pairs at rest are in no other frame.
-      held_out_truth_ =
-          find_truth(scene_.frames, held_out_, truth_share * request_.seconds, request_.threads);
-    }
-    advice_.held_out =
-        evaluate(scene_.frames, {&outcome.point, 1}, held_out_truth_, request_.task).front();
-    advice_.held_out_on = fmt::format("{} other frames", held_out_truth_.size());
-    return meets(budget_, request_.measure, advice_.held_out, outcome.representation);
-  }
-
-  std::optional<bool> holds_at_other_seeds(const TradeOutcome& outcome) {
-    TradeRequest elsewhere = request_;
-    elsewhere.seconds = std::numeric_limits<double>::infinity();  // made however long it takes
-    for (int k = 1; k <= held_out_seeds; ++k) {
-      elsewhere.overrides.seed = std::max<std::int64_t>(request_.overrides.seed, 1) + k;
-      std::optional<TradeScene> other;
-      try {
-        other.emplace(elsewhere, representing_);
-      } catch (const InputError&) {
-        return {};  // a scene without seeds
-      }
-      const TradeGrid grid = grid_of(outcome.point.configuration);
-      const GridPoints points = expand({&grid, 1}, other->frames, other->library, request_.task);
-      const std::vector<std::size_t> order = sampling_order(other->frames.frames.size());
-      const std::vector<FrameTruth> truth =
-          find_truth(other->frames, {order.data(), std::min(order.size(), held_out_frames)},
-                     truth_share * request_.seconds / held_out_seeds, request_.threads);
-      advice_.held_out_on = fmt::format("seed {}", elsewhere.overrides.seed);
-      if (points.points.size() != 1) return false;
-      advice_.held_out = evaluate(other->frames, points.points, truth, request_.task).front();
-      const RepresentationSpread representation =
-          spread_of(other->library.errors(points.points[0].configuration.representations));
-      if (!meets(budget_, request_.measure, advice_.held_out, representation)) return false;
-    }
-    advice_.held_out_on =
-        fmt::format("{} other seeds, the last of which is counted here", held_out_seeds);
-    return true;
-  }
-
   void find_next_better() {
     std::vector<std::size_t> better;
     for (const std::size_t i : candidates_) {
@@ -203,36 +201,22 @@ class Search {
     advice_.twin = twin;
   }
 
-  TradeRequest& request_;
+  const TradeRequest& request_;
   TradeScene& scene_;
   const Representing& representing_;
   const ErrorBudget& budget_;
   const std::function<void(const std::string&)>& said_;
   Stopwatch watch_;
   std::vector<TradeOutcome> all_;
-  std::vector<std::size_t> candidates_;  // of all, those still in
-  std::vector<std::size_t> held_out_;    // frames
-  std::vector<FrameTruth> truth_, held_out_truth_;
+  std::set<std::string> names_;          // of all
+  std::vector<std::size_t> candidates_;  // of all, those within the budget
+  std::vector<FrameTruth> truth_;
   Advice advice_;
 };
 
 }  // namespace
 
-bool meets(const ErrorBudget& budget, ErrorMeasure measure, const Evaluation& evaluation,
-           const RepresentationSpread& representation) {
-  if (evaluation.status != "ok") return false;
-  const PointErrors& errors = evaluation.errors;
-  if (budget.no_false_negatives) {
-    if (errors.false_negatives > 0) return false;
-    for (std::size_t bin = 0; bin < errors.bins.size(); ++bin) {
-      const bool contact = !(gap_range(bin).high > 0);
-      if (contact && errors.bins[bin].failed > 0) return false;
-    }
-  }
-  return error_of(errors, representation, measure) <= budget.most;
-}
-
-Advice advise(TradeRequest& request, TradeScene& scene, const Representing& representing,
+Advice advise(const TradeRequest& request, TradeScene& scene, const Representing& representing,
               const ErrorBudget& budget, const std::function<void(const std::string&)>& said) {
   return Search(request, scene, representing, budget, said).run();
 }

@@ -5,36 +5,35 @@
 //          is out; only the others are timed, longer as they get fewer.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "harness/trade/error_budget.h"
+#include "harness/trade/held_out.h"
 #include "harness/trade/trade_job.h"
 
 namespace touchstone {
 
-struct ErrorBudget {
-  double most = 1e-3;               // of the request's measure
-  bool no_false_negatives = false;  // no contact missed, and none left without an answer
-};
-bool meets(const ErrorBudget& budget, ErrorMeasure measure, const Evaluation& evaluation,
-           const RepresentationSpread& representation);
+// Draws of held_out.h that advice itself looks at, from 1 on: those behind are nobody's.
+inline constexpr int advice_draws = 2;
 
 struct Advice {
   std::optional<TradeOutcome> best;         // none: nothing meets the budget
   std::optional<TradeOutcome> next_better;  // the cheapest with less error; none: no error is left
-  // On frames, or seeds of a generated scene, that were not looked at before.
-  Evaluation held_out;
+  std::vector<HeldOutGrade> held_out;       // of the best, on scenes that were not looked at before
   std::string held_out_on;
   std::size_t configurations = 0, within_budget = 0, timed = 0;
+  std::int64_t hulls_built = 0;  // in all of the search, for whatever was tried
   double twin = Outcome::none;
 };
 
-// Fills in the grids where the request has none. A configuration that is over the budget where it
-// was not looked at before is dropped for the next.
-Advice advise(TradeRequest& request, TradeScene& scene, const Representing& representing,
+// Without grids in the request: those of default_grids, each kind of bodies represented by itself
+// too, but for spheres, which nothing stands for more cheaply; and then what is like the winner but
+// for its boxes and broad phase, or its narrow phase. A configuration that is over the budget on a
+// held-out scene is dropped for the next.
+Advice advise(const TradeRequest& request, TradeScene& scene, const Representing& representing,
               const ErrorBudget& budget, const std::function<void(const std::string&)>& said);
 
 }  // namespace touchstone

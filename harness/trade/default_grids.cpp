@@ -20,12 +20,17 @@ constexpr std::array<std::string_view, 9> broad_names = {"sweep-and-prune",
                                                          "uniform-grid",
                                                          "naive"};
 // The peers at the end are left out where they are not built.
-constexpr std::array<std::string_view, 13> narrow_names = {"gjk",
+// The peers at the end are left out where they are not built. What gjk-lanes does not take goes to
+// the one behind it.
+constexpr std::array<std::string_view, 16> narrow_names = {"gjk",
+                                                           "gjk-lanes+gjk",
                                                            "closed-form+gjk",
+                                                           "closed-form+gjk-lanes+gjk",
                                                            "ellipsoid+gjk",
                                                            "sat+gjk",
                                                            "sat-faces+gjk",
                                                            "gjk-nesterov",
+                                                           "gjk-switched",
                                                            "mpr",
                                                            "certified",
                                                            "closed-form+certified",
@@ -72,6 +77,18 @@ std::vector<NarrowChain> chains(std::span<const std::string_view> names) {
   return chains;
 }
 
+std::vector<NarrowChain> all_chains(Task task) {
+  std::vector<NarrowChain> all = chains(narrow_names);
+  // Its verdicts are those of mpr.
+  if (task == Task::penetration) all.push_back(parse_chain("mpr-refined"));
+  return all;
+}
+
+std::vector<BoxChoice> box_choices() {
+  return {
+      {}, {BoxChoice::Kind::loose, 0}, {BoxChoice::Kind::fat, 0.05}, {BoxChoice::Kind::fat, 0.2}};
+}
+
 std::vector<const BroadPhaseEntry*> broad_entries() {
   std::vector<const BroadPhaseEntry*> entries;
   for (const std::string_view name : broad_names) entries.push_back(find_broad_phase(name));
@@ -105,7 +122,7 @@ std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad) {
   const std::vector<Precision> both = {Precision::float64, Precision::float32};
   TradeGrid algorithms;
   algorithms.broad = {&broad};
-  algorithms.narrow = chains(narrow_names);
+  algorithms.narrow = all_chains(task);
   algorithms.scalars = both;
 
   TradeGrid tolerances = algorithms;
@@ -118,8 +135,7 @@ std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad) {
   caps.max_iterations = {1, 2, 4, 8, 16, 32};
 
   TradeGrid boxes = algorithms;
-  boxes.boxes = {
-      {}, {BoxChoice::Kind::loose, 0}, {BoxChoice::Kind::fat, 0.05}, {BoxChoice::Kind::fat, 0.2}};
+  boxes.boxes = box_choices();
   boxes.narrow = {quickest(), {}};
   boxes.scalars = both;
   TradeGrid broads = algorithms;
@@ -132,6 +148,17 @@ std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad) {
   // A verdict needs no number: the tolerance of one matters to nobody.
   if (task == Task::intersect) grids.erase(grids.begin() + 1);
   return grids;
+}
+
+std::vector<TradeGrid> grids_like(const Configuration& configuration, Task task) {
+  TradeGrid broad = grid_of(configuration);
+  broad.boxes = box_choices();
+  broad.broad = broad_entries();
+  if (configuration.narrow.empty()) return {broad};
+  TradeGrid narrow = grid_of(configuration);
+  narrow.narrow = all_chains(task);
+  narrow.scalars = {Precision::float64, Precision::float32};
+  return {broad, narrow};
 }
 
 void add_kinds(const SceneFrames& frames, std::vector<TradeGrid>& grids) {

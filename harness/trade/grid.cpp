@@ -112,6 +112,18 @@ class Expansion {
 
 }  // namespace
 
+TradeGrid grid_of(const Configuration& configuration) {
+  TradeGrid grid;
+  grid.representations = {configuration.representations};
+  grid.boxes = {configuration.boxes};
+  grid.broad = {configuration.broad};
+  grid.narrow = {configuration.narrow};
+  grid.scalars = {configuration.settings.scalar};
+  grid.tolerances = {configuration.settings.tolerance};
+  grid.max_iterations = {configuration.settings.max_iterations};
+  return grid;
+}
+
 GridPoints expand(std::span<const TradeGrid> grids, const SceneFrames& frames,
                   StandInLibrary& library, Task task) {
   Expansion expansion(frames, library, task);

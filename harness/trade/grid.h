@@ -22,6 +22,9 @@ struct TradeGrid {
   std::vector<std::optional<int>> max_iterations = {std::nullopt};
 };
 
+// A grid of just this one.
+TradeGrid grid_of(const Configuration& configuration);
+
 struct GridPoints {
   std::vector<TradePoint> points;       // in the grids' order, each once
   std::map<std::string, int> left_out;  // combinations by the reason
@@ -38,6 +41,9 @@ GridPoints expand(std::span<const TradeGrid> grids, const SceneFrames& frames,
 // iterations, kinds of boxes and broad phases, and representations; the first is the baseline.
 // `broad` is the one that all but the grid of broad phases use.
 std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad);
+// What differs from this one by its boxes and broad phase, or by its narrow phases and scalar: of
+// those of default_grids each with each.
+std::vector<TradeGrid> grids_like(const Configuration& configuration, Task task);
 // Of the broad phases of default_grids the one that is the fastest on this scene, by a short trial.
 const BroadPhaseEntry& fastest_broad(const SceneFrames& frames, StandInLibrary& library);
 // The same, with each kind of bodies represented by itself where there are several kinds.

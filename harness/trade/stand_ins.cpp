@@ -213,4 +213,12 @@ double StandInLibrary::seconds(const Representations& representations) const {
   return sum;
 }
 
+std::int64_t StandInLibrary::hulls() const {
+  std::int64_t hulls = 0;
+  for (const auto& [key, made] : made_) {
+    if (made.stand_in != nullptr) hulls += made.stand_in->hulls;
+  }
+  return hulls;
+}
+
 }  // namespace touchstone

@@ -72,6 +72,8 @@ class StandInLibrary {
   std::vector<RepresentationError> errors(const Representations& representations);
   // Seconds that it took to make them.
   double seconds(const Representations& representations) const;
+  // Built so far, for whatever was asked for.
+  std::int64_t hulls() const;
 
  private:
   struct Made {

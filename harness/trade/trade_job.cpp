@@ -31,7 +31,10 @@ void put_baseline_first(std::vector<TradeOutcome>& points) {
 }  // namespace
 
 TradeScene::TradeScene(const TradeRequest& request, const Representing& representing)
-    : scene(load_scene(request.scene, request.overrides)),
+    : TradeScene(load_scene(request.scene, request.overrides), request, representing) {}
+
+TradeScene::TradeScene(Scene from, const TradeRequest& request, const Representing& representing)
+    : scene(std::move(from)),
       frames(scene, frames_of(request)),
       library(frames, representing, preparation_share * request.seconds) {}
 

@@ -36,6 +36,7 @@ struct TradeResult {
 struct TradeScene {
   // Throws InputError where the scene cannot be had.
   TradeScene(const TradeRequest& request, const Representing& representing);
+  TradeScene(Scene from, const TradeRequest& request, const Representing& representing);
   TradeScene(const TradeScene&) = delete;  // its members know each other's places
   TradeScene& operator=(const TradeScene&) = delete;
 

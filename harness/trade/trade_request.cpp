@@ -230,16 +230,4 @@ std::string trade_toml(const TradeRequest& request, const std::filesystem::path&
   return text;
 }
 
-TradeGrid grid_of(const Configuration& configuration) {
-  TradeGrid grid;
-  grid.representations = {configuration.representations};
-  grid.boxes = {configuration.boxes};
-  grid.broad = {configuration.broad};
-  grid.narrow = {configuration.narrow};
-  grid.scalars = {configuration.settings.scalar};
-  grid.tolerances = {configuration.settings.tolerance};
-  grid.max_iterations = {configuration.settings.max_iterations};
-  return grid;
-}
-
 }  // namespace touchstone

@@ -36,7 +36,4 @@ TradeRequest read_trade(const std::filesystem::path& file);
 std::string trade_toml(const TradeRequest& request, const std::filesystem::path& folder,
                        const std::string& comment);
 
-// A grid of just this one.
-TradeGrid grid_of(const Configuration& configuration);
-
 }  // namespace touchstone

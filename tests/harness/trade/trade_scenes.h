@@ -37,6 +37,11 @@ inline std::vector<Part> represent_simply(const Shape& shape, const Mesh*,
   throw InputError("no such representation in this test");
 }
 
+// For scenes that need nobody to stand for their bodies.
+inline std::vector<Part> represent_no_body(const Shape&, const Mesh*, const Representation&) {
+  throw std::logic_error("a body was represented that need not be");
+}
+
 inline Representing simple_representing() {
   return {represent_simply, [](const Shape&, const Mesh*, const std::vector<Part>&) {
             return RepresentationError{};

@@ -1,0 +1,22 @@
+// How wrong a configuration may be.
+#pragma once
+
+#include <string>
+
+#include "harness/trade/evaluation.h"
+#include "harness/trade/front.h"
+
+namespace touchstone {
+
+struct ErrorBudget {
+  double most = 1e-3;               // of the request's measure
+  bool no_false_negatives = false;  // no contact missed, and none left without an answer
+};
+
+bool meets(const ErrorBudget& budget, ErrorMeasure measure, const Evaluation& evaluation,
+           const RepresentationSpread& representation);
+
+// "verdicts at most 0.001, no contact missed"
+std::string to_string(const ErrorBudget& budget, ErrorMeasure measure);
+
+}  // namespace touchstone
