@@ -52,12 +52,10 @@ constexpr unsigned all_corners = 0xf;
 // inside is well inside one of the three around the axis from its last corner to one beyond that
 // face: then the simplex becomes that one.
 template <class Scalar>
-bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind,
-                 const CornerPair& corners) {
+bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind) {
   for (std::size_t k = 0; k < 3; ++k) {
     Simplex<Scalar> other = simplex;
     other.points[k] = behind;
-    other.corners[k] = corners;
     if (!is_surely_inside(other)) continue;
     simplex = other;
     return true;
