@@ -33,7 +33,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool balls_apart(const Quad<double>& offset,
 enum class Loaded : std::uint8_t { walks, apart, left };
 
 // Puts the pair's numbers into the lane, where they have a unit as in SupportPair.
-template <class Scalar>
+template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& table,
                                                      const LaneGoal<Scalar>& goal,
                                                      std::uint32_t place, std::size_t lane,
@@ -76,9 +76,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   std::memcpy(&walkers.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
   walkers.corners_a[lane] = a.vertices;
   walkers.corners_b[lane] = b.vertices;
-  // Looked at once the other lanes have theirs.
-  if (a.vertices != nullptr) fetch_blocks(a.vertices, a.block_count);
-  if (b.vertices != nullptr) fetch_blocks(b.vertices, b.block_count);
+  if constexpr (scans) {
+    // Looked at once the other lanes have theirs.
+    if (goal.scans_a) fetch_blocks(a.vertices, a.block_count);
+    if (goal.scans_b) fetch_blocks(b.vertices, b.block_count);
+  }
   walkers.blocks_a[lane] = a.block_count;
   walkers.blocks_b[lane] = b.block_count;
   return Loaded::walks;
@@ -160,7 +162,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void fetch_bodies(const PairTable<Scalar>& t
 
 // Gives the next pairs of the queue to the lanes that do not walk, and the places of those that the
 // lanes do not take to `left`; how many are there then.
-template <class Scalar>
+template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
                                           const LaneGoal<Scalar>& goal,
                                           std::span<const std::uint32_t> queue, std::size_t& next,
@@ -172,9 +174,9 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
   for (std::size_t lane = 0; lane < Lanes::width && next < queue.size(); ++lane) {
     if ((walkers.active >> lane & 1) != 0) continue;
     while (next < queue.size()) {
-      if (next + ahead < queue.size()) fetch_bodies(table, goal, queue[next + ahead]);
+      if (scans && next + ahead < queue.size()) fetch_bodies(table, goal, queue[next + ahead]);
       const std::uint32_t place = queue[next++];
-      const Loaded loaded = load_pair<Scalar>(table, goal, place, lane, walkers);
+      const Loaded loaded = load_pair<Scalar, scans>(table, goal, place, lane, walkers);
       if (loaded == Loaded::walks) {
         fresh |= 1u << lane;
         break;
@@ -202,13 +204,13 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
   walkers.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
   walkers.radius_a = sizes[1];
   walkers.radius_b = sizes[3];
-  if (goal.scans_a) {
+  if (scans && goal.scans_a) {
     std::ranges::copy(columns_a, walkers.a);
   } else {
     turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a,
                       goal.vertices_a, nullptr, walkers.a);
   }
-  if (goal.scans_b) {
+  if (scans && goal.scans_b) {
     std::ranges::copy(columns_b, walkers.b);
   } else {
     turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b,

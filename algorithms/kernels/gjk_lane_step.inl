@@ -22,6 +22,11 @@ struct LaneStep {
   unsigned found, inside, unsure;
 };
 
+template <class Scalar>
+struct Tetrahedron {
+  Vectors<Scalar> a, b, c, d;
+};
+
 template <class Scalar, bool points>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void put_where(typename RealLanes<Scalar>::Mask mask,
                                                    const Corner<Scalar>& from, Corner<Scalar>& to) {
@@ -81,16 +86,15 @@ TOUCHSTONE_TARGET unsigned surely_inside(const Vectors<Scalar>& a, const Vectors
   return quickly | keep_signs(errors);
 }
 
-// The same of a double pyramid: the face of b, c and d, and the corners a and e on its two sides.
-// An origin that is too near that face for either half is well inside one of the three tetrahedra
-// around the axis a e.
+// The same of a double pyramid: a tetrahedron, and a corner e on the other side of the face of b, c
+// and d. An origin that is too near that face for either half is well inside one of the three
+// tetrahedra around the axis a e.
 template <class Scalar>
-TOUCHSTONE_TARGET unsigned surely_between(const Vectors<Scalar>& a, const Vectors<Scalar>& e,
-                                          const Vectors<Scalar>& b, const Vectors<Scalar>& c,
-                                          const Vectors<Scalar>& d, Scalar corner_error,
-                                          unsigned asked) {
+TOUCHSTONE_TARGET unsigned surely_between(const Tetrahedron<Scalar>& half, const Vectors<Scalar>& e,
+                                          Scalar corner_error, unsigned asked) {
   using Real = typename RealLanes<Scalar>::Real;
-  const Vectors<Scalar>* const ring[4] = {&b, &c, &d, &b};
+  const Vectors<Scalar>& a = half.a;
+  const Vectors<Scalar>* const ring[4] = {&half.b, &half.c, &half.d, &half.b};
   const Vectors<Scalar> ae = difference<Scalar>(e, a);
   unsigned inside = 0;
   for (int k = 0; k < 3 && inside != asked; ++k) {
@@ -107,19 +111,19 @@ TOUCHSTONE_TARGET unsigned surely_between(const Vectors<Scalar>& a, const Vector
 // In the lanes `on`: the simplex becomes the feature that is nearest, which the new corner is on.
 // `solid`: some lane has d. Regions are told apart by the products of edges: bc is that of the
 // edges from the new corner, which is a, to b and to c. Where rounding lets them overlap, the
-// first is taken of corner, edges ad, ac, ab, faces adb, acd, abc. Where the origin is inside, sure
-// or not, the simplex stays as it was.
+// first is taken of corner, edges ad, ac, ab, faces adb, acd, abc. Where the origin is inside,
+// but not surely, the lane's `open` is the tetrahedron.
 template <class Scalar, bool points, bool solid>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scalar>& simplex,
                                                                const Corner<Scalar>& corner,
-                                                               typename RealLanes<Scalar>::Mask set,
-                                                               Scalar corner_error) {
+                                                               typename RealLanes<Scalar>::Mask on,
+                                                               Scalar corner_error,
+                                                               Tetrahedron<Scalar>& open) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   using Mask = typename Lanes::Mask;
   const Real zero = Lanes::broadcast(0);
   const Corner<Scalar> b = simplex.b, c = simplex.c, d = simplex.d;
-  Mask on = set;
   const Mask has_b = both(on, simplex.has_b), has_c = both(on, simplex.has_c);
   const Mask no_c = without(on, has_c), none = without(on, on);
   const Vectors<Scalar>& a = corner.point;
@@ -173,16 +177,15 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
     step.inside = Lanes::bits(without(has_d, either(either(out_b, out_c), out_d)));
     if (step.inside != 0) {
       const unsigned all = step.inside;
-      on = without(on, Lanes::mask(all));
       step.inside = surely_inside<Scalar>(a, b.point, c.point, d.point, sides, corner_error, all);
       step.unsure = all & ~step.inside;
+      if (step.unsure != 0) open = {a, b.point, c.point, d.point};
     }
   }
 
   const Mask on_corner = without(on, past);
-  const Mask on_edge = both(on, without(either(either(edge_b, edge_c), edge_d), on_corner));
-  const Mask on_face =
-      both(on, without(without(either(either(face_b, face_c), face_d), on_corner), on_edge));
+  const Mask on_edge = without(either(either(edge_b, edge_c), edge_d), on_corner);
+  const Mask on_face = without(without(either(either(face_b, face_c), face_d), on_corner), on_edge);
   const Real one = Lanes::broadcast(1), inverse = one / square;
   Vectors<Scalar> way = moved<Scalar>(a, along * inverse, edge);
   // What is left along the edge is rounding, and would tilt the support plane.
@@ -190,17 +193,16 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
   const Vectors<Scalar> outward =
       scaled<Scalar>(Lanes::select(Lanes::less(side, zero), -one, one), normal);
   step.way = select<Scalar>(on_corner, a, select<Scalar>(on_edge, way, outward));
-  step.found = Lanes::bits(either(either(on_edge, on_face), on_corner));
+  step.found = Lanes::bits(either(either(on_edge, on_face), on_corner)) & ~step.unsure;
 
   // What is kept beside a: of ab and abc first b, of ad and adb first d, and c of the others.
   const Mask by_b = without(without(face_b, face_c), face_d);
-  const Mask first_b =
-      both(on, either(without(without(edge_b, edge_c), edge_d), both(by_b, on_face)));
-  put_where<Scalar, points>(both(on, by_b), c, simplex.d);
-  if constexpr (solid) put_where<Scalar, points>(both(on, face_d), b, simplex.d);
+  const Mask first_b = either(without(without(edge_b, edge_c), edge_d), both(by_b, on_face));
+  put_where<Scalar, points>(by_b, c, simplex.d);
+  if constexpr (solid) put_where<Scalar, points>(face_d, b, simplex.d);
   put_where<Scalar, points>(first_b, b, simplex.c);
   if constexpr (solid) {
-    put_where<Scalar, points>(both(on, either(edge_d, both(face_d, on_face))), d, simplex.c);
+    put_where<Scalar, points>(either(edge_d, both(face_d, on_face)), d, simplex.c);
   }
   put_where<Scalar, points>(on, corner, simplex.b);
   simplex.has_b = either(simplex.has_b, on);

@@ -29,9 +29,8 @@ struct Walkers {
   Real along;           // the nearest point along the way, times its length
   Real plane;           // the newest support plane, so too
   Real count;           // of iterations
-  // Of lanes that pierce: the corner on this side of the simplex, while they look for one behind
-  // it.
-  Vectors<Scalar> before;
+  // Of lanes that pierce, while they look for a corner behind the face they came through.
+  Tetrahedron<Scalar> pierced;
 
   // Lanes that walk, and those that have ended, by how; as bits.
   unsigned active = 0, apart = 0, inside = 0, shallow = 0, doubtful = 0;
@@ -118,7 +117,7 @@ TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
 }
 
 // One step of every lane that walks.
-template <class Scalar, bool points>
+template <class Scalar, bool points, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
                                                  Walkers<Scalar>& walkers) {
   using Lanes = RealLanes<Scalar>;
@@ -128,7 +127,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
 
   Corner<Scalar> corner;
   Vectors<Scalar> on_b;
-  if (goal.scans_a) {
+  if (scans && goal.scans_a) {
     corner.on_a = scanned_vertex<Scalar>(walkers.corners_a, walkers.blocks_a, walkers.a,
                                          {-way.x, -way.y, -way.z}, walkers.active);
   } else if (goal.vertices_a != 0) {
@@ -136,7 +135,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   } else {
     corner.on_a = furthest_corner<Scalar, false>(walkers.a, goal.halves_a, {zero, zero, zero}, way);
   }
-  if (goal.scans_b) {
+  if (scans && goal.scans_b) {
     on_b =
         scanned_vertex<Scalar>(walkers.corners_b, walkers.blocks_b, walkers.b, way, walkers.active);
     on_b = moved<Scalar>(on_b, Lanes::broadcast(1), walkers.centre_b);
@@ -163,10 +162,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   const unsigned pierced = walkers.piercing & walkers.active;
   walkers.piercing = 0;
   if (pierced != 0) {
-    const LaneSimplex<Scalar>& face = walkers.simplex;
     const unsigned between =
-        surely_between<Scalar>(walkers.before, corner.point, face.b.point, face.c.point,
-                               face.d.point, goal.corner_error, pierced);
+        surely_between<Scalar>(walkers.pierced, corner.point, goal.corner_error, pierced);
     walkers.inside |= between;
     walkers.doubtful |= pierced & ~between;
     walkers.active &= ~pierced;
@@ -177,13 +174,15 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   LaneStep<Scalar> step;
   const bool solid = Lanes::bits(both(on, walkers.simplex.has_d)) != 0;
   if (solid) {
-    step = take_step<Scalar, points, true>(walkers.simplex, corner, on, goal.corner_error);
+    step = take_step<Scalar, points, true>(walkers.simplex, corner, on, goal.corner_error,
+                                           walkers.pierced);
   } else {
-    step = take_step<Scalar, points, false>(walkers.simplex, corner, on, goal.corner_error);
+    step = take_step<Scalar, points, false>(walkers.simplex, corner, on, goal.corner_error,
+                                            walkers.pierced);
   }
   const Real square = dot<Scalar>(step.way, step.way);
-  const Real length = Lanes::sqrt(square);
-  const Real along = dot<Scalar>(step.way, corner.point);
+  Real length = Lanes::sqrt(square);
+  Real along = dot<Scalar>(step.way, corner.point);
   // So written that NaN ends the walk.
   const auto nearer = Lanes::less(along * walkers.length, walkers.along * length);
   const unsigned in_time =
@@ -191,15 +190,17 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   const unsigned going =
       in_time & step.found &
       Lanes::bits(both(nearer, Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square)));
-  // Too near the face that it came through: the corner behind that tells.
-  walkers.piercing = walkers.active & step.unsure & in_time;
-  const auto turns = Lanes::mask(walkers.piercing);
-  const auto goes = without(on, turns);
-  walkers.way =
-      select<Scalar>(goes, step.way, select<Scalar>(turns, {-way.x, -way.y, -way.z}, way));
-  walkers.length = Lanes::select(goes, length, walkers.length);
-  walkers.along = Lanes::select(goes, along, walkers.along);
-  walkers.before = select<Scalar>(turns, corner.point, walkers.before);
+  walkers.way = select<Scalar>(on, step.way, way);
+  // Too near the face that it came through: a corner behind that tells.
+  walkers.piercing = goal.answers_overlaps ? walkers.active & step.unsure & in_time : 0;
+  if (walkers.piercing != 0) {
+    const auto turns = Lanes::mask(walkers.piercing);
+    walkers.way = select<Scalar>(turns, {-way.x, -way.y, -way.z}, walkers.way);
+    length = Lanes::select(turns, walkers.length, length);
+    along = Lanes::select(turns, walkers.along, along);
+  }
+  walkers.length = Lanes::select(on, length, walkers.length);
+  walkers.along = Lanes::select(on, along, walkers.along);
   const unsigned inside = walkers.active & step.inside;
   unsigned shallow = 0;
   if (goal.round) {
@@ -213,7 +214,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   walkers.active &= stays;
 }
 
-template <class Scalar, bool points>
+template <class Scalar, bool points, bool scans>
 TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
                                          const LaneGoal<Scalar>& goal,
                                          std::span<const std::uint32_t> queue, std::size_t left) {
@@ -224,11 +225,11 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
   std::ranges::fill(walkers.corners_b, goal.some_vertices);
   std::size_t next = 0;
   while (next < queue.size() || walkers.active != 0) {
-    left = start_lanes<Scalar>(table, goal, queue, next, walkers, left);
+    left = start_lanes<Scalar, scans>(table, goal, queue, next, walkers, left);
     // Lanes are filled together, which costs about the same for a few as for all.
     const int enough = next < queue.size() ? static_cast<int>(width * 3 / 8) : 1;
     do {
-      walk_on<Scalar, points>(goal, walkers);
+      walk_on<Scalar, points, scans>(goal, walkers);
     } while (std::popcount(walkers.active) >= enough && walkers.active != 0);
     left = answer_lanes<Scalar, points>(table, goal, walkers, left);
   }
@@ -238,6 +239,10 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
 template <class Scalar>
 TOUCHSTONE_TARGET std::size_t walk_all(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
                                        std::span<const std::uint32_t> queue, std::size_t left) {
-  if (goal.distances) return walk_lanes<Scalar, true>(table, goal, queue, left);
-  return walk_lanes<Scalar, false>(table, goal, queue, left);
+  if (goal.scans_a || goal.scans_b) {
+    return goal.distances ? walk_lanes<Scalar, true, true>(table, goal, queue, left)
+                          : walk_lanes<Scalar, false, true>(table, goal, queue, left);
+  }
+  return goal.distances ? walk_lanes<Scalar, true, false>(table, goal, queue, left)
+                        : walk_lanes<Scalar, false, false>(table, goal, queue, left);
 }

@@ -45,6 +45,7 @@ class GjkQuery {
  private:
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
+  bool walk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const;
   void solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start, Outcome& outcome);
   Approach<Scalar> approach_from(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
                                  WarmStart* start);

@@ -45,12 +45,10 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
 }
 
 template <class Scalar>
-bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind,
-                 const CornerPair& corners) {
+bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind) {
   for (std::size_t k = 0; k < 3; ++k) {
     Simplex<Scalar> other = simplex;
     other.points[k] = behind;
-    other.corners[k] = corners;
     if (!is_surely_inside(other)) continue;
     simplex = other;
     return true;
@@ -67,8 +65,8 @@ Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolera
 
 template bool is_surely_inside(const Simplex<float>&);
 template bool is_surely_inside(const Simplex<double>&);
-template bool goes_around(Simplex<float>&, const DifferencePoint<float>&, const CornerPair&);
-template bool goes_around(Simplex<double>&, const DifferencePoint<double>&, const CornerPair&);
+template bool goes_around(Simplex<float>&, const DifferencePoint<float>&);
+template bool goes_around(Simplex<double>&, const DifferencePoint<double>&);
 template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float, const WalkStart<float>&);
 template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double, const WalkStart<double>&);
 

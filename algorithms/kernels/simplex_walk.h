@@ -54,14 +54,12 @@ bool is_surely_inside(const Simplex<Scalar>& simplex);
 // inside is well inside one of the three around the axis from its last corner to one beyond that
 // face: then the simplex becomes that one, and this is true.
 template <class Scalar>
-bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind,
-                 const CornerPair& corners);
+bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind);
 
 extern template bool is_surely_inside(const Simplex<float>&);
 extern template bool is_surely_inside(const Simplex<double>&);
-extern template bool goes_around(Simplex<float>&, const DifferencePoint<float>&, const CornerPair&);
-extern template bool goes_around(Simplex<double>&, const DifferencePoint<double>&,
-                                 const CornerPair&);
+extern template bool goes_around(Simplex<float>&, const DifferencePoint<float>&);
+extern template bool goes_around(Simplex<double>&, const DifferencePoint<double>&);
 extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float,
                                  const WalkStart<float>&);
 extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double,

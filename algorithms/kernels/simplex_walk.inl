@@ -263,19 +263,16 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     if constexpr (numbered) simplex.corners[simplex.size] = corners;
     simplex.points[simplex.size++] = {point, on_a, on_b};
     found.moved = true;
-    const Vector before_way = way;
+    const Vector before = way;
     way = simplex.reduce();
     if (simplex.size == 4) {
       simplex.write(found.simplex);
       if (!is_surely_inside(found.simplex)) {
-        // Too near the face that it came through: the corner behind that tells.
-        pair.count_support();
+        // Too near the face that it came through: a corner behind that tells, which has no number.
+        if (numbered || found.iterations == goal.most_iterations) return found;
         ++found.iterations;
-        const Vector behind_a = a.template support<WhichA>(before_way, corners.a);
-        const Vector behind_b = b.template support<WhichB>(-before_way, corners.b) + centre_b;
-        const DifferencePoint<Scalar> behind{vec<Scalar>(behind_a - behind_b),
-                                             vec<Scalar>(behind_a), vec<Scalar>(behind_b)};
-        if (!goes_around(found.simplex, behind, corners)) return found;
+        const auto behind = pair.template support<WhichA, WhichB>(vec<Scalar>(before));
+        if (!goes_around(found.simplex, behind)) return found;
       }
       found.end = WalkEnd::inside;
       return found;

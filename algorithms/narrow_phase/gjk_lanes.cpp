@@ -1,14 +1,18 @@
-// GJK between small bodies, many pairs at once: one pair a lane of vectors.
+// GJK, many pairs at once: one pair a lane of vectors.
 // Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; the nearest
 //          feature of a simplex: Ericson, "Real-Time Collision Detection", 2005, section 9.5.
 // Departs: every lane takes each step, whatever the size of its simplex: the regions of all
 //          features are looked at, and one is selected. Lanes whose pairs are answered take the
-//          next pairs of the batch. Vertices are turned into the frame of the walk when a pair
-//          enters its lane. What rounding leaves open, and whatever the lanes do not take, is asked
-//          again one by one as `gjk` does: the verdicts are as reliable as those.
-//          Takes spheres, capsules, boxes and hulls. One by one go hulls of more than 16 vertices
-//          or far from their own origin, bodies whose matrix is no rotation nor near one, and,
-//          where there is no AVX2, all pairs in double: two lanes a vector are slower than none.
+//          next pairs of the batch. Vertices of hulls of up to 16 are turned into the frame of the
+//          walk when a pair enters its lane; those of greater ones are scanned, sixteen at a time,
+//          one lane after the other. Where the origin is too near the face of a tetrahedron to be
+//          inside for sure, a corner behind that face is looked for, and one of the three
+//          tetrahedra around the axis to it is. What rounding leaves open, and whatever the lanes
+//          do not take, is asked again one by one as `gjk` does: the verdicts are as reliable as
+//          those.
+//          Takes spheres, capsules, boxes and hulls. One by one go hulls that are climbed or far
+//          from their own origin, bodies whose matrix is no rotation nor near one, and, where there
+//          is no AVX2, all pairs in double: two lanes a vector are slower than none.
 // Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
 //          part of the pair's size.
 // Cost:    as gjk's walk, for all lanes what the slowest of them costs; pays from batches of about
