@@ -9,7 +9,7 @@ namespace touchstone {
 namespace {
 
 // Where a hull has more vertices than this, a table of directions beats looking at all of them.
-constexpr std::size_t most_vertices_to_scan = 128;
+constexpr std::size_t most_vertices_to_scan = 192;
 
 // How far the body's origin is inside the faces (metres); none where there are no faces.
 double origin_depth(const Hull& hull) {

@@ -25,6 +25,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "algorithms/kernels/fetch_ahead.h"
 #include "algorithms/kernels/gjk_query.h"
 #include "algorithms/kernels/halfspace.h"
 #include "algorithms/narrow_phase.h"
@@ -40,10 +41,14 @@ class Gjk final : public NarrowPhase {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
+    ahead_.bind(shapes_);
   }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
+                 batch.task == Task::distance);
     for (std::size_t i = 0; i < batch.size(); ++i) {
+      ahead_.before(i);
       const std::uint32_t a = batch.first[i];
       const std::uint32_t b = batch.second[i];
       const SupportShape<Scalar>& shape_a = shapes_[batch.shape_of[a]];
@@ -72,6 +77,7 @@ class Gjk final : public NarrowPhase {
   bool warm_;
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
+  FetchAhead<Scalar> ahead_;
 };
 
 template <Momentum momentum>

@@ -13,6 +13,7 @@
 //          depth of curved shapes.
 #include <algorithm>
 
+#include "algorithms/kernels/fetch_ahead.h"
 #include "algorithms/kernels/halfspace.h"
 #include "algorithms/kernels/portal_search.h"
 #include "algorithms/narrow_phase.h"
@@ -58,10 +59,13 @@ class Mpr final : public NarrowPhase {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
+    ahead_.bind(shapes_);
   }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses}, true);
     for (std::size_t i = 0; i < batch.size(); ++i) {
+      ahead_.before(i);
       const std::uint32_t first = batch.first[i], second = batch.second[i];
       const SupportShape<Scalar>& a = shapes_[batch.shape_of[first]];
       const SupportShape<Scalar>& b = shapes_[batch.shape_of[second]];
@@ -84,6 +88,7 @@ class Mpr final : public NarrowPhase {
   int max_iterations_;
   Scalar tolerance_;  // in units of the pair
   std::vector<SupportShape<Scalar>> shapes_;
+  FetchAhead<Scalar> ahead_;
 };
 
 }  // namespace

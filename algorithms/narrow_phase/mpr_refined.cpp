@@ -25,6 +25,7 @@
 #include <optional>
 #include <utility>
 
+#include "algorithms/kernels/fetch_ahead.h"
 #include "algorithms/kernels/halfspace.h"
 #include "algorithms/kernels/portal_cover.h"
 #include "algorithms/kernels/portal_search.h"
@@ -209,10 +210,13 @@ class MprRefined final : public NarrowPhase {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
+    ahead_.bind(shapes_);
   }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses}, true);
     for (std::size_t i = 0; i < batch.size(); ++i) {
+      ahead_.before(i);
       const std::uint32_t first = batch.first[i], second = batch.second[i];
       const SupportShape<Scalar>& a = shapes_[batch.shape_of[first]];
       const SupportShape<Scalar>& b = shapes_[batch.shape_of[second]];
@@ -243,6 +247,7 @@ class MprRefined final : public NarrowPhase {
   int max_iterations_;
   std::optional<double> tolerance_;  // in units of the pair
   std::vector<SupportShape<Scalar>> shapes_;
+  FetchAhead<Scalar> ahead_;
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ void add_timed_by_hand(const std::string& name, const Run& run) {
 
 // One call an iteration, over 64 shapes in turn. In `random` the direction is another each time; in
 // `coherent` a shape's next one is a twentieth of a radian from its last, as in the later steps of
-// a query, which is where climbing starts well.
+// a query, which find most of what they look at in cache.
 template <class Scalar>
 void support(benchmark::State& state, const ShapeFamily& family, bool coherent) {
   constexpr std::size_t shapes = 64, directions = 16 * shapes;
