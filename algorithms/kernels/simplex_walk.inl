@@ -180,8 +180,9 @@ struct QuadSimplex {
     return held;
   }
 
-  // The way to it; only the feature's corners stay.
-  TOUCHSTONE_TARGET Vector reduce() {
+  // The way to it; only the feature's corners stay. Inlined, the walk's registers do not suffice;
+  // and so it is one piece of code for all cores that a walk is compiled for.
+  __attribute__((noinline)) TOUCHSTONE_TARGET Vector reduce() {
     const int newest = size - 1;
     const auto w = [&](int i)
                        TOUCHSTONE_TARGET -> const Vector& { return points[newest - i].difference; };
