@@ -225,9 +225,11 @@ struct QuadSimplex {
   }
 };
 
+// `found` is as it is made: where GCC 12 sets its corners in wide registers here, it leaves them in
+// a state that slows all that comes after.
 template <bool numbered, class WhichA, class WhichB, class Scalar>
-TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal,
-                                       Scalar tolerance, const WalkStart<Scalar>& start) {
+TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                               const WalkStart<Scalar>& start, Walk<Scalar>& found) {
   using Vector = Quad<Scalar>;
   // Shorter ones have lost their digits, or are about to. (Squares of lengths.)
   constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
@@ -237,7 +239,6 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
   QuadShape<Scalar> a(pair.a()), b(pair.b());
   const Vector centre_b = quad(pair.centre_b());
   QuadSimplex<Scalar, numbered> simplex;
-  Walk<Scalar> found;
   simplex.read(start.simplex);
   Vector way = quad(start.way);
   Scalar squared = dot(way, way);
@@ -268,7 +269,7 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     if (simplex.size == 4) {
       simplex.write(found.simplex);
       if (is_surely_inside(found.simplex)) found.end = WalkEnd::inside;
-      return found;
+      return;
     }
     squared = dot(way, way);
     length = std::sqrt(squared);
@@ -278,5 +279,4 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     if (!(squared > shortest) || !(nearest < before)) break;
   }
   simplex.write(found.simplex);
-  return found;
 }
