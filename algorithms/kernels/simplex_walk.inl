@@ -180,8 +180,9 @@ struct QuadSimplex {
     return held;
   }
 
-  // The way to it; only the feature's corners stay.
-  TOUCHSTONE_TARGET Vector reduce() {
+  // The way to it; only the feature's corners stay. Inlined, the walk's registers do not suffice;
+  // and so it is one piece of code for all cores that a walk is compiled for.
+  __attribute__((noinline)) TOUCHSTONE_TARGET Vector reduce() {
     const int newest = size - 1;
     const auto w = [&](int i)
                        TOUCHSTONE_TARGET -> const Vector& { return points[newest - i].difference; };
@@ -224,9 +225,11 @@ struct QuadSimplex {
   }
 };
 
+// `found` is as it is made: where GCC 12 sets its corners in wide registers here, it leaves them in
+// a state that slows all that comes after.
 template <bool numbered, class WhichA, class WhichB, class Scalar>
-TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal,
-                                       Scalar tolerance, const WalkStart<Scalar>& start) {
+TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                               const WalkStart<Scalar>& start, Walk<Scalar>& found) {
   using Vector = Quad<Scalar>;
   // Shorter ones have lost their digits, or are about to. (Squares of lengths.)
   constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
@@ -236,7 +239,6 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
   QuadShape<Scalar> a(pair.a()), b(pair.b());
   const Vector centre_b = quad(pair.centre_b());
   QuadSimplex<Scalar, numbered> simplex;
-  Walk<Scalar> found;
   simplex.read(start.simplex);
   Vector way = quad(start.way);
   Scalar squared = dot(way, way);
@@ -269,13 +271,13 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
       simplex.write(found.simplex);
       if (!is_surely_inside(found.simplex)) {
         // Too near the face that it came through: a corner behind that tells, which has no number.
-        if (numbered || found.iterations == goal.most_iterations) return found;
+        if (numbered || found.iterations == goal.most_iterations) return;
         ++found.iterations;
         const auto behind = pair.template support<WhichA, WhichB>(vec<Scalar>(before));
-        if (!goes_around(found.simplex, behind)) return found;
+        if (!goes_around(found.simplex, behind)) return;
       }
       found.end = WalkEnd::inside;
-      return found;
+      return;
     }
     squared = dot(way, way);
     length = std::sqrt(squared);
@@ -285,5 +287,4 @@ TOUCHSTONE_TARGET Walk<Scalar> walk_at(SupportPair<Scalar>& pair, const WalkGoal
     if (!(squared > shortest) || !(nearest < last)) break;
   }
   simplex.write(found.simplex);
-  return found;
 }

@@ -19,12 +19,17 @@ constexpr unsigned all_corners = 0xf;
 template <bool numbered, class WhichA, class WhichB, class Scalar>
 Walk<Scalar> walk_here(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
                        const WalkStart<Scalar>& start) {
+  Walk<Scalar> found;
   switch (isa()) {
     case Isa::avx512:
-      return avx512::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start);
-    case Isa::avx2: return avx2::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start);
-    default: return baseline::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start);
+      avx512::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start, found);
+      break;
+    case Isa::avx2:
+      avx2::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start, found);
+      break;
+    default: baseline::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start, found);
   }
+  return found;
 }
 
 }  // namespace
