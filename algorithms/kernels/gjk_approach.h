@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "algorithms/core/outcome.h"
-#include "algorithms/kernels/simplex.h"
+#include "algorithms/kernels/simplex_walk.h"
 #include "algorithms/kernels/warm_start.h"
 
 namespace touchstone {
@@ -74,6 +74,13 @@ extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal
                                          const WarmStart*);
 extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
                                           const WarmStart*);
+
+// The code that walks between two cores: for any, as long as nothing else is put in.
+template <class Scalar>
+struct CoreWalks {
+  ApproachFunction<Scalar> approach = touchstone::approach<Scalar>;
+  WalkFunction<Scalar> walk = touchstone::walk<Scalar>;
+};
 
 // How far the nearest point, as the simplex's weights have it, is from the origin.
 template <class Scalar>

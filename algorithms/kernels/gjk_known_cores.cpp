@@ -5,8 +5,8 @@
 namespace touchstone {
 
 template <class Scalar>
-ApproachTable<Scalar> approaches_of_known_cores() {
-  ApproachTable<Scalar> table{};
+CoreTable<Scalar> walks_of_known_cores() {
+  CoreTable<Scalar> table{};
   add_points(table);
   add_segments_and_hulls(table);
   add_boxes_and_ellipsoids(table);
@@ -14,7 +14,7 @@ ApproachTable<Scalar> approaches_of_known_cores() {
   return table;
 }
 
-template ApproachTable<float> approaches_of_known_cores();
-template ApproachTable<double> approaches_of_known_cores();
+template CoreTable<float> walks_of_known_cores();
+template CoreTable<double> walks_of_known_cores();
 
 }  // namespace touchstone

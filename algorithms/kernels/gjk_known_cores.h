@@ -1,4 +1,5 @@
-// GJK's loop compiled for two cores that are known: no support call asks which they are.
+// GJK's loop and its quick walk compiled for two cores that are known: no support call asks which
+// they are.
 //
 // There is one for each two of the seven bounded cores, whose support maps are seven different
 // pieces of code: point (sphere), segment (capsule), box, cylinder, cone, ellipsoid, hull. How a
@@ -13,15 +14,16 @@ namespace touchstone {
 
 inline constexpr std::size_t known_cores = static_cast<std::size_t>(SupportCore::halfspace);
 
-// What `approach` of gjk_approach.h finds, to the last bit, by a's core and b's, of which a's comes
-// first in the order of SupportCore, or is the same; null for others.
+// What `approach` of gjk_approach.h and `walk` of simplex_walk.h find, to the last bit, by a's core
+// and b's, of which a's comes first in the order of SupportCore, or is the same. Those of others
+// are for any cores.
 template <class Scalar>
-using ApproachTable = std::array<std::array<ApproachFunction<Scalar>, known_cores>, known_cores>;
+using CoreTable = std::array<std::array<CoreWalks<Scalar>, known_cores>, known_cores>;
 
 template <class Scalar>
-ApproachTable<Scalar> approaches_of_known_cores();
+CoreTable<Scalar> walks_of_known_cores();
 
-extern template ApproachTable<float> approaches_of_known_cores();
-extern template ApproachTable<double> approaches_of_known_cores();
+extern template CoreTable<float> walks_of_known_cores();
+extern template CoreTable<double> walks_of_known_cores();
 
 }  // namespace touchstone

@@ -23,9 +23,11 @@ struct KnownCores {
 
 // Core a with each of the others, none of which comes before it.
 template <SupportCore a, SupportCore... others, class Scalar>
-void add_pairs(ApproachTable<Scalar>& table) {
+void add_pairs(CoreTable<Scalar>& table) {
   const auto place = [](SupportCore core) { return static_cast<std::size_t>(core); };
-  ((table[place(a)][place(others)] = &approach_by<KnownCores<a, others>, Scalar>), ...);
+  ((table[place(a)][place(others)] = {&approach_by<KnownCores<a, others>, Scalar>,
+                                      &KnownCores<a, others>::template walk<Scalar>}),
+   ...);
 }
 
 }  // namespace

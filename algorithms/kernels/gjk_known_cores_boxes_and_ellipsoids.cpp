@@ -5,7 +5,7 @@ namespace touchstone {
 namespace {
 
 template <class Scalar>
-void add(ApproachTable<Scalar>& table) {
+void add(CoreTable<Scalar>& table) {
   add_pairs<SupportCore::box, SupportCore::box, SupportCore::cylinder, SupportCore::cone,
             SupportCore::ellipsoid, SupportCore::hull>(table);
   add_pairs<SupportCore::ellipsoid, SupportCore::ellipsoid, SupportCore::hull>(table);
@@ -13,7 +13,7 @@ void add(ApproachTable<Scalar>& table) {
 
 }  // namespace
 
-void add_boxes_and_ellipsoids(ApproachTable<float>& table) { add(table); }
-void add_boxes_and_ellipsoids(ApproachTable<double>& table) { add(table); }
+void add_boxes_and_ellipsoids(CoreTable<float>& table) { add(table); }
+void add_boxes_and_ellipsoids(CoreTable<double>& table) { add(table); }
 
 }  // namespace touchstone

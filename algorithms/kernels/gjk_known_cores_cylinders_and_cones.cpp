@@ -5,7 +5,7 @@ namespace touchstone {
 namespace {
 
 template <class Scalar>
-void add(ApproachTable<Scalar>& table) {
+void add(CoreTable<Scalar>& table) {
   add_pairs<SupportCore::cylinder, SupportCore::cylinder, SupportCore::cone, SupportCore::ellipsoid,
             SupportCore::hull>(table);
   add_pairs<SupportCore::cone, SupportCore::cone, SupportCore::ellipsoid, SupportCore::hull>(table);
@@ -13,7 +13,7 @@ void add(ApproachTable<Scalar>& table) {
 
 }  // namespace
 
-void add_cylinders_and_cones(ApproachTable<float>& table) { add(table); }
-void add_cylinders_and_cones(ApproachTable<double>& table) { add(table); }
+void add_cylinders_and_cones(CoreTable<float>& table) { add(table); }
+void add_cylinders_and_cones(CoreTable<double>& table) { add(table); }
 
 }  // namespace touchstone

@@ -6,13 +6,13 @@
 
 namespace touchstone {
 
-void add_points(ApproachTable<float>& table);
-void add_points(ApproachTable<double>& table);
-void add_segments_and_hulls(ApproachTable<float>& table);
-void add_segments_and_hulls(ApproachTable<double>& table);
-void add_boxes_and_ellipsoids(ApproachTable<float>& table);
-void add_boxes_and_ellipsoids(ApproachTable<double>& table);
-void add_cylinders_and_cones(ApproachTable<float>& table);
-void add_cylinders_and_cones(ApproachTable<double>& table);
+void add_points(CoreTable<float>& table);
+void add_points(CoreTable<double>& table);
+void add_segments_and_hulls(CoreTable<float>& table);
+void add_segments_and_hulls(CoreTable<double>& table);
+void add_boxes_and_ellipsoids(CoreTable<float>& table);
+void add_boxes_and_ellipsoids(CoreTable<double>& table);
+void add_cylinders_and_cones(CoreTable<float>& table);
+void add_cylinders_and_cones(CoreTable<double>& table);
 
 }  // namespace touchstone

@@ -5,7 +5,7 @@ namespace touchstone {
 namespace {
 
 template <class Scalar>
-void add(ApproachTable<Scalar>& table) {
+void add(CoreTable<Scalar>& table) {
   add_pairs<SupportCore::point, SupportCore::point, SupportCore::segment, SupportCore::box,
             SupportCore::cylinder, SupportCore::cone, SupportCore::ellipsoid, SupportCore::hull>(
       table);
@@ -13,7 +13,7 @@ void add(ApproachTable<Scalar>& table) {
 
 }  // namespace
 
-void add_points(ApproachTable<float>& table) { add(table); }
-void add_points(ApproachTable<double>& table) { add(table); }
+void add_points(CoreTable<float>& table) { add(table); }
+void add_points(CoreTable<double>& table) { add(table); }
 
 }  // namespace touchstone

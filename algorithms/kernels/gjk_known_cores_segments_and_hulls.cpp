@@ -5,7 +5,7 @@ namespace touchstone {
 namespace {
 
 template <class Scalar>
-void add(ApproachTable<Scalar>& table) {
+void add(CoreTable<Scalar>& table) {
   add_pairs<SupportCore::segment, SupportCore::segment, SupportCore::box, SupportCore::cylinder,
             SupportCore::cone, SupportCore::ellipsoid, SupportCore::hull>(table);
   add_pairs<SupportCore::hull, SupportCore::hull>(table);
@@ -13,7 +13,7 @@ void add(ApproachTable<Scalar>& table) {
 
 }  // namespace
 
-void add_segments_and_hulls(ApproachTable<float>& table) { add(table); }
-void add_segments_and_hulls(ApproachTable<double>& table) { add(table); }
+void add_segments_and_hulls(CoreTable<float>& table) { add(table); }
+void add_segments_and_hulls(CoreTable<double>& table) { add(table); }
 
 }  // namespace touchstone

@@ -1,7 +1,5 @@
 #include "algorithms/kernels/gjk_query.h"
 
-#include "algorithms/kernels/simplex_walk.h"
-
 namespace touchstone {
 namespace {
 
@@ -44,7 +42,8 @@ bool GjkQuery<Scalar>::walk_decides(SupportPair<Scalar>& pair, Outcome& outcome)
   if (!pair.is_polytope() || pair.radius() > 0) return false;
   if (settings_.momentum == Momentum::nesterov || settings_.duality_gap) return false;
   const WalkGoal goal{.only_apart = true, .most_iterations = settings_.gjk_cap};
-  const Walk<Scalar> found = walk(pair, goal, tolerance(true));
+  const WalkStart<Scalar> from_the_centres(-pair.centre_b());
+  const Walk<Scalar> found = walks_.walk(pair, goal, tolerance(true), from_the_centres);
   if (found.end != WalkEnd::apart && found.end != WalkEnd::inside) return false;
   outcome.answer = found.end == WalkEnd::apart ? Answer::separated : Answer::overlapping;
   outcome.status = Status::ok;
@@ -57,7 +56,7 @@ template <class Scalar>
 Approach<Scalar> GjkQuery<Scalar>::approach_from(SupportPair<Scalar>& pair,
                                                  const ApproachGoal<Scalar>& goal,
                                                  WarmStart* start) {
-  const Approach<Scalar> found = approach_(pair, goal, start);
+  const Approach<Scalar> found = walks_.approach(pair, goal, start);
   if (start == nullptr) return found;
   if (!found.as_before) start->keep(found.simplex, found.direction);
   return found;

@@ -31,8 +31,8 @@ class GjkQuery {
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
              const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
 
-  // From now on walks by this one, which is for the cores that are to come, and not by `approach`.
-  void walk_by(ApproachFunction<Scalar> function) { approach_ = function; }
+  // From now on walks by these, which are for the cores that are to come.
+  void walk_by(const CoreWalks<Scalar>& walks) { walks_ = walks; }
 
   // Of a distance between the bodies, in the pair's unit.
   Scalar tolerance(bool polytopes) const {
@@ -53,7 +53,7 @@ class GjkQuery {
                      Outcome& outcome);
 
   GjkQuerySettings settings_;
-  ApproachFunction<Scalar> approach_ = approach<Scalar>;
+  CoreWalks<Scalar> walks_;
   ExpandingPolytope<Scalar> polytope_;
 };
 

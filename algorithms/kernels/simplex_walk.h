@@ -47,6 +47,10 @@ Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolera
   return walk(pair, goal, tolerance, WalkStart<Scalar>(-pair.centre_b()));
 }
 
+template <class Scalar>
+using WalkFunction = Walk<Scalar> (*)(SupportPair<Scalar>&, const WalkGoal&, Scalar,
+                                      const WalkStart<Scalar>&);
+
 // Whether the origin is inside a tetrahedron whatever rounding did to its corners.
 template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex);

@@ -1,7 +1,7 @@
 // GJK compiled once for each two kinds of shapes: the same walk as gjk's, whose support calls do
-// not ask at run time what they are for. Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and
-// Automation 4(2), 1988. Departs: as gjk, from whose walk and loop it is compiled, with the cores
-// as template parameters:
+// not ask at run time what they are for.
+// Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988.
+// Departs: as gjk, from whose walk and loop it is compiled, with the cores as template parameters:
 //          its outcomes have the bits of gjk's. The batch's two kinds are looked up once, and name
 //          the loop. Templates end there: what is done once for a query, and the expansion behind
 //          it (EPA), whose support calls switch, are gjk's own code; how a hull is searched depends
@@ -50,7 +50,7 @@ class GjkTemplated final : public NarrowPhase {
       solve_with_halfspaces(batch, outcomes);
       return;
     }
-    query_.walk_by(approaches_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
+    query_.walk_by(walks_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::uint32_t a = batch.first[i], b = batch.second[i];
       query_.solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]],
@@ -70,7 +70,7 @@ class GjkTemplated final : public NarrowPhase {
     }
   }
 
-  const ApproachTable<Scalar> approaches_ = approaches_of_known_cores<Scalar>();
+  const CoreTable<Scalar> walks_ = walks_of_known_cores<Scalar>();
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
 };
