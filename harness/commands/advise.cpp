@@ -74,7 +74,7 @@ int advise(Options& options) {
     folder = trade_folder(options.out, task.request.name);
   }
   // What is no scene is told before hours of work.
-  for (const AdviceTask& task : tasks) const TradeScene scene(task.request, representing());
+  for (const AdviceTask& task : tasks) TradeScene(task.request, representing());
   std::filesystem::create_directories(folder);
   std::optional<VerificationRows> rows;
   if (options.verify) rows.emplace(folder / "verification.csv", options.draws);
