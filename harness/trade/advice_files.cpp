@@ -60,7 +60,7 @@ std::string advice_text(const Advice& advice, const TradeRequest& request,
   if (!advice.best) return text + "Nothing that was tried meets the budget.\n";
   text += fmt::format("Cheapest: {}\n{}", advice.best->point.configuration.name(),
                       describe(*advice.best, request.measure));
-  text += fmt::format("  elsewhere      ");
+  text += "  elsewhere      ";
   if (advice.held_out.empty()) {
     text += advice.held_out_on + "\n\n";
   } else {

