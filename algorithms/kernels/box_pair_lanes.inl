@@ -164,6 +164,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
   const auto& [a, b, offset, half_a, half_b] = boxes;
   const Real size_a = half_a.x + half_a.y + half_a.z, size_b = half_b.x + half_b.y + half_b.z;
   const Real sizes = size_a + size_b;
+  seen.size = sizes + Lanes::abs(offset.x) + Lanes::abs(offset.y) + Lanes::abs(offset.z);
   const unsigned sized = sized_lanes<Scalar>(sizes);
   const Real squares_a[3] = {dot<Scalar>(a[0], a[0]), dot<Scalar>(a[1], a[1]),
                              dot<Scalar>(a[2], a[2])};
@@ -190,7 +191,6 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
   const unsigned orthonormal =
       Lanes::bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
       Lanes::bits(Lanes::less(trace_a + trace_b, Lanes::broadcast(8)));
-  seen.size = sizes + Lanes::abs(offset.x) + Lanes::abs(offset.y) + Lanes::abs(offset.z);
   return {far, sized & orthonormal & ~far};
 }
 
@@ -216,7 +216,7 @@ TOUCHSTONE_TARGET std::size_t solve_task(const PairTable<Scalar> table) {
       // too. The order of proofs does not matter to the answer.
       const bool depth_first = depth && signs.apart == 0;
       if (!depth_first) judge<Scalar>(seen, signs);
-      LeastAxis<Scalar> least;
+      LeastAxis<Scalar> least{};
       if constexpr (depth) {
         if (depth_first || signs.overlapping != 0) least = least_axis<Scalar>(seen, signs);
       }
