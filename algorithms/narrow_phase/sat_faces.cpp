@@ -12,8 +12,8 @@
 //          points of the two supporting features as seen along the normal; where an edge pair is
 //          shallower these need not lie on one line along it.
 // Fails:   says not_converged where the greatest gap is below its rounding error, degenerate for a
-//          solid hull that came without faces and that no axis tried separates, and capacity for one
-//          of more than 16,384 vertices.
+//          solid hull that came without faces and that no axis tried separates, and capacity for
+//          one of more than 16,384 vertices.
 // Cost:    O(Fa Vb + Fb Va) time; no memory.
 #include "algorithms/kernels/flat_sided.h"
 #include "algorithms/kernels/separating_axis.h"
