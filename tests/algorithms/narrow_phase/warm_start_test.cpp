@@ -236,7 +236,8 @@ TEST(WarmStart, TasksMayTakeTurns) {
       move(random, frame, pair);
       const oracle::Measure truth = oracle.measure({a, pair.poses[0]}, {b, pair.poses[1]});
       const Task task = gjk.tasks[static_cast<std::size_t>(random.below(3))];
-      grade(ask(*warm, task, pair, &pair.memory), truth, task, false, 4 * pair.size, 1e-8, pair.name);
+      grade(ask(*warm, task, pair, &pair.memory), truth, task, false, 4 * pair.size, 1e-8,
+            pair.name);
     }
   }
 }

@@ -46,7 +46,8 @@ TEST(TradeCommand, BadRequestsAreRefused) {
   expect_refusal("trade " + at + "scene.toml --threads 0", "--threads", folder);
   expect_refusal("run " + file + " --resume --out " + at + "out", "no option but --out", folder);
   folder.write("bad.toml", grid + "tolerances = 2\n");
-  expect_refusal("run " + at + "bad.toml --out " + at + "out", "bad.toml:9: grid 1: tolerances", folder);
+  expect_refusal("run " + at + "bad.toml --out " + at + "out", "bad.toml:9: grid 1: tolerances",
+                 folder);
 }
 
 }  // namespace
