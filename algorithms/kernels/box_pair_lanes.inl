@@ -175,7 +175,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
   // The root of the trace bounds what a matrix does to lengths, the sum of the half extents that of
   // their diagonal; (x + y)^2 <= 2 x^2 + 2 y^2.
   const Real reach = Scalar(2.01) * (size_a * size_a * trace_a + size_b * size_b * trace_b);
-  const unsigned far = sized & Lanes::bits(Lanes::less(reach, dot<Scalar>(offset, offset)));
+  // Squares of far shorter columns vanish, and are no bound.
+  const Real shortest = Lanes::broadcast(Scalar(1e-12));
+  const unsigned far = sized & Lanes::bits(Lanes::less(shortest, Lanes::min(trace_a, trace_b))) &
+                       Lanes::bits(Lanes::less(reach, dot<Scalar>(offset, offset)));
   if ((~far & ((1u << Lanes::width) - 1)) == 0) return {far, 0};
   const Real one = Lanes::broadcast(1);
   Real skew_a = Lanes::broadcast(0), skew_b = skew_a;

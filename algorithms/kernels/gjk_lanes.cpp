@@ -98,7 +98,7 @@ void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
     if (shapes[i].kind == ShapeKind::hull) {
       lane.vertices = shape.vertices.data();
       lane.block_count = static_cast<std::uint32_t>(shape.vertices.size());
-      // Far from its origin, its centre must be turned with care; climbing is not for lanes.
+      // Far from its origin, its centre must be turned with care; cells are not for lanes.
       lane.fits = shape.is_near_origin && shape.cells.empty();
       lane.scans = lane.fits && shapes[i].hull->vertices.size() > most_turned_vertices;
     }

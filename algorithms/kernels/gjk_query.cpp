@@ -1,5 +1,7 @@
 #include "algorithms/kernels/gjk_query.h"
 
+#include <algorithm>
+
 namespace touchstone {
 namespace {
 
@@ -31,12 +33,13 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
     return;
   }
   SupportPair<Scalar> pair(a, pose_a, b, pose_b);
+  outcome.iterations = 0;
   if (task == Task::intersect && start == nullptr && walk_decides(pair, outcome)) return;
   solve_pair(pair, task, start, outcome);
 }
 
 // The verdict alone, of cores with corners and no radius: mostly the quick walk's. What it leaves
-// open is walked again.
+// open is walked again, with what is left of the cap.
 template <class Scalar>
 bool GjkQuery<Scalar>::walk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const {
   if (!pair.is_polytope() || pair.radius() > 0) return false;
@@ -44,10 +47,10 @@ bool GjkQuery<Scalar>::walk_decides(SupportPair<Scalar>& pair, Outcome& outcome)
   const WalkGoal goal{.only_apart = true, .most_iterations = settings_.gjk_cap};
   const WalkStart<Scalar> from_the_centres(-pair.centre_b());
   const Walk<Scalar> found = walks_.walk(pair, goal, tolerance(true), from_the_centres);
+  outcome.iterations = found.iterations;
   if (found.end != WalkEnd::apart && found.end != WalkEnd::inside) return false;
   outcome.answer = found.end == WalkEnd::apart ? Answer::separated : Answer::overlapping;
   outcome.status = Status::ok;
-  outcome.iterations = found.iterations;
   outcome.support_calls = pair.support_calls();
   return true;
 }
@@ -66,13 +69,14 @@ template <class Scalar>
 void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start,
                                   Outcome& outcome) {
   using End = typename Approach<Scalar>::End;
-  const ApproachGoal<Scalar> goal{.task = task,
-                                  .tolerance = tolerance(pair.is_polytope()),
-                                  .duality_gap = settings_.duality_gap,
-                                  .most_iterations = settings_.gjk_cap,
-                                  .momentum = settings_.momentum};
+  const ApproachGoal<Scalar> goal{
+      .task = task,
+      .tolerance = tolerance(pair.is_polytope()),
+      .duality_gap = settings_.duality_gap,
+      .most_iterations = std::max(1, settings_.gjk_cap - outcome.iterations),
+      .momentum = settings_.momentum};
   const Approach<Scalar> found = approach_from(pair, goal, start);
-  outcome.iterations = found.iterations;
+  outcome.iterations += found.iterations;
   if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
   } else {

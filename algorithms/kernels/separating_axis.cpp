@@ -62,10 +62,14 @@ template <class Scalar>
 PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a,
                                    const Polytope<Scalar>& b, const Pose& pose_b) {
   // Frobenius norms bound what the matrices do to lengths.
-  const double reach_a = static_cast<double>(a.reach) * a.scale * pose_a.rotation.norm();
-  const double reach_b = static_cast<double>(b.reach) * b.scale * pose_b.rotation.norm();
+  const double stretch_a = pose_a.rotation.norm(), stretch_b = pose_b.rotation.norm();
+  const double reach_a = static_cast<double>(a.reach) * a.scale * stretch_a;
+  const double reach_b = static_cast<double>(b.reach) * b.scale * stretch_b;
   const Vec3d offset = centre_offset(a, pose_a, b, pose_b);
-  far_apart_ = offset.cwiseAbs().maxCoeff() > 1.001 * (reach_a + reach_b);
+  // The squares of what is shorter than this vanish, and the norm is no bound.
+  constexpr double shortest = 1e-140;
+  far_apart_ = offset.cwiseAbs().maxCoeff() > 1.001 * (reach_a + reach_b) && stretch_a > shortest &&
+               stretch_b > shortest;
   unit_ = power_of_two_above(std::max(reach_a, reach_b));
   anchor_ = pose_a(a.centre);
   a_ = place(a, pose_a.rotation, unit_);

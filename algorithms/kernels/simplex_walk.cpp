@@ -27,7 +27,10 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   const std::array<Scalar, 4> parts = {determinant(1, 2, 3), -determinant(0, 2, 3),
                                        determinant(0, 1, 3), -determinant(0, 1, 2)};
   const auto [least, most] = std::ranges::minmax(parts);
-  if (!(least > 0 || most < 0)) return false;
+  // Longer ones are of bodies beyond the range of the pair's unit, whose rounding is not bounded
+  // so.
+  constexpr Scalar longest_in_range = 16;
+  if (!(longest <= longest_in_range) || !(least > 0 || most < 0)) return false;
   const Scalar quickly = 512 * u * greatest * (1 + longest);
   if (least > quickly || most < -quickly) return true;
   const auto area = [&](int i, int j) { return w(i).cross(w(j)).norm(); };

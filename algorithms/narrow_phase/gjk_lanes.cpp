@@ -10,9 +10,9 @@
 //          tetrahedra around the axis to it is. What rounding leaves open, and whatever the lanes
 //          do not take, is asked again one by one as `gjk` does: the verdicts are as reliable as
 //          those.
-//          Takes spheres, capsules, boxes and hulls. One by one go hulls that are climbed or far
-//          from their own origin, bodies whose matrix is no rotation nor near one, and, where there
-//          is no AVX2, all pairs in double: two lanes a vector are slower than none.
+//          Takes spheres, capsules, boxes and hulls. One by one go hulls of more than 192 vertices
+//          or far from their own origin, bodies whose matrix is no rotation nor near one, and,
+//          where there is no AVX2, all pairs in double: two lanes a vector are slower than none.
 // Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
 //          part of the pair's size.
 // Cost:    as gjk's walk, for all lanes what the slowest of them costs; pays from batches of about

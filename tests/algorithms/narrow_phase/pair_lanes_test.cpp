@@ -70,6 +70,27 @@ TEST(PairLanes, HaveTheSameBitsAtEveryLevel) {
   }
 }
 
+// The squares of such columns vanish: what is left of them bounds nothing.
+TEST(PairLanes, AreNotMisledByMatricesThatShrinkNearlyToNothing) {
+  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  Shape box;
+  box.kind = ShapeKind::box;
+  box.half_extents = Vec3d::Constant(1e11);
+  for (const double scale : {1e-162, 2e-23, 1e-7, 1.}) {
+    Pose pose_a, pose_b;
+    pose_a.rotation = pose_b.rotation = scale * Mat3d::Identity();
+    pose_b.translation = {scale * 1e11, 0, 0};
+    Pairs pairs;
+    for (int i = 0; i < 20; ++i) pairs.add(box, pose_a, box, pose_b);
+    for (const Precision scalar : scalars) {
+      for (const Outcome& outcome : solve(entry, scalar, Task::intersect, pairs, pairs.size())) {
+        EXPECT_FALSE(outcome.status == Status::ok && outcome.answer != Answer::overlapping)
+            << scale;
+      }
+    }
+  }
+}
+
 // Seen from the centre of a, in the axes of the world.
 double reach(const Shape& shape, const Pose& pose) {
   const double round = shape.kind == ShapeKind::box ? 0 : shape.radius;
