@@ -1,6 +1,7 @@
 // Loops over box_lanes.h, or over the lanes of the namespace TOUCHSTONE_LANES where that is set;
 // TOUCHSTONE_LOOPS by their file's name, once for each level of vector instructions: in the
-// namespaces baseline, avx2 and avx512, with TOUCHSTONE_TARGET set to the level's attribute.
+// namespaces baseline, avx2 and avx512, with TOUCHSTONE_TARGET set to the level's attribute. Where
+// TOUCHSTONE_ONE_LEVEL is set, all three are the first.
 
 #ifndef TOUCHSTONE_LANES
 #define TOUCHSTONE_LANES box_lanes
@@ -13,7 +14,7 @@ using namespace TOUCHSTONE_LANES::baseline;
 #undef TOUCHSTONE_TARGET
 }  // namespace baseline
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(TOUCHSTONE_ONE_LEVEL)
 namespace avx2 {
 using namespace TOUCHSTONE_LANES::avx2;
 #define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "algorithms/kernels/body_pairs.h"
+#include "algorithms/kernels/fetch.h"
 #include "algorithms/kernels/support_shape.h"
 
 namespace touchstone {
@@ -18,11 +19,13 @@ namespace touchstone {
 template <class Scalar>
 class FetchAhead {
  public:
-  // The shapes stay where they are.
-  void bind(const std::vector<SupportShape<Scalar>>& shapes) {
-    shapes_ = shapes;
+  // The items stay where they are; `support_of` says where in one its shape is.
+  template <class Item, class Projection = std::identity>
+  void bind(const std::vector<Item>& items, Projection support_of = {}) {
+    shapes_.clear();
+    for (const Item& item : items) shapes_.push_back(&std::invoke(support_of, item));
     has_cells_ = std::ranges::any_of(
-        shapes, [](const SupportShape<Scalar>& shape) { return !shape.cells.empty(); });
+        shapes_, [](const SupportShape<Scalar>* shape) { return !shape->cells.empty(); });
   }
 
   // `far_too`: pairs whose balls are apart have supports too.
@@ -52,20 +55,14 @@ class FetchAhead {
     const typename DirectionCells<Scalar>::Cell* cell = nullptr;
   };
 
-  template <class Item>
-  static void fetch(const Item& item) {
-    const auto* bytes = reinterpret_cast<const char*>(&item);
-    for (std::size_t k = 0; k < sizeof item; k += 64) __builtin_prefetch(bytes + k);
-    __builtin_prefetch(bytes + sizeof item - 1);
-  }
   void fetch_body(std::uint32_t body) const {
-    fetch(pairs_.poses[body]);
-    fetch(shapes_[pairs_.shape_of[body]]);
+    fetch(&pairs_.poses[body], sizeof(Pose));
+    fetch(shapes_[pairs_.shape_of[body]], sizeof(SupportShape<Scalar>));
   }
 
   void find_cells(std::uint32_t first, std::uint32_t second) {
-    const SupportShape<Scalar>& a = shapes_[pairs_.shape_of[first]];
-    const SupportShape<Scalar>& b = shapes_[pairs_.shape_of[second]];
+    const SupportShape<Scalar>& a = *shapes_[pairs_.shape_of[first]];
+    const SupportShape<Scalar>& b = *shapes_[pairs_.shape_of[second]];
     const Pose &pose_a = pairs_.poses[first], &pose_b = pairs_.poses[second];
     Vec3d way = pose_b.translation - pose_a.translation;
     if (!a.is_centred) way -= pose_a.rotation * a.centre;
@@ -85,7 +82,7 @@ class FetchAhead {
     return {&shape, &cell};
   }
 
-  std::span<const SupportShape<Scalar>> shapes_;
+  std::vector<const SupportShape<Scalar>*> shapes_;
   BodyPairs pairs_{};
   bool has_cells_ = false, far_too_ = false;
   std::array<Place, 2> next_;  // of the next pair but one

@@ -15,6 +15,11 @@
 #define TOUCHSTONE_TARGET_AVX2 __attribute__((target("avx2")))
 #define TOUCHSTONE_TARGET_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
 
+// What threads do to each other is the same at every level: their sanitizer is shown one.
+#if defined(__SANITIZE_THREAD__)
+#define TOUCHSTONE_ONE_LEVEL
+#endif
+
 // Inlines all that a function calls, so that it is compiled for the function's own level; not where
 // a sanitizer makes that code many times as long.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

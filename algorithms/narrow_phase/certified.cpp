@@ -19,6 +19,7 @@
 #include <limits>
 #include <vector>
 
+#include "algorithms/kernels/fetch_ahead.h"
 #include "algorithms/kernels/gjk_approach.h"
 #include "algorithms/kernels/proven_gap.h"
 #include "algorithms/kernels/proven_height.h"
@@ -86,10 +87,14 @@ class Certified final : public NarrowPhase {
     shapes_.clear();
     shapes_.reserve(shapes.size());
     for (const Shape& shape : shapes) shapes_.emplace_back(shape);
+    ahead_.bind(shapes_, &Prepared::support);
   }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
+                 batch.task == Task::distance);
     for (std::size_t i = 0; i < batch.size(); ++i) {
+      ahead_.before(i);
       const std::uint32_t first = batch.first[i], second = batch.second[i];
       const PlacedBody a{shapes_[batch.shape_of[first]], batch.poses[first]};
       const PlacedBody b{shapes_[batch.shape_of[second]], batch.poses[second]};
@@ -121,6 +126,7 @@ class Certified final : public NarrowPhase {
   bool on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome);
 
   std::vector<Prepared> shapes_;
+  FetchAhead<double> ahead_;
   GapProver gaps_;
   HeightProver heights_;
   oracle::Oracle oracle_;

@@ -13,6 +13,7 @@
 //          vector instructions, in the program and in the time to compile it.
 #include <algorithm>
 
+#include "algorithms/kernels/fetch_ahead.h"
 #include "algorithms/kernels/gjk_known_cores.h"
 #include "algorithms/kernels/gjk_query.h"
 #include "algorithms/kernels/halfspace.h"
@@ -43,6 +44,7 @@ class GjkTemplated final : public NarrowPhase {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
+    ahead_.bind(shapes_);
   }
 
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
@@ -51,7 +53,10 @@ class GjkTemplated final : public NarrowPhase {
       return;
     }
     query_.walk_by(walks_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
+    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
+                 batch.task == Task::distance);
     for (std::size_t i = 0; i < batch.size(); ++i) {
+      ahead_.before(i);
       const std::uint32_t a = batch.first[i], b = batch.second[i];
       query_.solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]],
                    batch.poses[b], batch.task, nullptr, outcomes[i]);
@@ -73,6 +78,7 @@ class GjkTemplated final : public NarrowPhase {
   const CoreTable<Scalar> walks_ = walks_of_known_cores<Scalar>();
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
+  FetchAhead<Scalar> ahead_;
 };
 
 std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
