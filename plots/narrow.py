@@ -40,7 +40,8 @@ def panels_of(tables):
         shapes, distance = place
         panels.setdefault((row["task"], shapes), []).append(
             {**row, "distance": distance, "error": graded["worst_error"]})
-    return panels
+    # A scene at one distance is there for another question.
+    return {key: rows for key, rows in panels.items() if len({row["distance"] for row in rows}) > 1}
 
 
 def draw_times(axes, points, style):
@@ -70,7 +71,7 @@ def draw(tables):
     styles = best.styles_of({name for found in bests.values() for name, _ in found})
     figure, grid = common.pyplot.subplots(
         len(lines), len(columns), squeeze=False, sharey="row", constrained_layout=True,
-        figsize=(common.PAGE_WIDTH * 1.5, 0.4 + 1.35 * len(lines)))
+        figsize=(common.PAGE_WIDTH * 1.6, 0.4 + 1.35 * len(lines)))
     for line, (task, label, draw_points) in enumerate(lines):
         for column, shapes in enumerate(columns):
             axes = grid[line][column]
@@ -89,7 +90,7 @@ def draw(tables):
             axes.grid(True)
             axes.set_xticks(range(len(distances)), [f"{distance:g}" for distance in distances], rotation=60)
             if line == 0:
-                axes.set_title(shapes, loc="left")
+                axes.set_title(shapes, loc="left", fontsize=6.5)
             if column == 0:
                 axes.set_ylabel(label)
             if line + 1 == len(lines):
