@@ -7,7 +7,10 @@
 //          radius, so that shallow overlaps of theirs need no EPA. Where the origin is on the
 //          simplex, EPA decides: a verdict is `ok` only where a bound proves it beyond rounding.
 //          Never answers `touching`. The query is in gjk_query.h, its loop in gjk_approach.h, with
-//          a quick walk before it.
+//          a quick walk before it (simplex_walk.h), whose verdict is enough between polytopes.
+//          Where the origin is too near the face that the walk came through to be inside for sure,
+//          a corner behind that face is looked for. Hulls of more than 192 vertices find their
+//          support points by a table of directions (direction_cells.h) instead of climbing.
 //          With a PairMemory it starts warm (kernels/warm_start.h): from the last tetrahedron, the
 //          last separating plane, or the last simplex; EPA does not. The others start cold.
 // Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a part of
