@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/kernels/origin_foot.h"
+
 namespace touchstone {
 namespace {
 
@@ -167,22 +169,8 @@ bool ExpandingPolytope<Scalar>::encloses_origin() const {
 template <class Scalar>
 void ExpandingPolytope<Scalar>::find_witnesses(const std::array<int, 3>& best,
                                                Expansion<Scalar>& result) const {
-  std::array<Scalar, 3> weights = {1, 1, 1};
-  std::array<int, 3> vertices = best;
-  Scalar least = -std::numeric_limits<Scalar>::infinity();
-  const auto consider = [&](const std::array<int, 3>& candidate) {
-    const std::array<Vec3<Scalar>, 3> corners = surface_.points(candidate);
-    const TrianglePlane<Scalar> plane = triangle_plane(corners);
-    if (plane.flat) return;
-    const std::array<Scalar, 3> w = project_origin(plane, corners);
-    const Scalar smallest = std::min({w[0], w[1], w[2]});
-    if (!(smallest > least)) return;
-    least = smallest;
-    weights = w;
-    vertices = candidate;
-  };
-  consider(best);
-  if (least < 0) {
+  OriginFoot<Scalar> foot(best, surface_.points(best));
+  if (!foot.is_inside()) {
     const Vec3<Scalar> normal = result.normal;
     const Scalar height = normal.dot(surface_.vertex(best[0]).difference);
     const auto in_plane = [&](int vertex) {
@@ -191,17 +179,16 @@ void ExpandingPolytope<Scalar>::find_witnesses(const std::array<int, 3>& best,
     };
     surface_.all_faces([&](int face) {
       const std::array<int, 3> corners = surface_.corners(face);
-      if (std::ranges::all_of(corners, in_plane)) consider(corners);
+      if (std::ranges::all_of(corners, in_plane)) foot.consider(corners, surface_.points(corners));
       return true;
     });
   }
-  Scalar sum = 0;
-  for (Scalar& weight : weights) sum += weight = std::max(weight, Scalar{0});
+  const std::array<Scalar, 3> weights = foot.weights();
   result.a.setZero();
   result.b.setZero();
   for (int i = 0; i < 3; ++i) {
-    result.a += weights[i] / sum * surface_.vertex(vertices[i]).a;
-    result.b += weights[i] / sum * surface_.vertex(vertices[i]).b;
+    result.a += weights[i] * surface_.vertex(foot.vertices()[i]).a;
+    result.b += weights[i] * surface_.vertex(foot.vertices()[i]).b;
   }
 }
 

@@ -1,5 +1,6 @@
 // The loops of face_planes.h. Included by face_planes.cpp once for each level of vector
 // instructions, inside that level's namespace; the same at every level.
+#include "algorithms/kernels/triangle_lanes.inl"
 
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real load(const Scalar* from) {
@@ -65,16 +66,6 @@ TOUCHSTONE_TARGET void seen_from_at(std::span<const Block<Scalar>> blocks,
   }
 }
 
-template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> cross(const Vectors<Scalar>& a,
-                                                          const Vectors<Scalar>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> minus(const Vectors<Scalar>& a,
-                                                          const Vectors<Scalar>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
 // The differences of a vector of points.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> differences(
@@ -95,47 +86,18 @@ TOUCHSTONE_TARGET bool planes_through_at(const Cone<Scalar>& cone, Scalar inside
                                          ConePlanes<Scalar>& planes) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
-  constexpr Scalar flat = flat_height<Scalar> * flat_height<Scalar>;
   bool all_inside = true;
   const Vectors<Scalar> c = {Lanes::broadcast(cone.tip.x()), Lanes::broadcast(cone.tip.y()),
                              Lanes::broadcast(cone.tip.z())};
   for (std::size_t i = 0; i < cone.size; i += Lanes::width) {
     const Vectors<Scalar> a = differences(cone.points, cone.ring + i);
     const Vectors<Scalar> b = differences(cone.points, cone.ring + i + 1);
-    const Vectors<Scalar> bc = minus<Scalar>(c, b), ca = minus<Scalar>(a, c),
-                          ab = minus<Scalar>(b, a);
-    const Real opposite_a = dot<Scalar>(bc, bc);
-    const Real opposite_b = dot<Scalar>(ca, ca);
-    const Real opposite_c = dot<Scalar>(ab, ab);
-    const auto b_over_a = Lanes::less(opposite_a, opposite_b);
-    const Real of_two = Lanes::select(b_over_a, opposite_b, opposite_a);
-    const auto c_over_both = Lanes::less(of_two, opposite_c);
-    const auto choose = [&](const Vectors<Scalar>& of_a, const Vectors<Scalar>& of_b,
-                            const Vectors<Scalar>& of_c) TOUCHSTONE_TARGET {
-      const auto of = [&](Real x, Real y, Real z) TOUCHSTONE_TARGET {
-        return Lanes::select(c_over_both, z, Lanes::select(b_over_a, y, x));
-      };
-      return Vectors<Scalar>{of(of_a.x, of_b.x, of_c.x), of(of_a.y, of_b.y, of_c.y),
-                             of(of_a.z, of_b.z, of_c.z)};
-    };
-    const Real one = Lanes::broadcast(1);
-    const Real length = Lanes::select(c_over_both, opposite_c, of_two);
-    const Real inverse = one / length;
-    const Vectors<Scalar> longest = choose(bc, ca, ab);
-    const Vectors<Scalar> base = choose(a, b, c);
-    Vectors<Scalar> normal = cross<Scalar>(choose(ca, ab, bc), choose(ab, bc, ca));
-    const Real along = dot<Scalar>(normal, longest) * inverse;
-    normal = {normal.x - along * longest.x, normal.y - along * longest.y,
-              normal.z - along * longest.z};
-    const Real squared = dot<Scalar>(normal, normal);
-    const Real scale = Lanes::sqrt(squared) * (one / squared);
-    const Real distance = Lanes::select(Lanes::less(Lanes::broadcast(flat) * length, squared),
-                                        dot<Scalar>(normal, base) * scale,
-                                        Lanes::broadcast(std::numeric_limits<Scalar>::quiet_NaN()));
-    const Real margin = squared - Lanes::broadcast(uncertain<Scalar>) * length;
-    store(planes.x.data() + i, normal.x * scale);
-    store(planes.y.data() + i, normal.y * scale);
-    store(planes.z.data() + i, normal.z * scale);
+    const TrianglePlanes<Scalar> found = triangle_planes<Scalar>(a, b, c);
+    const Real distance = found.distance;
+    const Real margin = found.squared - Lanes::broadcast(uncertain<Scalar>) * found.length;
+    store(planes.x.data() + i, found.normal.x);
+    store(planes.y.data() + i, found.normal.y);
+    store(planes.z.data() + i, found.normal.z);
     store(planes.distance.data() + i, distance);
     store(planes.margin.data() + i, margin);
     const auto needless = Lanes::less(Lanes::broadcast(furthest), distance);

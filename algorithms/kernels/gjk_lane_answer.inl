@@ -45,8 +45,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Nearest<Scalar> find_nearest(
   return nearest;
 }
 
-// Writes distances, bounds, normals and witness points of those lanes, but where the nearest point
-// is not where the support plane says: the lanes that have them.
+// Writes distances, or depths below zero, bounds, normals and witness points of those lanes, but
+// where the nearest point is not where the support plane says: the lanes that have them.
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
                                            const LaneGoal<Scalar>& goal,
@@ -107,18 +107,21 @@ TOUCHSTONE_TARGET std::size_t answer_lanes(const PairTable<Scalar>& table,
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   unsigned apart = walkers.apart, inside = walkers.inside;
-  if ((points && apart != 0) || walkers.shallow != 0) {
+  const unsigned with_points = !points ? 0 : goal.starts == nullptr ? apart : walkers.shallow;
+  if ((with_points | walkers.shallow) != 0) {
     const Nearest<Scalar> nearest = find_nearest<Scalar, points>(walkers.simplex);
-    if (walkers.shallow != 0) {
+    if constexpr (points) {
+      const unsigned written = write_distances<Scalar>(table, goal, walkers, nearest, with_points);
+      (goal.starts == nullptr ? apart : inside) = written;
+    }
+    if (walkers.shallow != 0 && goal.starts == nullptr) {
       // A point of the difference that is nearer than the radii.
       const Real length = Lanes::sqrt(dot<Scalar>(nearest.point, nearest.point));
       const Real enough =
           walkers.radius_a + walkers.radius_b - Lanes::broadcast(lane_rounding<Scalar>);
       inside |= walkers.shallow & nearest.sound & Lanes::bits(Lanes::less(length, enough));
     }
-    if constexpr (points) apart = write_distances<Scalar>(table, goal, walkers, nearest, apart);
   }
-  if (!goal.answers_overlaps) inside = 0;
   alignas(64) Scalar counts[Lanes::width];
   std::memcpy(counts, &walkers.count, sizeof counts);
   for (unsigned open = walkers.ended(); open != 0; open &= open - 1) {

@@ -160,6 +160,41 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void fetch_bodies(const PairTable<Scalar>& t
   }
 }
 
+// Turns the bodies that are loaded: all lanes, of which those that were come to what they were. The
+// lanes whose matrices are good for it.
+template <class Scalar, bool scans>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned turn_lanes(const LaneGoal<Scalar>& goal,
+                                                        Walkers<Scalar>& walkers) {
+  using Real = typename RealLanes<Scalar>::Real;
+  Real poses[6][4], sizes[4];
+  for (int k = 0; k < 6; ++k) columns_of<Scalar>(walkers.poses[k], poses[k]);
+  columns_of<Scalar>(walkers.sizes, sizes);
+  Vectors<Scalar> columns_a[3] = {{poses[0][0], poses[0][1], poses[0][2]},
+                                  {poses[0][3], poses[1][0], poses[1][1]},
+                                  {poses[1][2], poses[1][3], poses[5][0]}};
+  Vectors<Scalar> columns_b[3] = {{poses[2][0], poses[2][1], poses[2][2]},
+                                  {poses[2][3], poses[3][0], poses[3][1]},
+                                  {poses[3][2], poses[3][3], poses[5][1]}};
+  unsigned usable = scale_columns<Scalar>(columns_a, sizes[0]);
+  usable &= scale_columns<Scalar>(columns_b, sizes[2]);
+  walkers.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
+  walkers.radius_a = sizes[1];
+  walkers.radius_b = sizes[3];
+  if (scans && goal.scans_a) {
+    std::ranges::copy(columns_a, walkers.a);
+  } else {
+    turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a,
+                      goal.vertices_a, nullptr, walkers.a);
+  }
+  if (scans && goal.scans_b) {
+    std::ranges::copy(columns_b, walkers.b);
+  } else {
+    turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b,
+                      goal.vertices_b, &walkers.centre_b, walkers.b);
+  }
+  return usable;
+}
+
 // Gives the next pairs of the queue to the lanes that do not walk, and the places of those that the
 // lanes do not take to `left`; how many are there then.
 template <class Scalar, bool scans>
@@ -188,35 +223,8 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
       }
     }
   }
-  // All lanes are turned: those that walk come to what they were.
-  Real poses[6][4], sizes[4];
-  for (int k = 0; k < 6; ++k) columns_of<Scalar>(walkers.poses[k], poses[k]);
-  columns_of<Scalar>(walkers.sizes, sizes);
-  Vectors<Scalar> columns_a[3] = {{poses[0][0], poses[0][1], poses[0][2]},
-                                  {poses[0][3], poses[1][0], poses[1][1]},
-                                  {poses[1][2], poses[1][3], poses[5][0]}};
-  Vectors<Scalar> columns_b[3] = {{poses[2][0], poses[2][1], poses[2][2]},
-                                  {poses[2][3], poses[3][0], poses[3][1]},
-                                  {poses[3][2], poses[3][3], poses[5][1]}};
-  unsigned usable = scale_columns<Scalar>(columns_a, sizes[0]);
-  usable &= scale_columns<Scalar>(columns_b, sizes[2]);
+  const unsigned usable = turn_lanes<Scalar, scans>(goal, walkers);
   const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
-  walkers.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
-  walkers.radius_a = sizes[1];
-  walkers.radius_b = sizes[3];
-  if (scans && goal.scans_a) {
-    std::ranges::copy(columns_a, walkers.a);
-  } else {
-    turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a,
-                      goal.vertices_a, nullptr, walkers.a);
-  }
-  if (scans && goal.scans_b) {
-    std::ranges::copy(columns_b, walkers.b);
-  } else {
-    turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b,
-                      goal.vertices_b, &walkers.centre_b, walkers.b);
-  }
-
   walkers.doubtful |= fresh & ~usable;
   walkers.active |= fresh & usable;
   const auto set = Lanes::mask(fresh);

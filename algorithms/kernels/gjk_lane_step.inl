@@ -1,6 +1,7 @@
 // The step of GJK's walk in lanes: from a simplex and a new corner to the feature that is nearest
 // to the origin, of all sizes at once. Part of gjk_lanes.inl.
-#include "algorithms/kernels/lane_vectors.inl"
+#include "algorithms/kernels/pair_lanes.inl"
+#include "algorithms/kernels/triangle_lanes.inl"
 
 template <class Scalar>
 struct Corner {
@@ -24,7 +25,7 @@ struct LaneStep {
 
 template <class Scalar>
 struct Tetrahedron {
-  Vectors<Scalar> a, b, c, d;
+  Corner<Scalar> a, b, c, d;
 };
 
 template <class Scalar, bool points>
@@ -93,8 +94,9 @@ template <class Scalar>
 TOUCHSTONE_TARGET unsigned surely_between(const Tetrahedron<Scalar>& half, const Vectors<Scalar>& e,
                                           Scalar corner_error, unsigned asked) {
   using Real = typename RealLanes<Scalar>::Real;
-  const Vectors<Scalar>& a = half.a;
-  const Vectors<Scalar>* const ring[4] = {&half.b, &half.c, &half.d, &half.b};
+  const Vectors<Scalar>& a = half.a.point;
+  const Vectors<Scalar>* const ring[4] = {&half.b.point, &half.c.point, &half.d.point,
+                                          &half.b.point};
   const Vectors<Scalar> ae = difference<Scalar>(e, a);
   unsigned inside = 0;
   for (int k = 0; k < 3 && inside != asked; ++k) {
@@ -111,14 +113,14 @@ TOUCHSTONE_TARGET unsigned surely_between(const Tetrahedron<Scalar>& half, const
 // In the lanes `on`: the simplex becomes the feature that is nearest, which the new corner is on.
 // `solid`: some lane has d. Regions are told apart by the products of edges: bc is that of the
 // edges from the new corner, which is a, to b and to c. Where rounding lets them overlap, the
-// first is taken of corner, edges ad, ac, ab, faces adb, acd, abc. Where the origin is inside,
-// but not surely, the lane's `open` is the tetrahedron.
+// first is taken of corner, edges ad, ac, ab, faces adb, acd, abc. Where the origin is inside, but
+// not surely, the lane's `around` is the tetrahedron; with points, where it is surely, too.
 template <class Scalar, bool points, bool solid>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scalar>& simplex,
                                                                const Corner<Scalar>& corner,
                                                                typename RealLanes<Scalar>::Mask on,
                                                                Scalar corner_error,
-                                                               Tetrahedron<Scalar>& open) {
+                                                               Tetrahedron<Scalar>& around) {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   using Mask = typename Lanes::Mask;
@@ -179,7 +181,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
       const unsigned all = step.inside;
       step.inside = surely_inside<Scalar>(a, b.point, c.point, d.point, sides, corner_error, all);
       step.unsure = all & ~step.inside;
-      if (step.unsure != 0) open = {a, b.point, c.point, d.point};
+      if (points || step.unsure != 0) around = {corner, b, c, d};
     }
   }
 

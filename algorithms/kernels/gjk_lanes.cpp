@@ -1,16 +1,21 @@
 #include "algorithms/kernels/gjk_lanes.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
 #include "algorithms/kernels/fetch.h"
+#include "algorithms/kernels/origin_foot.h"
 #include "algorithms/kernels/pair_lanes.h"
+#include "algorithms/kernels/simplex.h"
+#include "algorithms/kernels/small_surface.h"
 #include "algorithms/kernels/support.h"
 
 namespace touchstone {
@@ -29,11 +34,15 @@ struct LaneGoal {
   bool round;                            // a body has a radius
   bool centred;                          // all centres are the origins of the bodies
   bool distances;
-  bool answers_overlaps;
+  DepthStarts<Scalar>* starts;  // where depths are asked for
   Scalar corner_error;  // how far rounding moves a point of the difference, in the unit, at most
   Scalar tolerance;
   Scalar most_iterations;
+  std::int32_t most_expansions;  // those of the walk with them
 };
+
+// Pairs whose depths are looked for together.
+constexpr std::size_t most_starts = 128;
 
 // Shorter ways have lost their digits, or are about to. (Squares of lengths.)
 template <class Scalar>
@@ -133,14 +142,16 @@ std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const Bo
       .round = kind_a <= ShapeKind::capsule,
       .centred = centred_,
       .distances = asked.task == Task::distance,
-      .answers_overlaps = asked.task != Task::penetration,
+      .starts = asked.task == Task::penetration ? &starts_ : nullptr,
       .corner_error = centred_ ? CornerError<Scalar>::centred : CornerError<Scalar>::shifted,
       .tolerance = asked.tolerance,
-      .most_iterations = static_cast<Scalar>(asked.most_iterations)};
+      .most_iterations = static_cast<Scalar>(asked.most_iterations),
+      .most_expansions = asked.most_expansions};
   LaneGoal<Scalar> scanned = turned;
   scanned.vertices_a = scanned.vertices_b = 0;
   scanned.scans_a = hull_a;
   scanned.scans_b = hull_b;
+  if (turned.starts != nullptr) starts_.all.resize(most_starts);
   while (places_.size() < pairs.first.size()) {
     places_.push_back(static_cast<std::uint32_t>(places_.size()));
   }

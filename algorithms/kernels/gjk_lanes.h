@@ -21,6 +21,7 @@
 
 #include "algorithms/core/outcome.h"
 #include "algorithms/kernels/body_pairs.h"
+#include "algorithms/kernels/real_lanes.h"
 #include "algorithms/kernels/support_shape.h"
 
 namespace touchstone {
@@ -40,6 +41,19 @@ struct LaneShape {
   const hull_scan::VertexBlock<Scalar>* vertices;  // hull: so many blocks
 };
 
+// Where a walk has ended around the origin: corners of the difference, and on the core of a.
+template <class Scalar>
+struct alignas(sizeof(real_lanes::Quad<Scalar>)) DepthStart {
+  real_lanes::Quad<Scalar> points[4], on_a[4];
+  std::uint32_t place;  // of the pair
+  std::int32_t iterations;
+};
+template <class Scalar>
+struct DepthStarts {
+  std::vector<DepthStart<Scalar>> all;
+  std::size_t count = 0;  // that are there
+};
+
 template <class Scalar>
 class GjkLanes {
  public:
@@ -49,9 +63,9 @@ class GjkLanes {
   static bool takes(ShapeKind kind) { return kind <= ShapeKind::box || kind == ShapeKind::hull; }
 
   struct Goal {
-    Task task = Task::intersect;  // of penetration, only what is apart is answered
-    Scalar tolerance = 0;         // of the distance, in the unit of SupportPair
-    int most_iterations = 0;
+    Task task = Task::intersect;
+    Scalar tolerance = 0;  // of distance and depth, in the unit of SupportPair
+    int most_iterations = 0, most_expansions = 0;
   };
   // Of kinds that it takes. Answers into outcomes, all but the pairs whose places are written to
   // `left`, which has room for all of them; how many those are.
@@ -68,6 +82,7 @@ class GjkLanes {
   std::vector<std::uint32_t> places_;  // 0, 1, 2...
   // Scratch: the places of pairs that fit, without such as scan, and with.
   std::vector<std::uint32_t> turned_, scanned_;
+  DepthStarts<Scalar> starts_;  // scratch
 };
 
 extern template class GjkLanes<float>;

@@ -29,8 +29,9 @@ struct Walkers {
   Real along;           // the nearest point along the way, times its length
   Real plane;           // the newest support plane, so too
   Real count;           // of iterations
-  // Of lanes that pierce, while they look for a corner behind the face they came through.
-  Tetrahedron<Scalar> pierced;
+  // Of lanes that have the origin inside, or pierce: while they look for a corner behind the face
+  // that they came through.
+  Tetrahedron<Scalar> around;
 
   // Lanes that walk, and those that have ended, by how; as bits.
   unsigned active = 0, apart = 0, inside = 0, shallow = 0, doubtful = 0;
@@ -116,6 +117,51 @@ TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
                        columns[2]);
 }
 
+// The points of the cores that are least far along the way on a, and furthest on b, and their
+// difference.
+template <class Scalar, bool scans>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Scalar>& goal,
+                                                               const Walkers<Scalar>& walkers,
+                                                               const Vectors<Scalar>& way,
+                                                               unsigned active) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  const Real zero = Lanes::broadcast(0);
+  Corner<Scalar> corner;
+  Vectors<Scalar> on_b;
+  if (scans && goal.scans_a) {
+    corner.on_a = scanned_vertex<Scalar>(walkers.corners_a, walkers.blocks_a, walkers.a,
+                                         {-way.x, -way.y, -way.z}, active);
+  } else if (goal.vertices_a != 0) {
+    corner.on_a = furthest_vertex<Scalar, false>(walkers.a, goal.vertices_a, way);
+  } else {
+    corner.on_a = furthest_corner<Scalar, false>(walkers.a, goal.halves_a, {zero, zero, zero}, way);
+  }
+  if (scans && goal.scans_b) {
+    on_b = scanned_vertex<Scalar>(walkers.corners_b, walkers.blocks_b, walkers.b, way, active);
+    on_b = moved<Scalar>(on_b, Lanes::broadcast(1), walkers.centre_b);
+  } else if (goal.vertices_b != 0) {
+    on_b = furthest_vertex<Scalar, true>(walkers.b, goal.vertices_b, way);
+  } else {
+    on_b = furthest_corner<Scalar, true>(walkers.b, goal.halves_b, walkers.centre_b, way);
+  }
+  corner.point = difference<Scalar>(corner.on_a, on_b);
+  return corner;
+}
+
+#include "algorithms/kernels/gjk_lane_expand.inl"
+
+// Of these lanes it is known that their bodies overlap.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void end_inside(const LaneGoal<Scalar>& goal,
+                                                    Walkers<Scalar>& walkers, unsigned lanes) {
+  if (goal.starts == nullptr) {
+    walkers.inside |= lanes;
+  } else if (lanes != 0) {
+    note_starts<Scalar>(walkers, lanes, *goal.starts);
+  }
+}
+
 // One step of every lane that walks.
 template <class Scalar, bool points, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
@@ -124,47 +170,37 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   using Real = typename Lanes::Real;
   const Real zero = Lanes::broadcast(0), margin = Lanes::broadcast(lane_rounding<Scalar>);
   const Vectors<Scalar> way = walkers.way;
-
-  Corner<Scalar> corner;
-  Vectors<Scalar> on_b;
-  if (scans && goal.scans_a) {
-    corner.on_a = scanned_vertex<Scalar>(walkers.corners_a, walkers.blocks_a, walkers.a,
-                                         {-way.x, -way.y, -way.z}, walkers.active);
-  } else if (goal.vertices_a != 0) {
-    corner.on_a = furthest_vertex<Scalar, false>(walkers.a, goal.vertices_a, way);
-  } else {
-    corner.on_a = furthest_corner<Scalar, false>(walkers.a, goal.halves_a, {zero, zero, zero}, way);
-  }
-  if (scans && goal.scans_b) {
-    on_b =
-        scanned_vertex<Scalar>(walkers.corners_b, walkers.blocks_b, walkers.b, way, walkers.active);
-    on_b = moved<Scalar>(on_b, Lanes::broadcast(1), walkers.centre_b);
-  } else if (goal.vertices_b != 0) {
-    on_b = furthest_vertex<Scalar, true>(walkers.b, goal.vertices_b, way);
-  } else {
-    on_b = furthest_corner<Scalar, true>(walkers.b, goal.halves_b, walkers.centre_b, way);
-  }
-  corner.point = difference<Scalar>(corner.on_a, on_b);
+  const Corner<Scalar> corner = find_corner<Scalar, scans>(goal, walkers, way, walkers.active);
 
   const Real radius = walkers.radius_a + walkers.radius_b;
   const Real plane = dot<Scalar>(way, corner.point);
   unsigned stop = Lanes::bits(Lanes::less((radius + margin) * walkers.length, plane));
+  unsigned shallow = 0;
   if constexpr (points) {
-    stop &= ~Lanes::bits(Lanes::less(goal.tolerance * walkers.length, walkers.along - plane));
-    stop &= ~walkers.piercing;
+    const Real open = walkers.along - plane, tolerance = goal.tolerance * walkers.length;
+    if (goal.starts == nullptr) {
+      stop &= ~Lanes::bits(Lanes::less(tolerance, open)) & ~walkers.piercing;
+    } else if (goal.round) {
+      // How deep the radii are in each other is known.
+      shallow =
+          walkers.active & ~walkers.piercing &
+          Lanes::bits(both(Lanes::less(open, tolerance),
+                           Lanes::less(walkers.along, (radius - 2 * margin) * walkers.length)));
+    }
   }
   const auto active = Lanes::mask(walkers.active);
   walkers.plane = Lanes::select(active, plane, walkers.plane);
   walkers.count = walkers.count + Lanes::select(active, Lanes::broadcast(1), zero);
   stop &= walkers.active;
   walkers.apart |= stop;
-  walkers.active &= ~stop;
+  walkers.shallow |= shallow;
+  walkers.active &= ~(stop | shallow);
   const unsigned pierced = walkers.piercing & walkers.active;
   walkers.piercing = 0;
   if (pierced != 0) {
     const unsigned between =
-        surely_between<Scalar>(walkers.pierced, corner.point, goal.corner_error, pierced);
-    walkers.inside |= between;
+        surely_between<Scalar>(walkers.around, corner.point, goal.corner_error, pierced);
+    end_inside<Scalar>(goal, walkers, between);
     walkers.doubtful |= pierced & ~between;
     walkers.active &= ~pierced;
   }
@@ -175,10 +211,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   const bool solid = Lanes::bits(both(on, walkers.simplex.has_d)) != 0;
   if (solid) {
     step = take_step<Scalar, points, true>(walkers.simplex, corner, on, goal.corner_error,
-                                           walkers.pierced);
+                                           walkers.around);
   } else {
     step = take_step<Scalar, points, false>(walkers.simplex, corner, on, goal.corner_error,
-                                            walkers.pierced);
+                                            walkers.around);
   }
   const Real square = dot<Scalar>(step.way, step.way);
   Real length = Lanes::sqrt(square);
@@ -192,7 +228,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
       Lanes::bits(both(nearer, Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square)));
   walkers.way = select<Scalar>(on, step.way, way);
   // Too near the face that it came through: a corner behind that tells.
-  walkers.piercing = goal.answers_overlaps ? walkers.active & step.unsure & in_time : 0;
+  walkers.piercing = walkers.active & step.unsure & in_time;
   if (walkers.piercing != 0) {
     const auto turns = Lanes::mask(walkers.piercing);
     walkers.way = select<Scalar>(turns, {-way.x, -way.y, -way.z}, walkers.way);
@@ -202,12 +238,12 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   walkers.length = Lanes::select(on, length, walkers.length);
   walkers.along = Lanes::select(on, along, walkers.along);
   const unsigned inside = walkers.active & step.inside;
-  unsigned shallow = 0;
-  if (goal.round) {
+  shallow = 0;
+  if (goal.round && goal.starts == nullptr) {
     shallow = walkers.active & step.found & ~inside &
               Lanes::bits(Lanes::less(along, (radius - 2 * margin) * length));
   }
-  walkers.inside |= inside;
+  end_inside<Scalar>(goal, walkers, inside);
   walkers.shallow |= shallow;
   const unsigned stays = (going | walkers.piercing) & ~inside & ~shallow;
   walkers.doubtful |= walkers.active & ~stays & ~inside & ~shallow;
@@ -236,13 +272,34 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
   return left;
 }
 
+// Depths: those of a part of the queue after the other, so that what is noted stays in the cache.
+template <class Scalar, bool scans>
+TOUCHSTONE_TARGET std::size_t find_depths(const PairTable<Scalar>& table,
+                                          const LaneGoal<Scalar>& goal,
+                                          std::span<const std::uint32_t> queue, std::size_t left) {
+  while (!queue.empty()) {
+    const std::size_t count = std::min(queue.size(), goal.starts->all.size());
+    goal.starts->count = 0;
+    left = walk_lanes<Scalar, true, scans>(table, goal, queue.first(count), left);
+    if (goal.starts->count != 0) left = expand_lanes<Scalar, scans>(table, goal, left);
+    queue = queue.subspan(count);
+  }
+  return left;
+}
+
+template <class Scalar, bool scans>
+TOUCHSTONE_TARGET std::size_t walk_and_answer(const PairTable<Scalar>& table,
+                                              const LaneGoal<Scalar>& goal,
+                                              std::span<const std::uint32_t> queue,
+                                              std::size_t left) {
+  if (goal.starts != nullptr) return find_depths<Scalar, scans>(table, goal, queue, left);
+  return goal.distances ? walk_lanes<Scalar, true, scans>(table, goal, queue, left)
+                        : walk_lanes<Scalar, false, scans>(table, goal, queue, left);
+}
+
 template <class Scalar>
 TOUCHSTONE_TARGET std::size_t walk_all(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
                                        std::span<const std::uint32_t> queue, std::size_t left) {
-  if (goal.scans_a || goal.scans_b) {
-    return goal.distances ? walk_lanes<Scalar, true, true>(table, goal, queue, left)
-                          : walk_lanes<Scalar, false, true>(table, goal, queue, left);
-  }
-  return goal.distances ? walk_lanes<Scalar, true, false>(table, goal, queue, left)
-                        : walk_lanes<Scalar, false, false>(table, goal, queue, left);
+  return goal.scans_a || goal.scans_b ? walk_and_answer<Scalar, true>(table, goal, queue, left)
+                                      : walk_and_answer<Scalar, false>(table, goal, queue, left);
 }

@@ -1,6 +1,5 @@
 // Vectors of three dimensions, one a lane: the arithmetic that loops over real_lanes.h share.
 // Included by them once for each level of vector instructions.
-#include "algorithms/kernels/pair_lanes.inl"
 
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> moved(const Vectors<Scalar>& from,

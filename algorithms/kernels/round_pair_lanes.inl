@@ -1,6 +1,7 @@
 // The loops of round_pair_lanes.h. Included by round_pair_lanes.cpp once for each level of vector
 // instructions, inside that level's namespace.
 #include "algorithms/kernels/lane_vectors.inl"
+#include "algorithms/kernels/pair_lanes.inl"
 
 // What the cores of two bodies are to each other; metres, world axes, as seen from the centre of
 // a. The distance, signed where a point is in a box, is between `lower` and `upper` up to `error`;

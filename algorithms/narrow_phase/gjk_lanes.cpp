@@ -43,7 +43,8 @@ class GjkInLanes final : public NarrowPhase {
                                            {batch.first, batch.second, batch.shape_of, batch.poses},
                                            {.task = batch.task,
                                             .tolerance = query_.tolerance(true),
-                                            .most_iterations = settings_.gjk_cap},
+                                            .most_iterations = settings_.gjk_cap,
+                                            .most_expansions = settings_.epa_cap},
                                            outcomes, left_.data());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = left_[k];

@@ -138,7 +138,7 @@ TEST(GjkLanes, HoldNoSilentErrorAgainstTheOracle) {
       EXPECT_LT(common, pairs.size() * 5 / 6) << name(kinds, scalars[0], all_tasks[0], sort);
       for (const Precision scalar : scalars) {
         const double epsilon = scalar == Precision::float32 ? 0x1p-23 : 0x1p-52;
-        for (const Task task : {Task::intersect, Task::distance}) {
+        for (const Task task : all_tasks) {
           const std::vector<Outcome> outcomes = solve(entry(), scalar, task, pairs, pairs.size());
           const std::vector<Outcome> one_by_one = solve(gjk, scalar, task, pairs, pairs.size());
           for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -157,7 +157,8 @@ TEST(GjkLanes, HoldNoSilentErrorAgainstTheOracle) {
               continue;
             }
             ASSERT_EQ(o.answer, truth.answer);
-            if (o.answer != Answer::separated || task == Task::intersect) {
+            const Answer asked = task == Task::distance ? Answer::separated : Answer::overlapping;
+            if (o.answer != asked || task == Task::intersect) {
               ASSERT_TRUE(std::isnan(o.distance) && std::isnan(o.witness_a.x()));
               continue;
             }
@@ -167,8 +168,14 @@ TEST(GjkLanes, HoldNoSilentErrorAgainstTheOracle) {
             ASSERT_LE(o.lower, truth.upper);
             ASSERT_GE(o.upper, truth.lower);
             ASSERT_NEAR(o.normal.norm(), 1, 16 * epsilon);
-            ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(),
-                      10 * error + place);
+            // Faces that are nearly parallel share a wide region, up to rounding, and the nearest
+            // face may be a sliver at its rim: then the points are only on their bodies.
+            const bool alike =
+                sort == Sort::parallel || sort == Sort::stacked || sort == Sort::skewed;
+            if (task == Task::distance || !alike) {
+              ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(),
+                        10 * error + place);
+            }
             expect_on(oracle, pairs, pairs.first[i], o.witness_a, error + place);
             expect_on(oracle, pairs, pairs.second[i], o.witness_b, error + place);
             if (HasFailure()) return;
@@ -209,12 +216,13 @@ void expect_few_left() {
       lanes.bind(pairs.shapes, shapes);
       std::vector<Outcome> outcomes(pairs.size());
       std::vector<std::uint32_t> left(pairs.size());
-      for (const Task task : {Task::intersect, Task::distance}) {
+      for (const Task task : all_tasks) {
         const std::size_t count =
             lanes.solve(kinds.a, kinds.b, {pairs.first, pairs.second, pairs.shape_of, pairs.poses},
                         {.task = task,
                          .tolerance = 16 * std::numeric_limits<Scalar>::epsilon(),
-                         .most_iterations = 128},
+                         .most_iterations = 128,
+                         .most_expansions = 256},
                         outcomes, left.data());
         EXPECT_LE(count, pairs.size() / 20)
             << name(kinds, Precision::float64, task, sort) << " of " << sizeof(Scalar) << " bytes";
