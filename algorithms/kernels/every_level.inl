@@ -1,7 +1,8 @@
 // Loops over box_lanes.h, or over the lanes of the namespace TOUCHSTONE_LANES where that is set;
 // TOUCHSTONE_LOOPS by their file's name, once for each level of vector instructions: in the
 // namespaces baseline, avx2 and avx512, with TOUCHSTONE_TARGET set to the level's attribute. Where
-// TOUCHSTONE_ONE_LEVEL is set, all three are the first.
+// TOUCHSTONE_ONE_LEVEL is set, all three are the first; with TOUCHSTONE_TWO_LEVELS the third is the
+// second.
 
 #ifndef TOUCHSTONE_LANES
 #define TOUCHSTONE_LANES box_lanes
@@ -22,12 +23,16 @@ using namespace TOUCHSTONE_LANES::avx2;
 #undef TOUCHSTONE_TARGET
 }  // namespace avx2
 
+#if defined(TOUCHSTONE_TWO_LEVELS)
+namespace avx512 = avx2;
+#else
 namespace avx512 {
 using namespace TOUCHSTONE_LANES::avx512;
 #define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
 #include TOUCHSTONE_LOOPS
 #undef TOUCHSTONE_TARGET
 }  // namespace avx512
+#endif
 #else
 namespace avx2 = baseline;
 namespace avx512 = baseline;

@@ -19,6 +19,10 @@
 #if defined(__SANITIZE_THREAD__)
 #define TOUCHSTONE_ONE_LEVEL
 #endif
+// The widest vectors differ from the next by their number of lanes alone, and take longest to check.
+#if defined(__SANITIZE_ADDRESS__)
+#define TOUCHSTONE_TWO_LEVELS
+#endif
 
 // Inlines all that a function calls, so that it is compiled for the function's own level; not where
 // a sanitizer makes that code many times as long.
