@@ -1,5 +1,5 @@
-// GJK's walk between small bodies, one pair a lane of vectors; a lane whose pair is answered takes
-// the next one of the batch.
+// GJK's walk between small bodies, and EPA where it ends around the origin, one pair a lane of
+// vectors; a lane whose pair is answered takes the next one of the batch.
 // Paper: Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
 // objects in three-dimensional space", IEEE J. Robotics and Automation 4(2), 1988. Where the
 // nearest feature of a simplex is: Ericson, "Real-Time Collision Detection", 2005, section 9.5.
@@ -10,8 +10,9 @@
 // the other, sixteen vertices at a time, which waits for nothing either, and then all lanes take
 // the step together. What the lanes answer is proven by the same bounds as in simplex_walk.h: a
 // support plane, a tetrahedron around the origin, a point of the difference that is nearer than the
-// radii; distances between both. All else is handed back for a walk that takes its time. The same
-// bits at every level of vector instructions, in any batch.
+// radii; distances between both. Depths are between those of expanding_polytope.h. All else is
+// handed back for a walk that takes its time. The same bits at every level of vector instructions,
+// in any batch.
 #pragma once
 
 #include <cstddef>

@@ -1,13 +1,16 @@
-// GJK, many pairs at once: one pair a lane of vectors.
+// GJK and EPA, many pairs at once: one pair a lane of vectors.
 // Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; the nearest
-//          feature of a simplex: Ericson, "Real-Time Collision Detection", 2005, section 9.5.
+//          feature of a simplex: Ericson, "Real-Time Collision Detection", 2005, section 9.5; van
+//          den Bergen, GDC 2001, as in expanding_polytope.h.
 // Departs: every lane takes each step, whatever the size of its simplex: the regions of all
 //          features are looked at, and one is selected. Lanes whose pairs are answered take the
 //          next pairs of the batch. Vertices of hulls of up to 16 are turned into the frame of the
 //          walk when a pair enters its lane; those of greater ones are scanned, sixteen at a time,
 //          one lane after the other. Where the origin is too near the face of a tetrahedron to be
 //          inside for sure, a corner behind that face is looked for, and one of the three
-//          tetrahedra around the axis to it is. What rounding leaves open, and whatever the lanes
+//          tetrahedra around the axis to it is. For depths the tetrahedra of 128 pairs are kept and
+//          their polytopes grown in lanes: nearest faces, visible faces and planes of all at once,
+//          horizons (small_surface.h) one by one. What rounding leaves open, and whatever the lanes
 //          do not take, is asked again one by one as `gjk` does: the verdicts are as reliable as
 //          those.
 //          Takes spheres, capsules, boxes and hulls. One by one go hulls of more than 192 vertices
@@ -16,8 +19,9 @@
 // Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
 //          part of the pair's size.
 // Cost:    as gjk's walk, for all lanes what the slowest of them costs; pays from batches of about
-//          four pairs on. Overlapping pairs are walked between twice where their depth is asked
-//          for. Caps and tolerance are gjk's.
+//          four pairs on. A step of EPA takes between a third and two thirds of one of gjk's, the
+//          less the fewer vertices the hulls have; a pair whose polytope grows beyond 64 vertices
+//          is asked one by one from the start. Caps and tolerance are gjk's.
 #include <algorithm>
 
 #include "algorithms/kernels/gjk_lanes.h"
