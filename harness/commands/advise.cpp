@@ -39,7 +39,8 @@ int advise(const AdviceTask& task, const std::filesystem::path& folder, int draw
   const Representing ours = representing();
   TradeScene scene(task.request, ours);
   std::filesystem::create_directories(folder);
-  const Advice advice = touchstone::advise(task.request, scene, ours, task.budget, say);
+  const AdviceProblem problem{task.request, scene, ours, task.budget, say};
+  const Advice advice = touchstone::advise(problem);
   write_advice(advice, task.request, task.budget, scene, folder);
   fmt::print("{}", advice_text(advice, task.request, task.budget, scene));
   if (!advice.best) {
@@ -49,8 +50,7 @@ int advise(const AdviceTask& task, const std::filesystem::path& folder, int draw
   fmt::print("\n{}: `touchstone run` measures it again\n", (folder / "advice.toml").string());
   if (rows == nullptr) return exit_done;
   const Verification verification =
-      verify(task.request, scene, ours, advice.best->point.configuration, task.budget,
-             advice_draws + 1, draws, folder / "grid", say);
+      verify(problem, advice.best->point.configuration, advice_draws + 1, draws, folder / "grid");
   rows->write(task.request, task.budget, scene, &verification);
   fmt::print("\n{}", verification_text(verification));
   return verification.holds() ? exit_done : exit_measured_wrong;

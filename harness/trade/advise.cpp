@@ -23,22 +23,17 @@ constexpr double enough_for_better = 0.3;  // of the seconds of a search, for th
 
 class Search {
  public:
-  Search(const TradeRequest& request, TradeScene& scene, const Representing& representing,
-         const ErrorBudget& budget, const std::function<void(const std::string&)>& said)
-      : request_(request),
-        scene_(scene),
-        representing_(representing),
-        budget_(budget),
-        said_(said) {}
+  explicit Search(const AdviceProblem& problem) : problem_(problem) {}
 
   Advice run() {
-    const bool chooses_grids = request_.grids.empty();
-    std::vector<std::size_t> order = sampling_order(scene_.frames.frames.size());
+    const bool chooses_grids = problem_.request.grids.empty();
+    std::vector<std::size_t> order = sampling_order(problem_.scene.frames.frames.size());
     order.resize(std::min(order.size(), most_frames));
-    truth_ = find_truth(scene_.frames, order, truth_share * request_.seconds, request_.threads);
-    candidates_ = within_budget(chooses_grids ? usual_grids() : request_.grids);
-    said_(fmt::format("{} of {} configurations are within the budget ({:.0f} s)",
-                      candidates_.size(), all_.size(), watch_.seconds()));
+    truth_ = find_truth(problem_.scene.frames, order, truth_share * problem_.request.seconds,
+                        problem_.request.threads);
+    candidates_ = within_budget(chooses_grids ? usual_grids() : problem_.request.grids);
+    problem_.said(fmt::format("{} of {} configurations are within the budget ({:.0f} s)",
+                              candidates_.size(), all_.size(), watch_.seconds()));
     std::vector<std::size_t> ranked =
         halve(candidates_, (chooses_grids ? first_search : 1) * seconds_left());
     if (chooses_grids && !ranked.empty()) ranked = with_like(ranked);
@@ -46,17 +41,17 @@ class Search {
     advice_.within_budget = candidates_.size();
     choose(ranked);
     if (advice_.best) find_next_better();
-    advice_.hulls_built = scene_.library.hulls();
+    advice_.hulls_built = problem_.scene.library.hulls();
     return std::move(advice_);
   }
 
  private:
-  double seconds_left() const { return request_.seconds - watch_.seconds(); }
+  double seconds_left() const { return problem_.request.seconds - watch_.seconds(); }
 
   std::vector<TradeGrid> usual_grids() {
-    std::vector<TradeGrid> grids =
-        default_grids(request_.task, fastest_broad(scene_.frames, scene_.library));
-    add_kinds(scene_.frames, grids);
+    std::vector<TradeGrid> grids = default_grids(
+        problem_.request.task, fastest_broad(problem_.scene.frames, problem_.scene.library));
+    add_kinds(problem_.scene.frames, grids);
     for (TradeGrid& grid : grids) {
       for (Representations& representations : grid.representations) {
         representations.of[static_cast<std::size_t>(ShapeKind::sphere)].reset();
@@ -67,7 +62,8 @@ class Search {
 
   // Adds what these grids have and nobody tried yet; of that, what is within the budget.
   std::vector<std::size_t> within_budget(std::span<const TradeGrid> grids) {
-    GridPoints grid = expand(grids, scene_.frames, scene_.library, request_.task);
+    GridPoints grid =
+        expand(grids, problem_.scene.frames, problem_.scene.library, problem_.request.task);
     std::vector<std::size_t> added;
     for (TradePoint& point : grid.points) {
       if (!names_.insert(point.configuration.name()).second) continue;
@@ -75,8 +71,8 @@ class Search {
       TradeOutcome& outcome = all_.emplace_back();
       outcome.point = std::move(point);
       const Representations& representations = outcome.point.configuration.representations;
-      outcome.representation = spread_of(scene_.library.errors(representations));
-      outcome.preparation = scene_.library.seconds(representations);
+      outcome.representation = spread_of(problem_.scene.library.errors(representations));
+      outcome.preparation = problem_.scene.library.seconds(representations);
     }
     for (const std::size_t frames : {frames_at_first, most_frames}) drop_by_error(frames, added);
     return added;
@@ -86,10 +82,10 @@ class Search {
   // every other narrow phase.
   std::vector<std::size_t> with_like(const std::vector<std::size_t>& ranked) {
     const std::vector<TradeGrid> grids =
-        grids_like(all_[ranked.front()].point.configuration, request_.task);
+        grids_like(all_[ranked.front()].point.configuration, problem_.request.task);
     const std::vector<std::size_t> like = within_budget(grids);
-    said_(fmt::format("{} more like {} ({:.0f} s)", like.size(),
-                      all_[ranked.front()].point.configuration.name(), watch_.seconds()));
+    problem_.said(fmt::format("{} more like {} ({:.0f} s)", like.size(),
+                              all_[ranked.front()].point.configuration.name(), watch_.seconds()));
     candidates_.insert(candidates_.end(), like.begin(), like.end());
     const auto behind =
         ranked.begin() + static_cast<std::ptrdiff_t>(std::min(ranked.size(), finalists));
@@ -102,35 +98,38 @@ class Search {
 
   void choose(std::span<const std::size_t> ranked) {
     if (ranked.empty()) return;
-    HeldOutScenes elsewhere(request_, representing_, 1, advice_draws,
-                            truth_share * request_.seconds / advice_draws);
+    HeldOutScenes elsewhere(problem_.request, problem_.representing, 1, advice_draws,
+                            truth_share * problem_.request.seconds / advice_draws);
     advice_.held_out_on = elsewhere.name();
     for (const std::size_t i : ranked) {
       if (!std::isfinite(all_[i].timed.seconds)) continue;
-      advice_.held_out = elsewhere.grade(all_[i].point.configuration, budget_);
+      advice_.held_out = elsewhere.grade(all_[i].point.configuration, problem_.budget);
       if (all_within(advice_.held_out)) {
         advice_.best = all_[i];
         return;
       }
-      said_(all_[i].point.configuration.name() + " is over the budget on " + elsewhere.name() +
-            ", and dropped");
+      problem_.said(all_[i].point.configuration.name() + " is over the budget on " +
+                    elsewhere.name() + ", and dropped");
     }
   }
 
   bool within(const TradeOutcome& outcome) const {
-    return meets(budget_, request_.measure, outcome.evaluation, outcome.representation);
+    return meets(problem_.budget, problem_.request.measure, outcome.evaluation,
+                 outcome.representation);
   }
 
   void drop_by_error(std::size_t frames, std::vector<std::size_t>& members) {
     const std::span<const FrameTruth> known(truth_.data(), std::min(frames, truth_.size()));
     std::vector<TradePoint> points;
     for (const std::size_t i : members) points.push_back(all_[i].point);
-    std::vector<Evaluation> found = evaluate(scene_.frames, points, known, request_.task);
+    std::vector<Evaluation> found =
+        evaluate(problem_.scene.frames, points, known, problem_.request.task);
     std::vector<std::size_t> left;
     for (std::size_t k = 0; k < members.size(); ++k) {
       TradeOutcome& outcome = all_[members[k]];
       outcome.evaluation = std::move(found[k]);
-      outcome.error = error_of(outcome.evaluation.errors, outcome.representation, request_.measure);
+      outcome.error =
+          error_of(outcome.evaluation.errors, outcome.representation, problem_.request.measure);
       if (within(outcome)) left.push_back(members[k]);
     }
     members = std::move(left);
@@ -148,7 +147,7 @@ class Search {
     std::size_t stages = 1;
     for (std::size_t n = left.size(); n > finalists; n = (n + 1) / 2) ++stages;
     const double share =
-        std::max(seconds, least_search * request_.seconds) / static_cast<double>(stages);
+        std::max(seconds, least_search * problem_.request.seconds) / static_cast<double>(stages);
     std::vector<std::size_t> slower;
     for (;;) {
       const bool last = left.size() <= finalists;
@@ -174,12 +173,12 @@ class Search {
       expected.push_back(rough(i));
     }
     TimingPlan plan;
-    plan.threads = request_.threads;
+    plan.threads = problem_.request.threads;
     plan.seconds = seconds;
     plan.processes = processes;
-    plan.seed = request_.seed + members.size();
-    PointTimes times =
-        time_points(scene_.frames, points, expected, request_.task, plan, [](const auto&) {});
+    plan.seed = problem_.request.seed + members.size();
+    PointTimes times = time_points(problem_.scene.frames, points, expected, problem_.request.task,
+                                   plan, [](const auto&) {});
     for (std::size_t k = 0; k < members.size(); ++k) {
       TimedPoint& timed = all_[members[k]].timed;
       timed = std::move(times.points[k]);
@@ -196,16 +195,13 @@ class Search {
     }
     if (better.empty()) return;
     const double twin = advice_.twin;
-    const std::vector<std::size_t> ranked = halve(better, enough_for_better * request_.seconds);
+    const std::vector<std::size_t> ranked =
+        halve(better, enough_for_better * problem_.request.seconds);
     if (all_[ranked.front()].ok()) advice_.next_better = all_[ranked.front()];
     advice_.twin = twin;
   }
 
-  const TradeRequest& request_;
-  TradeScene& scene_;
-  const Representing& representing_;
-  const ErrorBudget& budget_;
-  const std::function<void(const std::string&)>& said_;
+  const AdviceProblem& problem_;
   Stopwatch watch_;
   std::vector<TradeOutcome> all_;
   std::set<std::string> names_;          // of all
@@ -216,9 +212,6 @@ class Search {
 
 }  // namespace
 
-Advice advise(const TradeRequest& request, TradeScene& scene, const Representing& representing,
-              const ErrorBudget& budget, const std::function<void(const std::string&)>& said) {
-  return Search(request, scene, representing, budget, said).run();
-}
+Advice advise(const AdviceProblem& problem) { return Search(problem).run(); }
 
 }  // namespace touchstone

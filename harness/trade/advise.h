@@ -5,14 +5,12 @@
 //          is out; only the others are timed, longer as they get fewer.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/trade/error_budget.h"
+#include "harness/trade/advice_problem.h"
 #include "harness/trade/held_out.h"
-#include "harness/trade/trade_job.h"
 
 namespace touchstone {
 
@@ -33,7 +31,6 @@ struct Advice {
 // too, but for spheres, which nothing stands for more cheaply; and then what is like the winner but
 // for its boxes and broad phase, or its narrow phase. A configuration that is over the budget on a
 // held-out scene is dropped for the next.
-Advice advise(const TradeRequest& request, TradeScene& scene, const Representing& representing,
-              const ErrorBudget& budget, const std::function<void(const std::string&)>& said);
+Advice advise(const AdviceProblem& problem);
 
 }  // namespace touchstone

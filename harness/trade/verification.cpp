@@ -19,30 +19,24 @@ constexpr int processes = 10;
 
 class Verifier {
  public:
-  Verifier(const TradeRequest& request, TradeScene& scene, const Representing& representing,
-           const ErrorBudget& budget, const std::function<void(const std::string&)>& said)
-      : request_(request),
-        scene_(scene),
-        representing_(representing),
-        budget_(budget),
-        said_(said) {}
+  explicit Verifier(const AdviceProblem& problem) : problem_(problem) {}
 
   Verification run(const Configuration& choice, int first_draw, int draws,
                    const std::filesystem::path& folder) {
     measure_grid(choice, folder);
-    HeldOutScenes elsewhere(request_, representing_, first_draw, draws,
-                            truth_share * request_.seconds / draws);
+    HeldOutScenes elsewhere(problem_.request, problem_.representing, first_draw, draws,
+                            truth_share * problem_.request.seconds / draws);
     found_.held_out_on = elsewhere.name();
-    found_.held_out = elsewhere.grade(choice, budget_);
+    found_.held_out = elsewhere.grade(choice, problem_.budget);
     found_.within_budget = within(found_.choice) && all_within(found_.held_out);
     const std::vector<TradeOutcome> rivals = fastest_rivals(elsewhere);
-    said_(fmt::format("against the fastest {} others within the budget", rivals.size()));
+    problem_.said(fmt::format("against the fastest {} others within the budget", rivals.size()));
     found_.seconds = found_.choice.timed.seconds;
     if (!found_.choice.ok()) {
       found_.time = TimeVerdict::undecided;
     } else if (!rivals.empty()) {
       for (const double times : {1.0, 3.0}) {
-        race(rivals, times * race_share * request_.seconds);
+        race(rivals, times * race_share * problem_.request.seconds);
         if (found_.time != TimeVerdict::undecided) break;
       }
     }
@@ -51,19 +45,21 @@ class Verifier {
 
  private:
   bool within(const TradeOutcome& outcome) const {
-    return meets(budget_, request_.measure, outcome.evaluation, outcome.representation);
+    return meets(problem_.budget, problem_.request.measure, outcome.evaluation,
+                 outcome.representation);
   }
 
   void measure_grid(const Configuration& choice, const std::filesystem::path& folder) {
-    TradeRequest whole = request_;
+    TradeRequest whole = problem_.request;
     if (whole.grids.empty()) {
-      whole.grids = default_grids(whole.task, fastest_broad(scene_.frames, scene_.library));
-      add_kinds(scene_.frames, whole.grids);
+      whole.grids =
+          default_grids(whole.task, fastest_broad(problem_.scene.frames, problem_.scene.library));
+      add_kinds(problem_.scene.frames, whole.grids);
     }
     whole.grids.push_back(grid_of(choice));
     std::filesystem::create_directories(folder);
-    TradeResult result = measure_trade(whole, scene_, folder, said_);
-    write_trade(result, whole, scene_, folder);
+    TradeResult result = measure_trade(whole, problem_.scene, folder, problem_.said);
+    write_trade(result, whole, problem_.scene, folder);
     found_.configurations = result.points.size();
     bool has_choice = false;
     for (TradeOutcome& point : result.points) {
@@ -84,7 +80,7 @@ class Verifier {
     std::vector<TradeOutcome> fastest;
     for (const TradeOutcome& rival : rivals_) {
       if (fastest.size() == most_rivals || fastest.size() + found_.dropped == most_graded) break;
-      if (all_within(elsewhere.grade(rival.point.configuration, budget_))) {
+      if (all_within(elsewhere.grade(rival.point.configuration, problem_.budget))) {
         fastest.push_back(rival);
       } else {
         ++found_.dropped;
@@ -102,12 +98,12 @@ class Verifier {
       rough.push_back(rival.timed.seconds);
     }
     TimingPlan plan;
-    plan.threads = request_.threads;
+    plan.threads = problem_.request.threads;
     plan.seconds = seconds;
     plan.processes = processes;
-    plan.seed = request_.seed + points.size();
-    const PointTimes times =
-        time_points(scene_.frames, points, rough, request_.task, plan, [](const auto&) {});
+    plan.seed = problem_.request.seed + points.size();
+    const PointTimes times = time_points(problem_.scene.frames, points, rough,
+                                         problem_.request.task, plan, [](const auto&) {});
     const TimedPoint& own = times.points[0];
     found_.seconds = own.seconds;
     found_.time = TimeVerdict::undecided;
@@ -124,11 +120,7 @@ class Verifier {
     }
   }
 
-  const TradeRequest& request_;
-  TradeScene& scene_;
-  const Representing& representing_;
-  const ErrorBudget& budget_;
-  const std::function<void(const std::string&)>& said_;
+  const AdviceProblem& problem_;
   std::vector<TradeOutcome> rivals_;  // within the budget, by rising time
   Verification found_;
 };
@@ -149,13 +141,9 @@ TimeVerdict time_verdict(const stats::MedianInterval& ratio) {
   return ratio.low > allowed_ratio ? TimeVerdict::beyond : TimeVerdict::undecided;
 }
 
-Verification verify(const TradeRequest& request, TradeScene& scene,
-                    const Representing& representing, const Configuration& choice,
-                    const ErrorBudget& budget, int first_draw, int draws,
-                    const std::filesystem::path& folder,
-                    const std::function<void(const std::string&)>& said) {
-  return Verifier(request, scene, representing, budget, said)
-      .run(choice, first_draw, draws, folder);
+Verification verify(const AdviceProblem& problem, const Configuration& choice, int first_draw,
+                    int draws, const std::filesystem::path& folder) {
+  return Verifier(problem).run(choice, first_draw, draws, folder);
 }
 
 }  // namespace touchstone

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "harness/stats/statistics.h"
+#include "harness/trade/advice_problem.h"
 #include "harness/trade/held_out.h"
 
 namespace touchstone {
@@ -45,10 +45,7 @@ struct Verification {
 // interleaved with the fastest that are within the budget, for longer where the interval does not
 // tell. Held-out scenes: `draws` of held_out.h from `first_draw` on, with the choice and those.
 // Takes about twice the request's seconds.
-Verification verify(const TradeRequest& request, TradeScene& scene,
-                    const Representing& representing, const Configuration& choice,
-                    const ErrorBudget& budget, int first_draw, int draws,
-                    const std::filesystem::path& folder,
-                    const std::function<void(const std::string&)>& said);
+Verification verify(const AdviceProblem& problem, const Configuration& choice, int first_draw,
+                    int draws, const std::filesystem::path& folder);
 
 }  // namespace touchstone

@@ -22,7 +22,7 @@ struct Asked {
   }
   Advice advice(const ErrorBudget& budget) {
     TradeScene scene(request, representing);
-    return advise(request, scene, representing, budget, [](const auto&) {});
+    return advise({request, scene, representing, budget, [](const auto&) {}});
   }
 
   TemporaryFolder folder;

@@ -37,8 +37,8 @@ struct Small {
     TradeScene scene(request, representing);
     Configuration complete = choice;
     complete.representations = scene.library.complete(choice.representations);
-    return verify(request, scene, representing, complete, budget, 3, 2, folder.path() / "grid",
-                  [](const auto&) {});
+    return verify({request, scene, representing, budget, [](const auto&) {}}, complete, 3, 2,
+                  folder.path() / "grid");
   }
 
   TemporaryFolder folder;
