@@ -92,7 +92,7 @@ RationalVector RationalCore::point_in_body(const Generator& generator) const {
     return rational_vector(solid_.vertices[static_cast<std::size_t>(generator.vertex)]);
   }
   require(generator.vertex < 0, "a generator names a vertex of a body that has none");
-  const RationalVector x = rational_vector(generator.point);
+  RationalVector x = rational_vector(generator.point);
   require(holds(x), "a generator lies outside its body");
   return x;
 }

@@ -121,6 +121,7 @@ class Search {
   void drop_by_error(std::size_t frames, std::vector<std::size_t>& members) {
     const std::span<const FrameTruth> known(truth_.data(), std::min(frames, truth_.size()));
     std::vector<TradePoint> points;
+    points.reserve(members.size());
     for (const std::size_t i : members) points.push_back(all_[i].point);
     std::vector<Evaluation> found =
         evaluate(problem_.scene.frames, points, known, problem_.request.task);
