@@ -75,10 +75,8 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
   const auto set = Lanes::mask(fresh);
   const Real outside = Lanes::broadcast(-2 * lane_rounding<Scalar>);
   unsigned usable = fresh;
-  SmallSurface tetrahedron;
-  tetrahedron.start();
   for (std::size_t face = 0; face < 4; ++face) {
-    const auto [a, b, c] = tetrahedron.corners(face);
+    const auto [a, b, c] = SmallSurface::tetrahedron[face];
     const TrianglePlanes<Scalar> plane =
         triangle_planes<Scalar>(corners[a], corners[b], corners[c]);
     usable &= Lanes::bits(Lanes::less(outside, plane.distance));
@@ -114,29 +112,30 @@ TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoa
     const Quad<Scalar>& q = quads[vertex][lane];
     return Vec3<Scalar>(q[0], q[1], q[2]);
   };
-  const auto consider = [&](std::size_t of, auto&& take) {
-    const SmallSurface::Corners& c = surface.corners(of);
-    const std::array<int, 3> vertices{c[0], c[1], c[2]};
-    take(vertices, std::array{point(expanders.points, c[0]), point(expanders.points, c[1]),
-                              point(expanders.points, c[2])});
+  const auto vertices_of = [&](std::size_t other) {
+    const SmallSurface::Corners& c = surface.corners(other);
+    return std::array<int, 3>{c[0], c[1], c[2]};
   };
-  std::optional<OriginFoot<Scalar>> foot;
-  consider(face,
-           [&](const auto& vertices, const auto& corners) { foot.emplace(vertices, corners); });
+  const auto points_of = [&](const std::array<int, 3>& vertices) {
+    return std::array{point(expanders.points, vertices[0]), point(expanders.points, vertices[1]),
+                      point(expanders.points, vertices[2])};
+  };
   const auto in_plane = [&](const Vec3<Scalar>& corner) {
     return std::abs(normal.dot(corner) - least) <= lane_rounding<Scalar>;
   };
-  for (std::size_t i = 0; i < surface.faces() && !foot->is_inside(); ++i) {
+  OriginFoot<Scalar> foot(vertices_of(face), points_of(vertices_of(face)));
+  for (std::size_t i = 0; i < surface.faces() && !foot.is_inside(); ++i) {
     const Scalar away = reinterpret_cast<const Scalar*>(&expanders.distance[i])[lane];
     if (!(away < least + lane_rounding<Scalar>)) continue;
-    consider(i, [&](const auto& vertices, const auto& corners) {
-      if (std::ranges::all_of(corners, in_plane)) foot->consider(vertices, corners);
-    });
+    const std::array<int, 3> vertices = vertices_of(i);
+    const auto corners = points_of(vertices);
+    if (std::ranges::all_of(corners, in_plane)) foot.consider(vertices, corners);
   }
+  const std::array<Scalar, 3> weights = foot.weights();
   Vec3<Scalar> on_a = Vec3<Scalar>::Zero(), apart = Vec3<Scalar>::Zero();
   for (int i = 0; i < 3; ++i) {
-    on_a += foot->weights()[i] * point(expanders.on_a, foot->vertices()[i]);
-    apart += foot->weights()[i] * point(expanders.points, foot->vertices()[i]);
+    on_a += weights[i] * point(expanders.on_a, foot.vertices()[i]);
+    apart += weights[i] * point(expanders.points, foot.vertices()[i]);
   }
   const auto of = [lane](const typename RealLanes<Scalar>::Real& numbers) {
     return reinterpret_cast<const Scalar*>(&numbers)[lane];

@@ -9,6 +9,7 @@
 // neighbours on the horizon. Nothing is looked for, and little can be mispredicted.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -21,6 +22,10 @@ class SmallSurface {
   static constexpr std::size_t most_vertices = 64, most_faces = 128;
   using Faces = std::array<std::uint64_t, 2>;  // a bit a face
   using Corners = std::array<std::uint8_t, 3>;
+
+  // The faces that start() makes.
+  static constexpr std::array<Corners, 4> tetrahedron = {
+      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 
   // What add() has found: the horizon, its first vertex again at the end; where the faces from each
   // of its edges to the new vertex are; and, behind those, faces that are no more.
@@ -40,11 +45,8 @@ class SmallSurface {
   // Begins with the tetrahedron of vertices 0 to 3, of which 3 is on the side of 0, 1 and 2 that
   // sees them anticlockwise.
   void start() {
-    vertices_ = faces_ = 4;
-    corners_[0] = {0, 2, 1};
-    corners_[1] = {0, 1, 3};
-    corners_[2] = {1, 2, 3};
-    corners_[3] = {2, 0, 3};
+    vertices_ = faces_ = tetrahedron.size();
+    std::ranges::copy(tetrahedron, corners_.begin());
   }
 
   // Adds a vertex, of which there are fewer than most_vertices, that sees these faces. False where

@@ -19,7 +19,8 @@
 #if defined(__SANITIZE_THREAD__)
 #define TOUCHSTONE_ONE_LEVEL
 #endif
-// The widest vectors differ from the next by their number of lanes alone, and take longest to check.
+// The widest vectors differ from the next by their number of lanes alone, and take longest to
+// check.
 #if defined(__SANITIZE_ADDRESS__)
 #define TOUCHSTONE_TWO_LEVELS
 #endif

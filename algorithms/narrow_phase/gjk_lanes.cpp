@@ -19,9 +19,9 @@
 // Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
 //          part of the pair's size.
 // Cost:    as gjk's walk, for all lanes what the slowest of them costs; pays from batches of about
-//          four pairs on. A step of EPA takes between a third and two thirds of one of gjk's, the
-//          less the fewer vertices the hulls have; a pair whose polytope grows beyond 64 vertices
-//          is asked one by one from the start. Caps and tolerance are gjk's.
+//          four pairs on. Depths take 0.4 to 0.7 of gjk's time in float and up to all of it in
+//          double, the less the fewer vertices the hulls have; a pair whose polytope grows beyond
+//          64 vertices is asked one by one from the start. Caps and tolerance are gjk's.
 #include <algorithm>
 
 #include "algorithms/kernels/gjk_lanes.h"

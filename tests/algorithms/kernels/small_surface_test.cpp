@@ -94,7 +94,6 @@ TEST(SmallSurface, RefusesWhatIsNoDisc) {
   Grown grown;
   while (grown.vertices() < 20) grown.add(random.direction());
   SmallSurface start = grown.surface();
-  std::set<std::pair<int, int>> sizes;
   int refused = 0, taken = 0;
   for (int repeat = 0; repeat < 20000; ++repeat) {
     // Any faces: pieces that share nothing, a vertex or two, rings, all of it, none.
