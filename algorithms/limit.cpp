@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithms/kernels/blocks.h"
-#include "algorithms/kernels/ordered_key.h"
-#include "algorithms/kernels/radix_sort.h"
+#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/kernels/sorting/ordered_key.h"
+#include "algorithms/kernels/sorting/radix_sort.h"
 
 namespace touchstone {
 namespace {

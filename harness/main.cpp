@@ -5,8 +5,8 @@
 #include <string>
 
 #include "algorithms/core/isa.h"
+#include "harness/base/error.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
 
 int main(int argc, char** argv) {
   using namespace touchstone;

@@ -16,10 +16,10 @@
 #include <bit>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/kernels/box_lanes.h"
-#include "algorithms/kernels/curve_order.h"
-#include "algorithms/kernels/group_scan.h"
-#include "algorithms/kernels/held_bytes.h"
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/group_scan.h"
+#include "algorithms/kernels/bvh/hilbert_sort.h"
 
 namespace touchstone {
 namespace {
@@ -76,7 +76,7 @@ class LinearBvh final : public BroadPhase {
   // splits of a node the one at the higher bit comes first; so bits fall on the way down, and no
   // leaf is deeper than there are bits.
   static constexpr int leaf_number_bits = 28;
-  static constexpr std::size_t most_levels = CurveOrder::key_bits + leaf_number_bits;
+  static constexpr std::size_t most_levels = HilbertSort::key_bits + leaf_number_bits;
 
   using Lanes = box_lanes::baseline::Lanes;
   using Corner = std::array<float, 4>;  // of which three are used: a vector's worth
@@ -197,8 +197,8 @@ class LinearBvh final : public BroadPhase {
 
   Executor& executor_;
   std::vector<Scratch> scratch_;
-  CurveOrder order_;
-  BoxArrays boxes_;           // in that order
+  HilbertSort order_;
+  AabbSoA boxes_;             // in that order
   std::vector<Aabb> leaves_;  // their bounds
   std::vector<Node> nodes_;
   std::uint32_t root_ = 0;

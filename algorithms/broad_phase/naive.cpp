@@ -5,8 +5,8 @@
 // Fails:   quadratic, whatever the scene.
 // Cost:    O(n^2) time, O(n) memory beside the output.
 #include "algorithms/broad_phase.h"
-#include "algorithms/kernels/box_scan.h"
-#include "algorithms/kernels/held_bytes.h"
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_scan.h"
 
 namespace touchstone {
 namespace {
@@ -50,7 +50,7 @@ class Naive final : public BroadPhase {
 
   Executor& executor_;
   std::vector<std::uint32_t> ids_;
-  BoxArrays arrays_;
+  AabbSoA arrays_;
 };
 
 }  // namespace

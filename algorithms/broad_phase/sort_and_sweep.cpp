@@ -15,11 +15,11 @@
 #include <bit>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/kernels/box_scan.h"
-#include "algorithms/kernels/held_bytes.h"
-#include "algorithms/kernels/insertion_sort.h"
-#include "algorithms/kernels/ordered_key.h"
-#include "algorithms/kernels/radix_sort.h"
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/sorting/insertion_sort.h"
+#include "algorithms/kernels/sorting/ordered_key.h"
+#include "algorithms/kernels/sorting/radix_sort.h"
 
 namespace touchstone {
 namespace {
@@ -152,7 +152,7 @@ class SortAndSweep final : public BroadPhase {
   std::array<Axis, 3> axes_{Axis{0, {}, {}, {}, 0}, Axis{1, {}, {}, {}, 0}, Axis{2, {}, {}, {}, 0}};
   RadixSort<std::uint64_t> radix_sort_;
   int shortest_ = 0;
-  BoxArrays runs_;  // [rank, end] on each axis, as boxes
+  AabbSoA runs_;  // [rank, end] on each axis, as boxes
 };
 
 }  // namespace

@@ -11,11 +11,11 @@
 #include <array>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/kernels/box_scan.h"
-#include "algorithms/kernels/held_bytes.h"
-#include "algorithms/kernels/insertion_sort.h"
-#include "algorithms/kernels/ordered_key.h"
-#include "algorithms/kernels/radix_sort.h"
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/sorting/insertion_sort.h"
+#include "algorithms/kernels/sorting/ordered_key.h"
+#include "algorithms/kernels/sorting/radix_sort.h"
 
 namespace touchstone {
 namespace {
@@ -131,7 +131,7 @@ class SweepAndPrune final : public BroadPhase {
   std::size_t axis_ = 0;
   std::vector<std::uint64_t> order_;  // (key of the minimum, id), ascending
   RadixSort<std::uint64_t> radix_sort_;
-  BoxArrays arrays_;  // in that order
+  AabbSoA arrays_;  // in that order
 };
 
 }  // namespace

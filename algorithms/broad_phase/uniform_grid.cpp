@@ -18,11 +18,11 @@
 #include <utility>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/kernels/box_scan.h"
-#include "algorithms/kernels/cell_space.h"
-#include "algorithms/kernels/crowds.h"
-#include "algorithms/kernels/held_bytes.h"
-#include "algorithms/kernels/radix_sort.h"
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/grid/cell_space.h"
+#include "algorithms/kernels/grid/dense_cells.h"
+#include "algorithms/kernels/sorting/radix_sort.h"
 
 namespace touchstone {
 namespace {
@@ -194,7 +194,7 @@ class UniformGrid final : public BroadPhase {
   // Cells with many entries, which are put in the order of their boxes' minima on an axis.
   void list_crowds(std::span<const Aabb> boxes) {
     crowds_.clear();
-    visit_crowds(
+    visit_dense_cells(
         {0, entries_.size()}, least_crowd, [&](std::size_t i) { return entries_[i].cell; },
         [&](IndexRange run) {
           const auto entries = std::span(entries_).subspan(run.first, run.last - run.first);
@@ -211,8 +211,8 @@ class UniformGrid final : public BroadPhase {
     arrays_.gather(executor_, boxes, count, [&](std::size_t i) {
       return i < large_.size() ? large_[i] : entries_[i - large_.size()].id;
     });
-    marks_.resize(count + BoxArrays::padding);
-    wants_.resize(count + BoxArrays::padding);
+    marks_.resize(count + AabbSoA::padding);
+    wants_.resize(count + AabbSoA::padding);
     std::fill_n(marks_.begin(), large_.size(), all_axes);
     std::fill_n(wants_.begin(), large_.size(), all_axes);
     for_each_block(executor_, entries_.size(), 8192,
@@ -267,8 +267,8 @@ class UniformGrid final : public BroadPhase {
   std::vector<std::uint32_t> large_;
   RadixSort<Entry> radix_sort_;
   std::vector<Crowd> crowds_;
-  CrowdSort<Entry> crowd_sort_;
-  BoxArrays arrays_;
+  DenseCellSort<Entry> crowd_sort_;
+  AabbSoA arrays_;
   std::vector<std::uint32_t> marks_, wants_;
 };
 

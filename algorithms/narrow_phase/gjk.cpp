@@ -28,9 +28,9 @@
 #include <cstring>
 #include <type_traits>
 
-#include "algorithms/kernels/fetch_ahead.h"
-#include "algorithms/kernels/gjk_query.h"
-#include "algorithms/kernels/halfspace.h"
+#include "algorithms/kernels/batch/shape_prefetch.h"
+#include "algorithms/kernels/gjk/gjk_query.h"
+#include "algorithms/kernels/minkowski/halfspace.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -80,7 +80,7 @@ class Gjk final : public NarrowPhase {
   bool warm_;
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
-  FetchAhead<Scalar> ahead_;
+  ShapePrefetch<Scalar> ahead_;
 };
 
 template <Momentum momentum>

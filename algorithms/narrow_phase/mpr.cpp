@@ -13,9 +13,9 @@
 //          depth of curved shapes.
 #include <algorithm>
 
-#include "algorithms/kernels/fetch_ahead.h"
-#include "algorithms/kernels/halfspace.h"
-#include "algorithms/kernels/portal_search.h"
+#include "algorithms/kernels/batch/shape_prefetch.h"
+#include "algorithms/kernels/minkowski/halfspace.h"
+#include "algorithms/kernels/mpr/portal_search.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -88,7 +88,7 @@ class Mpr final : public NarrowPhase {
   int max_iterations_;
   Scalar tolerance_;  // in units of the pair
   std::vector<SupportShape<Scalar>> shapes_;
-  FetchAhead<Scalar> ahead_;
+  ShapePrefetch<Scalar> ahead_;
 };
 
 }  // namespace

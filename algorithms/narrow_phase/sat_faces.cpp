@@ -15,8 +15,8 @@
 //          solid hull that came without faces and that no axis tried separates, and capacity for
 //          one of more than 16,384 vertices.
 // Cost:    O(Fa Vb + Fb Va) time; no memory.
-#include "algorithms/kernels/flat_sided.h"
-#include "algorithms/kernels/separating_axis.h"
+#include "algorithms/kernels/sat/polytope_query.h"
+#include "algorithms/kernels/sat/separating_axis.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -47,7 +47,7 @@ class SatFaces final : public NarrowPhase {
     outcome.iterations = tested;
   }
 
-  FlatSidedShapes<Scalar> shapes_;
+  PolytopeShapes<Scalar> shapes_;
 };
 
 }  // namespace

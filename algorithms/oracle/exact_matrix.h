@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "algorithms/oracle/integer.h"
+#include "algorithms/oracle/numbers/integer.h"
 #include "algorithms/oracle/solid.h"
 
 namespace touchstone::oracle {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithms/oracle/dyadic.h"
 #include "algorithms/oracle/half_space.h"
+#include "algorithms/oracle/numbers/dyadic.h"
 #include "algorithms/oracle/oracle.h"
 
 namespace touchstone::oracle {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithms/oracle/certificate.h"
+#include "algorithms/oracle/certificates/certificate.h"
 #include "algorithms/oracle/exact_matrix.h"
 #include "algorithms/oracle/solid.h"
 

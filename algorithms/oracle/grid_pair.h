@@ -1,9 +1,9 @@
 // A pair of bounded cores on one grid of integers, and in doubles.
 #pragma once
 
-#include "algorithms/oracle/filters.h"
 #include "algorithms/oracle/grid_core.h"
-#include "algorithms/oracle/signed_root.h"
+#include "algorithms/oracle/numbers/filters.h"
+#include "algorithms/oracle/numbers/signed_root.h"
 
 namespace touchstone::oracle {
 

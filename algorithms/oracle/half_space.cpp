@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "algorithms/oracle/dyadic.h"
+#include "algorithms/oracle/numbers/dyadic.h"
 
 namespace touchstone::oracle {
 namespace {

@@ -1,7 +1,7 @@
 // Half-spaces against everything.
 #pragma once
 
-#include "algorithms/oracle/certificate.h"
+#include "algorithms/oracle/certificates/certificate.h"
 #include "algorithms/oracle/grid_pair.h"
 #include "algorithms/oracle/oracle.h"
 

@@ -5,8 +5,8 @@
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/outcome.h"
-#include "algorithms/oracle/certificate.h"
-#include "algorithms/oracle/filters.h"
+#include "algorithms/oracle/certificates/certificate.h"
+#include "algorithms/oracle/numbers/filters.h"
 #include "algorithms/oracle/solid.h"
 
 namespace touchstone::oracle {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/oracle/dyadic.h"
+#include "algorithms/oracle/numbers/dyadic.h"
 
 namespace touchstone::oracle {
 Solid::Solid(const Shape& shape) {

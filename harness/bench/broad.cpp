@@ -15,9 +15,9 @@
 
 #include "algorithms/core/executor.h"
 #include "algorithms/registry.h"
+#include "harness/base/clock.h"
 #include "harness/bench/benchmarks.h"
-#include "harness/run/build_info.h"
-#include "harness/run/clock.h"
+#include "harness/record/build_info.h"
 #include "harness/scene/player.h"
 
 namespace touchstone {

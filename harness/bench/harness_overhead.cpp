@@ -13,7 +13,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/measure/sampler.h"
-#include "harness/run/build_info.h"
+#include "harness/record/build_info.h"
 
 namespace touchstone {
 namespace {

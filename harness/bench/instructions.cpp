@@ -9,10 +9,10 @@
 #include <regex>
 #include <vector>
 
+#include "harness/base/error.h"
 #include "harness/bench/narrow_subjects.h"
-#include "harness/error.h"
-#include "harness/io/csv.h"
-#include "harness/run/subprocess.h"
+#include "harness/files/csv.h"
+#include "harness/process/subprocess.h"
 
 #if __has_include(<valgrind/callgrind.h>)
 #include <valgrind/callgrind.h>

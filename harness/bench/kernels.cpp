@@ -13,17 +13,17 @@
 
 #include "algorithms/core/executor.h"
 #include "algorithms/core/isa.h"
-#include "algorithms/kernels/box_arrays.h"
-#include "algorithms/kernels/box_box.h"
-#include "algorithms/kernels/box_scan.h"
-#include "algorithms/kernels/insertion_sort.h"
-#include "algorithms/kernels/ordered_key.h"
-#include "algorithms/kernels/radix_sort.h"
-#include "algorithms/kernels/support.h"
+#include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/boxes/aabb_soa.h"
+#include "algorithms/kernels/minkowski/support.h"
+#include "algorithms/kernels/sat/box_box.h"
+#include "algorithms/kernels/sorting/insertion_sort.h"
+#include "algorithms/kernels/sorting/ordered_key.h"
+#include "algorithms/kernels/sorting/radix_sort.h"
+#include "harness/base/clock.h"
+#include "harness/base/random.h"
 #include "harness/bench/benchmarks.h"
 #include "harness/bench/placed_pairs.h"
-#include "harness/run/clock.h"
-#include "harness/scene/random.h"
 
 namespace touchstone {
 namespace {
@@ -164,7 +164,7 @@ void register_sorts() {
 // -----------------------------------------------------------------------------------
 
 // Cubes of side 1, each overlapping about two others, in the order of their x.
-std::unique_ptr<BoxArrays> draw_boxes(std::size_t count, Random& random) {
+std::unique_ptr<AabbSoA> draw_boxes(std::size_t count, Random& random) {
   const double side = std::cbrt(4.0 * static_cast<double>(count));
   std::vector<Aabb> boxes(count);
   for (Aabb& box : boxes) {
@@ -174,7 +174,7 @@ std::unique_ptr<BoxArrays> draw_boxes(std::size_t count, Random& random) {
     }
   }
   std::ranges::sort(boxes, {}, [](const Aabb& box) { return box.min[0]; });
-  auto arrays = std::make_unique<BoxArrays>();
+  auto arrays = std::make_unique<AabbSoA>();
   arrays->resize(count);
   for (std::uint32_t i = 0; i < count; ++i) arrays->set(i, boxes[i], i);
   return arrays;
@@ -185,7 +185,7 @@ template <class Scan>
 void scan(benchmark::State& state, Isa level, std::size_t count, const Scan& scan_set) {
   if (level > isa_of_machine()) return state.SkipWithError("this machine has no such instructions");
   Random random(5);
-  std::vector<std::unique_ptr<BoxArrays>> sets;
+  std::vector<std::unique_ptr<AabbSoA>> sets;
   for (std::size_t i = 0; i < 16; ++i) sets.push_back(draw_boxes(count, random));
   PairBuffer out;
   std::size_t i = 0, pairs = 0;
@@ -226,13 +226,13 @@ void register_box_tests() {
         return fmt::format("{}/{}/{}", what, to_string(level), count);
       };
       add(name("box-scan"), [level, count](benchmark::State& state) {
-        scan(state, level, count, [&](const BoxArrays& boxes, PairBuffer& out) {
+        scan(state, level, count, [&](const AabbSoA& boxes, PairBuffer& out) {
           const IndexRange all{0, boxes.size()};
           scan_boxes(boxes, all, std::span(&all, 1), out);
         });
       });
       add(name("box-sweep"), [level, count](benchmark::State& state) {
-        scan(state, level, count, [&](const BoxArrays& boxes, PairBuffer& out) {
+        scan(state, level, count, [&](const AabbSoA& boxes, PairBuffer& out) {
           sweep_boxes(boxes, 0, {0, boxes.size()}, out);
         });
       });

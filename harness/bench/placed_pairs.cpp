@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "harness/scene/convex_hull.h"
-#include "harness/scene/polytope.h"
-#include "harness/scene/settle.h"
+#include "algorithms/hull/convex_hull.h"
+#include "harness/geometry/tessellation.h"
+#include "harness/scene/generators/settle.h"
 
 namespace touchstone {
 namespace {

@@ -12,7 +12,7 @@
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 #include "algorithms/narrow_phase.h"
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
 
 namespace touchstone {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
 
 namespace touchstone {
 namespace {

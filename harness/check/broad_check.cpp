@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "algorithms/core/executor.h"
-#include "harness/run/isolate.h"
+#include "harness/process/isolate.h"
 
 namespace touchstone {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/check/box_scenes.h"
-#include "harness/run/pair_check.h"
+#include "harness/grade/pair_check.h"
 
 namespace touchstone {
 

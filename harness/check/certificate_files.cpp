@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "algorithms/oracle/certificate_check.h"
+#include "algorithms/oracle/certificates/certificate_check.h"
 #include "algorithms/oracle/oracle.h"
-#include "harness/check/worker_pool.h"
-#include "harness/error.h"
-#include "harness/io/certificates.h"
+#include "harness/base/error.h"
+#include "harness/files/certificates.h"
+#include "harness/process/worker_pool.h"
 
 namespace touchstone {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <string_view>
 
-#include "harness/error.h"
-#include "harness/run/machine.h"
+#include "harness/base/error.h"
+#include "harness/record/machine.h"
 
 namespace touchstone {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "harness/check/tally.h"
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
 
 namespace touchstone {
 

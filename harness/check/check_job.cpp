@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "algorithms/core/bounds.h"
-#include "algorithms/oracle/certificate_check.h"
+#include "algorithms/oracle/certificates/certificate_check.h"
 #include "harness/check/margins.h"
 #include "harness/check/true_case.h"
-#include "harness/run/isolate.h"
-#include "harness/run/solve_case.h"
+#include "harness/grade/solve_case.h"
+#include "harness/process/isolate.h"
 
 namespace touchstone {
 namespace {

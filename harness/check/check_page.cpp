@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "harness/base/markdown.h"
 #include "harness/check/check_report.h"
 #include "harness/check/grouped_counts.h"
-#include "harness/run/machine.h"
-#include "harness/stats/markdown.h"
+#include "harness/record/machine.h"
 
 namespace touchstone {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/base/text_table.h"
 #include "harness/check/grouped_counts.h"
-#include "harness/io/csv.h"
-#include "harness/run/text_table.h"
+#include "harness/files/csv.h"
 
 namespace touchstone {
 namespace {

@@ -5,13 +5,13 @@
 #include <limits>
 #include <system_error>
 
+#include "harness/base/clock.h"
+#include "harness/base/error.h"
+#include "harness/base/progress.h"
 #include "harness/check/check_files.h"
 #include "harness/check/check_job.h"
-#include "harness/check/worker_pool.h"
-#include "harness/error.h"
-#include "harness/run/clock.h"
-#include "harness/run/machine.h"
-#include "harness/run/progress.h"
+#include "harness/process/worker_pool.h"
+#include "harness/record/machine.h"
 
 namespace touchstone {
 namespace {

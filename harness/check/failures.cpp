@@ -9,14 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "harness/base/clock.h"
+#include "harness/base/error.h"
 #include "harness/check/margins.h"
 #include "harness/check/shrink.h"
 #include "harness/check/true_case.h"
-#include "harness/check/worker_pool.h"
-#include "harness/error.h"
-#include "harness/run/clock.h"
-#include "harness/run/isolate.h"
-#include "harness/run/solve_case.h"
+#include "harness/grade/solve_case.h"
+#include "harness/process/isolate.h"
+#include "harness/process/worker_pool.h"
 
 namespace touchstone {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/check/grade.h"
-#include "harness/check/regimes.h"
-#include "harness/io/csv.h"
+#include "harness/check/regimes/regimes.h"
+#include "harness/files/csv.h"
+#include "harness/grade/grade.h"
 
 namespace touchstone {
 

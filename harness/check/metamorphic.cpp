@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "harness/check/check_shapes.h"
-#include "harness/run/ordered_pair.h"
+#include "harness/check/regimes/check_shapes.h"
+#include "harness/grade/ordered_pair.h"
 
 namespace touchstone {
 namespace {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "algorithms/core/outcome.h"
-#include "harness/check/signed_permutation.h"
-#include "harness/io/cases.h"
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
+#include "harness/files/cases.h"
+#include "harness/geometry/signed_permutation.h"
 
 namespace touchstone {
 

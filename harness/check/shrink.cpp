@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "harness/check/check_shapes.h"
-#include "harness/check/plain_math.h"
-#include "harness/check/signed_permutation.h"
+#include "harness/base/plain_math.h"
+#include "harness/check/regimes/check_shapes.h"
+#include "harness/geometry/signed_permutation.h"
 
 namespace touchstone {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "harness/io/cases.h"
+#include "harness/files/cases.h"
 
 namespace touchstone {
 

@@ -11,14 +11,14 @@
 #include <system_error>
 
 #include "algorithms/oracle/oracle.h"
-#include "harness/check/encoding.h"
+#include "harness/base/error.h"
+#include "harness/base/progress.h"
 #include "harness/check/graded_answer.h"
-#include "harness/check/worker_pool.h"
-#include "harness/error.h"
-#include "harness/run/isolate.h"
-#include "harness/run/machine.h"
-#include "harness/run/ordered_pair.h"
-#include "harness/run/progress.h"
+#include "harness/grade/encoding.h"
+#include "harness/grade/ordered_pair.h"
+#include "harness/process/isolate.h"
+#include "harness/process/worker_pool.h"
+#include "harness/record/machine.h"
 
 namespace touchstone {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/check/regimes.h"
+#include "harness/check/regimes/regimes.h"
 
 namespace touchstone {
 

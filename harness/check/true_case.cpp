@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "harness/check/margins.h"
-#include "harness/check/pair_size.h"
+#include "harness/grade/pair_size.h"
 
 namespace touchstone {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/check_request.h"
-#include "harness/check/encoding.h"
-#include "harness/io/cases.h"
+#include "harness/files/cases.h"
+#include "harness/grade/encoding.h"
 
 namespace touchstone {
 

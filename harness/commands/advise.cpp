@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "harness/base/error.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/trade.h"
-#include "harness/error.h"
-#include "harness/run/build_info.h"
-#include "harness/trade/advice_files.h"
-#include "harness/trade/advice_list.h"
+#include "harness/record/build_info.h"
+#include "harness/trade/advice/advice_files.h"
+#include "harness/trade/advice/advice_list.h"
 
 namespace touchstone {
 namespace {

@@ -6,12 +6,12 @@
 #include <fstream>
 #include <memory>
 
+#include "harness/base/error.h"
+#include "harness/base/text_table.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/io/csv.h"
-#include "harness/run/build_info.h"
-#include "harness/run/subprocess.h"
-#include "harness/run/text_table.h"
+#include "harness/files/csv.h"
+#include "harness/process/subprocess.h"
+#include "harness/record/build_info.h"
 #include "harness/stats/comparison.h"
 
 namespace touchstone {

@@ -6,10 +6,10 @@
 
 #include "algorithms/core/executor.h"
 #include "algorithms/registry.h"
+#include "harness/base/error.h"
 #include "harness/commands/commands.h"
 #include "harness/draw/scene_picture.h"
-#include "harness/error.h"
-#include "harness/run/pair_groups.h"
+#include "harness/grade/pair_groups.h"
 #include "harness/scene/player.h"
 
 namespace touchstone {

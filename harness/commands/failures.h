@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "harness/run/isolate.h"
+#include "harness/process/isolate.h"
 
 namespace touchstone {
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/base/error.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
 
 namespace touchstone {
 namespace {

@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/check/manifold_tally.h"
-#include "harness/check/settled_pairs.h"
+#include "harness/base/error.h"
+#include "harness/base/markdown.h"
+#include "harness/base/text_table.h"
+#include "harness/campaign/selection.h"
+#include "harness/check/regimes/settled_pairs.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/failures.h"
-#include "harness/error.h"
-#include "harness/io/cases.h"
-#include "harness/io/csv.h"
-#include "harness/run/isolate.h"
-#include "harness/run/selection.h"
-#include "harness/run/solve_manifold.h"
-#include "harness/run/text_table.h"
-#include "harness/stats/markdown.h"
+#include "harness/files/cases.h"
+#include "harness/files/csv.h"
+#include "harness/grade/manifold_tally.h"
+#include "harness/grade/solve_manifold.h"
+#include "harness/process/isolate.h"
 
 namespace touchstone {
 namespace {

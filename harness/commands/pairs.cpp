@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/base/clock.h"
+#include "harness/base/hash.h"
+#include "harness/campaign/selection.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/failures.h"
-#include "harness/io/box_frames.h"
-#include "harness/io/csv.h"
-#include "harness/run/clock.h"
-#include "harness/run/isolate.h"
-#include "harness/run/pair_hash.h"
-#include "harness/run/selection.h"
+#include "harness/files/csv.h"
+#include "harness/process/isolate.h"
+#include "harness/scene/box_frames.h"
 
 namespace touchstone {
 namespace {

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/base/error.h"
+#include "harness/campaign/selection.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/failures.h"
-#include "harness/error.h"
-#include "harness/io/cases.h"
-#include "harness/io/csv.h"
-#include "harness/run/isolate.h"
-#include "harness/run/selection.h"
-#include "harness/run/solve_case.h"
+#include "harness/files/cases.h"
+#include "harness/files/csv.h"
+#include "harness/grade/solve_case.h"
+#include "harness/process/isolate.h"
 
 namespace touchstone {
 namespace {

@@ -6,11 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "harness/base/error.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/io/aabbs.h"
-#include "harness/io/box_frames.h"
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
+#include "harness/scene/aabbs.h"
+#include "harness/scene/box_frames.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 

@@ -8,11 +8,11 @@
 #include <map>
 #include <memory>
 
+#include "harness/base/error.h"
+#include "harness/base/text_table.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/io/csv.h"
-#include "harness/represent/representation.h"
-#include "harness/run/text_table.h"
+#include "harness/files/csv.h"
+#include "harness/proxies/representation.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone {

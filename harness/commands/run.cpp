@@ -3,15 +3,15 @@
 
 #include <memory>
 
+#include "harness/base/error.h"
+#include "harness/base/text_table.h"
+#include "harness/campaign/report.h"
+#include "harness/campaign/runner.h"
+#include "harness/campaign/selection.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/trade.h"
-#include "harness/error.h"
 #include "harness/measure/noise.h"
-#include "harness/run/build_info.h"
-#include "harness/run/report.h"
-#include "harness/run/runner.h"
-#include "harness/run/selection.h"
-#include "harness/run/text_table.h"
+#include "harness/record/build_info.h"
 #include "harness/stats/published_check.h"
 
 namespace touchstone {

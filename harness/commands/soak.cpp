@@ -6,11 +6,11 @@
 #include <map>
 #include <memory>
 
+#include "harness/base/text_table.h"
+#include "harness/campaign/selection.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
-#include "harness/run/build_info.h"
-#include "harness/run/selection.h"
-#include "harness/run/text_table.h"
+#include "harness/record/build_info.h"
 
 namespace touchstone {
 namespace {

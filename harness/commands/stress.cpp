@@ -10,13 +10,13 @@
 #include <map>
 #include <memory>
 
+#include "harness/base/error.h"
+#include "harness/base/text_table.h"
+#include "harness/campaign/selection.h"
+#include "harness/check/axes/stress_run.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/run/build_info.h"
-#include "harness/run/selection.h"
-#include "harness/run/text_table.h"
-#include "harness/stress/stress_run.h"
+#include "harness/record/build_info.h"
 
 namespace touchstone {
 namespace {

@@ -7,11 +7,11 @@
 #include <memory>
 
 #include "algorithms/core/isa.h"
+#include "harness/base/error.h"
+#include "harness/base/text_table.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/run/build_info.h"
-#include "harness/run/subprocess.h"
-#include "harness/run/text_table.h"
+#include "harness/process/subprocess.h"
+#include "harness/record/build_info.h"
 #include "harness/stats/table_check.h"
 #include "harness/stats/tables.h"
 

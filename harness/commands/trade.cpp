@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <memory>
 
+#include "harness/base/error.h"
+#include "harness/base/text_table.h"
 #include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/run/build_info.h"
-#include "harness/run/subprocess.h"
-#include "harness/run/text_table.h"
+#include "harness/process/subprocess.h"
+#include "harness/record/build_info.h"
 #include "harness/trade/trade_files.h"
 
 namespace touchstone {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/represent/representation.h"
+#include "harness/proxies/representation.h"
 #include "harness/trade/trade_request.h"
 
 namespace touchstone {

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "harness/error.h"
+#include "harness/base/error.h"
 
 namespace touchstone {
 namespace {

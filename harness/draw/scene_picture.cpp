@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include "harness/scene/polytope.h"
+#include "harness/geometry/tessellation.h"
 
 namespace touchstone {
 namespace {

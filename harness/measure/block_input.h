@@ -9,7 +9,7 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/pose.h"
-#include "harness/run/pair_groups.h"
+#include "harness/grade/pair_groups.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
 
 namespace touchstone {
 

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "algorithms/core/outcome.h"
-#include "harness/run/pair_groups.h"
-#include "harness/run/pair_hash.h"
+#include "harness/base/hash.h"
+#include "harness/grade/pair_groups.h"
 
 namespace touchstone {
 

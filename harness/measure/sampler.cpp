@@ -4,7 +4,7 @@
 #include <iterator>
 #include <limits>
 
-#include "harness/run/pair_hash.h"
+#include "harness/base/hash.h"
 
 namespace touchstone {
 BroadSampler::BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,

@@ -11,12 +11,12 @@
 
 #include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/executor.h"
+#include "harness/base/clock.h"
 #include "harness/measure/allocations.h"
 #include "harness/measure/block_input.h"
 #include "harness/measure/hardware_counters.h"
+#include "harness/measure/narrow_choice.h"
 #include "harness/measure/warm_pairs.h"
-#include "harness/run/campaign.h"
-#include "harness/run/clock.h"
 
 namespace touchstone {
 

@@ -22,10 +22,10 @@
 #include <system_error>
 #include <vector>
 
+#include "harness/base/clock.h"
+#include "harness/base/random.h"
 #include "harness/measure/hardware_counters.h"
 #include "harness/measure/run_delay.h"
-#include "harness/run/clock.h"
-#include "harness/scene/random.h"
 
 namespace touchstone {
 namespace {

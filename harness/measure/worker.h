@@ -12,8 +12,8 @@
 #include <string>
 
 #include "harness/measure/sampler.h"
-#include "harness/run/child_process.h"
-#include "harness/run/isolate.h"
+#include "harness/process/child_process.h"
+#include "harness/process/isolate.h"
 
 namespace touchstone {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "harness/scene/portable_math.h"
+#include "harness/base/reproducible_math.h"
 
 namespace touchstone {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
 
 namespace touchstone {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone {

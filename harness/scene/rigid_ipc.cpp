@@ -12,11 +12,11 @@
 #include <tuple>
 #include <utility>
 
-#include "harness/error.h"
-#include "harness/scene/convex_hull.h"
-#include "harness/scene/mesh.h"
-#include "harness/scene/mesh_mass.h"
-#include "harness/scene/portable_math.h"
+#include "algorithms/hull/convex_hull.h"
+#include "harness/base/error.h"
+#include "harness/base/reproducible_math.h"
+#include "harness/geometry/mesh.h"
+#include "harness/geometry/mesh_mass.h"
 
 namespace touchstone {
 namespace {

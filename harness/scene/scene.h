@@ -13,7 +13,7 @@
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
-#include "harness/scene/mesh.h"
+#include "harness/geometry/mesh.h"
 
 namespace touchstone {
 

@@ -5,15 +5,15 @@
 #include <limits>
 
 #include "algorithms/core/bounds.h"
-#include "harness/io/aabbs.h"
+#include "harness/files/toml_table.h"
+#include "harness/geometry/tessellation.h"
+#include "harness/scene/aabbs.h"
 #include "harness/scene/body_reader.h"
-#include "harness/scene/generated_motion.h"
-#include "harness/scene/generators.h"
-#include "harness/scene/polytope.h"
+#include "harness/scene/generators/generated_motion.h"
+#include "harness/scene/generators/generators.h"
 #include "harness/scene/rigid_ipc.h"
 #include "harness/scene/scene.h"
 #include "harness/scene/shape_reader.h"
-#include "harness/scene/toml_table.h"
 
 namespace touchstone {
 namespace {

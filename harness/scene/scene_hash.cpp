@@ -1,6 +1,6 @@
 #include <bit>
 
-#include "harness/run/pair_hash.h"
+#include "harness/base/hash.h"
 #include "harness/scene/kinematics.h"
 #include "harness/scene/scene.h"
 

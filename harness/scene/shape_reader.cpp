@@ -1,8 +1,8 @@
 #include "harness/scene/shape_reader.h"
 
-#include "harness/scene/convex_hull.h"
-#include "harness/scene/mesh.h"
-#include "harness/scene/mesh_mass.h"
+#include "algorithms/hull/convex_hull.h"
+#include "harness/geometry/mesh.h"
+#include "harness/geometry/mesh_mass.h"
 
 namespace touchstone {
 namespace {

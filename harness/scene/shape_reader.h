@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "algorithms/core/shape.h"
-#include "harness/scene/mesh.h"
-#include "harness/scene/toml_table.h"
+#include "harness/files/toml_table.h"
+#include "harness/geometry/mesh.h"
 
 namespace touchstone {
 

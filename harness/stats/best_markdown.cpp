@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "harness/stats/markdown.h"
+#include "harness/base/markdown.h"
 
 namespace touchstone::stats {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run/published.h"
+#include "harness/stats/published.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/table_check.h"
 

@@ -10,9 +10,9 @@
 
 #include "algorithms/core/outcome.h"
 #include "algorithms/registry.h"
-#include "harness/error.h"
-#include "harness/io/csv.h"
-#include "harness/run/raw_row.h"
+#include "harness/base/error.h"
+#include "harness/files/csv.h"
+#include "harness/record/raw_row.h"
 #include "harness/stats/statistics.h"
 
 namespace touchstone::stats {

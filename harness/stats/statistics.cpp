@@ -1,5 +1,7 @@
 #include "harness/stats/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -226,6 +228,12 @@ PowerLaw fit_power_law(std::span<const double> x, std::span<const double> y, dou
   law.low = law.exponent - half;
   law.high = law.exponent + half;
   return law;
+}
+
+std::string interval_cell(const MedianInterval& values, double scale) {
+  return std::isnan(values.low)
+             ? std::string("-")
+             : fmt::format("{:.4g} to {:.4g}", values.low * scale, values.high * scale);
 }
 
 }  // namespace touchstone::stats

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace touchstone::stats {
@@ -21,6 +22,9 @@ struct MedianInterval {
 // chosen by the sign test (Conover, "Practical Nonparametric Statistics", sec. 3.2): valid for any
 // distribution. 0 < confidence < 1. At 0.95 there is no interval below 6 values.
 MedianInterval median_interval(std::vector<double> values, double confidence);
+
+// The interval's two ends to four digits, times `scale`; "-" where there is none.
+std::string interval_cell(const MedianInterval& values, double scale = 1);
 
 // Of logarithms, back to what they are the logarithms of.
 MedianInterval exponential(const MedianInterval& of_logs);

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
 #include "harness/stats/comparison.h"
 
 namespace touchstone::stats {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "harness/io/csv.h"
-#include "harness/stats/markdown.h"
+#include "harness/base/markdown.h"
+#include "harness/files/csv.h"
 #include "harness/stats/tables.h"
 
 namespace touchstone::stats {

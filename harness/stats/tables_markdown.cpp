@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "harness/base/markdown.h"
 #include "harness/stats/best_markdown.h"
-#include "harness/stats/markdown.h"
 #include "harness/stats/tables.h"
 
 namespace touchstone::stats {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "harness/error.h"
-#include "harness/run/selection.h"
+#include "harness/base/error.h"
+#include "harness/campaign/selection.h"
 
 namespace touchstone {
 

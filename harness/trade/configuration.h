@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/represent/representation.h"
+#include "harness/proxies/representation.h"
 
 namespace touchstone {
 

@@ -5,15 +5,15 @@
 #include <string_view>
 
 #include "harness/trade/grid.h"
-#include "harness/trade/truth.h"
+#include "harness/trade/pipeline/truth.h"
 
 namespace touchstone {
 namespace {
 
 constexpr std::array<std::string_view, 9> broad_names = {"sweep-and-prune",
                                                          "incremental-sweep-and-prune",
-                                                         "hilbert-pyramid",
-                                                         "candidate-list",
+                                                         "packed-rtree",
+                                                         "verlet-list",
                                                          "hierarchical-grid",
                                                          "linear-bvh",
                                                          "dynamic-bvh",

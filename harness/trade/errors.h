@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "harness/trade/frame_pipeline.h"
-#include "harness/trade/truth.h"
+#include "harness/trade/pipeline/frame_pipeline.h"
+#include "harness/trade/pipeline/truth.h"
 
 namespace touchstone {
 

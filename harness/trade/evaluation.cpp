@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "harness/run/isolate.h"
+#include "harness/process/isolate.h"
 
 namespace touchstone {
 namespace {

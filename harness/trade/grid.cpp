@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "harness/error.h"
+#include "harness/base/error.h"
 
 namespace touchstone {
 namespace {

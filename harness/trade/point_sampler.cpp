@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "harness/run/pair_hash.h"
+#include "harness/base/hash.h"
 
 namespace touchstone {
 

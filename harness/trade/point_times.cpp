@@ -6,11 +6,11 @@
 #include <memory>
 #include <numeric>
 
+#include "harness/base/clock.h"
+#include "harness/base/random.h"
 #include "harness/measure/latin_square.h"
 #include "harness/measure/noise.h"
 #include "harness/measure/worker.h"
-#include "harness/run/clock.h"
-#include "harness/scene/random.h"
 #include "harness/stats/statistics.h"
 #include "harness/trade/point_sampler.h"
 

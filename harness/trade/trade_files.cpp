@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "harness/run/machine.h"
-#include "harness/run/text_table.h"
-#include "harness/stats/markdown.h"
+#include "harness/base/markdown.h"
+#include "harness/base/text_table.h"
+#include "harness/record/machine.h"
 
 namespace touchstone {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
 #include "harness/trade/trade_job.h"
 
 namespace touchstone {

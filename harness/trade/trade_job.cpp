@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "harness/error.h"
-#include "harness/run/clock.h"
+#include "harness/base/clock.h"
+#include "harness/base/error.h"
 #include "harness/trade/trade_files.h"
 
 namespace touchstone {

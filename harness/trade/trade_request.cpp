@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "harness/run/selection.h"
-#include "harness/scene/toml_table.h"
+#include "harness/campaign/selection.h"
+#include "harness/files/toml_table.h"
 
 namespace touchstone {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
-#include "harness/run/pair_hash.h"
+#include "harness/base/hash.h"
 #include "tests/algorithms/broad_phase/box_sets.h"
 
 namespace touchstone {

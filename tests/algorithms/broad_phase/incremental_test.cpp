@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "algorithms/kernels/pair_set.h"
+#include "algorithms/broad_phase/incremental_sweep_and_prune/pair_set.h"
 #include "algorithms/registry.h"
 #include "tests/algorithms/broad_phase/box_sets.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "algorithms/core/isa.h"
-#include "algorithms/kernels/gjk_lanes.h"
+#include "algorithms/narrow_phase/gjk_lanes/lane_gjk.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/hard_pairs.h"

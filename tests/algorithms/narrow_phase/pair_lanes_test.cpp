@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "algorithms/core/isa.h"
-#include "algorithms/kernels/box_pair_lanes.h"
+#include "algorithms/kernels/batch/box_pair_lanes.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/hard_pairs.h"

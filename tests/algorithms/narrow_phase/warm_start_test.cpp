@@ -10,9 +10,9 @@
 #include <numbers>
 #include <string>
 
+#include "algorithms/hull/convex_hull.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
-#include "harness/scene/convex_hull.h"
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "algorithms/oracle/certificate_check.h"
+#include "algorithms/oracle/certificates/certificate_check.h"
 
 #include <gtest/gtest.h>
 

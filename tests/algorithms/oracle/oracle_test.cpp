@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-#include "algorithms/oracle/certificate_check.h"
+#include "algorithms/oracle/certificates/certificate_check.h"
 #include "tests/algorithms/oracle/reference.h"
 #include "tests/algorithms/oracle/samples.h"
 

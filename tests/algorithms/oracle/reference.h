@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithms/core/outcome.h"
-#include "algorithms/oracle/signed_root.h"
+#include "algorithms/oracle/numbers/signed_root.h"
 #include "algorithms/oracle/solid.h"
 
 namespace touchstone::oracle::reference {

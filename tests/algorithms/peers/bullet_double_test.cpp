@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/hull/convex_hull.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
-#include "harness/check/encoding.h"
-#include "harness/run/guarded_solve.h"
-#include "harness/scene/convex_hull.h"
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
+#include "harness/grade/encoding.h"
+#include "harness/grade/guarded_solve.h"
 
 namespace touchstone {
 namespace {

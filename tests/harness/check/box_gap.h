@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "harness/io/cases.h"
+#include "harness/files/cases.h"
 
 namespace touchstone {
 

@@ -10,9 +10,9 @@
 #include <functional>
 #include <map>
 
-#include "harness/error.h"
-#include "harness/run/clock.h"
-#include "harness/run/text_table.h"
+#include "harness/base/clock.h"
+#include "harness/base/error.h"
+#include "harness/base/text_table.h"
 #include "tests/harness/check/planted.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "algorithms/oracle/oracle.h"
-#include "harness/io/cases.h"
+#include "harness/files/cases.h"
 
 namespace touchstone {
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "harness/check/regimes.h"
-#include "harness/scene/convex_hull.h"
+#include "algorithms/hull/convex_hull.h"
+#include "harness/check/regimes/regimes.h"
 #include "tests/harness/check/exact_answer.h"
 
 namespace touchstone {

@@ -1,7 +1,7 @@
 // Pairs of boxes and balls whose exact answers anybody can name.
 #pragma once
 
-#include "harness/io/cases.h"
+#include "harness/files/cases.h"
 
 namespace touchstone {
 

@@ -1,4 +1,4 @@
-#include "harness/check/regimes.h"
+#include "harness/check/regimes/regimes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "harness/check/features.h"
-#include "harness/run/pair_hash.h"
+#include "harness/base/hash.h"
+#include "harness/check/regimes/features.h"
 #include "tests/harness/check/box_gap.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
-#include "harness/check/check_shapes.h"
-#include "harness/check/regimes.h"
+#include "harness/check/regimes/check_shapes.h"
+#include "harness/check/regimes/regimes.h"
 #include "tests/harness/check/exact_answer.h"
 #include "tests/harness/temporary_folder.h"
 

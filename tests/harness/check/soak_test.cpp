@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/error.h"
+#include "harness/base/error.h"
 #include "tests/harness/check/planted.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "harness/check/regimes.h"
+#include "harness/check/regimes/regimes.h"
 #include "tests/harness/check/exact_answer.h"
 
 namespace touchstone {

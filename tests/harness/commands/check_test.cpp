@@ -8,9 +8,9 @@
 #include <set>
 
 #include "algorithms/registry.h"
-#include "harness/check/regimes.h"
-#include "harness/io/cases.h"
-#include "harness/run/clock.h"
+#include "harness/base/clock.h"
+#include "harness/check/regimes/regimes.h"
+#include "harness/files/cases.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
 

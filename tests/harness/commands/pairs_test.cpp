@@ -8,9 +8,9 @@
 #include <set>
 
 #include "algorithms/registry.h"
-#include "harness/io/aabbs.h"
-#include "harness/io/box_frames.h"
-#include "harness/run/pair_hash.h"
+#include "harness/base/hash.h"
+#include "harness/scene/aabbs.h"
+#include "harness/scene/box_frames.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -3,6 +3,7 @@
 
 #include "tests/harness/commands/program.h"
 #include "tests/harness/stats/sample_file.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
@@ -16,9 +17,8 @@ std::string python() {
 }
 
 Ran plot(const std::string& arguments) {
-  return run_shell(python() +
-                   " -B " TOUCHSTONE_SOURCE_DIR "/plots/plot.py --program " TOUCHSTONE_PROGRAM " " +
-                   arguments);
+  return run_shell(python() + " -B " + std::string(project_folder) +
+                   "/plots/plot.py --program " TOUCHSTONE_PROGRAM " " + arguments);
 }
 
 // Scenes at three counts and two widths, with a peer, and narrow phases that fail and err.

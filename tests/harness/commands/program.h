@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {

@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/base/error.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/io/aabbs.h"
-#include "harness/io/box_frames.h"
+#include "harness/scene/aabbs.h"
+#include "harness/scene/box_frames.h"
 #include "harness/scene/player.h"
 #include "tests/harness/temporary_folder.h"
 

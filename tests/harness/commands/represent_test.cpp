@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/base/error.h"
 #include "harness/commands/commands.h"
-#include "harness/error.h"
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "algorithms/registry.h"
-#include "harness/io/cases.h"
+#include "harness/files/cases.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
 
 namespace touchstone {
 namespace {

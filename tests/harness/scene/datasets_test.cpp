@@ -6,16 +6,18 @@
 #include <fstream>
 
 #include "algorithms/core/bounds.h"
-#include "harness/error.h"
+#include "harness/base/error.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
 
-const std::filesystem::path datasets = std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "datasets";
+const std::filesystem::path datasets =
+    std::filesystem::path(touchstone::project_folder) / "datasets";
 
 TEST(Home, IsAFurnishedFlat) {
   const Scene scene = load_scene(datasets / "home.toml");

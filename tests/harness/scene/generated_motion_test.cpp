@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "harness/error.h"
+#include "harness/base/error.h"
 #include "harness/scene/kinematics.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"

@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <map>
 
-#include "harness/error.h"
+#include "harness/base/error.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/temporary_folder.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
@@ -20,7 +21,7 @@ Scene load(const std::string& content) {
 }
 
 std::filesystem::path dataset(const std::string& name) {
-  return std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "datasets" / (name + ".toml");
+  return std::filesystem::path(touchstone::project_folder) / "datasets" / (name + ".toml");
 }
 
 double mean_overlaps(std::span<const Aabb> boxes) {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "algorithms/core/bounds.h"
-#include "harness/scene/random.h"
+#include "harness/base/random.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <string>
 
-#include "harness/error.h"
-#include "harness/scene/mesh_mass.h"
+#include "harness/base/error.h"
+#include "harness/geometry/mesh_mass.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 

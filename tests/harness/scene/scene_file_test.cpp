@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "harness/error.h"
-#include "harness/io/aabbs.h"
+#include "harness/base/error.h"
+#include "harness/scene/aabbs.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/input_fault.h"

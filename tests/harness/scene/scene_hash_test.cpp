@@ -4,7 +4,7 @@
 #include <functional>
 #include <set>
 
-#include "harness/scene/convex_hull.h"
+#include "algorithms/hull/convex_hull.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone {

@@ -3,11 +3,12 @@
 
 #include <fstream>
 
-#include "harness/run/campaign.h"
-#include "harness/run/runner.h"
+#include "harness/campaign/campaign.h"
+#include "harness/campaign/runner.h"
 #include "harness/stats/published_check.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
+#include "tests/project_folder.h"
 
 namespace touchstone::stats {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 std::filesystem::path campaigns() {
-  return std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "datasets/campaigns/published";
+  return std::filesystem::path(touchstone::project_folder) / "datasets/campaigns/published";
 }
 
 TEST(Published, IterationsOfGjkOnEllipsoidsAreAsPublished) {

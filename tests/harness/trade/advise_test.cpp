@@ -1,4 +1,4 @@
-#include "harness/trade/advise.h"
+#include "harness/trade/advice/advise.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

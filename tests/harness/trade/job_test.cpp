@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "harness/io/csv.h"
+#include "harness/files/csv.h"
 #include "harness/trade/trade_files.h"
 #include "tests/harness/trade/trade_scenes.h"
 

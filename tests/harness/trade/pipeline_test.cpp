@@ -1,4 +1,4 @@
-#include "harness/trade/frame_pipeline.h"
+#include "harness/trade/pipeline/frame_pipeline.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "algorithms/core/bounds.h"
-#include "harness/error.h"
+#include "harness/base/error.h"
 #include "harness/trade/grid.h"
 #include "tests/harness/temporary_folder.h"
 

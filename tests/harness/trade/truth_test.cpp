@@ -1,11 +1,11 @@
-#include "harness/trade/truth.h"
+#include "harness/trade/pipeline/truth.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "harness/trade/true_meshes.h"
+#include "harness/trade/pipeline/true_meshes.h"
 #include "tests/harness/trade/trade_scenes.h"
 
 namespace touchstone {

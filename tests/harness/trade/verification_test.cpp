@@ -1,15 +1,16 @@
-#include "harness/trade/verification.h"
+#include "harness/trade/advice/verification.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "harness/io/csv.h"
-#include "harness/trade/advice_files.h"
-#include "harness/trade/advice_list.h"
+#include "harness/files/csv.h"
+#include "harness/trade/advice/advice_files.h"
+#include "harness/trade/advice/advice_list.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/trade/trade_scenes.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
@@ -180,7 +181,7 @@ task = "distance"
 // The list that comes with the project.
 TEST(AdviceList, TheProjectsOwnCanBeRead) {
   const auto tasks = read_advice_list(
-      std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "datasets/advice/scenes.toml", {});
+      std::filesystem::path(touchstone::project_folder) / "datasets/advice/scenes.toml", {});
   EXPECT_EQ(tasks.size(), 6u);
 }
 

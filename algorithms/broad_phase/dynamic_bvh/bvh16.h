@@ -1,0 +1,125 @@
+// A tree of boxes with up to 16 children a node, whose bounds lie side by side and are tested at
+// once; all leaves are equally deep. Loaded in bulk, then changed body by body; parts that have
+// become bad by that are built anew.
+// Papers:  Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", SIGMOD 1984;
+//          Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (the bulk); Bittner, Hapala, Havran,
+//          "Incremental BVH Construction for Ray Tracing", Computers & Graphics 47, 2015 (the
+//          surface that is added decides where a box goes); Catto, "Dynamic Bounding Volume
+//          Hierarchies", GDC 2019 (subtrees that have grown are built anew by medians).
+// Departs: a node that is full is split at the median along the longest axis. Nodes are not merged
+//          one by one: a subtree is rebuilt as a whole when the surfaces of its children have grown
+//          by half since it was built, or when its children are less than half full.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/broad_phase_work.h"
+#include "algorithms/core/executor.h"
+#include "algorithms/kernels/boxes/aabb_soa.h"
+
+namespace touchstone {
+
+// Lists that a search fills. One a worker.
+struct Bvh16Scratch {
+  std::vector<std::uint32_t> nodes, children, found;
+  std::vector<IndexRange> partners;
+};
+
+class Bvh16 {
+ public:
+  static constexpr std::size_t fan = 16;
+  static constexpr std::uint32_t nobody = 0xffffffff;  // the id at a place that is free
+
+  // Bodies get places 0, 1 ... in the order in which they are to be loaded, and have ids below
+  // `id_count`. The caller sets each place, in any order, then calls `load`.
+  void start(std::size_t bodies, std::size_t id_count);
+  void set(std::size_t place, const Aabb& box, std::uint32_t id) {
+    boxes_.set(place, box, id);
+    place_of_[id] = static_cast<std::uint32_t>(place);
+  }
+  void load(Executor& executor, bool is_to_change);
+  std::size_t loaded() const { return bodies_; }
+
+  // The boxes of the bodies, and of nodes; a leaf's are 16 places one behind the other.
+  const AabbSoA& boxes() const { return boxes_; }
+  std::uint32_t place_of(std::uint32_t id) const { return place_of_[id]; }
+  Aabb box_at(std::size_t place) const;
+  std::size_t nodes() const { return node_count_; }
+  bool is_leaf(std::size_t node) const { return height_of_[node] == 0; }
+
+  // Until the first change after a load: leaves are numbered as loaded, the last may not be full.
+  std::size_t leaves() const { return leaves_; }
+  IndexRange places_of(std::size_t leaf) const;
+  Aabb bounds_of_leaf(std::size_t leaf) const;
+  // Puts the places of the leaves behind this one that overlap its bounds into scratch.partners.
+  void find_partners(std::size_t leaf, Bvh16Scratch& scratch, BroadPhaseWork& work) const;
+  // Sum over the leaves of the sums of their bounds' sides (metres): what a better order would make
+  // smaller.
+  double spread() const;
+
+  // Changes: of a tree that was loaded for it.
+  void insert(std::uint32_t id, const Aabb& box);
+  void remove(std::uint32_t id);
+  // Gives a body another box, in another leaf if its own would grow much.
+  void move(std::uint32_t id, const Aabb& box);
+  void make_room_for_ids(std::size_t id_count) { place_of_.resize(id_count); }
+  // Builds those subtrees anew that the changes since the last call have made bad; how many.
+  std::size_t rebuild_worn();
+
+  // The ids of the bodies whose boxes overlap this one; valid until the scratch is used again.
+  std::span<const std::uint32_t> find(const Aabb& box, Bvh16Scratch& scratch) const;
+  // To be called after the last change before a search.
+  void make_room(Bvh16Scratch& scratch) const;
+
+  std::size_t held_bytes() const;
+
+ private:
+  // 2^32 bodies in nodes that are half full have eleven.
+  static constexpr std::size_t most_heights = 12;
+  static constexpr double most_growth = 1.5;
+
+  struct Entry {
+    Aabb box;
+    std::uint32_t child;
+  };
+
+  Aabb bounds_of_node(std::size_t node) const;
+  std::size_t new_node(std::size_t height);
+  void drop_node(std::size_t node);
+  void make_node_capacity(std::size_t nodes);
+  void put(std::size_t place, const Aabb& box, std::uint32_t child);
+  std::size_t best_child(std::size_t node, const Aabb& box) const;
+  void add(std::size_t node, const Aabb& box, std::uint32_t child);
+  void split(std::size_t node, const Aabb& box, std::uint32_t child);
+  void fit_above(std::size_t node);
+  void mark(std::size_t node);
+
+  double cost(std::size_t node) const;
+  std::size_t count_children(std::size_t node) const;
+  bool is_worn(std::size_t node) const;
+  void rebuild(std::size_t node);
+  void take_out(std::size_t node);
+  void fill(std::size_t node, std::span<Entry> bodies);
+  std::size_t fill_places(std::size_t place, std::size_t count, std::span<Entry> bodies);
+
+  AabbSoA boxes_;                         // 16 places a node; their ids are bodies' or nodes'
+  std::vector<std::uint32_t> place_of_;   // of each body
+  std::vector<std::uint32_t> parent_of_;  // of each node: its place there
+  std::vector<std::uint8_t> height_of_;   // of each node: 0 for a leaf
+  std::vector<double> cost_of_;           // of each inner node, when it was built
+  std::vector<std::uint8_t> is_marked_;   // of each node: its children have changed
+  std::vector<std::uint32_t> marked_, free_nodes_;
+  std::vector<Entry> entries_;  // of a subtree that is rebuilt
+  std::size_t bodies_ = 0;      // that were loaded
+  std::size_t leaves_ = 0;
+  std::size_t node_count_ = 0, node_capacity_ = 0;
+  std::size_t root_ = 0;
+  std::array<std::size_t, most_heights + 1> begins_{};  // of the nodes of each height, as loaded
+};
+
+}  // namespace touchstone

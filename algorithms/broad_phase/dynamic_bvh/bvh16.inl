@@ -1,0 +1,56 @@
+// The loops of wide_tree.h. Included by wide_tree.cpp once for each level of vector instructions,
+// inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its attribute.
+
+TOUCHSTONE_TARGET inline Row row_of(const Aabb& box) {
+  Row row;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    row.min[axis] = Lanes::broadcast(box.min[axis]);
+    row.max[axis] = Lanes::broadcast(box.max[axis]);
+  }
+  return row;
+}
+
+// The ids of the children of these nodes that overlap the box; how many.
+TOUCHSTONE_TARGET std::size_t descend(const Columns& boxes, const Aabb& box,
+                                      const std::uint32_t* nodes, std::size_t count,
+                                      std::uint32_t* children) {
+  const Row row = row_of(box);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = std::size_t{nodes[i]} * Bvh16::fan;
+    unsigned lanes = 0;
+    for (std::size_t part = 0; part < Bvh16::fan; part += Lanes::width) {
+      lanes |= overlaps(row, boxes, first + part) << part;
+    }
+    found += Lanes::compress(lanes, boxes.ids + first, children + found);
+  }
+  return found;
+}
+
+// Of the 16 boxes at these places.
+TOUCHSTONE_TARGET Aabb bounds16(const Columns& boxes, std::size_t first) {
+  Aabb bounds{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bounds.min[axis] = Lanes::least16(boxes.min[axis] + first);
+    bounds.max[axis] = Lanes::greatest16(boxes.max[axis] + first);
+  }
+  return bounds;
+}
+
+// How much the surface of each of 16 boxes grows when it takes in another one, and each's surface.
+// The compiler makes vectors of it.
+TOUCHSTONE_TARGET void surfaces16(const Columns& boxes, std::size_t first, const Aabb& other,
+                                  double* growths, double* surfaces) {
+  for (std::size_t i = 0; i < Bvh16::fan; ++i) {
+    std::array<double, 3> own, sum;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float low = boxes.min[axis][first + i];
+      const float high = boxes.max[axis][first + i];
+      own[axis] = double{high} - low;
+      sum[axis] = double{high > other.max[axis] ? high : other.max[axis]} -
+                  (low < other.min[axis] ? low : other.min[axis]);
+    }
+    surfaces[i] = surface(own[0], own[1], own[2]);
+    growths[i] = surface(sum[0], sum[1], sum[2]) - surfaces[i];
+  }
+}

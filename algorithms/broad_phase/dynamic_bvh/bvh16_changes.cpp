@@ -1,0 +1,264 @@
+// What changes a tree of boxes after it was loaded: bodies that come, go and move, and the subtrees
+// that this makes bad. See wide_tree.h.
+#include <algorithm>
+#include <limits>
+
+#include "algorithms/broad_phase/dynamic_bvh/bvh16.h"
+#include "algorithms/broad_phase/dynamic_bvh/surface_area.h"
+#include "algorithms/core/parallel_blocks.h"
+
+namespace touchstone {
+namespace {
+
+// Bodies for each leaf of a subtree that is built anew: some places are left for those to come.
+constexpr std::size_t leaf_fill = 14;
+
+// Twice the centre; in double, in which the sum does not overflow. Empty children, of which it
+// would not be a number, go first.
+double middle(const Aabb& box, std::size_t axis) {
+  return box.is_empty() ? -std::numeric_limits<double>::infinity()
+                        : double{box.min[axis]} + box.max[axis];
+}
+
+// On which the middles of the entries' boxes lie farthest apart.
+template <class Entries>
+std::size_t longest_axis(const Entries& entries) {
+  std::size_t longest = 0;
+  double most = -1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const auto& entry : entries) {
+      if (entry.box.is_empty()) continue;
+      low = std::min(low, middle(entry.box, axis));
+      high = std::max(high, middle(entry.box, axis));
+    }
+    if (high - low > most) {
+      most = high - low;
+      longest = axis;
+    }
+  }
+  return longest;
+}
+
+// In ascending order along an axis; there is one order, whatever boxes are equal.
+auto along(std::size_t axis) {
+  return [axis](const auto& a, const auto& b) {
+    const double at = middle(a.box, axis);
+    const double bt = middle(b.box, axis);
+    return at < bt || (at == bt && a.child < b.child);
+  };
+}
+
+}  // namespace
+
+// --- nodes ---
+
+std::size_t Bvh16::new_node(std::size_t height) {
+  std::size_t node = node_count_;
+  if (free_nodes_.empty()) {
+    make_node_capacity(++node_count_);
+  } else {
+    node = free_nodes_.back();
+    free_nodes_.pop_back();
+  }
+  height_of_[node] = static_cast<std::uint8_t>(height);
+  is_marked_[node] = 0;
+  cost_of_[node] = 0;
+  for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
+    boxes_.set(place, Aabb::empty(), nobody);
+  }
+  return node;
+}
+
+void Bvh16::drop_node(std::size_t node) {
+  is_marked_[node] = 0;
+  free_nodes_.push_back(static_cast<std::uint32_t>(node));
+}
+
+// Children of inner nodes know their parent, bodies their place.
+void Bvh16::put(std::size_t place, const Aabb& box, std::uint32_t child) {
+  boxes_.set(place, box, child);
+  (is_leaf(place / fan) ? place_of_ : parent_of_)[child] = static_cast<std::uint32_t>(place);
+}
+
+// Up to where nothing changes.
+void Bvh16::fit_above(std::size_t node) {
+  while (node != root_) {
+    const Aabb bounds = bounds_of_node(node);
+    const std::size_t place = parent_of_[node];
+    if (box_at(place) == bounds) return;
+    boxes_.set(place, bounds, static_cast<std::uint32_t>(node));
+    node = place / fan;
+    mark(node);
+  }
+}
+
+void Bvh16::mark(std::size_t node) {
+  if (is_marked_[node] != 0) return;
+  is_marked_[node] = 1;
+  marked_.push_back(static_cast<std::uint32_t>(node));
+}
+
+// --- bodies ---
+
+void Bvh16::insert(std::uint32_t id, const Aabb& box) {
+  std::size_t node = root_;
+  while (!is_leaf(node)) node = best_child(node, box);
+  add(node, box, id);
+}
+
+void Bvh16::remove(std::uint32_t id) {
+  const std::size_t place = place_of_[id];
+  const std::size_t node = place / fan;
+  boxes_.set(place, Aabb::empty(), nobody);
+  if (node != root_) mark(parent_of_[node] / fan);
+  fit_above(node);
+}
+
+void Bvh16::move(std::uint32_t id, const Aabb& box) {
+  const std::size_t place = place_of_[id];
+  const std::size_t node = place / fan;
+  if (node != root_) {
+    const Aabb bounds = box_at(parent_of_[node]);
+    if (!(surface(united(bounds, box)) <= most_growth * surface(bounds))) {
+      remove(id);
+      return insert(id, box);
+    }
+  }
+  boxes_.set(place, box, id);
+  fit_above(node);
+}
+
+void Bvh16::add(std::size_t node, const Aabb& box, std::uint32_t child) {
+  const std::uint32_t* const first = boxes_.ids() + node * fan;
+  const std::uint32_t* const free = std::find(first, first + fan, nobody);
+  if (free == first + fan) return split(node, box, child);
+  put(node * fan + static_cast<std::size_t>(free - first), box, child);
+  fit_above(node);
+}
+
+void Bvh16::split(std::size_t node, const Aabb& box, std::uint32_t child) {
+  std::array<Entry, fan + 1> entries;
+  for (std::size_t i = 0; i < fan; ++i) {
+    entries[i] = {box_at(node * fan + i), boxes_.ids()[node * fan + i]};
+  }
+  entries[fan] = {box, child};
+  std::ranges::sort(entries, along(longest_axis(entries)));
+  const std::size_t other = new_node(height_of_[node]);
+  constexpr std::size_t half = (fan + 1) / 2;
+  for (std::size_t i = 0; i < fan; ++i) boxes_.set(node * fan + i, Aabb::empty(), nobody);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::size_t place = i < half ? node * fan + i : other * fan + i - half;
+    put(place, entries[i].box, entries[i].child);
+  }
+  for (const std::size_t part : {node, other}) {
+    if (!is_leaf(part)) cost_of_[part] = cost(part);
+  }
+  const Aabb bounds = bounds_of_node(other);
+  if (node != root_) {
+    fit_above(node);
+    const std::size_t parent = parent_of_[node] / fan;
+    mark(parent);
+    return add(parent, bounds, static_cast<std::uint32_t>(other));
+  }
+  root_ = new_node(height_of_[node] + std::size_t{1});
+  put(root_ * fan, bounds_of_node(node), static_cast<std::uint32_t>(node));
+  put(root_ * fan + 1, bounds, static_cast<std::uint32_t>(other));
+  cost_of_[root_] = cost(root_);
+}
+
+// --- subtrees ---
+
+std::size_t Bvh16::count_children(std::size_t node) const {
+  const std::uint32_t* const first = boxes_.ids() + node * fan;
+  return fan - static_cast<std::size_t>(std::count(first, first + fan, nobody));
+}
+
+// Of an inner node.
+bool Bvh16::is_worn(std::size_t node) const {
+  if (!(cost(node) <= most_growth * cost_of_[node])) return true;
+  std::size_t children = 0;
+  std::size_t grandchildren = 0;
+  for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
+    const std::uint32_t child = boxes_.ids()[place];
+    if (child == nobody) continue;
+    ++children;
+    grandchildren += count_children(child);
+  }
+  return children > 2 && 2 * grandchildren < children * fan;
+}
+
+// From above: what is in a subtree that is built anew need not be looked at.
+std::size_t Bvh16::rebuild_worn() {
+  std::ranges::sort(marked_, [&](std::uint32_t a, std::uint32_t b) {
+    return height_of_[a] > height_of_[b] || (height_of_[a] == height_of_[b] && a < b);
+  });
+  std::size_t rebuilt = 0;
+  const std::size_t count = marked_.size();  // those that a rebuilding marks are left for later
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t node = marked_[i];
+    if (is_marked_[node] == 0) continue;
+    is_marked_[node] = 0;
+    if (is_leaf(node) || !is_worn(node)) continue;
+    rebuild(node);
+    ++rebuilt;
+  }
+  marked_.erase(marked_.begin(), marked_.begin() + static_cast<std::ptrdiff_t>(count));
+  return rebuilt;
+}
+
+void Bvh16::rebuild(std::size_t node) {
+  entries_.clear();
+  take_out(node);
+  fill(node, entries_);
+  fit_above(node);
+}
+
+// Lists the bodies of a node and gives back all nodes below it.
+void Bvh16::take_out(std::size_t node) {
+  for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
+    const std::uint32_t child = boxes_.ids()[place];
+    if (child == nobody) continue;
+    if (is_leaf(node)) {
+      entries_.push_back({box_at(place), child});
+    } else {
+      take_out(child);
+      drop_node(child);
+    }
+    boxes_.set(place, Aabb::empty(), nobody);
+  }
+}
+
+// All subtrees of one height have room for 16 times what those of the height below have; so many
+// children that each is left some of it.
+void Bvh16::fill(std::size_t node, std::span<Entry> bodies) {
+  if (is_leaf(node)) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      put(node * fan + i, bodies[i].box, bodies[i].child);
+    }
+    return;
+  }
+  const std::size_t of_child = leaf_fill << (4 * (height_of_[node] - 1));
+  const std::size_t children =
+      std::clamp(block_count(bodies.size(), of_child), std::size_t{1}, fan);
+  fill_places(node * fan, children, bodies);
+  cost_of_[node] = cost(node);
+}
+
+// The bodies go into `count` new nodes at the places from this one on; the next place.
+std::size_t Bvh16::fill_places(std::size_t place, std::size_t count, std::span<Entry> bodies) {
+  if (count == 1) {
+    const std::size_t child = new_node(height_of_[place / fan] - std::size_t{1});
+    fill(child, bodies);
+    put(place, bounds_of_node(child), static_cast<std::uint32_t>(child));
+    return place + 1;
+  }
+  const std::size_t half = bodies.size() * (count / 2) / count;
+  std::nth_element(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(half), bodies.end(),
+                   along(longest_axis(bodies)));
+  place = fill_places(place, count / 2, bodies.first(half));
+  return fill_places(place, count - count / 2, bodies.subspan(half));
+}
+
+}  // namespace touchstone

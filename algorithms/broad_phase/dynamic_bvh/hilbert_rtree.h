@@ -1,0 +1,97 @@
+// A tree of boxes that is loaded in bulk along a Hilbert curve, and all of its pairs.
+// Papers:  Kamel, Faloutsos, "On Packing R-trees", CIKM 1993; Brinkhoff, Kriegel, Seeger,
+//          "Efficient Processing of Spatial Joins Using R-trees", SIGMOD 1993 (a tree with itself).
+// Departs: the order of the last load is used again as long as the leaves have not grown by a
+//          quarter; leaves, not bodies, go down the tree.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/broad_phase/dynamic_bvh/bvh16.h"
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/broad_phase_work.h"
+#include "algorithms/core/executor.h"
+#include "algorithms/core/pair_sink.h"
+#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/kernels/boxes/group_scan.h"
+#include "algorithms/kernels/bvh/hilbert_sort.h"
+
+namespace touchstone {
+
+struct HilbertRTreeScratch {
+  Bvh16Scratch tree;
+  GroupScratch group;
+};
+
+// Keeps its memory, until it is told to forget the order.
+class HilbertRTree {
+ public:
+  explicit HilbertRTree(Executor& executor)
+      : executor_(executor), scratch_(static_cast<std::size_t>(executor.width())) {}
+
+  // Other bodies are there than at the last load: a new order is to be made.
+  void change_bodies() { is_sorted_ = false; }
+  // Gives back the memory of the order, where the next load is far off.
+  void forget_order();
+
+  // Loads all boxes that are not empty, each as box_of(id). `is_to_change`: see Bvh16::load.
+  template <class BoxOf>
+  void load(std::span<const Aabb> boxes, bool is_to_change, const BoxOf& box_of) {
+    sort_if_needed(boxes);
+    fill(boxes.size(), is_to_change, box_of);
+    if (is_good()) return;
+    change_bodies();
+    sort_if_needed(boxes);
+    fill(boxes.size(), is_to_change, box_of);
+    is_good();
+  }
+  Bvh16& tree() { return tree_; }
+  const Bvh16& tree() const { return tree_; }
+  // To be called after the last change of the tree before searches in it.
+  Bvh16Scratch& scratch(int worker) {
+    Bvh16Scratch& scratch = scratch_[static_cast<std::size_t>(worker)].tree;
+    tree_.make_room(scratch);
+    return scratch;
+  }
+
+  // All pairs of boxes that overlap, of a tree that was not changed since it was loaded.
+  void find_pairs(PairSink& sink);
+  // What that takes.
+  BroadPhaseWork work() const;
+
+  std::size_t held_bytes() const;
+
+ private:
+  static constexpr std::size_t leaves_a_task = 32;
+
+  template <class BoxOf>
+  void fill(std::size_t id_count, bool is_to_change, const BoxOf& box_of) {
+    tree_.start(order_.size(), id_count);
+    for_each_block(executor_, order_.size(), 4096,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) {
+                       const std::uint32_t id = order_.id(i);
+                       tree_.set(i, box_of(id), id);
+                     }
+                   });
+    tree_.load(executor_, is_to_change);
+  }
+  std::size_t tasks() const {
+    return tree_.loaded() == 0 ? 0 : block_count(tree_.leaves(), leaves_a_task);
+  }
+  void sort_if_needed(std::span<const Aabb> boxes);
+  bool is_good();
+  void search(std::size_t task, HilbertRTreeScratch& scratch, PairBuffer& out) const;
+
+  Executor& executor_;
+  std::vector<HilbertRTreeScratch> scratch_;
+  HilbertSort order_;
+  bool is_sorted_ = false, is_new_ = false;  // the order; by the last load
+  double spread_at_sort_ = 0;                // of the tree's leaves
+  Bvh16 tree_;
+};
+
+}  // namespace touchstone

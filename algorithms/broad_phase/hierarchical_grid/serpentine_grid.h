@@ -1,0 +1,78 @@
+// A grid of cells in rows, for boxes by their minimum corners. The rows are numbered there and back
+// as an ox ploughs, and so are the cells of a row: whose boxes are next in the order are near, and
+// a few cells side by side are one run of them. Paper: Ericson, "Real-Time Collision Detection",
+// 2005, section 7.2 (the grid of a size class).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/kernels/grid/cell_space.h"
+
+namespace touchstone {
+
+class SerpentineGrid {
+ public:
+  using Sides = std::array<double, 3>;
+  // Along rows, across rows, across slabs of rows.
+  using Axes = std::array<std::size_t, 3>;
+  static constexpr double most_cells = 1 << 27;
+
+  // Cells as large as `longest`, the longest sides of the boxes; or so large that so many groups of
+  // boxes, spread evenly from low to high, have a cube of cells each. Boxes outside are in the
+  // outermost cells.
+  SerpentineGrid() = default;
+  SerpentineGrid(const Axes& axes, const Sides& longest, const Sides& low, const Sides& high,
+                 double groups);
+
+  std::uint64_t cells() const { return std::uint64_t{count_[0]} * count_[1] * count_[2]; }
+  std::uint64_t cell_of(const Aabb& box) const {
+    const std::uint64_t row = row_of(place(box.min[axes_[1]], 1), place(box.min[axes_[2]], 2));
+    return cell_in(row, place(box.min[axes_[0]], 0));
+  }
+
+  // The cells of the boxes that may overlap these bounds: of each row `length` ones.
+  struct Window {
+    std::array<std::size_t, 3> low, high;
+    std::size_t rows() const { return high[1] - low[1] + 1; }
+    std::size_t slabs() const { return high[2] - low[2] + 1; }
+    std::size_t length() const { return high[0] - low[0] + 1; }
+  };
+  Window window(const Aabb& bounds) const {
+    Window window;
+    for (std::size_t k = 0; k < 3; ++k) {
+      window.low[k] = place(bounds.min[axes_[k]] - reach_[axes_[k]], k);
+      window.high[k] = place(bounds.max[axes_[k]], k);
+    }
+    return window;
+  }
+  // The first of the window's cells in a row.
+  std::uint64_t first_cell(const Window& window, std::size_t row, std::size_t slab) const {
+    const std::uint64_t number = row_of(row, slab);
+    return number * count_[0] + (number % 2 == 0 ? window.low[0] : count_[0] - 1 - window.high[0]);
+  }
+  std::uint64_t first_cell_of_slab(std::size_t slab) const {
+    return std::uint64_t{slab} * count_[1] * count_[0];
+  }
+
+ private:
+  // Cells of a row are finer than the rows are wide: they cost nothing, since a run has many.
+  static constexpr double cells_a_width = 4;
+
+  std::size_t place(double x, std::size_t k) const { return space_.cell(x, axes_[k]); }
+  std::uint64_t row_of(std::size_t row, std::size_t slab) const {
+    return std::uint64_t{slab} * count_[1] + (slab % 2 == 0 ? row : count_[1] - 1 - row);
+  }
+  std::uint64_t cell_in(std::uint64_t row, std::size_t cell) const {
+    return row * count_[0] + (row % 2 == 0 ? cell : count_[0] - 1 - cell);
+  }
+
+  Axes axes_{0, 1, 2};
+  CellSpace space_;                            // of the boxes' minimum corners
+  Sides reach_{};                              // no box is longer
+  std::array<std::size_t, 3> count_{1, 1, 1};  // of cells; by k of axes_
+};
+
+}  // namespace touchstone

@@ -1,0 +1,34 @@
+// The ends of boxes on an axis, as numbers that can be sorted.
+// Paper: Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/kernels/sorting/ordered_key.h"
+#include "algorithms/kernels/sorting/radix_sort.h"
+
+namespace touchstone {
+
+// A key above, then whether it is a maximum, then the body: closed boxes that touch overlap because
+// minima come first. Bodies are below 2^31.
+using Endpoint = std::uint64_t;
+
+inline Endpoint endpoint(float x, bool is_max, std::uint32_t id) {
+  return sort_item(ordered_key(x), (is_max ? 0x80000000u : 0) | id);
+}
+inline bool is_max(Endpoint point) { return (point >> 31 & 1) != 0; }
+inline std::uint32_t body_of(Endpoint point) {
+  return static_cast<std::uint32_t>(point) & 0x7fffffff;
+}
+// Without a branch: which of the two cannot be guessed.
+inline Endpoint endpoint(const Aabb& box, std::size_t axis, bool max, std::uint32_t id) {
+  const auto low = std::bit_cast<std::uint32_t>(box.min[axis]);
+  const auto high = std::bit_cast<std::uint32_t>(box.max[axis]);
+  const std::uint32_t mask = 0 - std::uint32_t{max};
+  return endpoint(std::bit_cast<float>(low ^ ((low ^ high) & mask)), max, id);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,143 @@
+#include "algorithms/broad_phase/loose_octree/octree_order.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/broad_phase/loose_octree/morton.h"
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/core/parallel_blocks.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::size_t block_size = 4096;
+
+// Two zeros between the bits of each number of a cell.
+constexpr std::array<std::uint32_t, 1 << OctreeOrder::most_levels> spread = [] {
+  std::array<std::uint32_t, 1 << OctreeOrder::most_levels> all{};
+  for (std::uint32_t i = 0; i < all.size(); ++i)
+    all[i] = static_cast<std::uint32_t>(spread_bits(i));
+  return all;
+}();
+
+// The least n with 2^n >= x.
+int ceil_log2(double x) {
+  if (!(x > 1)) return 0;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const bool is_power = (bits & ((std::uint64_t{1} << 52) - 1)) == 0;
+  return static_cast<int>(bits >> 52) - 1023 + (is_power ? 0 : 1);
+}
+
+double centre(const Aabb& box, std::size_t axis) {
+  return 0.5 * (double{box.min[axis]} + box.max[axis]);
+}
+
+}  // namespace
+
+int OctreeOrder::common_levels(std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t differs = (a ^ b) >> depth_bits;
+  return most_levels - (static_cast<int>(std::bit_width(differs)) + 2) / 3;
+}
+
+// Cells have the proportions of the usual box; all of the region is in the root.
+OctreeOrder::Cells OctreeOrder::make_cells(const BoxSample& sample, double bodies) {
+  const double root = sample.extent();
+  Cells cells{.space = {.origin = sample.low}, .levels = 1};
+  const auto used = [&](int levels) {
+    double count = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double extent = (sample.high[axis] - sample.low[axis]) / sample.side[axis];
+      count *= root > 0 ? std::max(1.0, std::ldexp(extent / root, levels)) : 1;
+    }
+    return count;
+  };
+  while (cells.levels < most_levels && used(cells.levels) < bodies) ++cells.levels;
+  cells.space.last.fill((1u << cells.levels) - 1);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Where nothing has an extent, one cell.
+    const double length = root * sample.side[axis];
+    cells.space.inverse_side[axis] = length > 0 ? std::ldexp(1 / length, cells.levels) : 0;
+  }
+  return cells;
+}
+
+std::uint32_t OctreeOrder::key_of(const Aabb& box, const Cells& cells, bool by_size) {
+  std::uint32_t code = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    code |= spread[cells.space.cell(centre(box, axis), axis)] << axis;
+  }
+  code <<= 3 * (most_levels - cells.levels);
+  const int above = by_size ? std::min(ceil_log2(cells.space.size(box)), cells.levels) : 0;
+  const int depth = above == 0 ? most_levels : cells.levels - above;
+  const int below = 3 * (most_levels - depth);
+  return (code >> below << below) << depth_bits | static_cast<std::uint32_t>(depth);
+}
+
+void OctreeOrder::sort(Executor& executor, std::span<const Aabb> boxes,
+                       std::span<const std::uint32_t> ids) {
+  items_.resize(ids.size());
+  if (ids.empty()) return;
+  id_bits_ = static_cast<int>(std::bit_width(boxes.size()));
+  const BoxSample sample = sample_boxes(boxes, ids);
+  const double wanted = 2 * static_cast<double>(ids.size()) * crowding(boxes, ids, sample);
+  const Cells cells = make_cells(sample, wanted);
+  for_each_block(executor, ids.size(), block_size,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     const std::uint64_t key = key_of(boxes[ids[i]], cells, true);
+                     items_[i] = key << id_bits_ | ids[i];
+                   }
+                 });
+  sort_items(executor, items_, cells.levels, radix_sort_);
+}
+
+// Without the digits of levels that there are not.
+void OctreeOrder::sort_items(Executor& executor, std::vector<std::uint64_t>& items, int levels,
+                             RadixSort<std::uint64_t>& radix_sort) const {
+  const std::uint64_t depth = (1u << depth_bits) - 1;
+  const int code_shift = id_bits_ + depth_bits + 3 * (most_levels - levels);
+  radix_sort(executor, items, 3 * levels + depth_bits, [=, shift = id_bits_](std::uint64_t item) {
+    return item >> code_shift << depth_bits | (item >> shift & depth);
+  });
+}
+
+bool OctreeOrder::refine(Executor& executor, std::span<const Aabb> boxes, std::size_t first,
+                         std::size_t last) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  BoxSample all{.low = {inf, inf, inf}, .high = {-inf, -inf, -inf}, .side = {}};
+  for (std::size_t i = first; i < last; ++i) {
+    const Aabb& box = boxes[id(i)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all.low[axis] = std::min(all.low[axis], centre(box, axis));
+      all.high[axis] = std::max(all.high[axis], centre(box, axis));
+      all.side[axis] += double{box.max[axis]} - box.min[axis];
+    }
+  }
+  if (all.low == all.high) return false;
+  // Flat boxes are not to be told apart by a hair on the axis on which they are flat.
+  const double least = 1e-3 * std::ranges::max(all.side);
+  for (double& side : all.side) side = least > 0 ? std::max(side, least) : 1;
+  const Cells cells = make_cells(all, 2 * static_cast<double>(last - first));
+  const bool by_size = depth(key(first)) == most_levels;
+  crowd_.clear();
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint64_t key = key_of(boxes[id(i)], cells, by_size);
+    crowd_.push_back(key << id_bits_ | id(i));
+  }
+  if (crowd_.size() < 1024) {
+    std::ranges::sort(crowd_);
+  } else {
+    sort_items(executor, crowd_, cells.levels, crowd_sort_);
+  }
+  std::ranges::copy(crowd_, items_.begin() + static_cast<std::ptrdiff_t>(first));
+  return true;
+}
+
+std::size_t OctreeOrder::held_bytes() const {
+  return touchstone::held_bytes(items_) + touchstone::held_bytes(radix_sort_) +
+         touchstone::held_bytes(crowd_) + touchstone::held_bytes(crowd_sort_);
+}
+
+}  // namespace touchstone

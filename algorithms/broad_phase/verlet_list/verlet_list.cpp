@@ -1,0 +1,332 @@
+// Candidate list: pairs whose slightly grown boxes overlap are listed once, and only they are
+// tested until something has moved too far.
+// Paper:   Verlet, "Computer 'Experiments' on Classical Fluids. I", Physical Review 159, 1967
+//          (neighbour lists); the list is made by the Hilbert pyramid (packed_rtree.cpp).
+// Departs: each box grows by what its own motion asks for. How many frames a list is to last is
+//          chosen by counts, so that making and testing it cost least together. The few boxes that
+//          leave their grown ones, or come in, are searched one by one until there are too many.
+//          Where motion is too fast for a list, the pyramid searches.
+// Fails:   motion of a body's size a frame: then it is the Hilbert pyramid, and a little more.
+// Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 80
+//          bytes a body and 12 a candidate.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/broad_phase/verlet_list/pair_tests.h"
+#include "algorithms/broad_phase/verlet_list/rebuild_interval.h"
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/bvh/hilbert_sort.h"
+#include "algorithms/kernels/bvh/implicit_rtree.h"
+
+namespace touchstone {
+namespace {
+
+class VerletList final : public BroadPhase {
+ public:
+  explicit VerletList(Executor& executor)
+      : executor_(executor), scratch_(static_cast<std::size_t>(executor.width())) {}
+
+  void build(std::span<const Aabb> boxes) override {
+    boxes_ = boxes;
+    search_anew();
+  }
+
+  void update(const FrameChange& change) override;
+  Status find_pairs(PairSink& sink) override;
+  BroadPhaseWork work() const override;
+
+ private:
+  static constexpr std::size_t block_size = 4096;
+  static constexpr std::size_t groups_a_task = 4;
+  static constexpr std::size_t strays_a_task = 32;
+
+  void fit(std::span<const Aabb> boxes) {
+    if (order_.empty()) return;
+    order_.gather(executor_, boxes, pyramid_.boxes());
+    pyramid_.fit(executor_);
+  }
+  std::size_t groups() const { return order_.empty() ? 0 : pyramid_.groups(); }
+
+  void search_anew();
+  Motion measure_motion();
+  void make_list(double frames);
+  bool find_strays(const FrameChange& change);
+  void search_groups(PairSink& sink);
+  void search_strays(std::size_t first, std::size_t last, RTreeScratch& scratch,
+                     PairBuffer& out) const;
+
+  Executor& executor_;
+  std::vector<RTreeScratch> scratch_;
+  std::span<const Aabb> boxes_;  // of this frame
+  HilbertSort order_;
+  ImplicitRTree pyramid_;  // over the grown boxes while there is a list, else over this frame's
+
+  // By body: the grown boxes of the list, or those of an earlier frame to measure motion by.
+  std::vector<Aabb> reference_;
+  int age_ = 0;  // frames since then
+  bool listed_ = false;
+  PairSink candidates_;
+  RebuildInterval duration_;
+
+  std::vector<std::uint8_t> strayed_;  // by body
+  std::vector<std::uint32_t> strays_;  // boxes that have left their grown ones, or come in
+  std::size_t searched_ = 0;           // strays, summed over the frames of this list
+  AabbSoA stray_boxes_;
+  std::vector<std::size_t> counts_;  // of blocks
+  std::size_t pairs_ = 0;            // found last
+};
+
+// Whether `outer` holds `inner`. An empty box is held by any.
+bool holds(const Aabb& outer, const Aabb& inner) {
+  bool held = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    held &= (outer.min[axis] <= inner.min[axis]) & (inner.max[axis] <= outer.max[axis]);
+  }
+  return held;
+}
+
+// Without a list; the boxes are kept to see how far they move.
+void VerletList::search_anew() {
+  order_.make(executor_, boxes_);
+  fit(boxes_);
+  reference_.resize(boxes_.size());
+  for_each_block(executor_, boxes_.size(), block_size,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   std::ranges::copy(boxes_.subspan(first, last - first),
+                                     reference_.begin() + static_cast<std::ptrdiff_t>(first));
+                 });
+  age_ = 0;
+  listed_ = false;
+}
+
+// How far a box's centre has come on the axis where that is most (metres, doubled).
+float displacement(const Aabb& then, const Aabb& now) {
+  float most = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    most = std::max(most,
+                    std::abs((now.min[axis] - then.min[axis]) + (now.max[axis] - then.max[axis])));
+  }
+  return most;
+}
+
+Motion VerletList::measure_motion() {
+  // A sample tells enough.
+  constexpr std::size_t stride = 16;
+  const std::size_t count = std::min(boxes_.size(), reference_.size());
+  Motion motion;
+  double steps = 0;
+  double shares = 0;
+  std::size_t bodies = 0;
+  for (std::size_t i = 0; i < count; i += count < 1024 ? 1 : stride) {
+    const Aabb& box = boxes_[i];
+    if (box.is_empty() || reference_[i].is_empty()) continue;
+    const double step = displacement(reference_[i], box) / (2.0 * age_);
+    const double side = (double{box.max[0]} - box.min[0] + (double{box.max[1]} - box.min[1]) +
+                         (double{box.max[2]} - box.min[2])) /
+                        3;
+    steps += step;
+    shares += step > 0 ? std::min(1.0, step / (side + step)) : 0;
+    ++bodies;
+  }
+  if (bodies > 0) {
+    motion.step = static_cast<float>(steps / static_cast<double>(bodies));
+    motion.share = shares / static_cast<double>(bodies);
+  }
+  return motion;
+}
+
+// A list that is to last this long; `reference_` is of `age_` frames ago.
+void VerletList::make_list(double frames) {
+  const Motion motion = measure_motion();
+  const auto growth = static_cast<float>(frames);
+  constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
+  // Bodies that hardly move may move more: half of what is usual is allowed to all.
+  const float least = motion.step / 2;
+  const std::size_t known = std::min(boxes_.size(), reference_.size());
+  const float step_of = 0.5f / static_cast<float>(age_);
+  reference_.resize(boxes_.size(), Aabb::empty());
+  for_each_block(executor_, boxes_.size(), block_size,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     const Aabb& box = boxes_[i];
+                     if (box.is_empty()) {
+                       reference_[i] = Aabb::empty();
+                       continue;
+                     }
+                     const bool there = i < known && !reference_[i].is_empty();
+                     const float step = there ? displacement(reference_[i], box) * step_of : least;
+                     const float margin = growth * std::max(step, least);
+                     for (std::size_t axis = 0; axis < 3; ++axis) {
+                       reference_[i].min[axis] = std::max(box.min[axis] - margin, -most);
+                       reference_[i].max[axis] = std::min(box.max[axis] + margin, most);
+                     }
+                   }
+                 });
+  age_ = 0;
+  order_.make(executor_, reference_);
+  fit(reference_);
+  search_groups(candidates_);
+  listed_ = true;
+  strayed_.assign(boxes_.size(), 0);
+  strays_.clear();
+  searched_ = 0;
+  duration_.made(motion, frames, boxes_.size(), candidates_.size());
+}
+
+void VerletList::search_groups(PairSink& sink) {
+  const std::size_t tasks = block_count(groups(), groups_a_task);
+  sink.start(tasks);
+  const auto search = [&](std::size_t task, int worker) {
+    const std::size_t last = std::min((task + 1) * groups_a_task, groups());
+    for (std::size_t group = task * groups_a_task; group < last; ++group) {
+      pair_group(pyramid_, group, scratch_[static_cast<std::size_t>(worker)], sink.chunk(task));
+    }
+  };
+  executor_.run(tasks, std::cref(search));
+}
+
+// Adds the boxes that have left their grown ones, and those that came in; false when there are so
+// many that a new list is cheaper.
+bool VerletList::find_strays(const FrameChange& change) {
+  if (boxes_.size() > strayed_.size()) {
+    strayed_.resize(boxes_.size(), 0);
+    reference_.resize(boxes_.size(), Aabb::empty());
+  }
+  // Searching for one costs as much as making the list costs for these.
+  constexpr std::size_t price = 32;
+  const std::size_t most = 64 + boxes_.size() / 64;
+  const auto stray = [&](std::uint32_t id) {
+    return strayed_[id] == 0 && !holds(reference_[id], boxes_[id]);
+  };
+  const std::span<const std::uint32_t> moved = change.moved;
+  counts_.resize(block_count(moved.size(), block_size));
+  for_each_block(executor_, moved.size(), block_size,
+                 [&](std::size_t block, std::size_t first, std::size_t last) {
+                   std::size_t count = 0;
+                   for (std::size_t i = first; i < last; ++i) count += stray(moved[i]) ? 1 : 0;
+                   counts_[block] = count;
+                 });
+  std::size_t all = strays_.size() + change.inserted.size();
+  for (const std::size_t count : counts_) all += count;
+  searched_ += all;
+  if (all > most || searched_ * price > boxes_.size() + 64 * price) return false;
+  const auto add = [&](std::uint32_t id) {
+    if (strayed_[id] != 0) return;
+    strayed_[id] = 1;
+    strays_.push_back(id);
+  };
+  for (const std::uint32_t id : change.inserted) add(id);
+  for (std::size_t block = 0; block < counts_.size(); ++block) {
+    if (counts_[block] == 0) continue;
+    const std::size_t last = std::min((block + 1) * block_size, moved.size());
+    for (std::size_t i = block * block_size; i < last; ++i) {
+      if (stray(moved[i])) add(moved[i]);
+    }
+  }
+  return true;
+}
+
+void VerletList::update(const FrameChange& change) {
+  boxes_ = change.boxes;
+  ++age_;
+  if (listed_) {
+    if (find_strays(change)) {
+      stray_boxes_.gather(executor_, boxes_, strays_.size(),
+                          [&](std::size_t i) { return strays_[i]; });
+      return;
+    }
+    duration_.ended(age_, boxes_.size(), pairs_);
+  }
+  const double frames = duration_.choose(measure_motion(), boxes_.size(), pairs_);
+  if (frames > 0) return make_list(frames);
+  search_anew();
+}
+
+// Pairs of strays first <= i < last with boxes that have not strayed, and with strays behind them.
+void VerletList::search_strays(std::size_t first, std::size_t last, RTreeScratch& scratch,
+                               PairBuffer& out) const {
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint32_t id = strays_[i];
+    const std::size_t found = list_overlaps(pyramid_, boxes_[id], scratch);
+    scratch.work.candidates += static_cast<std::int64_t>(found);
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::uint32_t other = scratch.children[k];
+      if (strayed_[other] == 0 && overlap(boxes_[other], boxes_[id])) out.push(id, other);
+    }
+  }
+  const std::array columns{IndexRange{0, strays_.size()}};
+  scan_boxes(stray_boxes_, {first, last}, columns, out);
+}
+
+Status VerletList::find_pairs(PairSink& sink) {
+  if (!listed_) {
+    search_groups(sink);
+    pairs_ = sink.size();
+    return Status::ok;
+  }
+  const std::span<const PairBuffer> candidates = candidates_.chunks();
+  const std::size_t stray_tasks = block_count(strays_.size(), strays_a_task);
+  sink.start(candidates.size() + stray_tasks);
+  const auto test = [&](std::size_t task, int worker) {
+    PairBuffer& out = sink.chunk(task);
+    if (task >= candidates.size()) {
+      const std::size_t first = (task - candidates.size()) * strays_a_task;
+      const std::size_t last = std::min(first + strays_a_task, strays_.size());
+      search_strays(first, last, scratch_[static_cast<std::size_t>(worker)], out);
+    } else if (strays_.empty()) {
+      write_overlapping(
+          boxes_, candidates[task].pairs(), [](IndexPair) { return true; }, out);
+    } else {
+      const auto stayed = [&](IndexPair pair) {
+        return (strayed_[pair.a] | strayed_[pair.b]) == 0;
+      };
+      write_overlapping(boxes_, candidates[task].pairs(), stayed, out);
+    }
+  };
+  executor_.run(candidates.size() + stray_tasks, std::cref(test));
+  pairs_ = sink.size();
+  return Status::ok;
+}
+
+BroadPhaseWork VerletList::work() const {
+  RTreeScratch scratch;
+  PairBuffer pairs;
+  std::size_t listed = 0;
+  if (listed_) {
+    for (const PairBuffer& chunk : candidates_.chunks()) listed += chunk.size();
+    search_strays(0, strays_.size(), scratch, pairs);
+    const std::size_t among =
+        strays_.size() * (strays_.size() - std::min<std::size_t>(1, strays_.size())) / 2;
+    listed += among;
+    scratch.work.box_tests += scratch.work.candidates + static_cast<std::int64_t>(listed);
+    scratch.work.candidates += static_cast<std::int64_t>(listed);
+  } else {
+    for (std::size_t group = 0; group < groups(); ++group) {
+      pairs.clear();
+      pair_group(pyramid_, group, scratch, pairs);
+    }
+  }
+  scratch.work.bytes = sum_held_bytes(order_, pyramid_, reference_, strayed_, strays_, stray_boxes_,
+                                      counts_, candidates_);
+  return scratch.work;
+}
+
+}  // namespace
+}  // namespace touchstone
+
+TOUCHSTONE_BROAD_PHASE {
+  return {
+      {.info = {.name = "verlet-list",
+                .citation = "Verlet, \"Computer 'Experiments' on Classical Fluids. I\", Physical "
+                            "Review 159, 1967; over a Hilbert pyramid"},
+       .make = [](touchstone::Executor& executor) {
+         return std::make_unique<touchstone::VerletList>(executor);
+       }}};
+}

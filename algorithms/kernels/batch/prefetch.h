@@ -1,0 +1,27 @@
+// Asks for memory before it is read, so that nothing waits for it then: where many bodies of
+// different shapes are looked at once, their data is in no near cache.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "algorithms/kernels/minkowski/hull_scan.h"
+
+namespace touchstone {
+
+inline constexpr std::size_t cache_line = 64;  // bytes
+
+inline __attribute__((always_inline)) void fetch(const void* from, std::size_t bytes) {
+  const char* const begin = static_cast<const char*>(from);
+  for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(begin + at);
+}
+
+// The first blocks of a hull: who reads those in turn is given the rest by the machine.
+template <class Scalar>
+inline __attribute__((always_inline)) void fetch_blocks(
+    const hull_scan::VertexBlock<Scalar>* blocks, std::size_t count) {
+  constexpr std::size_t most = 2048;  // bytes
+  fetch(blocks, std::min(count * sizeof *blocks, most));
+}
+
+}  // namespace touchstone

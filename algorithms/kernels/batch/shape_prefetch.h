@@ -1,0 +1,91 @@
+// Memory that the next pairs of a batch will wait for, asked for while those before are answered:
+// poses and shapes, then the cells of large hulls that their first supports look up, then the
+// vertices that these name. Large hulls of which a scene has many are in no near cache, and their
+// first support, along the line of the centres, can be told beforehand.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "algorithms/kernels/batch/body_pairs.h"
+#include "algorithms/kernels/batch/prefetch.h"
+#include "algorithms/kernels/minkowski/support_shape.h"
+
+namespace touchstone {
+
+template <class Scalar>
+class ShapePrefetch {
+ public:
+  // The items stay where they are; `support_of` says where in one its shape is.
+  template <class Item, class Projection = std::identity>
+  void bind(const std::vector<Item>& items, Projection support_of = {}) {
+    shapes_.clear();
+    for (const Item& item : items) shapes_.push_back(&std::invoke(support_of, item));
+    has_cells_ = std::ranges::any_of(
+        shapes_, [](const SupportShape<Scalar>* shape) { return !shape->cells.empty(); });
+  }
+
+  // `far_too`: pairs whose balls are apart have supports too.
+  void begin(const BodyPairs& pairs, bool far_too) {
+    pairs_ = pairs;
+    far_too_ = far_too;
+    next_ = {};
+  }
+  // To be called before each of these pairs is answered, in their order.
+  void before(std::size_t pair) {
+    if (!has_cells_) return;
+    const std::size_t size = pairs_.first.size();
+    if (pair + 3 < size) {
+      fetch_body(pairs_.first[pair + 3]);
+      fetch_body(pairs_.second[pair + 3]);
+    }
+    for (const Place& place : next_) {
+      if (place.cell != nullptr) place.shape->cells.fetch_blocks(*place.cell);
+    }
+    next_ = {};
+    if (pair + 2 < size) find_cells(pairs_.first[pair + 2], pairs_.second[pair + 2]);
+  }
+
+ private:
+  struct Place {
+    const SupportShape<Scalar>* shape = nullptr;
+    const typename SupportCubeMap<Scalar>::Cell* cell = nullptr;
+  };
+
+  void fetch_body(std::uint32_t body) const {
+    fetch(&pairs_.poses[body], sizeof(Pose));
+    fetch(shapes_[pairs_.shape_of[body]], sizeof(SupportShape<Scalar>));
+  }
+
+  void find_cells(std::uint32_t first, std::uint32_t second) {
+    const SupportShape<Scalar>& a = *shapes_[pairs_.shape_of[first]];
+    const SupportShape<Scalar>& b = *shapes_[pairs_.shape_of[second]];
+    const Pose &pose_a = pairs_.poses[first], &pose_b = pairs_.poses[second];
+    Vec3d way = pose_b.translation - pose_a.translation;
+    if (!a.is_centred) way -= pose_a.rotation * a.centre;
+    if (!b.is_centred) way += pose_b.rotation * b.centre;
+    // Such a pair is decided without any support, as balls_are_apart looks at matrices.
+    const double reach = a.size + a.radius + b.size + b.radius;
+    if (!far_too_ && way.squaredNorm() > 3 * reach * reach) return;
+    next_[0] = find_cell(a, pose_a.rotation.transpose() * way);
+    next_[1] = find_cell(b, pose_b.rotation.transpose() * -way);
+  }
+  static Place find_cell(const SupportShape<Scalar>& shape, const Vec3d& direction) {
+    if (shape.cells.empty()) return {};
+    const auto& cell =
+        shape.cells.cell_of(static_cast<Scalar>(direction.x()), static_cast<Scalar>(direction.y()),
+                            static_cast<Scalar>(direction.z()));
+    __builtin_prefetch(&cell);
+    return {&shape, &cell};
+  }
+
+  std::vector<const SupportShape<Scalar>*> shapes_;
+  BodyPairs pairs_{};
+  bool has_cells_ = false, far_too_ = false;
+  std::array<Place, 2> next_;  // of the next pair but one
+};
+
+}  // namespace touchstone

@@ -1,0 +1,75 @@
+// Boxes as a structure of arrays, for vector code.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/executor.h"
+#include "algorithms/core/parallel_blocks.h"
+
+namespace touchstone {
+
+// Places first <= i < last of an array.
+struct IndexRange {
+  std::size_t first, last;
+};
+
+// Boxes with their ids; behind the last one, a vector's width of empty boxes. Keeps its memory.
+class AabbSoA {
+ public:
+  static constexpr std::size_t padding = 16;  // the widest vector's floats
+
+  // Makes room for `count` boxes, whose contents are whatever was there.
+  void resize(std::size_t count);
+  // The same, but the boxes stay, and there is room for no more than `count` where there was less.
+  void grow(std::size_t count);
+  std::size_t size() const { return size_; }
+  std::size_t held_bytes() const { return stride_ * (6 * sizeof(float) + sizeof(std::uint32_t)); }
+
+  float* min(int axis) { return extents_.get() + static_cast<std::size_t>(axis) * stride_; }
+  float* max(int axis) { return min(axis + 3); }
+  std::uint32_t* ids() { return ids_.get(); }
+  const float* min(int axis) const {
+    return extents_.get() + static_cast<std::size_t>(axis) * stride_;
+  }
+  const float* max(int axis) const { return min(axis + 3); }
+  const std::uint32_t* ids() const { return ids_.get(); }
+
+  void set(std::size_t place, const Aabb& box, std::uint32_t id) {
+    for (int axis = 0; axis < 3; ++axis) {
+      min(axis)[place] = box.min[static_cast<std::size_t>(axis)];
+      max(axis)[place] = box.max[static_cast<std::size_t>(axis)];
+    }
+    ids_[place] = id;
+  }
+  // Place i becomes boxes[id(i)], for each of `count`.
+  template <class Id>
+  void gather(Executor& executor, std::span<const Aabb> boxes, std::size_t count, const Id& id) {
+    resize(count);
+    for_each_block(executor, count, 8192, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) set(i, boxes[id(i)], id(i));
+    });
+  }
+
+ private:
+  static constexpr std::align_val_t alignment{padding * sizeof(float)};
+  struct Deleter {
+    void operator()(float* extents) const { operator delete[](extents, alignment); }
+  };
+
+  std::unique_ptr<float[], Deleter> extents_;  // min x, y, z, max x, y, z, `stride_` each
+  std::unique_ptr<std::uint32_t[]> ids_;
+  std::size_t size_ = 0;
+  std::size_t stride_ = 0;  // a multiple of the padding, so that each array is aligned
+};
+
+// The ids of the boxes that are not empty, ascending, into `ids`.
+void list_bodies(Executor& executor, std::span<const Aabb> boxes, std::vector<std::uint32_t>& ids);
+
+}  // namespace touchstone

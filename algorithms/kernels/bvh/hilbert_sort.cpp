@@ -1,0 +1,238 @@
+#include "algorithms/kernels/bvh/hilbert_sort.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "algorithms/core/memory_usage.h"
+#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/kernels/bvh/hilbert.h"
+#include "algorithms/kernels/bvh/implicit_rtree.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::size_t boxes_at_once = 1024;
+// Cells of the curve a body, as a power of two: more would make the sort longer, fewer the order
+// worse.
+constexpr int cells_a_body_log2 = 1;
+// More boxes than these in one cell of the curve get a curve of their own.
+constexpr std::size_t most_in_cell = 32;
+
+int bits_of(std::size_t x) { return static_cast<int>(std::bit_width(x)); }
+
+struct Region {
+  static constexpr float inf = std::numeric_limits<float>::infinity();
+  std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf};  // of doubled centres
+
+  void add(const Aabb& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float centre = box.min[axis] + box.max[axis];
+      low[axis] = std::min(low[axis], centre);
+      high[axis] = std::max(high[axis], centre);
+    }
+  }
+};
+
+// Of the longest side: two to an octave.
+constexpr std::size_t magnitudes = 512;
+std::size_t magnitude(float side) { return std::bit_cast<std::uint32_t>(side) >> 22 & 511; }
+std::size_t magnitude(const Aabb& box) {
+  return magnitude(
+      std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]}));
+}
+
+// What some of the boxes say of all.
+struct Sample {
+  Region region;
+  std::array<std::uint32_t, magnitudes> members{};
+  std::size_t stride;
+
+  Sample(std::span<const Aabb> boxes, std::size_t every) : stride(every) {
+    for (std::size_t i = 0; i < boxes.size(); i += stride) {
+      if (boxes[i].is_empty()) continue;
+      region.add(boxes[i]);
+      ++members[magnitude(boxes[i])];
+    }
+  }
+  bool empty() const { return region.low[0] > region.high[0]; }
+};
+
+Sample take_sample(std::span<const Aabb> boxes) {
+  Sample sample(boxes, std::max<std::size_t>(1, boxes.size() / 1024));
+  return sample.empty() && sample.stride > 1 ? Sample(boxes, 1) : sample;
+}
+
+// How far apart this many bodies are that fill a region, be it flat or a line (metres).
+double spacing(const Region& region, double bodies) {
+  std::array<double, 3> extent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    extent[axis] = (double{region.high[axis]} - region.low[axis]) / 2;
+  }
+  std::ranges::sort(extent, std::greater());
+  const double space = std::cbrt(extent[0] * extent[1] * extent[2] / bodies);
+  if (extent[2] >= space) return space;
+  const double plane = std::sqrt(extent[0] * extent[1] / bodies);
+  return extent[1] >= plane ? plane : extent[0] / bodies;
+}
+
+struct Classes {
+  std::array<std::uint8_t, magnitudes> of{};  // of each magnitude
+  std::size_t count = 0;
+};
+
+// From the smallest up. Boxes that are not much larger than what a block of 16 takes up can be in
+// one with the smallest; the larger ones are fewer, so their blocks are larger, and the same holds
+// again.
+Classes make_classes(const Sample& sample) {
+  constexpr double most_spacings = 5;
+  double bodies = 0;
+  for (const std::uint32_t members : sample.members) bodies += members;
+  Classes classes;
+  std::size_t from = 0;
+  while (bodies > 0 && classes.count + 2 < HilbertSort::most_classes) {
+    const double side =
+        most_spacings * spacing(sample.region, bodies * static_cast<double>(sample.stride));
+    const std::size_t end = std::clamp(magnitude(static_cast<float>(side)) + 1, from, magnitudes);
+    double inside = 0;
+    for (std::size_t i = from; i < end; ++i) inside += sample.members[i];
+    if (inside == 0) break;  // all overlap many others: size does not tell them apart
+    std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
+              classes.of.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::uint8_t>(classes.count));
+    ++classes.count;
+    bodies -= inside;
+    from = end;
+  }
+  std::size_t seen = magnitudes;
+  while (seen > from && sample.members[seen - 1] == 0) --seen;
+  // The rest, and what is larger than any of the sample.
+  for (const std::size_t end : {seen, magnitudes}) {
+    if (end == from) continue;
+    std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
+              classes.of.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::uint8_t>(classes.count));
+    ++classes.count;
+    from = end;
+  }
+  return classes;
+}
+
+}  // namespace
+
+void HilbertSort::make(Executor& executor, std::span<const Aabb> boxes) {
+  const Sample sample = take_sample(boxes);
+  used_ = 0;
+  if (sample.empty()) return;
+  const Classes classes = make_classes(sample);
+  order_.resize(boxes.size());
+  id_bits_ = bits_of(boxes.size());
+  const int wanted = (bits_of(boxes.size()) + cells_a_body_log2 + 2) / 3 * 3;
+  const HilbertGrid grid(sample.region.low, sample.region.high, std::min(wanted, 30));
+  for_each_block(executor, boxes.size(), boxes_at_once,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   std::array<std::uint32_t, boxes_at_once> codes;
+                   grid.codes(boxes.subspan(first, last - first), codes.data());
+                   for (std::size_t i = first; i < last; ++i) {
+                     // Empty boxes come last.
+                     const std::uint64_t own =
+                         boxes[i].is_empty() ? classes.count : classes.of[magnitude(boxes[i])];
+                     const std::uint64_t key = own << grid.code_bits() | codes[i - first];
+                     order_[i] = key << id_bits_ | i;
+                   }
+                 });
+  radix_sort_(executor, order_, grid.code_bits() + bits_of(classes.count),
+              [bits = id_bits_](std::uint64_t item) { return item >> bits; });
+  for (std::size_t at = 1; at <= classes.count; ++at) {
+    const std::uint64_t least = std::uint64_t{at} << (grid.code_bits() + id_bits_);
+    const auto end = std::lower_bound(order_.begin(), order_.end(), least);
+    const auto begin = static_cast<std::size_t>(end - order_.begin());
+    if (begin > begins_[used_]) begins_[++used_] = begin;
+  }
+  order_.resize(begins_[used_]);
+  refine_runs(executor, boxes);
+}
+
+// Finds the cells that hold too many.
+void HilbertSort::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
+  constexpr std::size_t stride = most_in_cell / 2;
+  runs_.clear();
+  std::size_t from = 0;
+  for (std::size_t i = stride; i < order_.size(); i += stride) {
+    if (i < from || key(i - stride) != key(i)) continue;
+    std::size_t first = i - stride;
+    while (first > from && key(first - 1) == key(i)) --first;
+    from = i + 1;
+    while (from < order_.size() && key(from) == key(i)) ++from;
+    if (from - first > most_in_cell) runs_.push_back({first, from});
+  }
+  const auto task = [&](std::size_t i, int) { refine(boxes, runs_[i].first, runs_[i].last, 0); };
+  executor.run(runs_.size(), std::cref(task));
+}
+
+// Draws a curve through boxes first <= i < last of the order, which have one key and keep it.
+void HilbertSort::refine(std::span<const Aabb> boxes, std::size_t first, std::size_t last,
+                         int depth) {
+  Region region;
+  for (std::size_t i = first; i < last; ++i) region.add(boxes[id(i)]);
+  if (region.low == region.high) return;
+  const std::uint64_t key_of_all = key(first);
+  const HilbertGrid grid(region.low, region.high,
+                         std::min((bits_of(last - first) + cells_a_body_log2 + 2) / 3 * 3, 30));
+  std::array<Aabb, 64> some;
+  std::array<std::uint32_t, 64> codes;
+  for (std::size_t i = first; i < last; i += some.size()) {
+    const std::size_t count = std::min(some.size(), last - i);
+    for (std::size_t k = 0; k < count; ++k) some[k] = boxes[id(i + k)];
+    grid.codes(std::span(some).first(count), codes.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      order_[i + k] = std::uint64_t{codes[k]} << id_bits_ | id(i + k);
+    }
+  }
+  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::sort(at(first), at(last));
+  // Each curve is at least four times as fine; floats have no more than this.
+  constexpr int deepest = 64;
+  for (std::size_t i = first; depth < deepest && i < last;) {
+    std::size_t end = i + 1;
+    while (end < last && key(end) == key(i)) ++end;
+    if (end - i > most_in_cell) refine(boxes, i, end, depth + 1);
+    i = end;
+  }
+  for (std::size_t i = first; i < last; ++i) order_[i] = key_of_all << id_bits_ | id(i);
+}
+
+void HilbertSort::gather(Executor& executor, std::span<const Aabb> boxes, AabbSoA& arrays) const {
+  constexpr std::size_t group = ImplicitRTree::group;
+  std::size_t places = 0;
+  for (std::size_t at = 0; at < used_; ++at) {
+    if (at > 0) places = block_count(places, group) * group;
+    places += begins_[at + 1] - begins_[at];
+  }
+  arrays.resize(places);
+  std::size_t place = 0;
+  for (std::size_t at = 0; at < used_; ++at) {
+    for (; place % group != 0; ++place) arrays.set(place, Aabb::empty(), 0);
+    const std::size_t begin = begins_[at];
+    const std::size_t members = begins_[at + 1] - begin;
+    for_each_block(executor, members, boxes_at_once,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     // The boxes are anywhere in memory: they are asked for in good time.
+                     constexpr std::size_t ahead = 24;
+                     for (std::size_t i = first; i < last; ++i) {
+                       if (i + ahead < last) __builtin_prefetch(&boxes[id(begin + i + ahead)]);
+                       const std::uint32_t body = id(begin + i);
+                       arrays.set(place + i, boxes[body], body);
+                     }
+                   });
+    place += members;
+  }
+}
+
+std::size_t HilbertSort::held_bytes() const {
+  return static_cast<std::size_t>(sum_held_bytes(order_, radix_sort_, runs_));
+}
+
+}  // namespace touchstone

@@ -1,0 +1,50 @@
+// The origin's projection on a face of a polytope that is made of triangles.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "algorithms/kernels/minkowski/simplex.h"
+
+namespace touchstone {
+
+// Of several triangles in one plane, the one that the projection falls on, or nearly; where all are
+// flat, the middle of the first.
+template <class Scalar>
+class OriginProjection {
+ public:
+  OriginProjection(const std::array<int, 3>& vertices, const std::array<Vec3<Scalar>, 3>& corners)
+      : vertices_(vertices) {
+    consider(vertices, corners);
+  }
+
+  void consider(const std::array<int, 3>& vertices, const std::array<Vec3<Scalar>, 3>& corners) {
+    const TrianglePlane<Scalar> plane = triangle_plane(corners);
+    if (plane.flat) return;
+    const std::array<Scalar, 3> weights = project_origin(plane, corners);
+    const Scalar least = std::min({weights[0], weights[1], weights[2]});
+    if (!(least > least_)) return;
+    least_ = least;
+    weights_ = weights;
+    vertices_ = vertices;
+  }
+
+  bool is_inside() const { return least_ >= 0; }
+  const std::array<int, 3>& vertices() const { return vertices_; }
+  // Barycentric, of these vertices; none is negative.
+  std::array<Scalar, 3> weights() const {
+    std::array<Scalar, 3> weights;
+    Scalar sum = 0;
+    for (int i = 0; i < 3; ++i) sum += weights[i] = std::max(weights_[i], Scalar{0});
+    for (Scalar& weight : weights) weight /= sum;
+    return weights;
+  }
+
+ private:
+  Scalar least_ = -std::numeric_limits<Scalar>::infinity();
+  std::array<Scalar, 3> weights_ = {1, 1, 1};
+  std::array<int, 3> vertices_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,48 @@
+// The planes of triangles, one a lane, as triangle_plane of simplex.h finds them: from the corner
+// opposite the longest edge, so that slivers lose no digits. Included by loops over real_lanes.h
+// once for each level of vector instructions; the same at every level.
+#include "algorithms/kernels/simd/lane_vectors.inl"
+
+template <class Scalar>
+struct TrianglePlanes {
+  using Real = typename RealLanes<Scalar>::Real;
+  Vectors<Scalar> normal;  // unit, towards where the corners are seen anticlockwise
+  Real distance;           // from the origin along the normal; NaN where the triangle is flat
+  Real length, squared;    // squares: of the longest edge, and of the height over it times that
+};
+
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE TrianglePlanes<Scalar> triangle_planes(
+    const Vectors<Scalar>& a, const Vectors<Scalar>& b, const Vectors<Scalar>& c) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  constexpr Scalar flat = flat_height<Scalar> * flat_height<Scalar>;
+  const Vectors<Scalar> bc = difference<Scalar>(c, b), ca = difference<Scalar>(a, c),
+                        ab = difference<Scalar>(b, a);
+  const Real opposite_a = dot<Scalar>(bc, bc);
+  const Real opposite_b = dot<Scalar>(ca, ca);
+  const Real opposite_c = dot<Scalar>(ab, ab);
+  const auto b_over_a = Lanes::less(opposite_a, opposite_b);
+  const Real of_two = Lanes::select(b_over_a, opposite_b, opposite_a);
+  const auto c_over_both = Lanes::less(of_two, opposite_c);
+  const auto choose = [&](const Vectors<Scalar>& of_a, const Vectors<Scalar>& of_b,
+                          const Vectors<Scalar>& of_c) TOUCHSTONE_TARGET {
+    return select<Scalar>(c_over_both, of_c, select<Scalar>(b_over_a, of_b, of_a));
+  };
+  const Real one = Lanes::broadcast(1);
+  TrianglePlanes<Scalar> planes;
+  planes.length = Lanes::select(c_over_both, opposite_c, of_two);
+  const Real inverse = one / planes.length;
+  const Vectors<Scalar> longest = choose(bc, ca, ab);
+  const Vectors<Scalar> base = choose(a, b, c);
+  Vectors<Scalar> normal = cross<Scalar>(choose(ca, ab, bc), choose(ab, bc, ca));
+  normal = moved<Scalar>(normal, -(dot<Scalar>(normal, longest) * inverse), longest);
+  planes.squared = dot<Scalar>(normal, normal);
+  const Real scale = Lanes::sqrt(planes.squared) * (one / planes.squared);
+  planes.distance =
+      Lanes::select(Lanes::less(Lanes::broadcast(flat) * planes.length, planes.squared),
+                    dot<Scalar>(normal, base) * scale,
+                    Lanes::broadcast(std::numeric_limits<Scalar>::quiet_NaN()));
+  planes.normal = scaled<Scalar>(scale, normal);
+  return planes;
+}

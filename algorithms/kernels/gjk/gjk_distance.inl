@@ -1,0 +1,228 @@
+// The loop of gjk_approach.h for one way to find the cores' support points, `Cores`. Included by
+// the files that compile it for some; local to each, so that what is called once is inlined there.
+#include "algorithms/kernels/gjk/gjk_distance.h"
+
+#include <algorithm>
+
+#include "algorithms/kernels/gjk/gjk_iteration.h"
+#include "algorithms/kernels/gjk/nesterov_direction.h"
+#include "algorithms/kernels/gjk/separation_along.h"
+
+namespace touchstone {
+namespace {
+
+// What the nearest point of the simplex says; true where the cores share a point, up to rounding.
+template <class Scalar>
+bool is_contact(Approach<Scalar>& found) {
+  using End = typename Approach<Scalar>::End;
+  found.upper = 0;
+  found.end = End::contact;
+  if (found.nearest.inside || !(found.nearest.distance > SupportPair<Scalar>::rounding))
+    return true;
+  found.upper = found.nearest.distance;
+  found.end = End::cap;
+  return false;
+}
+
+template <class Scalar>
+void take_inside(Approach<Scalar>& found) {
+  found.upper = 0;
+  found.end = Approach<Scalar>::End::contact;
+  found.nearest.inside = true;
+  found.nearest.distance = 2 * SupportPair<Scalar>::rounding;  // at least
+}
+
+// Whether the plane of this normal, from a to b, is all that was needed.
+template <class Scalar>
+bool plane_decides(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                   const Vec3<Scalar>& normal, Approach<Scalar>& found) {
+  ++found.iterations;
+  found.lower = gap_along(pair, normal);
+  found.direction = normal;
+  if (!(found.lower - pair.radius() > SupportPair<Scalar>::rounding)) return false;
+  if (goal.task == Task::distance && goal.is_open(pair, found.nearest.distance, found.lower)) {
+    return false;
+  }
+  found.end = Approach<Scalar>::End::decided;
+  return true;
+}
+
+// Whether what the frame before left is all that was needed; if not, `begin` is where to walk from.
+template <class Scalar>
+bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const WarmStart& start,
+            WalkStart<Scalar>& begin, Approach<Scalar>& found) {
+  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  const bool only_apart = goal.task != Task::distance;
+  Vec3<Scalar> direction = Vec3<Scalar>::Zero();
+  if (start.size == 0 || (only_apart && start.size < 4)) {
+    direction = start.unit_direction<Scalar>();
+  }
+  const bool known = !direction.isZero(0);
+  if (known && only_apart && plane_decides(pair, goal, direction, found)) return true;
+  start.place(pair, found.simplex);
+  if (found.simplex.size == 4 && is_surely_inside(found.simplex)) {
+    take_inside(found);
+    return true;
+  }
+  if (found.simplex.size == 0) {
+    if (known) begin.way = -direction;
+    return false;
+  }
+  found.nearest = reduce_to_nearest(found.simplex);
+  if (is_contact(found)) return true;
+  // Nearer than the radius: only a depth is still to be found.
+  if (goal.task != Task::penetration && found.upper - pair.radius() < -rounding) {
+    found.end = Approach<Scalar>::End::decided;
+    return true;
+  }
+  if (!only_apart && plane_decides<Scalar>(pair, goal, -found.nearest.direction, found))
+    return true;
+  begin.simplex = found.simplex;
+  begin.way = found.nearest.distance * found.nearest.direction;
+  return false;
+}
+
+// Whether the quick walk is all that was needed; if not, how far it came.
+template <class Cores, class Scalar>
+bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                const WalkStart<Scalar>& begin, bool numbered, Approach<Scalar>& found) {
+  using End = typename Approach<Scalar>::End;
+  const WalkGoal first{.only_apart = goal.task != Task::distance,
+                       .most_iterations = goal.most_iterations,
+                       .numbered = numbered};
+  const Walk<Scalar> quick = Cores::walk(pair, first, goal.tolerance, begin);
+  found.iterations += quick.iterations;
+  if (quick.moved) found.simplex = quick.simplex;
+  if (quick.end == WalkEnd::apart) {
+    found.lower = quick.lower;
+    found.direction = -quick.way.normalized();
+    found.end = End::decided;
+    return true;
+  }
+  if (quick.end == WalkEnd::inside) {
+    take_inside(found);
+    return true;
+  }
+  if (found.simplex.size == 0) return false;
+  if (quick.moved) {
+    found.nearest = reduce_to_nearest(found.simplex);
+    if (is_contact(found)) return true;
+  }
+  if (quick.end != WalkEnd::near || goal.is_open(pair, found.nearest.distance, quick.lower)) {
+    return false;
+  }
+  found.lower = quick.lower;
+  found.direction = -found.nearest.direction;
+  found.end = End::decided;
+  return true;
+}
+
+template <class Cores, class Scalar>
+Approach<Scalar> approach_by(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
+                             const WarmStart* start) {
+  using End = typename Approach<Scalar>::End;
+  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  const Task task = goal.task;
+  // Steps that do not come nearer may still turn the plane; but not for ever.
+  constexpr int patience = 8;
+  const Scalar radius = pair.radius();
+  Approach<Scalar> found;
+  found.lower = -std::numeric_limits<Scalar>::infinity();
+  Simplex<Scalar>& simplex = found.simplex;
+
+  WalkStart<Scalar> begin(-pair.centre_b());
+  if constexpr (Cores::start_warm) {
+    if (start != nullptr && resume(pair, goal, *start, begin, found)) {
+      found.as_before = true;
+      return found;
+    }
+  }
+  const bool may_switch = goal.momentum == Momentum::where_it_pays && pair.is_smooth();
+  if (goal.momentum != Momentum::nesterov && !may_switch && !goal.duality_gap &&
+      walk_first<Cores>(pair, goal, begin, start != nullptr, found)) {
+    return found;
+  }
+  const Scalar length = begin.way.norm();
+  Vec3<Scalar> direction = length > 0 ? Vec3<Scalar>(-begin.way / length) : Vec3<Scalar>::UnitX();
+  if (simplex.size > 0) direction = -found.nearest.direction;
+  int stalled = 0;
+  bool accelerated = goal.momentum == Momentum::nesterov;
+  NesterovDirection<Scalar> nesterov(pair.is_polytope(), -pair.centre_b());
+  // The unit is up to twice the size of the larger body.
+  constexpr Scalar near = 0.5;
+  while (found.iterations < goal.most_iterations) {
+    ++found.iterations;
+    if (may_switch && found.iterations == 2 && found.upper - radius < near) {
+      accelerated = true;
+      nesterov = {false, found.nearest.distance * found.nearest.direction};
+    }
+    const DifferencePoint<Scalar> point = Cores::support(pair, direction);
+    found.direction = direction;
+    const Scalar lower = -direction.dot(point.difference);
+    const bool of_normal = task == Task::penetration && !accelerated;
+    found.lower = of_normal ? lower : std::max(found.lower, lower);
+    const bool apart = found.lower - radius > rounding;
+    // Comparisons are written so that NaN ends the loop.
+    const bool open = goal.is_open(pair, found.nearest.distance, found.lower) || simplex.size == 0;
+    switch (task) {
+      case Task::intersect:
+        if (apart) found.end = End::decided;
+        break;
+      case Task::distance:
+        if (apart && !open) found.end = End::decided;
+        break;
+      case Task::penetration:
+        if (apart || (!open && found.lower > rounding)) found.end = End::decided;
+        break;
+    }
+    bool known = false;
+    for (int i = 0; i < simplex.size; ++i) {
+      known = known || simplex.points[i].difference == point.difference;
+    }
+    // The paper's stop: the support point is no nearer to the origin along the nearest point.
+    const bool spent =
+        accelerated && simplex.size > 0 &&
+        !goal.is_open(pair, found.nearest.distance, found.nearest.direction.dot(point.difference));
+    // A shallow overlap of round shapes: the bound is to hold along the normal that is reported.
+    const bool oblique = accelerated && task == Task::penetration && !apart && !open;
+    if (accelerated && (found.end != End::decided || oblique) && (known || spent || oblique)) {
+      accelerated = false;
+      found.end = End::cap;
+      direction = -found.nearest.direction;
+      continue;
+    }
+    if (found.end == End::decided) return found;
+    if (known) {
+      found.end = End::no_better;
+      return found;
+    }
+
+    simplex.corners[simplex.size] = {};
+    simplex.points[simplex.size++] = point;
+    found.nearest = reduce_to_nearest(simplex);
+    if (found.nearest.inside || !(found.nearest.distance > rounding)) {
+      found.upper = 0;
+      found.end = End::contact;
+      return found;
+    }
+    if (!(found.nearest.distance < found.upper) && ++stalled > patience) {
+      found.end = End::no_better;
+      return found;
+    }
+    found.upper = std::min(found.upper, found.nearest.distance);
+    if (task != Task::penetration && found.upper - radius < -rounding) {
+      found.end = End::decided;
+      return found;
+    }
+    direction = -found.nearest.direction;
+    if (accelerated) {
+      const Vec3<Scalar> nearest = found.nearest.distance * found.nearest.direction;
+      const Vec3<Scalar> ahead = nesterov.next(nearest, point.difference);
+      if (ahead.squaredNorm() > Scalar{0.5}) direction = ahead;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+}  // namespace touchstone

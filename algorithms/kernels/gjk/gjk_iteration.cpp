@@ -1,0 +1,76 @@
+#include "algorithms/kernels/gjk/gjk_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/kernels/gjk/gjk_iteration_levels.inl"
+
+namespace touchstone {
+// The determinants of its corners by threes, each with the origin, keep their signs. Corners p, q,
+// s, no longer than m, that are off by r = 107 u (proven_rounding says why; u is half of epsilon)
+// change theirs by no more than r (|p x q| + |q x s| + |s x p|) + 3 r^2 m + r^3, which is less than
+// 3 r m^2 + 3 r^2 m + r^3, and it is off by 50 u m^3 of its own rounding; none exceeds m^3. So
+// 512 u m^2 (1 + m) is enough. Where the origin is near a face it is far too much: there the
+// products themselves are taken, which are off by 16 u m^2 of their own rounding, all three.
+template <class Scalar>
+bool is_surely_inside(const Simplex<Scalar>& simplex) {
+  constexpr Scalar u = std::numeric_limits<Scalar>::epsilon() / 2;
+  const auto w = [&](int i) -> const Vec3<Scalar>& { return simplex.points[i].difference; };
+  Scalar greatest = 0;
+  for (int i = 0; i < 4; ++i) greatest = std::max(greatest, w(i).squaredNorm());
+  const Scalar longest = std::sqrt(greatest);
+  const auto determinant = [&](int i, int j, int k) {
+    return w(i).dot((w(j) - w(i)).cross(w(k) - w(i)));
+  };
+  // Of the faces opposite each corner.
+  const std::array<Scalar, 4> parts = {determinant(1, 2, 3), -determinant(0, 2, 3),
+                                       determinant(0, 1, 3), -determinant(0, 1, 2)};
+  const auto [least, most] = std::ranges::minmax(parts);
+  // Longer ones are of bodies beyond the range of the pair's unit, whose rounding is not bounded
+  // so.
+  constexpr Scalar longest_in_range = 16;
+  if (!(longest <= longest_in_range) || !(least > 0 || most < 0)) return false;
+  const Scalar quickly = 512 * u * greatest * (1 + longest);
+  if (least > quickly || most < -quickly) return true;
+  const auto area = [&](int i, int j) { return w(i).cross(w(j)).norm(); };
+  const Scalar a01 = area(0, 1), a02 = area(0, 2), a03 = area(0, 3);
+  const Scalar a12 = area(1, 2), a13 = area(1, 3), a23 = area(2, 3);
+  const std::array<Scalar, 4> areas = {a12 + a23 + a13, a02 + a23 + a03, a01 + a13 + a03,
+                                       a01 + a12 + a02};
+  constexpr Scalar r = 112 * u;  // with what is lost of these sums
+  const Scalar rest =
+      r * (16 * u * greatest + 3 * r * longest + r * r) + 64 * u * greatest * longest;
+  for (int i = 0; i < 4; ++i) {
+    if (!(std::abs(parts[i]) > r * areas[i] + rest)) return false;
+  }
+  return true;
+}
+
+template <class Scalar>
+bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    Simplex<Scalar> other = simplex;
+    other.points[k] = behind;
+    if (!is_surely_inside(other)) continue;
+    simplex = other;
+    return true;
+  }
+  return false;
+}
+
+template <class Scalar>
+Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                  const WalkStart<Scalar>& start) {
+  return goal.numbered ? walk_here<true, AnyCore, AnyCore>(pair, goal, tolerance, start)
+                       : walk_here<false, AnyCore, AnyCore>(pair, goal, tolerance, start);
+}
+
+template bool is_surely_inside(const Simplex<float>&);
+template bool is_surely_inside(const Simplex<double>&);
+template bool goes_around(Simplex<float>&, const DifferencePoint<float>&);
+template bool goes_around(Simplex<double>&, const DifferencePoint<double>&);
+template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float, const WalkStart<float>&);
+template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double, const WalkStart<double>&);
+
+}  // namespace touchstone

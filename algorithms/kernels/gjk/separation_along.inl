@@ -1,0 +1,32 @@
+// The gap of plane_gap.h. Included by plane_gap.cpp once for each level of vector instructions,
+// inside that level's namespace; the same at every level.
+
+// The greatest direction . x over the core, from its centre.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Scalar reach_at(PosedShape<Scalar>& turned, Scalar x, Scalar y,
+                                                    Scalar z) {
+  using Core = typename SupportShape<Scalar>::Core;
+  const SupportShape<Scalar>& shape = turned.shape();
+  if (shape.core == Core::point) return 0;
+  const Mat3<Scalar>& m = turned.matrix();
+  const Vec3<Scalar>& e = shape.extents;
+  const Scalar dx = m(0, 0) * x + m(1, 0) * y + m(2, 0) * z;
+  const Scalar dy = m(0, 1) * x + m(1, 1) * y + m(2, 1) * z;
+  const Scalar dz = m(0, 2) * x + m(1, 2) * y + m(2, 2) * z;
+  if (shape.core == Core::box) {
+    return std::abs(dx) * e.x() + std::abs(dy) * e.y() + std::abs(dz) * e.z();
+  }
+  if (shape.core == Core::hull && shape.cells.empty()) {
+    const std::span<const hull_scan::VertexBlock<Scalar>> blocks(shape.vertices);
+    return furthest_at(blocks, dx, dy, dz).value;
+  }
+  const Vec3<Scalar> direction{x, y, z};
+  return direction.dot(turned.support(direction));
+}
+
+template <class Scalar>
+TOUCHSTONE_TARGET Scalar gap_at(SupportPair<Scalar>& pair, const Vec3<Scalar>& n) {
+  const Scalar of_b = reach_at(pair.b(), -n.x(), -n.y(), -n.z());
+  const Scalar of_a = reach_at(pair.a(), n.x(), n.y(), n.z());
+  return n.dot(pair.centre_b()) - of_b - of_a;
+}

@@ -1,0 +1,91 @@
+// Crowds: many items one behind the other with the same key, as bodies have that a grid cannot tell
+// apart.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/executor.h"
+#include "algorithms/kernels/boxes/aabb_soa.h"
+#include "algorithms/kernels/sorting/ordered_key.h"
+#include "algorithms/kernels/sorting/radix_sort.h"
+
+namespace touchstone {
+
+// Calls visit(run) for each longest run of at least `least` >= 2 places of the range whose keys are
+// equal. Looks at few of the others.
+template <class Key, class Visit>
+void visit_dense_cells(IndexRange range, std::size_t least, const Key& key, const Visit& visit) {
+  const std::size_t step = least / 2;  // such a run holds both ends of one of the steps
+  for (std::size_t i = range.first; i + step < range.last; i += step) {
+    if (key(i) != key(i + step)) continue;
+    IndexRange run{i, i + step};
+    while (run.first > range.first && key(run.first - 1) == key(i)) --run.first;
+    while (run.last < range.last && key(run.last) == key(i)) ++run.last;
+    i += (run.last - 1 - i) / step * step;
+    if (run.last - run.first >= least) visit(run);
+  }
+}
+
+// The axis on which these boxes lie farthest apart for their mean length. `box(i)`, i < count.
+template <class Box>
+std::size_t longest_axis(std::size_t count, const Box& box) {
+  std::array<double, 3> low, high, side{};
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Aabb& own = box(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], double{own.min[axis]});
+      high[axis] = std::max(high[axis], double{own.min[axis]});
+      side[axis] += double{own.max[axis]} - own.min[axis];
+    }
+  }
+  // Flat boxes are not to be told apart by a hair on the axis on which they are flat.
+  const double least = 1e-3 * std::ranges::max(side);
+  std::array<double, 3> extent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    extent[axis] = (high[axis] - low[axis]) / (least > 0 ? std::max(side[axis], least) : 1);
+  }
+  return static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
+}
+
+// Puts a crowd in the order of its boxes' minima on the axis on which that tells most. Keeps its
+// memory.
+template <class Item>
+class DenseCellSort {
+ public:
+  // The axis. `id(item)`: of its box.
+  template <class Id>
+  int operator()(Executor& executor, std::span<const Aabb> boxes, std::span<Item> crowd,
+                 const Id& id) {
+    before_.assign(crowd.begin(), crowd.end());
+    const auto box = [&](std::size_t i) { return boxes[id(before_[i])]; };
+    const std::size_t axis = longest_axis(crowd.size(), box);
+    order_.resize(crowd.size());
+    for (std::uint32_t i = 0; i < crowd.size(); ++i) {
+      order_[i] = sort_item(ordered_key(box(i).min[axis]), i);
+    }
+    radix_sort_(executor, order_, 32, key_of);
+    for (std::size_t i = 0; i < crowd.size(); ++i) crowd[i] = before_[index_of(order_[i])];
+    return static_cast<int>(axis);
+  }
+
+  std::size_t held_bytes() const {
+    return before_.capacity() * sizeof(Item) + order_.capacity() * sizeof(std::uint64_t) +
+           radix_sort_.held_bytes();
+  }
+
+ private:
+  std::vector<Item> before_;
+  std::vector<std::uint64_t> order_;
+  RadixSort<std::uint64_t> radix_sort_;
+};
+
+}  // namespace touchstone

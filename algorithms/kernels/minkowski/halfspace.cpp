@@ -1,0 +1,124 @@
+#include "algorithms/kernels/minkowski/halfspace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+// Far from the world's origin a plane's place is a small difference of large numbers.
+using Wide = long double;
+using Wide3 = Eigen::Matrix<Wide, 3, 1>;
+
+Wide3 wide(const Vec3d& x) { return x.cast<Wide>(); }
+
+// The points y of the moved half-space are those with normal . (y - t) <= height. What maps planes
+// is the inverse transpose of the matrix: the matrix of its cofactors, over the determinant.
+struct WorldPlane {
+  Wide3 normal;  // unit
+  Wide height;
+};
+
+template <class Scalar>
+WorldPlane world_plane(const SupportShape<Scalar>& halfspace, const Pose& pose) {
+  const Mat3<Wide> matrix = pose.rotation.cast<Wide>();
+  Mat3<Wide> cofactors;
+  for (int i = 0; i < 3; ++i) {
+    cofactors.row(i) = matrix.row((i + 1) % 3).cross(matrix.row((i + 2) % 3));
+  }
+  const Wide determinant = matrix.row(0).dot(cofactors.row(0));
+  const Wide3 normal = cofactors * wide(halfspace.normal);
+  const Wide length = std::copysign(normal.norm(), determinant);
+  return {normal / length, halfspace.offset * (determinant / length)};
+}
+
+// What is left of lengths that cancel.
+constexpr Wide wide_rounding = 64 * std::numeric_limits<Wide>::epsilon();
+
+// Writes what the task asks for. Lengths in metres; `normal` from a to b; `on_a` is the witness
+// point on a.
+void answer(Task task, double distance, double rounding, const Vec3d& normal, const Vec3d& on_a,
+            Outcome& outcome) {
+  const bool apart = distance > rounding;
+  const bool common = distance < -rounding;
+  outcome.answer = apart ? Answer::separated : common ? Answer::overlapping : Answer::unknown;
+  outcome.status = apart || common ? Status::ok : Status::not_converged;
+  if (task == Task::intersect || (task == Task::distance && common) ||
+      (task == Task::penetration && apart)) {
+    return;
+  }
+  outcome.distance = distance;
+  outcome.lower = distance - rounding;
+  outcome.upper = distance + rounding;
+  outcome.normal = normal;
+  outcome.witness_a = on_a;
+  outcome.witness_b = on_a + distance * normal;
+}
+
+}  // namespace
+
+template <class Scalar>
+void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
+                     const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
+                     Outcome& outcome) {
+  const auto [plane, plane_height] = world_plane(b, pose_b);
+  const Wide3 turned_centre = pose_a.rotation.cast<Wide>() * wide(a.centre);
+  const Wide3 from_b = turned_centre + (wide(pose_a.translation) - wide(pose_b.translation));
+  const auto height = static_cast<double>(plane.dot(from_b) - plane_height);
+  const Wide lengths = (turned_centre.cwiseAbs() + wide(pose_a.translation).cwiseAbs() +
+                        wide(pose_b.translation).cwiseAbs())
+                           .sum() +
+                       std::abs(plane_height);
+
+  const double unit = power_of_two_above(std::max(std::abs(height), a.reach(pose_a.rotation)));
+  PosedShape<Scalar> turned(a, pose_a.rotation, unit);
+  const Vec3<Scalar> outward = plane.template cast<Scalar>();
+  const Vec3<Scalar> lowest = turned.support(-outward);
+  const Scalar distance =
+      static_cast<Scalar>(height / unit) + outward.dot(lowest) - turned.radius();
+
+  const Vec3d normal = -plane.template cast<double>();
+  const Vec3d on_a = pose_a(a.centre) + unit * (lowest.template cast<double>() +
+                                                static_cast<double>(turned.radius()) * normal);
+  constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
+  answer(task, static_cast<double>(distance) * unit,
+         rounding * unit + static_cast<double>(wide_rounding * lengths), normal, on_a, outcome);
+  outcome.iterations = 0;
+  outcome.support_calls = 1;
+}
+
+template <class Scalar>
+void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
+                      const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
+                      Outcome& outcome) {
+  const auto [normal_a, height_a] = world_plane(a, pose_a);
+  const auto [normal_b, own_height_b] = world_plane(b, pose_b);
+  constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
+  outcome.iterations = 0;
+  outcome.support_calls = 0;
+  if (normal_a.dot(normal_b) > 0 || normal_a.cross(normal_b).norm() > rounding) {
+    outcome.answer = Answer::overlapping;
+    outcome.status = task == Task::penetration ? Status::degenerate : Status::ok;
+    return;
+  }
+  // Heights of the two planes along a's normal, over the origin of body a.
+  const Wide place_b = normal_a.dot(wide(pose_b.translation) - wide(pose_a.translation));
+  const Wide height_b = place_b - own_height_b;
+  const double size =
+      static_cast<double>(std::max({std::abs(height_a), std::abs(place_b), std::abs(height_b)}));
+  const Vec3d normal = normal_a.template cast<double>();
+  answer(task, static_cast<double>(height_b - height_a), rounding * size, normal,
+         pose_a.translation + static_cast<double>(height_a) * normal, outcome);
+}
+
+template void solve_halfspace(const SupportShape<float>&, const Pose&, const SupportShape<float>&,
+                              const Pose&, Task, Outcome&);
+template void solve_halfspace(const SupportShape<double>&, const Pose&, const SupportShape<double>&,
+                              const Pose&, Task, Outcome&);
+template void solve_halfspaces(const SupportShape<float>&, const Pose&, const SupportShape<float>&,
+                               const Pose&, Task, Outcome&);
+template void solve_halfspaces(const SupportShape<double>&, const Pose&,
+                               const SupportShape<double>&, const Pose&, Task, Outcome&);
+
+}  // namespace touchstone

@@ -1,0 +1,156 @@
+// The support map of a shape that is turned as its body is.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/kernels/minkowski/support_shape.h"
+
+namespace touchstone {
+
+// Which core a shape has: as it says itself, at run time, ...
+struct AnyCore {
+  template <class Scalar>
+  static SupportCore of(const SupportShape<Scalar>& shape) {
+    return shape.core;
+  }
+};
+// ... or this one, known when the code is compiled.
+template <SupportCore core>
+struct KnownCore {
+  template <class Scalar>
+  static constexpr SupportCore of(const SupportShape<Scalar>&) {
+    return core;
+  }
+};
+
+// The corners of a core by numbers: a point has 0, a segment and a box have a bit for each axis,
+// set where the corner is on the negative side, a hull has its vertices'. Round cores have none.
+inline constexpr std::uint32_t no_corner = ~std::uint32_t{0};
+
+// Of the two cores of a point of their difference.
+struct CornerPair {
+  std::uint32_t a = no_corner, b = no_corner;
+};
+
+// A shape turned as its body is, about its centre, in the units of a query.
+template <class Scalar>
+class PosedShape {
+ public:
+  // `unit` is the power of two, in metres, that the result is divided by.
+  PosedShape(const SupportShape<Scalar>& shape, const Mat3d& rotation, double unit)
+      : shape_(&shape),
+        matrix_((rotation * (shape.unit / unit)).template cast<Scalar>()),
+        radius_(static_cast<Scalar>(shape.radius / unit)) {}
+
+  // The point of the core that lies furthest in the direction, relative to the centre. The
+  // direction need not have unit length, but its square must neither overflow nor vanish.
+  // `Which` says which core it is.
+  template <class Which = AnyCore>
+  Vec3<Scalar> support(const Vec3<Scalar>& direction);
+
+  // Whether the core has a corner of that number.
+  bool has_corner(std::uint32_t number) const { return number < corners(); }
+  // That corner, relative to the centre.
+  Vec3<Scalar> corner(std::uint32_t number) const;
+  // Of a hull, the number of the last support.
+  std::uint32_t last_corner() const {
+    return shape_->cells.empty() ? vertex_ : shape_->cells.number(vertex_);
+  }
+
+  Scalar radius() const { return radius_; }
+  const SupportShape<Scalar>& shape() const { return *shape_; }
+  const Mat3<Scalar>& matrix() const { return matrix_; }
+
+ private:
+  using Core = typename SupportShape<Scalar>::Core;
+
+  // The point of the disc of this radius, normal to z, furthest along (dx, dy); its centre where
+  // the direction is along z.
+  static Vec3<Scalar> disc_support(Scalar radius, const Vec3<Scalar>& d, Scalar z) {
+    const Scalar square = d.x() * d.x() + d.y() * d.y();
+    if (!(square > least_square)) {
+      const Scalar greatest = std::max(std::abs(d.x()), std::abs(d.y()));
+      if (!(greatest > 0)) return {0, 0, z};
+      return disc_support(radius, d / greatest, z);
+    }
+    const Scalar factor = radius / std::sqrt(square);
+    return {factor * d.x(), factor * d.y(), z};
+  }
+
+  std::uint32_t corners() const {
+    switch (shape_->core) {
+      case Core::point: return 1;
+      case Core::segment:
+      case Core::box: return 8;
+      case Core::hull: return static_cast<std::uint32_t>(shape_->corners.size());
+      default: return 0;
+    }
+  }
+
+  // Squares below this have lost digits: their root would put points outside of the core.
+  static constexpr Scalar least_square =
+      std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
+
+  const SupportShape<Scalar>* shape_;
+  Mat3<Scalar> matrix_;
+  Scalar radius_;
+  std::uint32_t vertex_ = 0;  // hull: the last support, by its place in the cells where it has them
+};
+
+template <class Scalar>
+template <class Which>
+inline Vec3<Scalar> PosedShape<Scalar>::support(const Vec3<Scalar>& direction) {
+  const Core core = Which::of(*shape_);
+  const Vec3<Scalar>& e = shape_->extents;
+  if (core == Core::point) return Vec3<Scalar>::Zero();
+  const Vec3<Scalar> d = matrix_.transpose() * direction;
+  switch (core) {
+    case Core::segment: return std::copysign(e.z(), d.z()) * matrix_.col(2);
+    case Core::box:
+      return matrix_ * Vec3<Scalar>{std::copysign(e.x(), d.x()), std::copysign(e.y(), d.y()),
+                                    std::copysign(e.z(), d.z())};
+    case Core::cylinder: return matrix_ * disc_support(e.x(), d, std::copysign(e.z(), d.z()));
+    case Core::cone: {
+      // The tip is further than the rim of the base where 2 h dz > r |(dx, dy)|.
+      const bool tip = 2 * e.z() * d.z() > e.x() * std::sqrt(d.x() * d.x() + d.y() * d.y());
+      return tip ? Vec3<Scalar>(e.z() * matrix_.col(2)) : matrix_ * disc_support(e.x(), d, -e.z());
+    }
+    case Core::ellipsoid: {
+      Vec3<Scalar> stretched = e.cwiseProduct(d);
+      Scalar square = stretched.squaredNorm();
+      if (!(square > least_square)) {
+        const Scalar greatest = stretched.cwiseAbs().maxCoeff();
+        if (!(greatest > 0)) return Vec3<Scalar>::Zero();
+        stretched /= greatest;
+        square = stretched.squaredNorm();
+      }
+      return matrix_ * e.cwiseProduct(stretched / std::sqrt(square));
+    }
+    case Core::hull:
+      if (!shape_->cells.empty()) {
+        vertex_ = shape_->cells.furthest(d).place;
+        return matrix_ * shape_->cells.vertex(vertex_);
+      }
+      vertex_ = shape_->furthest(d);
+      return matrix_ * shape_->vertex(vertex_);
+    case Core::point:
+    case Core::halfspace: break;  // a half-space has no furthest point: see halfspace.h
+  }
+  return Vec3<Scalar>::Zero();
+}
+
+template <class Scalar>
+inline Vec3<Scalar> PosedShape<Scalar>::corner(std::uint32_t number) const {
+  const Vec3<Scalar>& e = shape_->extents;
+  const auto side = [&](int axis) { return (number >> axis & 1) != 0 ? -e[axis] : e[axis]; };
+  switch (shape_->core) {
+    case Core::segment: return side(2) * matrix_.col(2);
+    case Core::box: return matrix_ * Vec3<Scalar>{side(0), side(1), side(2)};
+    case Core::hull: return matrix_ * shape_->vertex(number);
+    default: return Vec3<Scalar>::Zero();
+  }
+}
+
+}  // namespace touchstone

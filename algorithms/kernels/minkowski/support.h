@@ -1,0 +1,123 @@
+// Support maps of convex shapes, and pairs of bodies as their Minkowski difference.
+//
+// A shape is a core (a point, a segment, or the shape itself) and a ball of some radius around it:
+// the exact body is {M v + t : v in the core} + Ball(radius), with M used as it stands. A pair is
+// looked at from the centre of body a, in units of about its own size, so no threshold depends on
+// the scale or on the distance from the world's origin.
+// Papers: Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
+// objects in three-dimensional space", 1988 (support maps, core and radius); van den Bergen, "A
+// fast and robust GJK implementation for collision detection of convex objects", 1999 (the curved
+// ones).
+#pragma once
+
+#include <limits>
+
+#include "algorithms/core/pose.h"
+#include "algorithms/kernels/minkowski/posed_shape.h"
+
+namespace touchstone {
+
+// From the centre of a to the centre of b: metres, world axes. Each component is off by a few units
+// in the last place of the greatest of them and of the sizes of the turned bodies, and by `doubt`,
+// which is not zero only where a hull is far from its own origin.
+struct CentreOffset {
+  Vec3d vector;
+  double doubt;
+};
+
+template <class Scalar>
+CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
+                           const SupportShape<Scalar>& b, const Pose& pose_b);
+
+// Whether balls around the two bodies are apart, beyond rounding.
+template <class Scalar>
+bool balls_are_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
+                     const SupportShape<Scalar>& b, const Pose& pose_b);
+
+// A point of the difference A - B of the cores, and the points of the bodies' cores that made it.
+// In the units and the frame of the pair.
+template <class Scalar>
+struct DifferencePoint {
+  Vec3<Scalar> difference, a, b;
+};
+
+// Two bounded bodies, relative to the centre of body a; world axes; lengths are divided by `unit`.
+template <class Scalar>
+class SupportPair {
+ public:
+  // Coordinates of the pair's cores, and `centre_b`, are at most about 2. What rounding does to
+  // a point of the difference stays below this (length, in the pair's unit) in all that was ever
+  // tried; what can be proven is `proven_rounding`.
+  static constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
+
+  // The proof, for poses of any matrix as it stands. Let u be half of epsilon, M a core's matrix,
+  // v a point of the core, both as stored; (..)_i a component, |..| taken of each. As unit_ is
+  // above the offset and the reach of both bodies, (|M| |v|)_i <= sqrt(3), and summed with the
+  // components of a unit vector n it is at most 3. A support point w = p - q, for any direction n:
+  //                                              each component      along n
+  //   stored v (hulls: centre subtracted)         sqrt(3) u           3 u   a body
+  //   ... or computed v of a curved core           6 sqrt(3) u        in `furthest`
+  //   product M v                                 3 sqrt(3) u         9 u   a body
+  //   offset of the centres                       32 u               55 u
+  //   q = M v + offset, and p - q                 2.8 u, 4.5 u        5 u, 8 u
+  //   furthest: n turned (9 u, and again for the furthest itself), each product with a vertex (9 u)
+  //     or curved support (18 u); a cone's choice of tip or rim (27 u)     36 u to 63 u a body
+  //   the product n . w, of |w| <= 8                                 23 u
+  //   the length of n and the division by it                         31 u
+  //   both radii and their sum                                        4 u
+  // As only hulls have a centre off their origin (otherwise the offset is good to u), no pair of
+  // kinds comes to more than 107 u for the length by which w is off a point of the difference, and
+  // to more than 248 u for its plane as a bound of the difference. What underflows is 2^-1074 of
+  // the unit or less. Sums of weighted points, of weights >= 0, and their length: 90 u more than w.
+  static constexpr Scalar proven_rounding = 128 * std::numeric_limits<Scalar>::epsilon();
+
+  // What the proof asks for: lengths that are below the unit. (`power_of_two_above` ends there.)
+  bool is_in_range() const { return unit_ < 0x1p959; }
+
+  SupportPair(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
+              const Pose& pose_b);
+
+  // The point of the difference of the cores, A - B, that lies furthest in the direction. Counted.
+  template <class WhichA = AnyCore, class WhichB = AnyCore>
+  DifferencePoint<Scalar> support(const Vec3<Scalar>& direction) {
+    ++support_calls_;
+    DifferencePoint<Scalar> point;
+    point.a = a_.template support<WhichA>(direction);
+    point.b = b_.template support<WhichB>(-direction) + centre_b_;
+    point.difference = point.a - point.b;
+    return point;
+  }
+
+  // For those that find support points themselves, as vectors: see simplex_walk.inl.
+  PosedShape<Scalar>& a() { return a_; }
+  PosedShape<Scalar>& b() { return b_; }
+  void count_support() { ++support_calls_; }
+
+  // Inside body b; body a's is the origin. So the difference has -centre_b() inside.
+  const Vec3<Scalar>& centre_b() const { return centre_b_; }
+  Scalar radius_a() const { return a_.radius(); }
+  Scalar radius_b() const { return b_.radius(); }
+  Scalar radius() const { return a_.radius() + b_.radius(); }
+  bool is_polytope() const { return is_polytope_; }  // both cores are
+  bool is_smooth() const { return is_smooth_; }  // neither has a corner or an edge, one is no point
+  double unit() const { return unit_; }          // metres, a power of two
+  // A support call is one point of the difference.
+  int support_calls() const { return support_calls_; }
+
+  Vec3d to_world(const Vec3<Scalar>& point) const {
+    return origin_ + unit_ * point.template cast<double>();
+  }
+
+ private:
+  SupportPair(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
+              const SupportShape<Scalar>& b, const Pose& pose_b);
+
+  double unit_;
+  PosedShape<Scalar> a_, b_;
+  Vec3<Scalar> centre_b_;
+  Vec3d origin_;  // body a's centre in the world, metres
+  bool is_polytope_, is_smooth_;
+  int support_calls_ = 0;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,85 @@
+// A shape as the ball around a core: what a support map of it needs, made once for each scene.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/shape.h"
+#include "algorithms/kernels/minkowski/hull_scan.h"
+#include "algorithms/kernels/minkowski/support_cube_map.h"
+
+namespace touchstone {
+
+enum class SupportCore : std::uint8_t {
+  point,
+  segment,
+  box,
+  cylinder,
+  cone,
+  ellipsoid,
+  hull,
+  halfspace
+};
+
+// A shape made ready for one scalar type, once for each scene. The core is stored relative to
+// `centre` and divided by the power of two `unit`, so that its coordinates are at most 1.
+template <class Scalar>
+struct SupportShape {
+  using Core = SupportCore;
+
+  explicit SupportShape(const Shape& shape);
+
+  Core core = Core::point;
+  double unit = 1;             // metres
+  double size = 0;             // metres: no point of the core is further from the centre
+  double radius = 0;           // metres: of the ball around the core
+  bool is_centred = true;      // the centre is the body's origin
+  bool is_near_origin = true;  // no component of the centre exceeds the size
+  Vec3d centre =
+      Vec3d::Zero();  // body coordinates: inside the shape (relatively, where it is flat)
+  // Box: half extents; ellipsoid: semi-axes; segment, cylinder, cone: radius, radius, half length.
+  Vec3<Scalar> extents = Vec3<Scalar>::Zero();
+  // Hull: its vertices, to look at all of them; or, where they are many, `cells` of them.
+  std::vector<hull_scan::VertexBlock<Scalar>> vertices;
+  SupportCubeMap<Scalar> cells;
+  // The same once more, each in a place of its own: for those that want one and not all.
+  struct alignas(4 * sizeof(Scalar)) Corner {
+    Scalar x, y, z;
+  };
+  std::vector<Corner> corners;
+  // Half-space: as in Shape.
+  Vec3d normal = Vec3d::UnitZ();
+  double offset = 0;
+
+  // About how far the turned body reaches from its centre (metres): within a factor of two.
+  double reach(const Mat3d& rotation) const {
+    return size * rotation.cwiseAbs().maxCoeff() + radius;
+  }
+  // Hull: the vertex furthest in the direction.
+  std::uint32_t furthest(const Vec3<Scalar>& direction) const {
+    if (!cells.empty()) return cells.number(cells.furthest(direction).place);
+    return hull_scan::furthest(std::span<const hull_scan::VertexBlock<Scalar>>(vertices),
+                               direction);
+  }
+  Vec3<Scalar> vertex(std::uint32_t i) const {
+    const Corner& corner = corners[i];
+    return {corner.x, corner.y, corner.z};
+  }
+  // The same, of a hull without cells; quicker where all were just looked at.
+  Vec3<Scalar> scanned_vertex(std::uint32_t i) const {
+    constexpr std::uint32_t lanes = hull_scan::VertexBlock<Scalar>::size;
+    return vertices[i / lanes].vertex(i % lanes);
+  }
+  bool is_polytope() const { return core <= Core::box || core == Core::hull; }
+  bool is_smooth() const { return core == Core::point || core == Core::ellipsoid; }
+};
+
+template <class Scalar>
+std::vector<SupportShape<Scalar>> make_support_shapes(std::span<const Shape> shapes);
+
+// The least power of two above a length, so that length / result is in [1/2, 1); 1 for zero. Held
+// to where the result and its inverse are normal numbers.
+double power_of_two_above(double length);
+
+}  // namespace touchstone

@@ -1,0 +1,58 @@
+// What the separating axis tests share: boxes and hulls made ready, against each other or against a
+// half-space, which has no axis but its own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/outcome.h"
+#include "algorithms/core/pose.h"
+#include "algorithms/core/shape.h"
+#include "algorithms/kernels/minkowski/halfspace.h"
+#include "algorithms/kernels/minkowski/support.h"
+#include "algorithms/kernels/sat/separating_axis.h"
+
+namespace touchstone {
+
+// Whether the pair is of flat-sided bodies, of which b may be a half-space: a contract's
+// `supports`.
+inline bool are_flat_sided(ShapeKind a, ShapeKind b, Task) {
+  const auto bounded = [](ShapeKind kind) {
+    return kind == ShapeKind::box || kind == ShapeKind::hull;
+  };
+  return bounded(a) && (bounded(b) || b == ShapeKind::halfspace);
+}
+
+template <class Scalar>
+class PolytopeShapes {
+ public:
+  void bind(std::span<const Shape> shapes) {
+    polytopes_ = make_polytopes<Scalar>(shapes);
+    support_shapes_ = make_support_shapes<Scalar>(shapes);
+  }
+
+  // For a batch of the narrow phase's contract: answers pairs with a half-space, and calls
+  // solve_pair(const PolytopePair<Scalar>&, i) for each of the others, i its place in the batch.
+  template <class Batch, class SolvePair>
+  void solve(const Batch& batch, std::span<Outcome> outcomes, const SolvePair& solve_pair) const {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::uint32_t first = batch.first[i], second = batch.second[i];
+      const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
+      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+      if (batch.kind_b == ShapeKind::halfspace) {
+        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task,
+                        outcomes[i]);
+      } else {
+        solve_pair(PolytopePair<Scalar>(polytopes_[a], pose_a, polytopes_[b], pose_b), i);
+      }
+    }
+  }
+
+ private:
+  std::vector<Polytope<Scalar>> polytopes_;
+  std::vector<SupportShape<Scalar>> support_shapes_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,78 @@
+#include "algorithms/manifold/clipped_faces/penetration.h"
+
+#include <algorithm>
+
+#include "algorithms/kernels/gjk/gjk_distance.h"
+
+namespace touchstone {
+namespace {
+
+constexpr int most_iterations = 128;  // of GJK
+
+// The cores share a point, up to rounding.
+template <class Scalar>
+Penetration<Scalar> expand_from(SupportPair<Scalar>& pair, const Approach<Scalar>& found,
+                                Scalar tolerance, ExpandingPolytope<Scalar>& polytope) {
+  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
+  const bool on_core = !found.nearest.inside && off_core(found.simplex) <= 4 * rounding;
+  const ExpansionGoal<Scalar> goal{.tolerance = tolerance, .doubtful = !inside_core && !on_core};
+  const Expansion<Scalar> depth = polytope.expand(pair, found.simplex, goal);
+  Penetration<Scalar> result;
+  if (depth.end == ExpansionEnd::apart && -depth.upper - pair.radius() > rounding) {
+    result.answer = Answer::separated;
+    result.status = Status::ok;
+    return result;
+  }
+  const bool inside = inside_core || (on_core && pair.radius() > 8 * rounding) ||
+                      depth.lower > rounding ||
+                      (!goal.doubtful && depth.lower + pair.radius() > rounding);
+  const bool known = depth.end == ExpansionEnd::converged || depth.end == ExpansionEnd::flat;
+  result.answer = inside ? Answer::overlapping : Answer::unknown;
+  if (inside && known) result.status = Status::ok;
+  result.depth = pair.radius() + depth.upper;
+  result.normal = depth.normal;
+  result.a = depth.a + pair.radius_a() * depth.normal;
+  result.b = depth.b - pair.radius_b() * depth.normal;
+  return result;
+}
+
+}  // namespace
+
+template <class Scalar>
+Penetration<Scalar> find_penetration(SupportPair<Scalar>& pair,
+                                     ExpandingPolytope<Scalar>& polytope) {
+  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  const auto smooth = static_cast<Scalar>(sizeof(Scalar) == 8 ? 0.5e-10 : 0.5e-5);
+  const Scalar tolerance = std::max(pair.is_polytope() ? Scalar{0} : smooth, rounding);
+  const ApproachGoal<Scalar> goal{
+      .task = Task::penetration, .tolerance = tolerance, .most_iterations = most_iterations};
+  const Approach<Scalar> found = approach(pair, goal);
+  if (found.end == Approach<Scalar>::End::contact) {
+    return expand_from(pair, found, tolerance, polytope);
+  }
+  Penetration<Scalar> result;
+  if (found.lower - pair.radius() > rounding) {
+    result.answer = Answer::separated;
+    result.status = Status::ok;
+    return result;
+  }
+  if (found.upper - pair.radius() < -rounding) {
+    result.answer = Answer::overlapping;
+    if (!goal.is_open(pair, found.nearest.distance, found.lower)) result.status = Status::ok;
+  }
+  result.depth = pair.radius() - found.nearest.distance;
+  result.normal = -found.nearest.direction;
+  result.a = pair.radius_a() * result.normal;
+  result.b = -pair.radius_b() * result.normal;
+  for (int i = 0; i < found.simplex.size; ++i) {
+    result.a += found.simplex.weights[i] * found.simplex.points[i].a;
+    result.b += found.simplex.weights[i] * found.simplex.points[i].b;
+  }
+  return result;
+}
+
+template Penetration<float> find_penetration(SupportPair<float>&, ExpandingPolytope<float>&);
+template Penetration<double> find_penetration(SupportPair<double>&, ExpandingPolytope<double>&);
+
+}  // namespace touchstone

@@ -1,0 +1,248 @@
+// Certified: GJK in doubles where a bound on its rounding proves the answer, integers elsewhere.
+// Paper:   Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+//          predicates", Discrete & Computational Geometry 18, 1997 (a filter before exact
+//          arithmetic); Gilbert, Johnson, Keerthi, 1988, as in gjk.cpp.
+// Departs: the filter is for whole queries. Verdicts: balls that are apart; a support plane further
+//          than the radii, or points of the difference around the origin or nearer to it than the
+//          radii, by more than SupportPair::proven_rounding; else a direction or a simplex of GJK's
+//          careful loop, in long double (proven_gap.h). Distances and depths: the interval that
+//          these prove, if it is at most 4e-15 of the size or 2 units in the last place wide. What
+//          is left is the oracle's: always the depth of cores that share a point.
+//          Outcome::support_calls is -1 where the oracle answered, and counted where the filter
+//          did.
+// Fails:   unknown / not_converged where the oracle's enclosure of curved cores holds zero, and
+//          not_converged with bounds where that of a depth is wider than 1e-9 of the size. Never
+//          wrong. Tolerance and iteration cap are not heeded: they would only make it slower.
+// Cost:    GJK's at gaps that are not rounding; the oracle's 10 to 100 us, or some ms for distances
+//          of curved cores that GJK does not settle and all their depths.
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "algorithms/kernels/batch/shape_prefetch.h"
+#include "algorithms/kernels/gjk/gjk_distance.h"
+#include "algorithms/kernels/gjk/gjk_iteration.h"
+#include "algorithms/kernels/minkowski/support.h"
+#include "algorithms/narrow_phase.h"
+#include "algorithms/narrow_phase/certified/proven_gap.h"
+#include "algorithms/narrow_phase/certified/proven_height.h"
+#include "algorithms/oracle/answer.h"
+
+namespace touchstone {
+namespace {
+
+using Pair = SupportPair<double>;
+
+constexpr int most_iterations = 128;
+constexpr double widest = 4e-15;  // of the size: an interval that is good enough
+
+constexpr double least_digits = 1e-9;  // of the size: an enclosure that is wider is no number
+
+// A shape as each stage wants it.
+struct Prepared {
+  explicit Prepared(const Shape& s) : proven(s), solid(s) {}
+
+  ProvenShape proven;
+  oracle::Solid solid;
+
+  const SupportShape<double>& support() const { return proven.support; }
+  double size() const { return support().size + support().radius; }
+};
+
+struct PlacedBody {
+  const Prepared& shape;
+  const Pose& pose;
+};
+
+bool is_asked(Task task, Answer answer) {
+  return (task == Task::distance && answer == Answer::separated) ||
+         (task == Task::penetration && answer == Answer::overlapping);
+}
+
+// Writes the answer, and where the task asks for it the interval. False where the bounds leave the
+// answer open, or the interval too wide.
+bool write(const ProvenGap& gap, double size, Task task, Outcome& outcome) {
+  const Answer answer = gap.lower > 0   ? Answer::separated
+                        : gap.upper < 0 ? Answer::overlapping
+                                        : Answer::unknown;
+  if (answer == Answer::unknown) return false;
+  if (is_asked(task, answer)) {
+    // The nearer end: the other may be infinite.
+    const double magnitude = std::min(std::abs(gap.lower), std::abs(gap.upper));
+    const double enough =
+        std::max(widest * size, 2 * std::numeric_limits<double>::epsilon() * magnitude);
+    if (!(gap.upper - gap.lower <= enough)) return false;
+    outcome.lower = gap.lower;
+    outcome.upper = gap.upper;
+    outcome.distance = gap.lower + (gap.upper - gap.lower) / 2;
+  }
+  outcome.answer = answer;
+  outcome.status = Status::ok;
+  return true;
+}
+
+class Certified final : public NarrowPhase {
+ public:
+  void bind(std::span<const Shape> shapes) override {
+    shapes_.clear();
+    shapes_.reserve(shapes.size());
+    for (const Shape& shape : shapes) shapes_.emplace_back(shape);
+    ahead_.bind(shapes_, &Prepared::support);
+  }
+
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
+                 batch.task == Task::distance);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      ahead_.before(i);
+      const std::uint32_t first = batch.first[i], second = batch.second[i];
+      const PlacedBody a{shapes_[batch.shape_of[first]], batch.poses[first]};
+      const PlacedBody b{shapes_[batch.shape_of[second]], batch.poses[second]};
+      Outcome& outcome = outcomes[i];
+      outcome.iterations = outcome.support_calls = 0;
+      const bool decided = batch.kind_a == ShapeKind::halfspace ? false
+                           : batch.kind_b == ShapeKind::halfspace
+                               ? on_plane(a, b, batch.task, outcome)
+                               : filter(a, b, batch.task, outcome);
+      if (decided) continue;
+      outcome.support_calls = -1;
+      oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, batch.task,
+                     outcome);
+      // Of round cores deep in each other the enclosure may be wide: a bound, and not a depth.
+      const double size = std::max(a.shape.size(), b.shape.size());
+      const bool curved = a.shape.solid.is_curved() || b.shape.solid.is_curved();
+      if (batch.task == Task::penetration && curved &&
+          outcome.upper - outcome.lower > least_digits * size) {
+        outcome.status = Status::not_converged;
+      }
+    }
+  }
+
+ private:
+  bool filter(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome);
+  bool walk_decides(Pair& pair, Outcome& outcome) const;
+  bool approach_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b, Task task,
+                        Outcome& outcome);
+  bool on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome);
+
+  std::vector<Prepared> shapes_;
+  ShapePrefetch<double> ahead_;
+  GapProver gaps_;
+  HeightProver heights_;
+  oracle::Oracle oracle_;
+};
+
+bool say(Answer answer, Outcome& outcome) {
+  outcome.answer = answer;
+  outcome.status = Status::ok;
+  return true;
+}
+
+bool Certified::filter(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome) {
+  if (task != Task::distance &&
+      balls_are_apart(a.shape.support(), a.pose, b.shape.support(), b.pose)) {
+    return say(Answer::separated, outcome);
+  }
+  Pair pair(a.shape.support(), a.pose, b.shape.support(), b.pose);
+  const bool decided =
+      pair.is_in_range() && ((task == Task::intersect && walk_decides(pair, outcome)) ||
+                             approach_decides(pair, a, b, task, outcome));
+  outcome.support_calls = pair.support_calls();
+  return decided;
+}
+
+// A point of the difference is nearer to the origin than the radii, for sure.
+bool is_within_radius(const Pair& pair, const Simplex<double>& simplex) {
+  return pair.radius() > Pair::proven_rounding &&
+         off_core(simplex) + Pair::proven_rounding < pair.radius();
+}
+
+// The verdict of GJK's quick walk.
+bool Certified::walk_decides(Pair& pair, Outcome& outcome) const {
+  Walk<double> found = walk(pair, {.only_apart = true, .most_iterations = most_iterations}, 0.0);
+  outcome.iterations = found.iterations;
+  switch (found.end) {
+    case WalkEnd::apart:
+      return found.lower > pair.radius() + Pair::proven_rounding && say(Answer::separated, outcome);
+    case WalkEnd::inside: return say(Answer::overlapping, outcome);
+    default: break;
+  }
+  if (pair.radius() == 0 || found.simplex.size == 0) return false;
+  const NearestPoint<double> nearest = reduce_to_nearest(found.simplex);
+  return !nearest.inside && is_within_radius(pair, found.simplex) &&
+         say(Answer::overlapping, outcome);
+}
+
+// GJK's careful loop, and what its end proves.
+bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b, Task task,
+                                 Outcome& outcome) {
+  const ApproachGoal<double> goal{
+      .task = task == Task::penetration ? Task::penetration : Task::distance,
+      .tolerance = 4 * std::numeric_limits<double>::epsilon(),
+      .most_iterations = most_iterations};
+  const Approach<double> found = approach(pair, goal);
+  outcome.iterations += found.iterations;
+  const Simplex<double>& simplex = found.simplex;
+  if (found.nearest.inside) {
+    return task != Task::penetration && simplex.size == 4 && is_surely_inside(simplex) &&
+           say(Answer::overlapping, outcome);
+  }
+  if (task == Task::penetration && found.lower > pair.radius() + Pair::proven_rounding) {
+    return say(Answer::separated, outcome);
+  }
+  if (task != Task::penetration && is_within_radius(pair, simplex)) {
+    return say(Answer::overlapping, outcome);
+  }
+  const Vec3d normal = -found.nearest.direction;
+  const ProvenGap gap =
+      gaps_.between(a.shape.proven, a.pose, b.shape.proven, b.pose, pair, simplex, normal);
+  if (!write(gap, std::max(a.shape.size(), b.shape.size()), task, outcome)) return false;
+  if (is_asked(task, outcome.answer)) {
+    Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
+    for (int i = 0; i < simplex.size; ++i) {
+      on_a += simplex.weights[i] * simplex.points[i].a;
+      on_b += simplex.weights[i] * simplex.points[i].b;
+    }
+    outcome.normal = normal;
+    outcome.witness_a = pair.to_world(on_a + pair.radius_a() * normal);
+    outcome.witness_b = pair.to_world(on_b - pair.radius_b() * normal);
+  }
+  return true;
+}
+
+// Body b is a half-space.
+bool Certified::on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome) {
+  outcome.support_calls = 1;
+  if (task == Task::intersect &&
+      write(HeightProver::roughly(a.shape.proven, a.pose, b.shape.proven, b.pose), a.shape.size(),
+            task, outcome)) {
+    return true;
+  }
+  Vec3d outward;
+  const ProvenGap gap = heights_.closely(a.shape.proven, a.pose, b.shape.proven, b.pose, outward);
+  if (!write(gap, a.shape.size(), task, outcome)) return false;
+  if (is_asked(task, outcome.answer)) {
+    const SupportShape<double>& shape = a.shape.support();
+    const double unit = power_of_two_above(shape.reach(a.pose.rotation));
+    PosedShape<double> turned(shape, a.pose.rotation, unit);
+    outcome.normal = -outward;
+    outcome.witness_a =
+        a.pose(shape.centre) + unit * turned.support(-outward) - shape.radius * outward;
+    outcome.witness_b = outcome.witness_a + outcome.distance * outcome.normal;
+  }
+  return true;
+}
+
+}  // namespace
+}  // namespace touchstone
+
+TOUCHSTONE_NARROW_PHASE {
+  using namespace touchstone;
+  return {{.info = {.name = "certified",
+                    .citation = "Shewchuk, \"Adaptive precision floating-point arithmetic and fast "
+                                "robust geometric predicates\", Discrete & Computational Geometry "
+                                "18, 1997; Gilbert, Johnson, Keerthi, 1988"},
+           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .scalars = {Precision::float64},
+           .make = [](const NarrowPhaseSettings&) { return std::make_unique<Certified>(); }}};
+}

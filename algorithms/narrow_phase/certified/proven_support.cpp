@@ -1,0 +1,48 @@
+#include "algorithms/narrow_phase/certified/proven_support.h"
+
+namespace touchstone {
+
+ProvenShape::ProvenShape(const Shape& s) : shape(&s), support(s), reach(Vec3d::Zero()) {
+  switch (s.kind) {
+    case ShapeKind::capsule: reach.z() = s.half_length; break;
+    case ShapeKind::box: reach = s.half_extents; break;
+    case ShapeKind::cylinder:
+    case ShapeKind::cone: reach = {s.radius, s.radius, s.half_length}; break;
+    case ShapeKind::ellipsoid: reach = s.radii; break;
+    case ShapeKind::hull:
+      for (const Vec3d& v : s.hull->vertices) reach = reach.cwiseMax(v.cwiseAbs());
+      break;
+    case ShapeKind::sphere:
+    case ShapeKind::halfspace: break;
+  }
+}
+
+double round_down(Wide x) {
+  const auto rounded = static_cast<double>(x);
+  return rounded > x ? std::nextafter(rounded, -std::numeric_limits<double>::infinity()) : rounded;
+}
+double round_up(Wide x) { return -round_down(-x); }
+
+// The vertices that are furthest along g up to the rounding of doubles, and some that are not.
+void find_furthest(const std::vector<Vec3d>& vertices, const Vec3d& g, const Vec3d& reach,
+                   std::vector<double>& values, std::vector<std::uint32_t>& furthest) {
+  values.resize(vertices.size());
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec3d& v = vertices[i];
+    values[i] = g.x() * v.x() + g.y() * v.y() + g.z() * v.z();
+    most = std::max(most, values[i]);
+  }
+  // Each is off by four half units of epsilon of the terms (g's own rounding, products, sums), two
+  // are compared, and half as much is for the bound's own rounding. Then what vanishes.
+  const double doubt = 6 * std::numeric_limits<double>::epsilon() * g.cwiseAbs().dot(reach) +
+                       std::numeric_limits<double>::min() +
+                       std::numeric_limits<double>::denorm_min() * reach.sum();
+  furthest.clear();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    // So written that NaN counts.
+    if (!(values[i] < most - doubt)) furthest.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+}  // namespace touchstone

@@ -1,0 +1,235 @@
+// The loops of round_pair_lanes.h. Included by round_pair_lanes.cpp once for each level of vector
+// instructions, inside that level's namespace.
+#include "algorithms/kernels/batch/pair_lanes.inl"
+#include "algorithms/kernels/simd/lane_vectors.inl"
+
+// What the cores of two bodies are to each other; metres, world axes, as seen from the centre of
+// a. The distance, signed where a point is in a box, is between `lower` and `upper` up to `error`;
+// `gap` is what it is along the normal.
+template <class Scalar>
+struct Cores {
+  using Real = typename RealLanes<Scalar>::Real;
+  Real radius_a, radius_b;
+  Real gap, lower, upper, error;
+  Vectors<Scalar> normal;  // unit vector from a to b
+  Vectors<Scalar> on_a, on_b;
+  unsigned usable;  // lanes that may be answered at all
+};
+
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real sum_of_sizes(
+    const Vectors<Scalar>& v) {
+  using Lanes = RealLanes<Scalar>;
+  return Lanes::abs(v.x) + Lanes::abs(v.y) + Lanes::abs(v.z);
+}
+
+// number / square within -1 to 1, and zero where the square is nothing.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real parameter(
+    typename RealLanes<Scalar>::Real number, typename RealLanes<Scalar>::Real square) {
+  using Lanes = RealLanes<Scalar>;
+  const auto one = Lanes::broadcast(1), zero = Lanes::broadcast(0);
+  const auto some = Lanes::less(zero, square);
+  const auto ratio = Lanes::select(some, number / square, zero);
+  return Lanes::min(Lanes::max(ratio, -one), one);
+}
+
+// Removes from v what it has along a segment, in the lanes where its parameter is inside.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> part_across(
+    const Vectors<Scalar>& v, const Vectors<Scalar>& along, typename RealLanes<Scalar>::Real square,
+    typename RealLanes<Scalar>::Real at) {
+  using Lanes = RealLanes<Scalar>;
+  const auto zero = Lanes::broadcast(0);
+  const auto inside = Lanes::less(Lanes::abs(at), Lanes::broadcast(1));
+  const auto part = Lanes::select(Lanes::less(zero, square), dot<Scalar>(v, along) / square, zero);
+  return moved<Scalar>(v, -Lanes::select(inside, part, zero), along);
+}
+
+// Segments about their centres, of which those of spheres are points. Any points of them bound the
+// distance from above, and any direction from below; the closest points need not be proven, where
+// the two agree.
+template <class Scalar, bool long_a, bool long_b>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar>& table,
+                                                          std::size_t begin, Cores<Scalar>& cores) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  constexpr std::size_t width = Lanes::width;
+  alignas(64) Quad<Scalar> offsets[width], sizes[width], axes_a[width], axes_b[width];
+  Group<Scalar> group;
+  start_group<Scalar>(table, begin, group);
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    const std::uint32_t first = group.first[lane], second = group.second[lane];
+    const Pose &a = table.pairs.poses[first], &b = table.pairs.poses[second];
+    offsets[lane] = convert<Scalar>(pose_quad(b, 8) - pose_quad(a, 8));
+    sizes[lane] = __builtin_shufflevector(shape_quad<Scalar>(table, first),
+                                          shape_quad<Scalar>(table, second), 0, 1, 4, 5);
+    if constexpr (long_a) axes_a[lane] = convert<Scalar>(pose_quad(a, 5));
+    if constexpr (long_b) axes_b[lane] = convert<Scalar>(pose_quad(b, 5));
+  }
+  Real offset_columns[4], size_columns[4], columns[4];
+  columns_of<Scalar>(offsets, offset_columns);
+  columns_of<Scalar>(sizes, size_columns);
+  const Vectors<Scalar> offset{offset_columns[1], offset_columns[2], offset_columns[3]};
+  const Real zero = Lanes::broadcast(0);
+  Vectors<Scalar> half_a{zero, zero, zero}, half_b{zero, zero, zero};
+  if constexpr (long_a) {
+    columns_of<Scalar>(axes_a, columns);
+    half_a = moved<Scalar>(half_a, size_columns[1], {columns[1], columns[2], columns[3]});
+  }
+  if constexpr (long_b) {
+    columns_of<Scalar>(axes_b, columns);
+    half_b = moved<Scalar>(half_b, size_columns[3], {columns[1], columns[2], columns[3]});
+  }
+  cores.radius_a = size_columns[0];
+  cores.radius_b = size_columns[2];
+  const Real size = cores.radius_a + cores.radius_b + sum_of_sizes<Scalar>(half_a) +
+                    sum_of_sizes<Scalar>(half_b) + sum_of_sizes<Scalar>(offset);
+  cores.usable = sized_lanes<Scalar>(size);
+  cores.error = DistanceError<Scalar>::cores * size;
+
+  // Parameters of the closest points, -1 to 1.
+  const Real square_a = dot<Scalar>(half_a, half_a), square_b = dot<Scalar>(half_b, half_b);
+  Real s = zero, t = zero;
+  if constexpr (long_a && long_b) {
+    const Vectors<Scalar> across = cross<Scalar>(half_a, half_b);
+    s = parameter<Scalar>(dot<Scalar>(cross<Scalar>(offset, half_b), across),
+                          dot<Scalar>(across, across));
+  }
+  if constexpr (long_b) {
+    t = parameter<Scalar>(
+        dot<Scalar>(difference<Scalar>(moved<Scalar>({zero, zero, zero}, s, half_a), offset),
+                    half_b),
+        square_b);
+  }
+  if constexpr (long_a) {
+    s = parameter<Scalar>(dot<Scalar>(moved<Scalar>(offset, t, half_b), half_a), square_a);
+  }
+  if constexpr (long_a && long_b) {
+    t = parameter<Scalar>(
+        dot<Scalar>(difference<Scalar>(moved<Scalar>({zero, zero, zero}, s, half_a), offset),
+                    half_b),
+        square_b);
+  }
+  cores.on_a = moved<Scalar>({zero, zero, zero}, s, half_a);
+  cores.on_b = moved<Scalar>(offset, t, half_b);
+  const Vectors<Scalar> between = difference<Scalar>(cores.on_b, cores.on_a);
+  // What rounding has tilted it by, along segments that it must be across.
+  Vectors<Scalar> straight = between;
+  if constexpr (long_a) straight = part_across<Scalar>(straight, half_a, square_a, s);
+  if constexpr (long_b) straight = part_across<Scalar>(straight, half_b, square_b, t);
+  const Real scale = Lanes::broadcast(1) / Lanes::sqrt(dot<Scalar>(straight, straight));
+  cores.normal = {straight.x * scale, straight.y * scale, straight.z * scale};
+  cores.gap = dot<Scalar>(cores.normal, between);
+  cores.upper = Lanes::sqrt(dot<Scalar>(between, between));
+  cores.lower = dot<Scalar>(cores.normal, offset) - Lanes::abs(dot<Scalar>(cores.normal, half_a)) -
+                Lanes::abs(dot<Scalar>(cores.normal, half_b));
+}
+
+// A point, which is the centre of a, and a box.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& table,
+                                                     std::size_t begin, Cores<Scalar>& cores) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  constexpr std::size_t width = Lanes::width;
+  alignas(64) Quad<Scalar> quads[4][width];
+  Group<Scalar> group;
+  start_group<Scalar>(table, begin, group);
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    const std::uint32_t first = group.first[lane], second = group.second[lane];
+    const Pose &a = table.pairs.poses[first], &b = table.pairs.poses[second];
+    const Quad<double> end = pose_quad(b, 8), between = end - pose_quad(a, 8);
+    quads[0][lane] = convert<Scalar>(pose_quad(b, 0));
+    quads[1][lane] = convert<Scalar>(pose_quad(b, 4));
+    quads[2][lane] = convert<Scalar>(__builtin_shufflevector(end, between, 0, 5, 6, 7));
+    quads[3][lane] = __builtin_shufflevector(shape_quad<Scalar>(table, second),
+                                             shape_quad<Scalar>(table, first), 0, 1, 2, 4);
+  }
+  Real columns[4][4];
+  for (std::size_t k = 0; k < 4; ++k) columns_of<Scalar>(quads[k], columns[k]);
+  const Vectors<Scalar> edges[3] = {{columns[0][0], columns[0][1], columns[0][2]},
+                                    {columns[0][3], columns[1][0], columns[1][1]},
+                                    {columns[1][2], columns[1][3], columns[2][0]}};
+  const Vectors<Scalar> offset{columns[2][1], columns[2][2], columns[2][3]};
+  const Real half[3] = {columns[3][0], columns[3][1], columns[3][2]};
+  const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  cores.radius_a = columns[3][3];
+  cores.radius_b = zero;
+  const Real size = cores.radius_a + half[0] + half[1] + half[2] + sum_of_sizes<Scalar>(offset);
+  cores.error = DistanceError<Scalar>::box * size;
+  cores.usable = sized_lanes<Scalar>(size) & orthonormal_lanes<Scalar>(edges);
+
+  // The centre of a along the edges of the box, how far outside of it, and how deep inside.
+  Real outside[3], inward[3];
+  Real least = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
+  for (int k = 0; k < 3; ++k) {
+    const Real at = -dot<Scalar>(edges[k], offset);
+    const Real beyond = Lanes::abs(at) - half[k];
+    const Real sign = Lanes::select(Lanes::less(at, zero), -one, one);
+    outside[k] = sign * Lanes::max(beyond, zero);
+    // The way out through the nearest face; the first of those that are as near.
+    const auto nearer = Lanes::less(least, beyond);
+    least = Lanes::max(beyond, least);
+    for (int other = 0; other < k; ++other) {
+      inward[other] = Lanes::select(nearer, zero, inward[other]);
+    }
+    inward[k] = Lanes::select(nearer, sign, zero);
+  }
+  const Real distance =
+      Lanes::sqrt(outside[0] * outside[0] + outside[1] * outside[1] + outside[2] * outside[2]);
+  const auto is_outside = Lanes::less(zero, distance);
+  const Real scale = -one / Lanes::select(is_outside, distance, one);
+  Vectors<Scalar> normal{zero, zero, zero};
+  for (int k = 0; k < 3; ++k) {
+    const Real along = Lanes::select(is_outside, outside[k], inward[k]) * scale;
+    normal = moved<Scalar>(normal, along, edges[k]);
+  }
+  cores.normal = normal;
+  cores.gap = Lanes::select(is_outside, distance, least);
+  cores.lower = cores.gap;
+  cores.upper = cores.gap;
+  cores.on_a = {zero, zero, zero};
+  cores.on_b = moved<Scalar>({zero, zero, zero}, cores.gap, normal);
+}
+
+template <class Scalar, bool long_a, bool long_b, bool box>
+TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task task) {
+  using Lanes = RealLanes<Scalar>;
+  using Real = typename Lanes::Real;
+  std::size_t left = 0;
+  for (std::size_t begin = 0; begin < table.pairs.first.size(); begin += Lanes::width) {
+    Cores<Scalar> cores;
+    if constexpr (box) {
+      look_at_box<Scalar>(table, begin, cores);
+    } else {
+      look_at_segments<Scalar, long_a, long_b>(table, begin, cores);
+    }
+    const Real radii = cores.radius_a + cores.radius_b;
+    unsigned apart = cores.usable & Lanes::bits(Lanes::less(cores.error, cores.lower - radii));
+    unsigned overlapping =
+        cores.usable & Lanes::bits(Lanes::less(cores.upper - radii, -cores.error));
+    unsigned& asked = task == Task::distance ? apart : overlapping;
+    if (task != Task::intersect && asked != 0) {
+      // Where the bounds are no closer than this, the normal is not the shortest way.
+      asked &= Lanes::bits(Lanes::less(cores.upper - cores.lower, cores.error));
+      const Vectors<Scalar>& normal = cores.normal;
+      write_numbers<Scalar>(
+          table, begin, asked,
+          {cores.gap - radii, cores.lower - radii - cores.error, cores.upper - radii + cores.error,
+           normal, moved<Scalar>(cores.on_a, cores.radius_a, normal),
+           moved<Scalar>(cores.on_b, -cores.radius_b, normal)});
+    }
+    left = write_answers<Scalar>(table, begin, apart, overlapping, left);
+  }
+  return left;
+}
+
+template <class Scalar>
+TOUCHSTONE_TARGET std::size_t solve_round(const PairTable<Scalar>& table, ShapeKind kind_a,
+                                          ShapeKind kind_b, Task task) {
+  if (kind_b == ShapeKind::box) return solve_cores<Scalar, false, false, true>(table, task);
+  if (kind_a == ShapeKind::capsule) return solve_cores<Scalar, true, true, false>(table, task);
+  if (kind_b == ShapeKind::capsule) return solve_cores<Scalar, false, true, false>(table, task);
+  return solve_cores<Scalar, false, false, false>(table, task);
+}

@@ -1,0 +1,185 @@
+#include "algorithms/narrow_phase/gjk_lanes/lane_gjk.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "algorithms/kernels/batch/pair_lanes.h"
+#include "algorithms/kernels/batch/prefetch.h"
+#include "algorithms/kernels/epa/origin_projection.h"
+#include "algorithms/kernels/minkowski/simplex.h"
+#include "algorithms/kernels/minkowski/support.h"
+#include "algorithms/narrow_phase/gjk_lanes/bitset_hull.h"
+
+namespace touchstone {
+namespace {
+
+using real_lanes::Quad;
+
+// What the lanes of a batch have in common.
+template <class Scalar>
+struct LaneGoal {
+  const LaneShape<Scalar>* shapes;
+  const hull_scan::VertexBlock<Scalar>* some_vertices;  // of a hull, where there is one
+  int halves_a, halves_b;                               // of a box 3, of a segment 1, else none
+  std::uint32_t vertices_a, vertices_b;  // turned: the most of a hull, in fours; of others none
+  bool scans_a, scans_b;                 // hulls that are not turned
+  bool round;                            // a body has a radius
+  bool centred;                          // all centres are the origins of the bodies
+  bool distances;
+  DepthStarts<Scalar>* starts;  // where depths are asked for
+  Scalar corner_error;  // how far rounding moves a point of the difference, in the unit, at most
+  Scalar tolerance;
+  Scalar most_iterations;
+  std::int32_t most_expansions;  // those of the walk with them
+};
+
+// Pairs whose depths are looked for together.
+constexpr std::size_t most_starts = 128;
+
+// Shorter ways have lost their digits, or are about to. (Squares of lengths.)
+template <class Scalar>
+constexpr Scalar shortest_square = sizeof(Scalar) == 8 ? Scalar(1e-200) : Scalar(1e-24);
+
+// As in SupportPair, of which the lanes compute what it computes.
+template <class Scalar>
+constexpr Scalar lane_rounding = SupportPair<Scalar>::rounding;
+
+// How far a point of the difference is off at most: the table in SupportPair, for cores that are
+// not curved, gives 26 u for each component where the centres are the origins of the bodies, with
+// the three half edges of a box added one by one, and 31 u more where they are not.
+template <class Scalar>
+struct CornerError {
+  static constexpr Scalar centred = 48 * unit_roundoff<Scalar>;
+  static constexpr Scalar shifted = 104 * unit_roundoff<Scalar>;
+};
+
+#define TOUCHSTONE_LANES hull_scan
+#define TOUCHSTONE_LOOPS "algorithms/narrow_phase/gjk_lanes/lane_gjk.inl"
+#include "algorithms/kernels/simd/foreach_target.inl"
+
+// At the level in use; in doubles not at the lowest.
+template <class Scalar>
+std::size_t walk_here(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
+                      std::span<const std::uint32_t> queue, std::size_t left) {
+  if (queue.empty()) return left;
+  switch (isa()) {
+    case Isa::avx512: return avx512::walk_all(table, goal, queue, left);
+    case Isa::avx2: return avx2::walk_all(table, goal, queue, left);
+    case Isa::baseline: break;
+  }
+  if constexpr (std::is_same_v<Scalar, float>) {
+    return baseline::walk_all(table, goal, queue, left);
+  } else {
+    return left;
+  }
+}
+
+int halves_of(ShapeKind kind) {
+  return kind == ShapeKind::box ? 3 : kind == ShapeKind::capsule ? 1 : 0;
+}
+
+}  // namespace
+
+template <class Scalar>
+void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
+                            std::span<const SupportShape<Scalar>> support_shapes) {
+  centred_ = all_fit_ = true;
+  some_scan_ = false;
+  most_vertices_ = 0;
+  some_vertices_ = nullptr;
+  shapes_.assign(shapes.size(), {});
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const SupportShape<Scalar>& shape = support_shapes[i];
+    LaneShape<Scalar>& lane = shapes_[i];
+    const double numbers[3] = {shape.unit, shape.radius, shape.size + shape.radius};
+    std::ranges::copy(numbers, lane.numbers);
+    for (int k = 0; k < 3; ++k) lane.extents[k] = shape.extents[k];
+    for (int k = 0; k < 3; ++k) lane.centre[k] = shape.centre[k];
+    lane.fits = takes(shapes[i].kind);
+    if (shapes[i].kind == ShapeKind::hull) {
+      lane.vertices = shape.vertices.data();
+      lane.block_count = static_cast<std::uint32_t>(shape.vertices.size());
+      // Far from its origin, its centre must be turned with care; cells are not for lanes.
+      lane.fits = shape.is_near_origin && shape.cells.empty();
+      lane.scans = lane.fits && shapes[i].hull->vertices.size() > most_turned_vertices;
+    }
+    all_fit_ = all_fit_ && lane.fits;
+    if (!lane.fits) continue;
+    centred_ = centred_ && shape.is_centred;
+    some_scan_ = some_scan_ || lane.scans;
+    if (lane.vertices == nullptr) continue;
+    some_vertices_ = lane.vertices;
+    if (lane.scans) continue;
+    const std::size_t count = shapes[i].hull->vertices.size();
+    most_vertices_ = std::max(most_vertices_, static_cast<std::uint32_t>(count));
+  }
+}
+
+template <class Scalar>
+std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
+                                    const Goal& asked, std::span<Outcome> outcomes,
+                                    std::uint32_t* left) {
+  const bool hull_a = kind_a == ShapeKind::hull, hull_b = kind_b == ShapeKind::hull;
+  // In fours, as vertices are turned; a block has copies of the first behind the last.
+  const std::uint32_t vertices = (most_vertices_ + 3) / 4 * 4;
+  const LaneGoal<Scalar> turned{
+      .shapes = shapes_.data(),
+      .some_vertices = some_vertices_,
+      .halves_a = halves_of(kind_a),
+      .halves_b = halves_of(kind_b),
+      .vertices_a = hull_a ? vertices : 0,
+      .vertices_b = hull_b ? vertices : 0,
+      .scans_a = false,
+      .scans_b = false,
+      .round = kind_a <= ShapeKind::capsule,
+      .centred = centred_,
+      .distances = asked.task == Task::distance,
+      .starts = asked.task == Task::penetration ? &starts_ : nullptr,
+      .corner_error = centred_ ? CornerError<Scalar>::centred : CornerError<Scalar>::shifted,
+      .tolerance = asked.tolerance,
+      .most_iterations = static_cast<Scalar>(asked.most_iterations),
+      .most_expansions = asked.most_expansions};
+  LaneGoal<Scalar> scanned = turned;
+  scanned.vertices_a = scanned.vertices_b = 0;
+  scanned.scans_a = hull_a;
+  scanned.scans_b = hull_b;
+  if (turned.starts != nullptr) starts_.all.resize(most_starts);
+  while (places_.size() < pairs.first.size()) {
+    places_.push_back(static_cast<std::uint32_t>(places_.size()));
+  }
+  const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
+  // Without wider vectors, lanes of doubles are slower than one pair at a time.
+  constexpr bool wants_avx2 = std::is_same_v<Scalar, double>;
+  if (wants_avx2 && isa() == Isa::baseline) {
+    std::ranges::copy(places, left);
+    return places.size();
+  }
+  const PairTable<Scalar> table{pairs, nullptr, outcomes.data(), left};
+  if (all_fit_ && !some_scan_) return walk_here(table, turned, places, 0);
+  turned_.clear();
+  scanned_.clear();
+  std::size_t left_count = 0;
+  for (const std::uint32_t i : places) {
+    const LaneShape<Scalar>& a = shapes_[pairs.shape_of[pairs.first[i]]];
+    const LaneShape<Scalar>& b = shapes_[pairs.shape_of[pairs.second[i]]];
+    if (!a.fits || !b.fits) {
+      left[left_count++] = i;
+    } else {
+      (a.scans || b.scans ? scanned_ : turned_).push_back(i);
+    }
+  }
+  left_count = walk_here<Scalar>(table, turned, turned_, left_count);
+  return walk_here<Scalar>(table, scanned, scanned_, left_count);
+}
+
+template class GjkLanes<float>;
+template class GjkLanes<double>;
+
+}  // namespace touchstone

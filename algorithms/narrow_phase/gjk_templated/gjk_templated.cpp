@@ -1,0 +1,107 @@
+// GJK compiled once for each two kinds of shapes: the same walk as gjk's, whose support calls do
+// not ask at run time what they are for.
+// Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988.
+// Departs: as gjk, from whose walk and loop it is compiled, with the cores as template parameters:
+//          its outcomes have the bits of gjk's. The batch's two kinds are looked up once, and name
+//          the loop. Templates end there: what is done once for a query, and the expansion behind
+//          it (EPA), whose support calls switch, are gjk's own code; how a hull is searched depends
+//          on the hull. Half-spaces are not walked between. It always starts cold.
+// Answers: touching is never said; as gjk.
+// Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
+//          part of the pair's size; depth of smooth bodies far inside each other by EPA's cap.
+// Cost:    as gjk, without the switch; 28 copies of the walk for each scalar and each level of
+//          vector instructions, in the program and in the time to compile it.
+#include <algorithm>
+
+#include "algorithms/kernels/batch/shape_prefetch.h"
+#include "algorithms/kernels/gjk/gjk_query.h"
+#include "algorithms/kernels/minkowski/halfspace.h"
+#include "algorithms/narrow_phase.h"
+#include "algorithms/narrow_phase/gjk_templated/specialised_gjk.h"
+
+namespace touchstone {
+namespace {
+
+std::size_t core_of(ShapeKind kind) {
+  SupportCore core = SupportCore::halfspace;
+  switch (kind) {
+    case ShapeKind::sphere: core = SupportCore::point; break;
+    case ShapeKind::capsule: core = SupportCore::segment; break;
+    case ShapeKind::box: core = SupportCore::box; break;
+    case ShapeKind::cylinder: core = SupportCore::cylinder; break;
+    case ShapeKind::cone: core = SupportCore::cone; break;
+    case ShapeKind::ellipsoid: core = SupportCore::ellipsoid; break;
+    case ShapeKind::hull: core = SupportCore::hull; break;
+    case ShapeKind::halfspace: break;
+  }
+  return static_cast<std::size_t>(core);
+}
+
+template <class Scalar>
+class GjkTemplated final : public NarrowPhase {
+ public:
+  explicit GjkTemplated(const GjkQuerySettings& settings) : query_(settings) {}
+
+  void bind(std::span<const Shape> shapes) override {
+    shapes_ = make_support_shapes<Scalar>(shapes);
+    ahead_.bind(shapes_);
+  }
+
+  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+    if (batch.kind_b == ShapeKind::halfspace) {
+      solve_with_halfspaces(batch, outcomes);
+      return;
+    }
+    query_.walk_by(walks_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
+    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
+                 batch.task == Task::distance);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      ahead_.before(i);
+      const std::uint32_t a = batch.first[i], b = batch.second[i];
+      query_.solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]],
+                   batch.poses[b], batch.task, nullptr, outcomes[i]);
+    }
+  }
+
+ private:
+  // Half-spaces come last, so b is one.
+  void solve_with_halfspaces(const PairBatch& batch, std::span<Outcome> outcomes) const {
+    const auto solve =
+        batch.kind_a == ShapeKind::halfspace ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::uint32_t a = batch.first[i], b = batch.second[i];
+      solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]], batch.poses[b],
+            batch.task, outcomes[i]);
+    }
+  }
+
+  const CoreTable<Scalar> walks_ = walks_of_known_cores<Scalar>();
+  GjkQuery<Scalar> query_;
+  std::vector<SupportShape<Scalar>> shapes_;
+  ShapePrefetch<Scalar> ahead_;
+};
+
+std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
+  GjkQuerySettings own{.tolerance = settings.tolerance, .duality_gap = settings.duality_gap};
+  own.gjk_cap = std::max(1, settings.max_iterations.value_or(own.gjk_cap));
+  own.epa_cap = std::max(1, settings.max_iterations.value_or(own.epa_cap));
+  if (settings.scalar == Precision::float32) return std::make_unique<GjkTemplated<float>>(own);
+  return std::make_unique<GjkTemplated<double>>(own);
+}
+
+}  // namespace
+}  // namespace touchstone
+
+TOUCHSTONE_NARROW_PHASE {
+  using namespace touchstone;
+  return {{.info = {.name = "gjk-templated",
+                    .citation = "Gilbert, Johnson, Keerthi, \"A fast procedure for computing the "
+                                "distance between complex objects in three-dimensional space\", "
+                                "IEEE J. Robotics and Automation 4(2), 1988; van den Bergen, "
+                                "\"Proximity queries and penetration depth computation on 3D game "
+                                "objects\", GDC 2001"},
+           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .scalars = {Precision::float32, Precision::float64},
+           .stops_by_duality_gap = true,
+           .make = make}};
+}

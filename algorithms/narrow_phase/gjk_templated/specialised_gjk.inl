@@ -1,0 +1,41 @@
+// Fills a part of the table of gjk_known_cores.h: included by the files that share the compiling.
+#include "algorithms/kernels/gjk/gjk_distance.inl"
+#include "algorithms/kernels/simd/target_attributes.h"
+#include "algorithms/narrow_phase/gjk_templated/specialised_gjk.h"
+
+// The loops are those of simplex_walk.cpp, which shows the sanitizers all levels of them: here one
+// does, in a quarter of the time.
+#if defined(__SANITIZE_ADDRESS__) && !defined(TOUCHSTONE_ONE_LEVEL)
+#define TOUCHSTONE_ONE_LEVEL
+#endif
+#include "algorithms/kernels/gjk/gjk_iteration_levels.inl"
+
+namespace touchstone {
+namespace {
+
+template <SupportCore a, SupportCore b>
+struct KnownCores {
+  static constexpr bool start_warm = false;
+
+  template <class Scalar>
+  static DifferencePoint<Scalar> support(SupportPair<Scalar>& pair, const Vec3<Scalar>& direction) {
+    return pair.template support<KnownCore<a>, KnownCore<b>>(direction);
+  }
+  template <class Scalar>
+  static Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
+                           const WalkStart<Scalar>& start) {
+    return walk_here<false, KnownCore<a>, KnownCore<b>>(pair, goal, tolerance, start);
+  }
+};
+
+// Core a with each of the others, none of which comes before it.
+template <SupportCore a, SupportCore... others, class Scalar>
+void add_pairs(CoreTable<Scalar>& table) {
+  const auto place = [](SupportCore core) { return static_cast<std::size_t>(core); };
+  ((table[place(a)][place(others)] = {&approach_by<KnownCores<a, others>, Scalar>,
+                                      &KnownCores<a, others>::template walk<Scalar>}),
+   ...);
+}
+
+}  // namespace
+}  // namespace touchstone

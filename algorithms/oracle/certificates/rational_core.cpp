@@ -1,0 +1,117 @@
+#include "algorithms/oracle/certificates/rational_core.h"
+
+#include <algorithm>
+
+namespace touchstone::oracle {
+
+RationalCore::RationalCore(const Body& body, mp_bitcnt_t root_bits)
+    : solid_(*body.solid), root_bits_(root_bits), translation_(rational_vector(body.translation)) {
+  if (body.quaternion) {
+    const auto& q = *body.quaternion;
+    const mpq_class w = rational(q[0]);
+    const RationalVector v = {rational(q[1]), rational(q[2]), rational(q[3])};
+    const mpq_class square = w * w + dot(v, v);
+    require(square != 0, "a quaternion is zero");
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      rows_[i][i] = (w * w + v[i] * v[i] - v[j] * v[j] - v[k] * v[k]) / square;
+      rows_[i][j] = 2 * (v[i] * v[j] - w * v[k]) / square;
+      rows_[i][k] = 2 * (v[i] * v[k] + w * v[j]) / square;
+    }
+  } else {
+    for (int i = 0; i < 3; ++i) rows_[i] = rational_vector(Vec3d(body.matrix.row(i)));
+  }
+  if (is_halfspace()) place_plane();
+  extents_ = rational_vector(solid_.extents);
+  for (const mpq_class& extent : extents_) require(extent >= 0, "an extent is negative");
+  require(solid_.core != Solid::Core::polytope || !solid_.vertices.empty(),
+          "a polytope has no vertices");
+}
+
+std::optional<mpq_class> RationalCore::support(const RationalVector& n) const {
+  if (is_halfspace()) {
+    const mpq_class along = dot(n, normal_);
+    if (!is_zero(cross(n, normal_)) || along <= 0) return {};
+    return along / dot(normal_, normal_) * height_;
+  }
+  const RationalVector u = n[0] * rows_[0] + n[1] * rows_[1] + n[2] * rows_[2];
+  return support_in_body(u) + dot(n, translation_);
+}
+
+std::vector<RationalVector> RationalCore::points(const std::vector<Generator>& generators) const {
+  if (is_halfspace()) {
+    require(generators.empty(), "a half-space has no generators");
+    require(!is_zero(normal_), "the matrix of a half-space is singular");
+    return {height_ / dot(normal_, normal_) * normal_};
+  }
+  std::vector<RationalVector> all;
+  for (const Generator& generator : generators) {
+    const RationalVector x = point_in_body(generator);
+    all.push_back(RationalVector{dot(rows_[0], x), dot(rows_[1], x), dot(rows_[2], x)} +
+                  translation_);
+  }
+  return all;
+}
+
+void RationalCore::place_plane() {
+  const RationalVector n = rational_vector(solid_.normal);
+  require(!is_zero(n), "the normal of a half-space is zero");
+  const std::array<RationalVector, 3> cofactors = {
+      cross(rows_[1], rows_[2]), cross(rows_[2], rows_[0]), cross(rows_[0], rows_[1])};
+  const mpq_class determinant = dot(rows_[0], cofactors[0]);
+  for (int i = 0; i < 3; ++i) normal_[i] = sgn(determinant) * dot(cofactors[i], n);
+  height_ = abs(determinant) * rational(solid_.offset) + dot(normal_, translation_);
+}
+
+mpq_class RationalCore::support_in_body(const RationalVector& u) const {
+  const mpq_class end = extents_[2] * u[2];
+  const auto rim = [&]() -> mpq_class {
+    return extents_[0] * root_above(u[0] * u[0] + u[1] * u[1], root_bits_);
+  };
+  switch (solid_.core) {
+    case Solid::Core::cylinder: return abs(end) + rim();
+    case Solid::Core::cone: return std::max<mpq_class>(end, rim() - end);
+    case Solid::Core::ellipsoid: {
+      const RationalVector scaled = {extents_[0] * u[0], extents_[1] * u[1], end};
+      return root_above(dot(scaled, scaled), root_bits_);
+    }
+    default: break;
+  }
+  mpq_class greatest = dot(u, rational_vector(solid_.vertices[0]));
+  for (const Vec3d& vertex : solid_.vertices) {
+    greatest = std::max<mpq_class>(greatest, dot(u, rational_vector(vertex)));
+  }
+  return greatest;
+}
+
+RationalVector RationalCore::point_in_body(const Generator& generator) const {
+  if (solid_.core == Solid::Core::polytope) {
+    require(generator.vertex >= 0 &&
+                static_cast<std::size_t>(generator.vertex) < solid_.vertices.size(),
+            "a generator names no vertex of its polytope");
+    return rational_vector(solid_.vertices[static_cast<std::size_t>(generator.vertex)]);
+  }
+  require(generator.vertex < 0, "a generator names a vertex of a body that has none");
+  RationalVector x = rational_vector(generator.point);
+  require(holds(x), "a generator lies outside its body");
+  return x;
+}
+
+// Whether a round core holds the point.
+bool RationalCore::holds(const RationalVector& x) const {
+  const auto& [r, s, h] = extents_;
+  if (solid_.core == Solid::Core::ellipsoid) {
+    mpq_class sum;
+    for (int i = 0; i < 3; ++i) {
+      if (extents_[i] == 0 && x[i] != 0) return false;
+      if (extents_[i] != 0) sum += x[i] * x[i] / (extents_[i] * extents_[i]);
+    }
+    return sum <= 1;
+  }
+  const mpq_class off_axis = x[0] * x[0] + x[1] * x[1];
+  if (abs(x[2]) > h || off_axis > r * r) return false;
+  const mpq_class below_tip = r * (h - x[2]);
+  return solid_.core == Solid::Core::cylinder || 4 * h * h * off_axis <= below_tip * below_tip;
+}
+
+}  // namespace touchstone::oracle

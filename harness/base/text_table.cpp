@@ -1,0 +1,58 @@
+#include "harness/base/text_table.h"
+
+#include <fmt/core.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace touchstone {
+namespace {
+
+// Characters of UTF-8, as fmt counts them when it fills a field.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & '\xc0') != '\x80'; }));
+}
+
+}  // namespace
+
+std::string TextTable::text(std::size_t page_width) const {
+  const std::size_t columns = rows_.front().size();
+  std::vector<std::size_t> width(columns, 0);
+  for (const auto& row : rows_) {
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], characters(row[i]));
+  }
+  constexpr std::size_t gap = 2;
+  std::string text;
+  for (std::size_t begin = 1; begin < columns;) {
+    std::size_t end = begin;
+    std::size_t used = width[0];
+    while (end < columns && (end == begin || used + gap + width[end] <= page_width)) {
+      used += gap + width[end++];
+    }
+    if (begin > 1) text += '\n';
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      std::string line = fmt::format("{:<{}}", rows_[r][0], width[0]);
+      for (std::size_t i = begin; i < end; ++i) {
+        line += fmt::format("{:>{}}", i < rows_[r].size() ? rows_[r][i] : "", width[i] + gap);
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      text += line + '\n';
+      if (r == 0) text += std::string(used, '-') + '\n';
+    }
+    begin = end;
+  }
+  return text;
+}
+
+std::size_t page_width() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 &&
+      size.ws_col >= 60) {
+    return size.ws_col;
+  }
+  return 120;
+}
+
+}  // namespace touchstone

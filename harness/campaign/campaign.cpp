@@ -1,0 +1,116 @@
+#include "harness/campaign/campaign.h"
+
+#include "harness/base/hash.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/record/raw_row.h"
+
+namespace touchstone {
+namespace {
+
+// "hulls_8" is the name of "hulls_8 gap 0.1" too.
+bool is_called(std::string_view scene, std::string_view name) {
+  if (!scene.starts_with(name)) return false;
+  const std::string_view rest = scene.substr(name.size());
+  return rest.empty() || rest.starts_with(" gap ") || rest.starts_with(" depth ");
+}
+
+bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
+  const bool narrow = !cell.narrow.empty();
+  const auto names = [](const auto& wanted, const auto& value) {
+    return !wanted || *wanted == value;
+  };
+  return (!rule.broad || (!narrow && *rule.broad == cell.broad)) &&
+         names(rule.narrow, cell.narrow) && (!rule.scene || is_called(cell.scene, *rule.scene)) &&
+         (!rule.scalar || rule.scalar == cell.scalar) && (!rule.task || rule.task == cell.task) &&
+         names(rule.pair_kind, cell.pair_kind) && names(rule.boxes, cell.boxes) &&
+         names(rule.threads, cell.threads) && (!rule.warm || rule.warm == cell.warm) &&
+         (!rule.counts_above || cell.bodies > *rule.counts_above) &&
+         (!rule.counts_below || cell.bodies < *rule.counts_below);
+}
+
+std::string describe(const CampaignRule& rule) {
+  std::string text = "{";
+  const auto add = [&](const char* name, const auto& value) {
+    if (value) text += fmt::format(" {}={}", name, *value);
+  };
+  const auto named = [&](const char* name, const auto& value) {
+    if (value) text += fmt::format(" {}={}", name, to_string(*value));
+  };
+  add("broad", rule.broad);
+  add("narrow", rule.narrow);
+  add("scene", rule.scene);
+  named("scalar", rule.scalar);
+  named("task", rule.task);
+  add("pair_kind", rule.pair_kind);
+  named("boxes", rule.boxes);
+  add("threads", rule.threads);
+  add("warm", rule.warm);
+  add("counts_above", rule.counts_above);
+  add("counts_below", rule.counts_below);
+  return text + " }";
+}
+
+}  // namespace
+
+bool CampaignGroup::admits(const CampaignCell& cell) const {
+  const auto about = [&](const CampaignRule& rule) { return is_about(rule, cell); };
+  return (include.empty() || std::ranges::any_of(include, about)) &&
+         std::ranges::none_of(exclude, about);
+}
+
+std::string description(const Campaign& campaign) {
+  std::string text = fmt::format("{} seed {}\n", campaign.name, campaign.seed);
+  for (const CampaignGroup& group : campaign.groups) {
+    text += "group";
+    for (const auto& scene : group.scenes) text += " " + scene.filename().string();
+    text += fmt::format(" counts {} seeds {} frames {} threads {} rebuild {} pairing {}",
+                        fmt::join(group.counts, ","), fmt::join(group.seeds, ","), group.frames,
+                        fmt::join(group.threads, ","), group.rebuild,
+                        group.pairing == Pairing::product ? "product" : "separate");
+    for (const auto& gap : group.gaps) {
+      if (gap) text += fmt::format(" gap {}", *gap);
+    }
+    for (const BoxKind boxes : group.boxes) text += fmt::format(" boxes {}", to_string(boxes));
+    for (const auto& limit : group.isa) {
+      if (limit) text += fmt::format(" isa {}", to_string(*limit));
+    }
+    for (const auto* entry : group.broad) text += " broad " + entry->info.name;
+    for (const NarrowChoice& choice : group.narrow) {
+      text += fmt::format(" narrow {} {} {} {} {}", choice.entry->info.name,
+                          to_string(choice.settings.scalar), choice.settings.tolerance.value_or(0),
+                          choice.settings.duality_gap.value_or(0),
+                          choice.settings.max_iterations.value_or(0));
+      if (choice.warm) text += " warm";
+    }
+    for (const Task task : group.tasks) text += fmt::format(" task {}", to_string(task));
+    for (const CampaignRule& rule : group.include) text += " include " + describe(rule);
+    for (const CampaignRule& rule : group.exclude) text += " exclude " + describe(rule);
+    text += fmt::format(" time_limit {} memory_limit {} width {} seconds {} squares {}",
+                        group.time_limit, group.memory_limit, group.width, group.seconds,
+                        group.squares.value_or(0));
+    if (group.limit) text += " limit";
+    if (group.rounds) text += fmt::format(" rounds {}", *group.rounds);
+    if (group.processes != 3) text += fmt::format(" processes {}", group.processes);
+    text += "\n";
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> campaign_facts(
+    const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes) {
+  std::uint64_t hash = 0;
+  for (const char c : description(campaign)) hash = mix(hash ^ static_cast<unsigned char>(c));
+  std::vector<std::pair<std::string, std::string>> facts = {{"campaign", campaign.name},
+                                                            {"seed", std::to_string(campaign.seed)},
+                                                            {"campaign_hash", to_hex(hash)}};
+  facts.emplace_back("program", hash_of_program());
+  for (const auto& [name, value] : scene_hashes) facts.emplace_back("scene " + name, value);
+  for (auto& fact : machine_facts()) facts.push_back(std::move(fact));
+  return facts;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,106 @@
+// A campaign: which algorithms run on which scenes, with which settings.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithms/core/isa.h"
+#include "algorithms/registry.h"
+#include "harness/measure/narrow_choice.h"
+#include "harness/scene/scene.h"
+#include "harness/stats/published.h"
+
+namespace touchstone {
+
+// How broad and narrow phases are put together.
+enum class Pairing : std::uint8_t {
+  separate,  // each narrow phase once a frame, on the true pairs
+  product,   // each narrow phase on the pairs of each broad phase, as that one reports them
+};
+
+// Which cells a rule is about: those of which all that it names holds.
+struct CampaignRule {
+  std::optional<std::string> broad, narrow;  // a rule that names one is about no cell of the other
+  std::optional<std::string> scene;          // its name, which may leave out the gap
+  std::optional<Precision> scalar;
+  std::optional<Task> task;
+  std::optional<std::string> pair_kind;  // "box-sphere"
+  std::optional<BoxKind> boxes;
+  std::optional<int> threads;
+  std::optional<bool> warm;
+  std::optional<std::int64_t> counts_above, counts_below;  // bodies
+};
+
+// One algorithm in one set of a block. Of a broad phase, the fields from `narrow` on are empty; of
+// a narrow phase, `broad` is the one that found the pairs, or empty.
+struct CampaignCell {
+  std::string scene;
+  std::int64_t bodies = 0;
+  BoxKind boxes = BoxKind::tight;
+  int threads = 1;
+  std::string broad, narrow;
+  std::optional<Precision> scalar;
+  std::optional<Task> task;
+  std::string pair_kind;
+  std::optional<bool> warm = {};
+};
+
+// A grid: every scene x count x seed x gap x boxes x threads x isa is a block, in which every
+// algorithm of the group meets the same frames.
+struct CampaignGroup {
+  std::vector<std::filesystem::path> scenes;
+  std::vector<std::int64_t> counts = {-1};  // -1: as the scene says
+  std::vector<std::int64_t> seeds = {-1};
+  std::vector<std::optional<double>> gaps = {std::nullopt};  // metres; none: as the scene says
+  int frames = -1;
+  std::vector<BoxKind> boxes = {BoxKind::tight};
+  std::vector<int> threads = {2};
+  // The most vector instructions that our kernels may use; none: what the run may use.
+  std::vector<std::optional<Isa>> isa = {std::nullopt};
+  bool rebuild = false;  // every frame is built anew instead of updated
+  std::vector<const BroadPhaseEntry*> broad;
+  bool limit = false;  // what no broad phase can do without is measured beside them
+  std::vector<NarrowChoice> narrow;
+  std::vector<Task> tasks = {Task::intersect};
+  Pairing pairing = Pairing::separate;
+  std::vector<CampaignRule> include, exclude;
+  // Seconds, for one frame of one algorithm; then it is left out of the block.
+  double time_limit = 10;
+  std::size_t memory_limit = std::size_t{4} << 30;  // bytes that one algorithm may take
+  // Repetition ends where the half-width of every ratio's interval is at most `width`, or these
+  // seconds are spent, shared over the sets of a block; or after so many squares.
+  double width = 0.02;
+  double seconds = 10;
+  std::optional<int> squares;
+  std::optional<int> rounds;  // taken of each square; none: all
+  int processes = 3;          // that each contestant has until the intervals are looked at
+
+  bool admits(const CampaignCell& cell) const;
+};
+
+struct Campaign {
+  std::string name;
+  std::uint64_t seed = 1;  // of the order in which algorithms run
+  std::vector<CampaignGroup> groups;
+  Published published;
+};
+
+// Reads a campaign file: the keys are documented in datasets/README.md. Keys at the top level are
+// defaults of each [[group]]; scenes are relative to the file. Throws InputError with file, line
+// and what was expected.
+Campaign read_campaign(const std::filesystem::path& file);
+
+// What decides a campaign's measurements: its name, seed and content, each scene's hash, the
+// program's, and the facts.
+std::vector<std::pair<std::string, std::string>> campaign_facts(
+    const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes);
+
+// All that decides what is measured, as one text: the same for equal campaigns only.
+std::string description(const Campaign& campaign);
+
+}  // namespace touchstone

@@ -1,0 +1,236 @@
+#include "harness/campaign/check_pass/check_broad.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "harness/base/hash.h"
+#include "harness/grade/pair_check.h"
+#include "harness/measure/run_delay.h"
+#include "harness/measure/sampler.h"
+#include "harness/process/isolate.h"
+#include "harness/scene/box_frames.h"
+
+namespace touchstone {
+namespace {
+
+constexpr double setup_seconds = 60;
+// For a box or a pair, at most: the frame's pairs are sorted and compared, its work is counted.
+constexpr double seconds_to_verify = 5e-6;
+constexpr double longest_grace = 2;     // seconds, for what others take the processor for
+constexpr double longest_to_count = 3;  // seconds of all frames: allocations are counted below
+
+// What the child finds in one frame.
+struct ChildAnswer {
+  SampleReply reply;
+  PairFaults faults;
+  std::size_t pairs_at = 0;  // in the array of all pairs, where they are kept
+};
+
+std::span<const Aabb> boxes_before(const BlockInput& input, std::size_t frame) {
+  return frame == 0 ? std::span<const Aabb>()
+                    : std::span<const Aabb>(input.frames[frame - 1].boxes);
+}
+
+// A pass of its own, in a child of its own: the frames are played once to warm the algorithm up,
+// and counted the second time, when what it keeps from frame to frame is there. What fails here is
+// not counted; the check tells of failures.
+std::vector<BroadSampler::FrameAllocations> count_allocations(const BlockInput& input,
+                                                              const BroadPhaseEntry& entry,
+                                                              bool rebuild,
+                                                              const IsolationLimits& limits) {
+  const std::size_t count = input.frames.size();
+  SharedArray<BroadSampler::FrameAllocations> counts(count);
+  if (can_count_allocations()) {
+    isolate(2 * count, limits, [&]() -> ItemWork {
+      const auto executor = std::make_shared<Executor>(1);
+      const auto sampler = std::make_shared<BroadSampler>(entry, input, rebuild, *executor);
+      return [&, executor, sampler](std::size_t item) {
+        if (item < count) {
+          sampler->play(item);
+        } else {
+          counts[item - count] = sampler->count_allocations(item - count);
+        }
+      };
+    });
+  }
+  return {counts.span().begin(), counts.span().end()};
+}
+
+// A broad phase takes at least in proportion to the number of boxes: one that was over its limit
+// with fewer of the same scene will be over this one too. Says so; empty where it is to be tried.
+std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& entry) {
+  const RawRow here = context.row(0, entry, Phase::find_pairs);
+  for (const RawRow& row : context.findings->rows()) {
+    if (row.block < 0 || row.block >= context.number ||
+        std::cmp_greater_equal(row.block, context.blocks.size()) || row.kind != RowKind::check ||
+        row.process >= 0 || row.broad != here.broad || !row.narrow.empty() ||
+        row.status != to_string(Status::timed_out)) {
+      continue;
+    }
+    const Block& before = context.blocks[static_cast<std::size_t>(row.block)];
+    if (before.scene_file != context.block->scene_file || row.boxes != here.boxes ||
+        row.rebuild != here.rebuild || row.isa_limit != here.isa_limit ||
+        row.bodies > here.bodies) {
+      continue;
+    }
+    const double limit = before.group->time_limit;
+    const double growth = static_cast<double>(here.bodies) / static_cast<double>(row.bodies);
+    if (limit * growth < context.block->group->time_limit) continue;
+    return fmt::format("not tried: over the limit of {:g} s with {} bodies", limit, row.bodies);
+  }
+  return "";
+}
+
+std::string write_frames(const RunContext& context, const BlockInput& input,
+                         const std::string& name, std::size_t frame) {
+  if (context.reproductions.empty()) return "";
+  const std::filesystem::path file =
+      context.reproductions /
+      fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name, context.scene->size(), frame);
+  // The frame before comes too: an update may be what went wrong.
+  std::vector<std::vector<Aabb>> frames;
+  if (frame > 0) frames.push_back(input.frames[frame - 1].boxes);
+  frames.push_back(input.frames[frame].boxes);
+  std::filesystem::create_directories(context.reproductions);
+  write_box_frames(frames, file);
+  return file.string();
+}
+
+}  // namespace
+
+CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
+                         const BroadPhaseEntry& entry, bool with_pairs) {
+  const CampaignGroup& group = *context.block->group;
+  const std::size_t count = input.frames.size();
+  CheckedBroad result;
+  result.whole = result.right = true;
+  const auto leave = [&](std::size_t frame, Status status, const std::string& why,
+                         const std::string& words) {
+    RawRow row = context.row(frame, entry, Phase::find_pairs);
+    row.status = to_string(status);
+    row.words = one_line(words);
+    context.findings->add(std::move(row));
+    Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
+    departure.known = departure.known || status == Status::timed_out;
+    departure.what = why + "; left out from here on";
+    context.findings->add(std::move(departure));
+    result.whole = result.right = false;
+  };
+  if (const std::string why = already_too_slow(context, entry); !why.empty()) {
+    leave(0, Status::timed_out, why, why);
+    return result;
+  }
+  std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
+  for (const BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
+  SharedArray<ChildAnswer> answers(count);
+  SharedArray<IndexPair> kept(with_pairs ? room : 0);
+  SharedArray<std::size_t> too_slow(1);  // 0: no frame was, else the frame's number and one
+  std::size_t greatest = 0;              // boxes and pairs of a frame
+  for (const BlockFrame& frame : input.frames) {
+    greatest = std::max(greatest, frame.boxes.size() + frame.truth.size());
+  }
+  const double patience = group.time_limit + std::min(3 * group.time_limit, longest_grace) +
+                          seconds_to_verify * static_cast<double>(greatest);
+  const IsolationLimits limits = {.item_seconds = patience,
+                                  .setup_seconds = setup_seconds,
+                                  .failures = 1,
+                                  .memory = group.memory_limit};
+  const IsolationReport report = isolate(count, limits, [&]() -> ItemWork {
+    const auto executor = std::make_shared<Executor>(1);
+    const auto sampler = std::make_shared<BroadSampler>(entry, input, group.rebuild, *executor);
+
+    return [&, executor, sampler](std::size_t frame) {
+      if (too_slow[0] > 0) return;
+      ChildAnswer& answer = answers[frame];
+      const double waited_before = run_delay().value_or(0);
+      answer.reply = sampler->play(frame);
+      const double waited = run_delay().value_or(0) - waited_before;
+      std::vector<IndexPair> pairs = sampler->sink().gather();
+      if (with_pairs) {
+        answer.pairs_at = frame == 0 ? 0
+                                     : answers[frame - 1].pairs_at +
+                                           static_cast<std::size_t>(answers[frame - 1].reply.pairs);
+        if (answer.pairs_at + pairs.size() > kept.size()) {
+          throw std::runtime_error("more than four times as many pairs as there are");
+        }
+        std::ranges::copy(pairs,
+                          kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
+      }
+      answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
+      // What others took the processor for is not held against it.
+      if (answer.reply.prepare + answer.reply.query - waited > group.time_limit) {
+        too_slow[0] = frame + 1;
+      }
+    };
+  });
+
+  const bool to_the_end = report.failures.empty() && too_slow[0] == 0;
+  double seconds = 0;
+  for (const ChildAnswer& answer : answers.span()) {
+    seconds += answer.reply.prepare + answer.reply.query;
+  }
+  std::vector<BroadSampler::FrameAllocations> allocations(count);
+  if (to_the_end && seconds < longest_to_count) {
+    allocations = count_allocations(input, entry, group.rebuild, limits);
+  }
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    if (report.states[frame] != ItemState::done) {
+      const IsolationFailure& failure = report.failures.front();
+      const bool late = failure.state == ItemState::timed_out;
+      leave(frame, late ? Status::timed_out : Status::crashed,
+            late ? fmt::format("no answer to a frame within the limit of {:g} s, over the limit",
+                               group.time_limit)
+                 : failure.reason(),
+            failure.words);
+      break;
+    }
+    const ChildAnswer& answer = answers[frame];
+    const bool build = group.rebuild || frame == 0;
+    RawRow prepare = context.row(frame, entry, build ? Phase::build : Phase::update);
+    prepare.seconds = answer.reply.prepare;
+    prepare.allocations = allocations[frame].prepare.calls;
+    prepare.allocated_bytes = allocations[frame].prepare.bytes;
+    RawRow query = context.row(frame, entry, Phase::find_pairs);
+    query.seconds = answer.reply.query;
+    query.status = to_string(answer.reply.status);
+    query.pair_count = answer.reply.pairs;
+    query.pair_hash = to_hex(answer.reply.pair_hash);
+    query.take(answer.reply.work);
+    query.allocations = allocations[frame].query.calls;
+    query.allocated_bytes = allocations[frame].query.bytes;
+    if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = status_wrong;
+    context.findings->add(std::move(prepare));
+    if (answer.reply.convert >= 0) {
+      RawRow convert = context.row(frame, entry, Phase::convert);
+      convert.seconds = answer.reply.convert;
+      context.findings->add(std::move(convert));
+    }
+    context.findings->add(std::move(query));
+    if (!answer.faults.none()) {
+      result.right = false;
+      Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
+      departure.what = to_string(answer.faults);
+      if (departure.known) departure.what += "; known defect: " + entry.info.known_defect;
+      departure.reproduction = write_frames(context, input, entry.info.name, frame);
+      context.findings->add(std::move(departure));
+    }
+    if (with_pairs) {
+      const auto found =
+          kept.span().subspan(answer.pairs_at, static_cast<std::size_t>(answer.reply.pairs));
+      result.pairs.emplace_back(found.begin(), found.end());
+    }
+    if (too_slow[0] == frame + 1) {
+      leave(frame, Status::timed_out,
+            fmt::format("{:.1f} s for a frame, over the limit of {:g} s",
+                        answer.reply.prepare + answer.reply.query, group.time_limit),
+            "");
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,294 @@
+#include "harness/campaign/check_pass/check_narrow.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include "harness/base/error.h"
+#include "harness/files/cases.h"
+#include "harness/grade/guarded_solve.h"
+#include "harness/measure/outcome_hash.h"
+
+namespace touchstone {
+namespace {
+
+constexpr double setup_seconds = 60;
+constexpr std::size_t outcomes_at_once = 250'000;  // about 50 MB
+constexpr double longest_to_count = 10;  // seconds of a batch: allocations are counted below
+
+// What the child tells of one piece; the outcomes themselves are elsewhere.
+struct ChildAnswer {
+  double seconds = 0;
+  std::uint64_t outcome_hash = 0;
+  std::int64_t contacts = 0, iterations = -1, support_calls = -1;
+};
+
+Status status_of(const OutcomeFaults& faults, Origin origin) {
+  if (faults.failed > 0) return Status::not_converged;
+  return origin == Origin::ours ? Status::ok : Status::not_reported;
+}
+
+}  // namespace
+
+SampleRequest NarrowCheck::request(const Piece& piece) {
+  return {.set = static_cast<std::uint32_t>(piece.set),
+          .frame = static_cast<std::uint32_t>(piece.frame)};
+}
+
+NarrowCheck::NarrowCheck(const RunContext& context, const BlockInput& input,
+                         std::span<const NarrowSet> sets)
+    : context_(&context), input_(&input), sets_(sets) {}
+
+void NarrowCheck::run() {
+  Executor executor(1);
+  Reference oracle(input_->shapes, executor);
+  Batch batch;
+  const auto flush = [&] {
+    for (const NarrowChoice& choice : context_->block->group->narrow) run(batch, choice);
+    batch = {};
+  };
+  for (std::size_t frame = 0; frame < input_->frames.size(); ++frame) {
+    // The exact answer to a pair is the same for every task: one for all sets of these pairs.
+    std::map<std::tuple<std::string, ShapeKind, ShapeKind>, std::size_t> known;
+    for (std::size_t set = 0; set < sets_.size(); ++set) {
+      const PairGroup& pairs = sets_[set].frames[frame];
+      if (pairs.size() == 0) continue;
+      const auto [at, is_new] = known.try_emplace({sets_[set].broad, pairs.kind_a, pairs.kind_b},
+                                                  batch.references.size());
+      if (is_new) {
+        batch.references.push_back(
+            oracle.solve(pairs, input_->shape_of, input_->frames[frame].poses));
+      }
+      batch.pieces.push_back({set, frame, batch.outcomes, at->second});
+      batch.outcomes += pairs.size();
+    }
+    if (batch.outcomes >= outcomes_at_once) flush();
+  }
+  flush();
+}
+
+RawRow NarrowCheck::row(const Piece& piece, const NarrowChoice& choice) const {
+  const NarrowSet& set = sets_[piece.set];
+  RawRow result = context_->row(piece.frame, choice);
+  result.broad = set.broad;
+  result.task = to_string(set.task);
+  result.pair_kind = set.kind_name();
+  return result;
+}
+
+void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
+  std::vector<Piece> pieces;
+  for (const Piece& piece : batch.pieces) {
+    const NarrowSet& set = sets_[piece.set];
+    if (!offers(*choice.entry, set.task) || out_.contains({&choice, piece.set}) ||
+        !context_->admits(choice, set.broad, set.task, set.kind_name()))
+      continue;
+    if (offers(*choice.entry, set.kind_a, set.kind_b, set.task)) {
+      pieces.push_back(piece);
+      continue;
+    }
+    RawRow unsupported = row(piece, choice);
+    unsupported.pair_count = static_cast<std::int64_t>(group(piece).size());
+    unsupported.status = to_string(Status::unsupported);
+    context_->findings->add(std::move(unsupported));
+  }
+  if (pieces.empty()) return;
+
+  const CampaignGroup& settings = *context_->block->group;
+  SharedArray<Outcome> outcomes(batch.outcomes);
+  SharedArray<ChildAnswer> answers(pieces.size());
+  SharedArray<char> lost(sets_.size());  // 1 while the set is at work; it stays when that kills
+  const IsolationLimits limits = {.item_seconds = settings.time_limit,
+                                  .setup_seconds = setup_seconds,
+                                  .memory = settings.memory_limit};
+  const IsolationReport report = isolate(pieces.size(), limits, [&]() -> ItemWork {
+    const auto executor = std::make_shared<Executor>(1);
+    const auto sampler = std::make_shared<NarrowSampler>(choice, *input_, sets_, *executor);
+    return [&, executor, sampler](std::size_t item) {
+      const Piece& piece = pieces[item];
+      if (lost[piece.set] != 0) return;
+      lost[piece.set] = 1;
+      const SampleReply reply = sampler->sample(request(piece));
+      answers[item] = {reply.query, reply.outcome_hash, reply.contacts, reply.iterations,
+                       reply.support_calls};
+      std::ranges::copy(sampler->outcomes(),
+                        outcomes.span().begin() + static_cast<std::ptrdiff_t>(piece.first));
+      lost[piece.set] = 0;
+    };
+  });
+
+  double seconds = 0;
+  for (const ChildAnswer& answer : answers.span()) seconds += answer.seconds;
+  std::vector<Allocations> allocations(pieces.size());
+  if (report.failures.empty() && seconds < longest_to_count) {
+    allocations = count_allocations(pieces, choice, limits);
+  }
+  auto failure = report.failures.begin();
+  for (std::size_t item = 0; item < pieces.size(); ++item) {
+    const Piece& piece = pieces[item];
+    const Key key{&choice, piece.set};
+    if (out_.contains(key)) continue;
+    const auto& reference = batch.references[piece.reference];
+    if (report.states[item] != ItemState::done) {
+      // Of a child that could not even be set up, the one failure stands for all that is left.
+      while (failure + 1 < report.failures.end() && failure->item < item) ++failure;
+      out_.insert(key);
+      lose(piece, choice, reference,
+           report.states[item] == ItemState::timed_out ? Status::timed_out : Status::crashed,
+           failure->words);
+      continue;
+    }
+    const ChildAnswer& answer = answers[item];
+    RawRow result = row(piece, choice);
+    result.seconds = answer.seconds;
+    result.contact_count = answer.contacts;
+    result.outcome_hash = to_hex(answer.outcome_hash);
+    result.iterations = answer.iterations;
+    result.support_calls = answer.support_calls;
+    result.allocations = allocations[item].calls;
+    result.allocated_bytes = allocations[item].bytes;
+    take(piece, choice, outcomes.span().subspan(piece.first, group(piece).size()), reference,
+         std::move(result));
+  }
+}
+
+std::vector<Allocations> NarrowCheck::count_allocations(std::span<const Piece> pieces,
+                                                        const NarrowChoice& choice,
+                                                        IsolationLimits limits) const {
+  limits.failures = 1;
+  SharedArray<Allocations> counts(pieces.size());
+  if (can_count_allocations()) {
+    isolate(pieces.size(), limits, [&]() -> ItemWork {
+      const auto executor = std::make_shared<Executor>(1);
+      const auto sampler = std::make_shared<NarrowSampler>(choice, *input_, sets_, *executor);
+      return [&, executor, sampler](std::size_t item) {
+        sampler->sample(request(pieces[item]));
+        counts[item] = sampler->count_allocations(request(pieces[item]));
+      };
+    });
+  }
+  return {counts.span().begin(), counts.span().end()};
+}
+
+void NarrowCheck::take(const Piece& piece, const NarrowChoice& choice,
+                       std::span<const Outcome> outcomes,
+                       const std::vector<ReferenceOutcome>& reference, RawRow result) {
+  const OutcomeFaults faults =
+      check_outcomes(outcomes, reference, sets_[piece.set].task, choice.settings.scalar);
+  result.pair_count = static_cast<std::int64_t>(outcomes.size());
+  result.pair_hash = to_hex(group_hash(group(piece)));
+  if (result.iterations >= 0) {
+    result.iterations_squared = 0;
+    for (const Outcome& outcome : outcomes) {
+      const std::int64_t n = std::max(outcome.iterations, 0);
+      result.iterations_squared += n * n;
+    }
+  }
+  result.compared = faults.compared;
+  result.disagreements = faults.disagree;
+  result.worst_disagreement = faults.worst;
+  if (faults.values > 0) result.worst_error = faults.worst_value_error;
+  result.failures = faults.failed + faults.unanswered;
+  result.status = to_string(status_of(faults, choice.entry->info.origin));
+  context_->findings->add(std::move(result));
+  if (faults.disagree > 0) report(piece, choice, faults);
+}
+
+void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
+                       const std::vector<ReferenceOutcome>& reference, Status status,
+                       const std::string& words) {
+  const NarrowSet& set = sets_[piece.set];
+  std::vector<Outcome> outcomes(group(piece).size());
+  const auto make = [&] {
+    std::unique_ptr<NarrowPhase> algorithm = choice.entry->make(choice.settings);
+    algorithm->bind(input_->shapes);
+    return algorithm;
+  };
+  const CampaignGroup& settings = *context_->block->group;
+  solve_guarded(make,
+                group(piece).batch(set.task, input_->shape_of, input_->frames[piece.frame].poses, 0,
+                                   group(piece).size()),
+                outcomes, settings.time_limit, settings.memory_limit);
+  OutcomeFaults faults = check_outcomes(outcomes, reference, set.task, choice.settings.scalar);
+  const auto at = std::ranges::find_if(outcomes, [](const Outcome& outcome) {
+    return outcome.status == Status::crashed || outcome.status == Status::timed_out;
+  });
+  if (at != outcomes.end()) {
+    faults.worst_pair = static_cast<std::size_t>(at - outcomes.begin());
+  } else {
+    // Each pair alone is answered: it is all of them together that are not.
+    (status == Status::crashed ? faults.crashed : faults.timed_out) =
+        static_cast<std::int64_t>(outcomes.size());
+    faults.worst_pair.reset();
+  }
+  RawRow result = row(piece, choice);
+  result.pair_count = static_cast<std::int64_t>(outcomes.size());
+  result.failures = faults.crashed + faults.timed_out;
+  result.status = to_string(status);
+  result.words = one_line(words);
+  context_->findings->add(std::move(result));
+  report(piece, choice, faults);
+}
+
+void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
+                         const OutcomeFaults& faults) {
+  if (!reported_.insert({&choice, piece.set}).second) return;
+  const AlgorithmInfo& info = choice.entry->info;
+  const NarrowSet& set = sets_[piece.set];
+  Departure departure = context_->departure(info, choice.label(),
+                                            fmt::format("{}, {}, {}", context_->place(piece.frame),
+                                                        set.kind_name(), to_string(set.task)));
+  departure.known = departure.known || choice.entry->approximate;
+  if (faults.crashed > 0) {
+    departure.what = fmt::format("{} of {} queries crashed", faults.crashed, group(piece).size());
+  } else if (faults.timed_out > 0) {
+    departure.what =
+        fmt::format("{} of {} queries were not answered within {:g} s", faults.timed_out,
+                    group(piece).size(), context_->block->group->time_limit);
+  } else {
+    const std::size_t i = *faults.worst_pair;
+    departure.what =
+        fmt::format("{} of {} answers differ from {}'s, by up to {:.3g} m (bodies {} and {})",
+                    faults.disagree, faults.compared, Reference::name(), faults.worst,
+                    group(piece).first[i], group(piece).second[i]);
+  }
+  if (choice.entry->approximate) departure.what += "; approximate by design";
+  if (choice.warm) departure.what += "; warm: the file has the bodies, not what was in memory";
+  if (!info.known_defect.empty()) departure.what += "; known defect: " + info.known_defect;
+  if (faults.worst_pair) departure.reproduction = write_case(piece, choice, *faults.worst_pair);
+  context_->findings->add(std::move(departure));
+}
+
+std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choice,
+                                    std::size_t pair) const {
+  if (context_->reproductions.empty()) return "";
+  const std::uint32_t a = group(piece).first[pair];
+  const std::uint32_t b = group(piece).second[pair];
+  const std::vector<Pose>& poses = input_->frames[piece.frame].poses;
+  const Case reproduction{
+      .id = fmt::format("{}-frame-{}-{}-{}", context_->scene->name, piece.frame, a, b),
+      .shape_a = input_->shapes[input_->shape_of[a]],
+      .shape_b = input_->shapes[input_->shape_of[b]],
+      .pose_a = poses[a],
+      .pose_b = poses[b]};
+  const std::filesystem::path file =
+      context_->reproductions /
+      fmt::format("{}-{}{}-{}-{}-{}.jsonl", choice.entry->info.name,
+                  to_string(choice.settings.scalar), choice.warm ? "-warm" : "",
+                  to_string(sets_[piece.set].task), sets_[piece.set].kind_name(), reproduction.id);
+  std::filesystem::create_directories(context_->reproductions);
+  std::ofstream stream(file);
+  stream << to_json(reproduction) << '\n';
+  stream.flush();
+  if (!stream) {
+    throw InputError(file.string(), 0, fmt::format("cannot be written: {}", std::strerror(errno)));
+  }
+  return file.string();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,67 @@
+// The check pass of the narrow phases: every pair of every frame, against the oracle, at one
+// thread.
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "harness/campaign/run_context.h"
+#include "harness/grade/outcome_check.h"
+#include "harness/measure/block_input.h"
+#include "harness/measure/sampler.h"
+#include "harness/process/isolate.h"
+
+namespace touchstone {
+
+class NarrowCheck {
+ public:
+  // `sets` are of one block; all outlive it.
+  NarrowCheck(const RunContext& context, const BlockInput& input, std::span<const NarrowSet> sets);
+
+  // Takes every algorithm's answers for every set and writes a row for each frame. Each algorithm
+  // runs in a child process; what crashes or hangs on the pairs of a set is asked about them again
+  // one by one, to find the pair, and is then left out of that set.
+  void run();
+
+ private:
+  struct Piece {  // the pairs of one set in one frame
+    std::size_t set, frame;
+    std::size_t first;  // outcome
+    std::size_t reference;
+  };
+  struct Batch {  // of pieces whose outcomes fit into memory together
+    std::vector<Piece> pieces;
+    std::vector<std::vector<ReferenceOutcome>> references;
+    std::size_t outcomes = 0;
+  };
+  const PairGroup& group(const Piece& piece) const { return sets_[piece.set].frames[piece.frame]; }
+  static SampleRequest request(const Piece& piece);
+  void run(const Batch& batch, const NarrowChoice& choice);
+  // A pass of its own, in a child of its own: each piece is solved once to warm the algorithm up,
+  // and counted the second time. What fails here is not counted; the check tells of failures.
+  std::vector<Allocations> count_allocations(std::span<const Piece> pieces,
+                                             const NarrowChoice& choice,
+                                             IsolationLimits limits) const;
+  void take(const Piece& piece, const NarrowChoice& choice, std::span<const Outcome> outcomes,
+            const std::vector<ReferenceOutcome>& reference, RawRow row);
+  void lose(const Piece& piece, const NarrowChoice& choice,
+            const std::vector<ReferenceOutcome>& reference, Status status,
+            const std::string& words);
+  void report(const Piece& piece, const NarrowChoice& choice, const OutcomeFaults& faults);
+  std::string write_case(const Piece& piece, const NarrowChoice& choice, std::size_t pair) const;
+  RawRow row(const Piece& piece, const NarrowChoice& choice) const;
+
+  using Key = std::tuple<const NarrowChoice*, std::size_t>;  // and the set
+
+  const RunContext* context_;
+  const BlockInput* input_;
+  std::span<const NarrowSet> sets_;
+  std::set<Key> out_;       // crashed, hung or too slow on such pairs: no longer run
+  std::set<Key> reported_;  // a departure is told once a block
+};
+
+}  // namespace touchstone

@@ -1,0 +1,17 @@
+// How long the check pass of a block will take.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "harness/campaign/run_context.h"
+#include "harness/measure/block_input.h"
+
+namespace touchstone {
+
+// Seconds, about: from checking the first frames and some pairs of each set, in child processes and
+// without leaving a file. `frames`: how many there are, where the input has only the first ones.
+double price_of_check(const RunContext& context, const BlockInput& input, std::size_t frames,
+                      std::span<const NarrowSet> sets);
+
+}  // namespace touchstone

@@ -1,0 +1,63 @@
+#include "harness/campaign/check_pass/check_table.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace touchstone {
+namespace {
+
+std::string key(const std::string& broad, std::string_view task, const std::string& kind) {
+  return broad + "|" + std::string(task) + "|" + kind;
+}
+
+std::uint64_t from_hex(const std::string& text) {
+  std::uint64_t value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  return value;
+}
+
+}  // namespace
+
+std::string set_key(const NarrowSet& set) {
+  return key(set.broad, to_string(set.task), set.kind_name());
+}
+
+std::string set_key(const RawRow& row) {
+  return row.narrow.empty() ? "" : key(row.broad, row.task, row.pair_kind);
+}
+
+double Checked::greatest_seconds() const { return seconds.empty() ? 0 : std::ranges::max(seconds); }
+
+CheckTable::CheckTable(std::span<const RawRow> rows, std::int64_t block, std::size_t frames) {
+  for (const RawRow& row : rows) {
+    if (row.block != block || row.kind != RowKind::check || row.process >= 0) continue;
+    if (row.phase == Phase::convert) continue;  // a part of the build or the update
+    if (row.status == to_string(Status::unsupported)) continue;
+    const auto frame = static_cast<std::size_t>(row.frame);
+    if (frame >= frames) continue;
+    Checked& checked = table_[{label_of(row), set_key(row)}];
+    if (checked.pairs.empty()) {
+      checked.pairs.resize(frames);
+      checked.hash.resize(frames);
+      checked.seconds.resize(frames);
+      checked.disagreements.resize(frames);
+    }
+    if (row.lost() || row.status == status_wrong) checked.out = true;
+    if (row.seconds >= 0) checked.seconds[frame] += row.seconds;
+    if (row.pair_count >= 0) checked.pairs[frame] = row.pair_count;
+    const std::string& hash = row.narrow.empty() ? row.pair_hash : row.outcome_hash;
+    if (!hash.empty()) checked.hash[frame] = from_hex(hash);
+    if (row.disagreements >= 0) checked.disagreements[frame] = row.disagreements;
+    checked.gave_up = checked.gave_up || row.status == to_string(Status::not_converged);
+  }
+}
+
+const Checked* CheckTable::find(const std::string& label, const NarrowSet* set) const {
+  auto at = table_.find({label, set == nullptr ? "" : set_key(*set)});
+  if (at == table_.end() && set != nullptr) {
+    at = table_.find({label, key("", to_string(set->task), set->kind_name())});
+  }
+  return at == table_.end() ? nullptr : &at->second;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,97 @@
+#include "harness/campaign/run_context.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace touchstone {
+
+RawRow RunContext::row(std::size_t frame) const {
+  RawRow row;
+  row.campaign = campaign;
+  row.block = number;
+  row.scene = scene->name;
+  row.scene_hash = scene_hash;
+  row.seed = block->overrides.seed;
+  row.bodies = static_cast<std::int64_t>(scene->size());
+  row.boxes = to_string(block->boxes);
+  row.frame = static_cast<std::int64_t>(frame);
+  row.threads = block->threads;
+  row.isa = to_string(isa());
+  if (block->isa) row.isa_limit = to_string(*block->isa);
+  return row;
+}
+
+RawRow RunContext::row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const {
+  RawRow result = row(frame);
+  result.broad = entry.info.name;
+  result.phase = phase;
+  result.status = to_string(Status::ok);
+  if (block->group->rebuild) result.rebuild = 1;
+  return result;
+}
+
+RawRow RunContext::row(std::size_t frame, const NarrowChoice& choice) const {
+  RawRow result = row(frame);
+  result.narrow = choice.entry->info.name;
+  result.scalar = to_string(choice.settings.scalar);
+  result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
+  result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
+  if (choice.warm) result.warm = 1;
+  result.phase = Phase::narrow;
+  return result;
+}
+
+std::vector<const BroadPhaseEntry*> RunContext::broad() const {
+  std::vector<const BroadPhaseEntry*> entries;
+  for (const BroadPhaseEntry* entry : block->group->broad) {
+    if (admits(*entry)) entries.push_back(entry);
+  }
+  if (limit != nullptr && !entries.empty() && scene->pairs.empty()) entries.push_back(limit);
+  return entries;
+}
+
+bool RunContext::admits(const BroadPhaseEntry& entry) const {
+  if (!scene->pairs.empty()) return false;  // nothing is left to find
+  return block->group->admits({.scene = scene->name,
+                               .bodies = static_cast<std::int64_t>(scene->size()),
+                               .boxes = block->boxes,
+                               .threads = block->threads,
+                               .broad = entry.info.name,
+                               .narrow = {},
+                               .scalar = {},
+                               .task = {},
+                               .pair_kind = {}});
+}
+
+bool RunContext::admits(const NarrowChoice& choice, const std::string& broad, Task task,
+                        const std::string& pair_kind) const {
+  return block->group->admits({.scene = scene->name,
+                               .bodies = static_cast<std::int64_t>(scene->size()),
+                               .boxes = block->boxes,
+                               .threads = block->threads,
+                               .broad = broad,
+                               .narrow = choice.entry->info.name,
+                               .scalar = choice.settings.scalar,
+                               .task = task,
+                               .pair_kind = pair_kind,
+                               .warm = choice.warm});
+}
+
+std::string RunContext::place(std::size_t frame) const {
+  return fmt::format("{}, {} bodies, frame {}", scene->name, scene->size(), frame);
+}
+
+Departure RunContext::departure(const AlgorithmInfo& info, std::string label,
+                                std::string where) const {
+  return {.block = number,
+          .row = -1,
+          .algorithm = std::move(label),
+          .ours = info.origin == Origin::ours,
+          .known = !info.known_defect.empty(),
+          .where = std::move(where),
+          .what = "",
+          .reproduction = ""};
+}
+
+}  // namespace touchstone

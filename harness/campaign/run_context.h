@@ -1,0 +1,58 @@
+// What the parts of a run share about the block at hand.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/core/isa.h"
+#include "harness/campaign/campaign.h"
+#include "harness/record/findings.h"
+#include "harness/scene/scene.h"
+
+namespace touchstone {
+
+// One block: a scene as it is played, for every algorithm of a group.
+struct Block {
+  const CampaignGroup* group = nullptr;
+  std::filesystem::path scene_file;
+  SceneOverrides overrides;
+  BoxKind boxes = BoxKind::tight;
+  int threads = 2;
+  std::optional<Isa> isa = {};  // the most that the kernels may use, where the campaign says
+};
+
+struct RunContext {
+  std::string campaign;
+  std::uint64_t seed = 1;   // the campaign's
+  std::int64_t number = 0;  // the block's, in the campaign's order
+  const Block* block = nullptr;
+  const Scene* scene = nullptr;
+  std::string scene_hash;
+  std::filesystem::path reproductions;  // the folder for files that show a departure; empty: none
+  Findings* findings = nullptr;
+  std::span<const Block> blocks = {};      // all of the campaign, by their numbers
+  const BroadPhaseEntry* limit = nullptr;  // the yardstick, where the campaign asks for it
+
+  // A row with the columns that the block decides.
+  RawRow row(std::size_t frame) const;
+  // The same for an algorithm.
+  RawRow row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const;
+  RawRow row(std::size_t frame, const NarrowChoice& choice) const;
+  // The broad phases of the group that its rules let take part, the yardstick last.
+  std::vector<const BroadPhaseEntry*> broad() const;
+  // Whether the campaign's rules let it take part.
+  bool admits(const BroadPhaseEntry& entry) const;
+  bool admits(const NarrowChoice& choice, const std::string& broad, Task task,
+              const std::string& pair_kind) const;
+  // "home, 85 bodies, frame 3"
+  std::string place(std::size_t frame) const;
+  // A departure of this algorithm in this block.
+  Departure departure(const AlgorithmInfo& info, std::string label, std::string where) const;
+};
+
+}  // namespace touchstone

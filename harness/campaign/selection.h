@@ -1,0 +1,78 @@
+// Algorithms by the names that a user gave.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+
+namespace touchstone {
+
+// The names of a list such as "sap,naive".
+inline std::vector<std::string> split_names(std::string_view list) {
+  std::vector<std::string> names;
+  for (;;) {
+    const std::size_t comma = list.find(',');
+    names.emplace_back(list.substr(0, comma));
+    if (comma == std::string_view::npos) return names;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+// The entries of these names, in the order named, each once. "all" stands for every one that is
+// built, "ours", "peers" and "oracle" for those of that origin, "none" for none. InputError for an
+// unknown name, with those that there are, and for one that is not built, with the reason. `what`
+// is "broad phase" or "narrow phase".
+template <class Entry>
+std::vector<const Entry*> select(std::span<const Entry> entries,
+                                 const std::vector<std::string>& names, std::string_view what) {
+  std::vector<const Entry*> chosen;
+  const auto choose = [&](const Entry& entry) {
+    if (std::ranges::find(chosen, &entry) == chosen.end()) chosen.push_back(&entry);
+  };
+  for (const std::string& name : names) {
+    if (name == "none") continue;
+    std::optional<Origin> origin;
+    if (name == "ours") origin = Origin::ours;
+    if (name == "peers") origin = Origin::peer;
+    if (name == "oracle") origin = Origin::oracle;
+    if (name == "all" || origin) {
+      for (const Entry& entry : entries) {
+        const bool wanted = !origin || entry.info.origin == *origin;
+        if (wanted && is_built(entry.info)) choose(entry);
+      }
+      continue;
+    }
+    const auto at =
+        std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
+    if (at == entries.end()) {
+      std::string known = "all, ours, peers, oracle, none";
+      for (const Entry& entry : entries) known += ", " + entry.info.name;
+      throw InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
+    }
+    if (!is_built(at->info)) {
+      throw InputError(
+          fmt::format("the {} '{}' is not built, because {}", what, name, at->info.reason));
+    }
+    choose(*at);
+  }
+  return chosen;
+}
+
+// For a message to who asked others to.
+inline std::string names_stopping_by_duality_gap() {
+  std::string names;
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    if (entry.stops_by_duality_gap) names += (names.empty() ? "" : ", ") + entry.info.name;
+  }
+  return names;
+}
+
+}  // namespace touchstone

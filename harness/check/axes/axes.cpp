@@ -1,0 +1,115 @@
+#include "harness/check/axes/axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "harness/check/axes/axis_draws.h"
+
+namespace touchstone {
+namespace {
+
+// The nearest double of a power of ten.
+constexpr std::array<double, 17> powers = {1e0, 1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7, 1e8,
+                                           1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16};
+constexpr std::array<double, 17> parts = {1e0,   1e-1,  1e-2,  1e-3,  1e-4,  1e-5,
+                                          1e-6,  1e-7,  1e-8,  1e-9,  1e-10, 1e-11,
+                                          1e-12, 1e-13, 1e-14, 1e-15, 1e-16};
+
+std::vector<AxisValue> up_to(std::size_t exponent) {
+  std::vector<AxisValue> values;
+  for (std::size_t k = 0; k <= exponent; ++k) values.push_back({fmt::format("1e{}", k), powers[k]});
+  return values;
+}
+
+std::vector<AxisValue> down_to(std::size_t exponent) {
+  std::vector<AxisValue> values = {{"1e0", 1}};
+  for (std::size_t k = 1; k <= exponent; ++k) values.push_back({fmt::format("1e-{}", k), parts[k]});
+  return values;
+}
+
+std::vector<AxisValue> from_zero(std::vector<AxisValue> values) {
+  values.insert(values.begin(), {"0", 0});
+  return values;
+}
+// The same from a tenth on.
+std::vector<AxisValue> from_a_tenth(std::vector<AxisValue> values) {
+  values.erase(values.begin());
+  return values;
+}
+std::vector<AxisValue> and_zero(std::vector<AxisValue> values) {
+  values.push_back({"0", 0});
+  return values;
+}
+
+std::vector<AxisValue> counts() {
+  std::vector<AxisValue> values = {{"4", 4}};
+  for (std::size_t k = 1; k <= 5; ++k) values.push_back({fmt::format("1e{}", k), powers[k]});
+  return values;
+}
+
+// Within a tenth of what is asked for.
+bool has_gap(double value, const oracle::Measure& exact, double size) {
+  return exact.lower > 0.9 * value * size && exact.upper < 1.1 * value * size;
+}
+// A depth is only known to come out at most as great as asked for, and may be all that there is.
+bool has_depth(double value, const oracle::Measure& exact, double size) {
+  return exact.upper < -0.3 * value * size && exact.lower > -1.1 * value * size;
+}
+
+std::vector<Axis> all_axes() {
+  return {
+      {"scale-down", "metres", "both bodies so large", down_to(12), true, draw_at_scale},
+      {"scale-up", "metres", "both bodies so large", up_to(12), true, draw_at_scale},
+      {"aspect", "longest side over shortest", "needles and plates of such proportions", up_to(10),
+       true, draw_at_aspect},
+      {"distance", "metres from the origin", "bodies of a metre, both so far away",
+       from_zero(up_to(12)), true, draw_at_distance},
+      {"ratio", "size over size", "a body of a metre and a smaller one", up_to(12), true,
+       draw_at_ratio},
+      {"gap", "parts of the size", "apart by so much", down_to(16), false, draw_at_gap, has_gap},
+      {"depth", "parts of the size", "overlapping by so much", down_to(16), false, draw_at_depth,
+       has_depth},
+      {"vertices", "vertices of a hull", "a hull of so many vertices and another body", counts(),
+       false, draw_with_vertices},
+      {"coplanar", "parts of the size",
+       "faces that bulge by so much, and boxes side by side whose faces miss one plane by it",
+       and_zero(from_a_tenth(down_to(16))), true, draw_near_coplanar},
+      {"parallel", "radians", "edges, sides or faces in contact at such an angle",
+       and_zero(down_to(16)), true, draw_near_parallel},
+  };
+}
+
+}  // namespace
+
+std::uint64_t Axis::most_cases(double value) const {
+  if (name != "vertices" || value < 1e4) return ~std::uint64_t{0};
+  return value < 1e5 ? 12 : 6;
+}
+
+std::span<const Axis> axes() {
+  static const std::vector<Axis> list = all_axes();
+  return list;
+}
+
+std::vector<StressCell> cells_of(std::span<const Axis* const> axes) {
+  std::vector<StressCell> cells;
+  for (const Axis* axis : axes) {
+    for (std::size_t place = 0; place < axis->values.size(); ++place) {
+      const AxisValue& value = axis->values[place];
+      cells.push_back({axis,
+                       place,
+                       {.name = fmt::format("stress-{}-{}", axis->name, value.name),
+                        .group = axis->name,
+                        .what = axis->what,
+                        .extreme = axis->extreme,
+                        .parameter = value.value,
+                        .draw = axis->draw}});
+    }
+  }
+  return cells;
+}
+
+}  // namespace touchstone

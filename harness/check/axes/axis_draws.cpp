@@ -1,0 +1,116 @@
+#include "harness/check/axes/axis_draws.h"
+
+#include <algorithm>
+#include <array>
+
+#include "harness/check/axes/axes.h"
+#include "harness/check/axes/mild_pair.h"
+#include "harness/check/axes/stress_shapes.h"
+#include "harness/check/regimes/check_shapes.h"
+#include "harness/check/regimes/regime_draws.h"
+
+namespace touchstone {
+namespace {
+
+// Two compact bodies of these sizes (metres) of the slot's kinds, the first in a random pose.
+RegimeCase compact_pair(RegimeDraw& draw, double size_a, double size_b) {
+  Random& random = draw.random;
+  const KindPair kinds = kinds_of_slot(slot_of(draw.index));
+  RegimeCase result;
+  Case& c = result.pair;
+  c.shape_a = shape_of_extents(kinds.a, compact_half(size_a, random), draw.seed, random);
+  c.shape_b = shape_of_extents(kinds.b, compact_half(size_b, random), draw.seed, random);
+  c.pose_a = random_pose(std::max(size_a, size_b), random);
+  return result;
+}
+
+RegimeCase draw_at_signed_distance(RegimeDraw& draw, double value, const char* name) {
+  RegimeCase result = compact_pair(draw, 1, 1);
+  Case& c = result.pair;
+  // Fine, or the rounding of a translation would be more than the gap.
+  result.detail = place_at_features(c, value * pair_size(c), true, draw.random) + "-" + name;
+  swap_at_random(c, draw.random);
+  return result;
+}
+
+}  // namespace
+
+RegimeCase draw_at_scale(RegimeDraw& draw) {
+  const double size = draw.regime.parameter;
+  RegimeCase result = compact_pair(draw, size, size);
+  result.detail = place_mildly(result.pair, size, draw.random);
+  swap_at_random(result.pair, draw.random);
+  return result;
+}
+
+RegimeCase draw_at_aspect(RegimeDraw& draw) {
+  Random& random = draw.random;
+  const double aspect = draw.regime.parameter;
+  const KindPair kinds = kinds_of_slot(slot_of(draw.index));
+  RegimeCase result;
+  Case& c = result.pair;
+  c.shape_a = shape_of_extents(kinds.a, slender_half(1, aspect, random), draw.seed, random);
+  c.shape_b = shape_of_extents(kinds.b, slender_half(1, aspect, random), draw.seed, random);
+  c.pose_a = random_pose(1, random);
+  result.detail = place_mildly(c, random.below(2) == 0 ? 1 : 1 / aspect, random);
+  swap_at_random(c, random);
+  return result;
+}
+
+RegimeCase draw_at_distance(RegimeDraw& draw) {
+  Random& random = draw.random;
+  RegimeCase result = compact_pair(draw, 1, 1);
+  Case& c = result.pair;
+  Vec3d way = random.on_sphere();
+  if (random.below(4) == 0) way = Vec3d::UnitX();
+  c.pose_a.translation = draw.regime.parameter * way;
+  result.detail = place_mildly(c, 1, random);
+  return result;
+}
+
+RegimeCase draw_at_ratio(RegimeDraw& draw) {
+  Random& random = draw.random;
+  const double small = 1 / draw.regime.parameter;
+  const bool first = random.below(2) == 0;
+  RegimeCase result = compact_pair(draw, first ? 1 : small, first ? small : 1);
+  result.detail = place_mildly(result.pair, random.below(2) == 0 ? 1 : small, random);
+  swap_at_random(result.pair, random);
+  return result;
+}
+
+RegimeCase draw_at_gap(RegimeDraw& draw) {
+  return draw_at_signed_distance(draw, draw.regime.parameter, "gap");
+}
+
+RegimeCase draw_at_depth(RegimeDraw& draw) {
+  return draw_at_signed_distance(draw, -draw.regime.parameter, "depth");
+}
+
+RegimeCase draw_with_vertices(RegimeDraw& draw) {
+  using enum ShapeKind;
+  constexpr std::array<ShapeKind, 6> others = {hull, box, sphere, hull, capsule, cylinder};
+  Random& random = draw.random;
+  const auto count = static_cast<std::size_t>(draw.regime.parameter);
+  const std::uint64_t slot = slot_of(draw.index);
+  const auto ringed = [&] {
+    Shape shape;
+    shape.kind = hull;
+    shape.hull = ringed_hull(count, compact_half(1, random));
+    return shape;
+  };
+  RegimeCase result;
+  Case& c = result.pair;
+  c.shape_a = ringed();
+  const ShapeKind kind = others[slot % others.size()];
+  if (slot % others.size() == 0) {
+    c.shape_b = c.shape_a;
+  } else {
+    c.shape_b = shape_of_extents(kind, compact_half(1, random), draw.seed, random);
+  }
+  c.pose_a = random_pose(1, random);
+  result.detail = place_mildly(c, 1, random);
+  swap_at_random(c, random);
+  return result;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,163 @@
+#include "harness/check/axes/stress_cell.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "harness/grade/limited_query.h"
+#include "harness/grade/pair_size.h"
+
+namespace touchstone {
+namespace {
+
+// How bad a silent error is: a wrong side of contact before a wrong number.
+double badness(const NarrowPhaseEntry& entry, const GradedAnswer& answer) {
+  const double margin = wrong_margin(entry, answer);
+  if (margin >= 0) return 1e3 * (1 + margin);
+  const double error = worst_error(entry, answer);
+  return error >= 0 ? std::min(error, 1e3) : 0;
+}
+
+void keep_greater(double& worst, double value) {
+  if (!(worst >= value)) worst = value >= 0 ? value : worst;
+}
+
+class CellWork {
+ public:
+  CellWork(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle)
+      : request_(request), check_(request.as_check()), cell_(cell) {
+    result_.summary.cell = static_cast<std::uint32_t>(cell);
+    cases_ = true_cases(request, cell, oracle, result_.summary);
+  }
+
+  CellResult run() {
+    for (std::uint32_t entry = 0; entry < request_.narrow.size(); ++entry) {
+      for (const Precision scalar : request_.scalars) {
+        if (offers(*request_.narrow[entry], scalar)) ask(entry, scalar);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void ask(std::uint32_t entry, Precision scalar) {
+    for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+      ask(entry, scalar, task);
+    }
+  }
+
+  void ask(std::uint32_t entry, Precision scalar, Task task) {
+    const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
+    std::vector<LimitedQuery> queries;
+    std::vector<TrueCase*> of;  // of each query
+    for (TrueCase& c : cases_) {
+      const Case& pair = c.pair();
+      if (!offers(algorithm, pair.shape_a.kind, pair.shape_b.kind, task)) continue;
+      queries.push_back({&pair, task});
+      of.push_back(&c);
+    }
+    if (queries.empty()) return;
+    StressRow row;
+    row.cell = static_cast<std::uint32_t>(cell_);
+    row.entry = entry;
+    row.scalar = scalar;
+    row.task = task;
+    const QueryLimits limits = {.seconds = request_.time_limit, .lost = most_lost};
+    const std::vector<Outcome> outcomes =
+        ask_limited(algorithm, {.scalar = scalar}, queries, limits);
+    double worst = -1;  // badness
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (is_not_asked(outcomes[i])) {
+        ++row.skipped;
+      } else {
+        count(row, *of[i], outcomes[i], worst);
+      }
+    }
+    result_.rows.push_back(row);
+  }
+
+  void count(StressRow& row, TrueCase& c, const Outcome& outcome, double& worst) {
+    const NarrowPhaseEntry& algorithm = *request_.narrow[row.entry];
+    const Query query = {static_cast<std::uint32_t>(cell_), row.entry, row.scalar, row.task};
+    const GradedAnswer answer = grade_answer(check_, query, c, outcome);
+    const bool extreme = request_.cells[cell_].regime.extreme;
+    const StressOutcome became = outcome_of(algorithm, answer, extreme);
+    row.add(became);
+    keep_greater(row.margin, wrong_margin(algorithm, answer));
+    keep_greater(row.error, worst_error(algorithm, answer));
+    const auto index = static_cast<std::int64_t>(c.index());
+    if (became == StressOutcome::crashed || became == StressOutcome::hung) {
+      if (row.lost < 0) row.lost = index;
+    } else if (became == StressOutcome::silent) {
+      const double bad = badness(algorithm, answer);
+      if (bad > worst) {
+        row.worst = index;
+        worst = bad;
+      }
+    }
+  }
+
+  const StressRequest& request_;
+  CheckRequest check_;
+  std::size_t cell_;
+  std::vector<TrueCase> cases_;
+  CellResult result_;
+};
+
+static_assert(std::is_trivially_copyable_v<CellSummary>);
+static_assert(std::is_trivially_copyable_v<StressRow>);
+
+}  // namespace
+
+std::vector<TrueCase> true_cases(const StressRequest& request, std::size_t cell,
+                                 oracle::Oracle& oracle, CellSummary& summary) {
+  const StressCell& place = request.cells[cell];
+  const auto asked = static_cast<std::uint64_t>(request.cases);
+  const std::uint64_t slots = std::min(asked, place.axis->most_cases(place.value().value));
+  std::vector<TrueCase> cases;
+  for (std::uint64_t slot = 0; slot < slots; ++slot) {
+    bool found = false;
+    for (std::uint64_t attempt = 0; attempt < tries && !found; ++attempt) {
+      const std::uint64_t index = slot * tries + attempt;
+      TrueCase c(make(place.regime, request.seed, index), index, oracle);
+      const oracle::Measure& exact = c.truth(Encoding::as_given).measure;
+      found = place.axis->accepts == nullptr ||
+              place.axis->accepts(place.value().value, exact, pair_size(c.pair()));
+      if (!found) continue;
+      if (exact.answer == Answer::unknown) ++summary.unresolved;
+      cases.push_back(std::move(c));
+    }
+    if (!found) ++summary.dropped;
+  }
+  summary.cases = static_cast<std::int32_t>(cases.size());
+  return cases;
+}
+
+CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle) {
+  return CellWork(request, cell, oracle).run();
+}
+
+std::string pack(const CellResult& result) {
+  const std::size_t rows = result.rows.size() * sizeof(StressRow);
+  std::string bytes(sizeof(CellSummary) + rows, '\0');
+  std::memcpy(bytes.data(), &result.summary, sizeof(CellSummary));
+  if (rows > 0) std::memcpy(bytes.data() + sizeof(CellSummary), result.rows.data(), rows);
+  return bytes;
+}
+
+CellResult unpack_cell(const std::string& bytes) {
+  if (bytes.size() < sizeof(CellSummary)) throw std::logic_error("a result is cut short");
+  CellResult result;
+  std::memcpy(static_cast<void*>(&result.summary), bytes.data(), sizeof(CellSummary));
+  const std::size_t rest = bytes.size() - sizeof(CellSummary);
+  result.rows.resize(rest / sizeof(StressRow));
+  if (rest > 0) {
+    std::memcpy(static_cast<void*>(result.rows.data()), bytes.data() + sizeof(CellSummary), rest);
+  }
+  return result;
+}
+
+}  // namespace touchstone

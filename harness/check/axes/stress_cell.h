@@ -1,0 +1,37 @@
+// A part of a stress sweep: one value of one axis, through every algorithm.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "algorithms/oracle/oracle.h"
+#include "harness/check/axes/stress_row.h"
+#include "harness/check/true_case.h"
+
+namespace touchstone {
+
+struct CellSummary {
+  std::uint32_t cell = 0;
+  std::int32_t cases = 0;       // that were drawn, and are what the value says
+  std::int32_t dropped = 0;     // slots of which no try was
+  std::int32_t unresolved = 0;  // the oracle's enclosure does not tell the side of contact
+};
+
+struct CellResult {
+  CellSummary summary;
+  std::vector<StressRow> rows;
+};
+
+// Asks every algorithm of the request in each of its scalars for each task that it offers.
+CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle);
+
+// The cell's cases with their exact answers.
+std::vector<TrueCase> true_cases(const StressRequest& request, std::size_t cell,
+                                 oracle::Oracle& oracle, CellSummary& summary);
+
+// The same bytes for another process.
+std::string pack(const CellResult& result);
+CellResult unpack_cell(const std::string& bytes);
+
+}  // namespace touchstone

@@ -1,0 +1,155 @@
+// The tables of a sweep for people.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "harness/base/text_table.h"
+#include "harness/check/axes/stress_run.h"
+#include "harness/record/machine.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::size_t most_lines = 40;  // of broken promises
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string as_markdown(const Rows& rows) {
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += fmt::format("| {} |\n", fmt::join(rows[i], " | "));
+    if (i > 0) continue;
+    text += "|---";
+    for (std::size_t k = 1; k < rows[i].size(); ++k) text += "|---:";
+    text += "|\n";
+  }
+  return text;
+}
+
+std::string as_text(const Rows& rows, std::size_t page_width) {
+  TextTable table(rows.front());
+  for (std::size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
+  return table.text(page_width);
+}
+
+std::string promise(const StressRequest& request, const StressResult& result) {
+  const bool asked = std::ranges::any_of(result.reaches, [&](const Reach& reach) {
+    return request.narrow[reach.entry]->info.origin == Origin::ours &&
+           reach.scalar == Precision::float64;
+  });
+  if (!asked) return "";
+  if (result.broken.empty()) {
+    return "In double, none of our own algorithms is silently wrong, crashes or hangs.\n";
+  }
+  std::string text = "In double, of our own algorithms:\n\n";
+  for (std::size_t i = 0; i < std::min(most_lines, result.broken.size()); ++i) {
+    text += "- " + result.broken[i] + "\n";
+  }
+  if (result.broken.size() > most_lines) {
+    text += fmt::format("- and {} more\n", result.broken.size() - most_lines);
+  }
+  return text;
+}
+
+std::string ranges(const StressRequest& request) {
+  Rows rows = {{"axis", "from", "to", "unit", "what"}};
+  for (const StressCell& cell : request.cells) {
+    if (cell.place > 0) continue;
+    const Axis& axis = *cell.axis;
+    rows.push_back(
+        {axis.name, axis.values.front().name, axis.values.back().name, axis.unit, axis.what});
+  }
+  return as_markdown(rows);
+}
+
+std::string facts() {
+  std::string text;
+  for (const auto& [name, value] : machine_facts()) {
+    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "commit"}) {
+      if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
+    }
+  }
+  return text;
+}
+
+std::string failure_lines(const StressRequest& request, const StressResult& result) {
+  Rows rows = {{"algorithm", "task", "case", "what is wrong", "file"}};
+  for (const FailureCase& failure : result.failures) {
+    rows.push_back({fmt::format("{} {}", request.narrow[failure.answer.entry]->info.name,
+                                to_string(failure.answer.scalar)),
+                    std::string(to_string(failure.answer.task)), failure.id,
+                    failure.what.empty() ? "no longer, when asked again" : failure.what,
+                    failure.file.filename().string()});
+  }
+  if (rows.size() == 1) return "";
+  return "## Cases to replay\n\nThe worst silent errors of the peers, and what of ours is wrong in "
+         "double, each shrunk as far as it still is. Files are in `failures/`; `touchstone query "
+         "FILE --narrow ALGORITHM --task TASK --scalar SCALAR --out answers.csv` shows them "
+         "again.\n\n" +
+         as_markdown(rows);
+}
+
+}  // namespace
+
+std::string stress_text(const StressRequest& request, const StressResult& result,
+                        std::size_t page_width) {
+  std::string text =
+      "First value at which an answer is silently on the wrong side of contact, or crashes or "
+      "hangs:\n\n";
+  text += as_text(table(request, result.reaches, EnvelopeTable::side), page_width);
+  text += "\n... or has a wrong number; \"(input)\": only because the input was rounded:\n\n";
+  text += as_text(table(request, result.reaches, EnvelopeTable::wrong), page_width);
+  text += "\nFirst value at which the algorithm says that it fails:\n\n";
+  text += as_text(table(request, result.reaches, EnvelopeTable::honest), page_width);
+  std::int64_t skipped = 0, dropped = 0;
+  for (const StressRow& row : result.rows) skipped += row.skipped;
+  for (const CellSummary& cell : result.cells) dropped += cell.dropped;
+  if (skipped > 0) {
+    text += fmt::format("\n{} queries were skipped after {} that crashed or hung in their cell.\n",
+                        skipped, most_lost);
+  }
+  if (dropped > 0) {
+    text += fmt::format("{} cases could not be drawn as their value asks.\n", dropped);
+  }
+  return text + "\n" + promise(request, result);
+}
+
+std::string stress_page(const StressRequest& request, const StressResult& result,
+                        const std::string& command, const std::string& pictures) {
+  std::string text = fmt::format(
+      "# Where each algorithm breaks\n\nMade by `{}` (seed {}, {} cases of each value, fewer of "
+      "large hulls; {} s of the processor a query). Along each axis one property of a pair grows "
+      "to "
+      "its extreme while all else stays mild; every answer is held against exact "
+      "arithmetic.\n\n{}\n",
+      command, request.seed, request.cases, request.time_limit, facts());
+  text += ranges(request) + "\n" + promise(request, result) + "\n";
+  text +=
+      "## First value on the wrong side of contact\n\nCounted from the mild end of each axis: an "
+      "answer says overlapping of bodies that are apart, or the reverse, while the algorithm says "
+      "that all is well or cannot say; or the query crashes or hangs. `-`: nowhere on the axis. "
+      "Empty: it takes no such pairs.\n\n";
+  text += as_markdown(table(request, result.reaches, EnvelopeTable::side));
+  text +=
+      "\n## First value that is wrong in any way\n\nThe same, or a distance, depth or separating "
+      "translation off by more than 1e-9 of the size in double and 1e-4 in float, or a certified "
+      "bound by more than the margins of `harness/check/margins.h`. What an algorithm was given "
+      "counts: *(input)* is where it was right about that, and only the conversion of the input to "
+      "its scalar made the answer wrong.\n\n";
+  text += as_markdown(table(request, result.reaches, EnvelopeTable::wrong));
+  text += "\n## First value at which it says that it fails\n\n";
+  text += as_markdown(table(request, result.reaches, EnvelopeTable::honest));
+  if (!pictures.empty()) {
+    text += fmt::format(
+        "\n## Maps\n\nA row an axis, from its mild end at the left; a field is filled by the "
+        "shares of "
+        "its answers.\n\n![Maps of our algorithms]({0}/stress_ours.svg)\n\n![Maps of the "
+        "peers]({0}/stress_peers.svg)\n",
+        pictures);
+  }
+  const std::string failures = failure_lines(request, result);
+  return failures.empty() ? text : text + "\n" + failures;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,185 @@
+// Shapes without an inside, or almost, and hulls with more points than they need.
+#include <algorithm>
+#include <cmath>
+
+#include "harness/base/plain_math.h"
+#include "harness/check/regimes/regime_draws.h"
+
+namespace touchstone {
+namespace {
+
+using Points = std::vector<Vec3d>;
+
+Vec3d in_cube(Random& random) {
+  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+  return {x, y, random.uniform(-1, 1)};
+}
+
+// In the plane z = 0, or in one that is tilted, in which the points are coplanar up to rounding.
+Points flat_points(Random& random) {
+  Points points;
+  const std::uint64_t count = random.below(2) == 0 ? 3 : 4 + random.below(13);
+  const bool grid = random.below(2) == 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Vec3d p = in_cube(random);
+    if (grid) p = (4 * p).array().round().matrix() / 4;
+    points.emplace_back(p.x(), p.y(), 0);
+  }
+  if (grid) points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  if (random.below(2) == 0) {
+    const Mat3d turn = random.rotation();
+    for (Vec3d& p : points) p = times(turn, p);
+  }
+  return points;
+}
+
+Points segment_points(Random& random) {
+  const Vec3d a = in_cube(random), b = in_cube(random);
+  Points points = {a, b};
+  if (random.below(2) == 0) points.push_back((a + b) / 2);
+  if (random.below(4) == 0) points.push_back(a);
+  return points;
+}
+
+// A solid's points with a third as many again: copies, middles of two or three of them, and points
+// inside.
+Points redundant_points(Random& random) {
+  Points points;
+  const std::uint64_t count = 4 + random.below(13);
+  if (random.below(2) == 0) {
+    points = box_as_hull(in_cube(random).cwiseAbs() + Vec3d::Constant(0.1)).hull->vertices;
+  } else {
+    for (std::uint64_t i = 0; i < count; ++i) points.push_back(random.on_sphere());
+  }
+  const auto any = [&] { return points[random.below(points.size())]; };
+  for (std::uint64_t more = 2 + count / 3; more > 0; --more) {
+    const Vec3d p = any(), q = any(), r = any();
+    switch (random.below(4)) {
+      case 0: points.push_back(p); break;
+      case 1: points.push_back((p + q) / 2); break;
+      case 2: points.push_back((p + q + 2 * r) / 4); break;
+      default: points.push_back(0.1 * p); break;
+    }
+  }
+  return points;
+}
+
+// A flat set, or a tetrahedron, pressed to 1e-3 to 1e-12 of its size.
+Points sliver_points(Random& random) {
+  const double thickness = random.magnitude(1e-12, 1e-3);
+  Points points;
+  const std::uint64_t count = random.below(2) == 0 ? 4 : 5 + random.below(12);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Vec3d p = in_cube(random);
+    p.z() *= thickness;
+    points.push_back(p);
+  }
+  if (random.below(2) == 0) {
+    const Mat3d turn = random.rotation();
+    for (Vec3d& p : points) p = times(turn, p);
+  }
+  return points;
+}
+
+// Any kind with one or more of its sizes zero, but not a hull.
+Shape zero_sized(std::uint64_t seed, Random& random) {
+  ShapeKind kind = ShapeKind::hull;
+  while (kind == ShapeKind::hull) kind = random_kind(random);
+  Shape shape = random_shape(kind, {}, seed, random);
+  const std::uint64_t axes = 1 + random.below(7);
+  for (int i = 0; i < 3; ++i) {
+    if ((axes >> i & 1) != 0) shape.half_extents[i] = shape.radii[i] = 0;
+  }
+  const std::uint64_t lengths = kind == ShapeKind::sphere ? 1 : 1 + random.below(3);
+  if ((lengths & 1) != 0) shape.radius = 0;
+  if ((lengths & 2) != 0) shape.half_length = 0;
+  return shape;
+}
+
+Points scaled_points(Points points, double size) {
+  for (Vec3d& p : points) p *= size;
+  return points;
+}
+
+Shape sized(Shape shape, double size) {
+  if (shape.kind == ShapeKind::hull) return hull_of(scaled_points(shape.hull->vertices, size));
+  shape.radius *= size;
+  shape.half_length *= size;
+  shape.half_extents *= size;
+  shape.radii *= size;
+  return shape;
+}
+
+Shape any_degenerate(std::uint64_t seed, Random& random) {
+  switch (random.below(5)) {
+    case 0: return hull_of(flat_points(random));
+    case 1: return hull_of(segment_points(random));
+    case 2: return hull_of({in_cube(random)});
+    case 3: return hull_of(redundant_points(random));
+    default: return zero_sized(seed, random);
+  }
+}
+
+// The shape against one of any kind, half of the time against another of its own family.
+template <class MakeShape>
+RegimeCase pair_with(RegimeDraw& draw, MakeShape make_shape) {
+  Random& random = draw.random;
+  RegimeCase result;
+  Case& c = result.pair;
+  c.shape_a = make_shape();
+  switch (random.below(8)) {
+    case 0:
+    case 1:
+    case 2: c.shape_b = make_shape(); break;
+    case 3: c.shape_b = random_shape(ShapeKind::halfspace, {}, draw.seed, random); break;
+    default: c.shape_b = random_shape(random_kind(random), {}, draw.seed, random); break;
+  }
+  result.detail = place_by_amount(c, random_amount(random), random);
+  swap_at_random(c, random);
+  return result;
+}
+
+}  // namespace
+
+RegimeCase draw_sliver(RegimeDraw& draw) {
+  return pair_with(draw, [&] { return hull_of(sliver_points(draw.random)); });
+}
+
+RegimeCase draw_flat_hull(RegimeDraw& draw) {
+  return pair_with(draw, [&] { return hull_of(flat_points(draw.random)); });
+}
+
+RegimeCase draw_segment(RegimeDraw& draw) {
+  return pair_with(draw, [&] { return hull_of(segment_points(draw.random)); });
+}
+
+RegimeCase draw_point(RegimeDraw& draw) {
+  return pair_with(draw, [&] {
+    const Vec3d point = draw.random.below(2) == 0 ? Vec3d(Vec3d::Zero()) : in_cube(draw.random);
+    return hull_of(Points(1 + draw.random.below(2), point));
+  });
+}
+
+RegimeCase draw_zero_size(RegimeDraw& draw) {
+  return pair_with(draw, [&] { return zero_sized(draw.seed, draw.random); });
+}
+
+RegimeCase draw_redundant_hull(RegimeDraw& draw) {
+  return pair_with(draw, [&] { return hull_of(redundant_points(draw.random)); });
+}
+
+RegimeCase draw_scaled_degenerate(RegimeDraw& draw) {
+  Random& random = draw.random;
+  const double size = random.magnitude(1e-9, 1e9);
+  RegimeCase result;
+  Case& c = result.pair;
+  c.shape_a = sized(any_degenerate(draw.seed, random), size);
+  c.shape_b = sized(random.below(2) == 0 ? any_degenerate(draw.seed, random)
+                                         : random_shape(random_kind(random), {}, draw.seed, random),
+                    size);
+  result.detail = place_by_amount(c, random_amount(random), random);
+  swap_at_random(c, random);
+  return result;
+}
+
+}  // namespace touchstone

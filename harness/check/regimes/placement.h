@@ -1,0 +1,29 @@
+// Puts two bodies at a given gap or depth between two of their features.
+#pragma once
+
+#include "harness/base/random.h"
+#include "harness/check/regimes/features.h"
+#include "harness/files/cases.h"
+
+namespace touchstone {
+
+// The rotation of b with which b's normal is against a's in the world, up to rounding. The rest of
+// the turn puts the two directions along each other (`aligned`), or is random.
+Mat3d facing(const Mat3d& rotation_a, const Feature& a, const Feature& b, bool aligned,
+             Random& random);
+
+// Translates b of a case whose shapes, rotations and translation of a are set, and whose features
+// face each other: for gap >= 0 (metres) the features' surface points get the offset gap * normal,
+// so that this is the bodies' distance. For gap < 0 they overlap by that much along the normal;
+// where that would not be the least depth, as between two vertices, or would leave the other body
+// again, b moves by -gap towards the middle of a instead, and at most most of the way.
+//
+// The offset is computed to about 1e-30, and rounded once. `fine` leaves that rounding to the
+// translation of a, which becomes tiny: the difference of the two is then right far below an ulp.
+void place(Case& c, const Feature& a, const Feature& b, double gap, bool fine);
+
+// Translates b so that, along a random direction, the bodies are between well inside each other and
+// well apart. A half-space's direction is its normal.
+void place_at_random(Case& c, Random& random);
+
+}  // namespace touchstone

@@ -1,0 +1,338 @@
+#include "harness/files/csv.h"
+
+#include <csv.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio_ext.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "harness/base/error.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+// The whole of `text` as a number, or the reason why it is none.
+template <class Number>
+Number parse(const CsvReader::Row& row, std::string_view name, std::string_view text,
+             std::string_view expected) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc::result_out_of_range) {
+    row.fail(fmt::format("column {}: {} is out of range; expected {}", name, text, expected));
+  }
+  if (error != std::errc{} || stop != end) {
+    row.fail(fmt::format("column {}: found '{}'; expected {}", name, text, expected));
+  }
+  return value;
+}
+
+// Fields of one row, as libcsv hands them out; the strings keep their memory from row to row.
+struct Fields {
+  std::vector<std::string> text;
+  std::size_t count = 0;
+  int rows = 0;  // ends of rows in the line that was fed last
+
+  static void on_field(void* bytes, std::size_t size, void* self) noexcept {
+    Fields& fields = *static_cast<Fields*>(self);
+    if (fields.count == fields.text.size()) fields.text.emplace_back();
+    fields.text[fields.count++].assign(static_cast<const char*>(bytes), size);
+  }
+  static void on_row(int, void* self) noexcept { ++static_cast<Fields*>(self)->rows; }
+};
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+// getline's buffer.
+struct Line {
+  char* data = nullptr;
+  std::size_t capacity = 0;
+  ~Line() { std::free(data); }  // NOLINT: allocated by getline
+};
+
+struct Parser {
+  csv_parser state;
+  Parser() {
+    if (csv_init(&state, CSV_STRICT | CSV_STRICT_FINI) != 0) throw std::bad_alloc();
+  }
+  ~Parser() { csv_free(&state); }
+  Parser(const Parser&) = delete;
+  Parser& operator=(const Parser&) = delete;
+};
+
+// Calls `row` with the line that it starts on and its fields, for the header and each row. Lines
+// are fed one by one, so that the callbacks of libcsv, which is C, never throw.
+void for_each_row(const std::string& file,
+                  const std::function<void(std::int64_t, std::span<const std::string>)>& row) {
+  const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rbe"));
+  if (!stream) throw InputError(file, 0, std::strerror(errno));
+  Parser parser;
+  Fields fields;
+  Line line;
+  std::int64_t number = 0;
+  std::int64_t start = 0;  // of the row that is open; 0: none is
+  const auto end_of_row = [&] {
+    if (fields.rows > 1) {
+      throw InputError(file, number, "a carriage return inside the line; expected LF or CRLF ends");
+    }
+    row(start, {fields.text.data(), fields.count});
+    fields.count = 0;
+    fields.rows = 0;
+    start = 0;
+  };
+  errno = 0;
+  for (ssize_t got; (got = getline(&line.data, &line.capacity, stream.get())) >= 0;) {
+    ++number;
+    std::string_view text(line.data, static_cast<std::size_t>(got));
+    if (number == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(3);
+    if (text.find('\0') != std::string_view::npos) {
+      throw InputError(file, number, "a NUL byte; expected text");
+    }
+    if (start == 0) {
+      if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) continue;
+      start = number;
+    }
+    if (csv_parse(&parser.state, text.data(), text.size(), &Fields::on_field, &Fields::on_row,
+                  &fields) != text.size()) {
+      if (csv_error(&parser.state) == CSV_ENOMEM) throw std::bad_alloc();
+      throw InputError(file, number,
+                       "a quotation mark out of place; expected it around a whole field, and "
+                       "doubled inside one");
+    }
+    if (fields.rows > 0) end_of_row();
+  }
+  if (std::ferror(stream.get()) != 0) throw InputError(file, 0, std::strerror(errno));
+  if (start != 0) {
+    if (csv_fini(&parser.state, &Fields::on_field, &Fields::on_row, &fields) != 0) {
+      throw InputError(file, start, "a quoted field that does not end");
+    }
+    end_of_row();
+  }
+}
+
+[[noreturn]] void write_failed(const std::filesystem::path& file, int error) {
+  throw InputError(file.string(), 0, fmt::format("cannot be written: {}", std::strerror(error)));
+}
+
+bool is_device(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+}  // namespace
+
+double CsvReader::Row::number(std::size_t column) const {
+  return parse<double>(*this, reader_->columns_[column], text(column), "a number");
+}
+
+std::int64_t CsvReader::Row::integer(std::size_t column) const {
+  return parse<std::int64_t>(*this, reader_->columns_[column], text(column), "an integer");
+}
+
+void CsvReader::Row::fail(const std::string& message) const {
+  throw InputError(reader_->file_.string(), line_, message);
+}
+
+CsvReader::CsvReader(std::filesystem::path file, std::vector<std::string> columns,
+                     const std::vector<std::string>& optional)
+    : file_(std::move(file)), columns_(std::move(columns)), required_(columns_.size()) {
+  columns_.insert(columns_.end(), optional.begin(), optional.end());
+}
+
+void CsvReader::read(const std::function<void(const Row&)>& row) const {
+  const std::string file = file_.string();
+  constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place;  // of each of our columns in the file
+  std::size_t width = 0;
+  std::vector<std::string> wanted(columns_.size());
+  Row current;
+  current.fields_ = &wanted;
+  current.reader_ = this;
+  const auto read_header = [&](std::int64_t line, std::span<const std::string> header) {
+    width = header.size();
+    for (const std::string& column : columns_) {
+      const auto at = std::ranges::find(header, column);
+      if (at == header.end()) {
+        if (place.size() >= required_) {
+          place.push_back(nowhere);
+          continue;
+        }
+        throw InputError(file, line,
+                         fmt::format("no column '{}'; expected a header line with the columns {}",
+                                     column, fmt::join(std::span(columns_).first(required_), ",")));
+      }
+      if (std::find(at + 1, header.end(), column) != header.end()) {
+        throw InputError(file, line, fmt::format("column '{}' comes twice", column));
+      }
+      place.push_back(static_cast<std::size_t>(at - header.begin()));
+    }
+  };
+  for_each_row(file, [&](std::int64_t line, std::span<const std::string> fields) {
+    if (width == 0) return read_header(line, fields);
+    if (fields.size() != width) {
+      throw InputError(
+          file, line,
+          fmt::format("{} fields; expected {}, as in the header", fields.size(), width));
+    }
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (place[i] != nowhere) wanted[i] = fields[place[i]];
+    }
+    current.line_ = line;
+    row(current);
+  });
+  if (width == 0) {
+    throw InputError(file, 1,
+                     fmt::format("an empty file; expected a header line with the columns {}",
+                                 fmt::join(columns_, ",")));
+  }
+}
+
+void append_csv_field(std::string& line, std::string_view text) {
+  const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos &&
+                     (text.empty() || (text.front() != ' ' && text.front() != '\t' &&
+                                       text.back() != ' ' && text.back() != '\t'));
+  if (plain) {
+    line += text;
+    return;
+  }
+  line += '"';
+  for (const char c : text) {
+    if (c == '"') line += '"';
+    line += c;
+  }
+  line += '"';
+}
+
+void check_output(const std::filesystem::path& file) {
+  if (!is_device(file)) CsvWriter(file, {});
+}
+
+CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>& header, Keep keep)
+    : file_(std::move(file)), columns_(header.size()) {
+  if (file_.empty()) throw InputError("the output's name is empty; expected a file");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file_, ignored)) write_failed(file_, EISDIR);
+  int descriptor = -1;
+  if (is_device(file_)) {
+    // A device or a pipe is written as it is: renaming a file over it would replace it.
+    descriptor = open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+  } else if (keep != Keep::whole_file) {
+    const int before = keep == Keep::flushed_rows ? O_TRUNC : 0;
+    descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | before, 0666);
+    flushed_ = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
+  } else {
+    // Through a symbolic link, the file that it names is replaced, and not the link.
+    if (std::filesystem::is_symlink(file_, ignored)) {
+      const std::filesystem::path target = std::filesystem::canonical(file_, ignored);
+      if (!ignored) file_ = target;
+    }
+    for (int attempt = 0; descriptor < 0; ++attempt) {
+      temporary_ = file_;
+      temporary_ += fmt::format(".{}-{}.tmp", getpid(), attempt);
+      descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor < 0 && errno != EEXIST) break;
+    }
+  }
+  const int error = errno;
+  if (descriptor < 0) {
+    temporary_.clear();
+    write_failed(file_, error);
+  }
+  stream_ = fdopen(descriptor, "wb");
+  if (stream_ == nullptr) {
+    const int reason = errno;
+    ::close(descriptor);
+    discard();
+    write_failed(file_, reason);
+  }
+  // So that rows leave the process when they are flushed, and not in the middle of one before.
+  if (flushed_ >= 0) std::setvbuf(stream_, nullptr, _IOFBF, std::size_t{1} << 20);
+  if (flushed_ > 0) return;
+  for (const std::string& name : header) field(name);
+  if (!header.empty()) end_row();
+}
+
+CsvWriter::~CsvWriter() { discard(); }
+
+void CsvWriter::discard() {
+  if (stream_ != nullptr && flushed_ >= 0) {
+    __fpurge(stream_);  // what is in the buffer is not to follow
+    if (ftruncate(fileno(stream_), flushed_) != 0) std::perror(file_.c_str());
+  }
+  if (stream_ != nullptr) std::fclose(stream_);
+  stream_ = nullptr;
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  temporary_.clear();
+}
+
+void CsvWriter::fail() {
+  const int error = errno;
+  discard();
+  write_failed(file_, error);
+}
+
+CsvWriter& CsvWriter::field(std::string_view text) {
+  if (fields_++ > 0) line_ += ',';
+  append_csv_field(line_, text);
+  return *this;
+}
+
+CsvWriter& CsvWriter::field(double value) {
+  std::array<char, 32> text;
+  if (std::isnan(value)) return field(std::string_view());
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return field(std::string_view(text.data(), end));
+}
+
+CsvWriter& CsvWriter::field(std::int64_t value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return field(std::string_view(text.data(), end));
+}
+
+void CsvWriter::end_row() {
+  if (fields_ != columns_) {
+    throw std::logic_error(fmt::format("a row of {} fields in {}, which has {} columns", fields_,
+                                       file_.string(), columns_));
+  }
+  line_ += '\n';
+  if (std::fwrite(line_.data(), 1, line_.size(), stream_) != line_.size()) fail();
+  line_.clear();
+  fields_ = 0;
+}
+
+void CsvWriter::flush() {
+  if (std::fflush(stream_) != 0) fail();
+  if (flushed_ >= 0) flushed_ = ftello(stream_);
+}
+
+void CsvWriter::close() {
+  flush();
+  const bool named = !temporary_.empty();
+  if (named && fsync(fileno(stream_)) != 0) fail();
+  std::FILE* const stream = std::exchange(stream_, nullptr);
+  if (std::fclose(stream) != 0) fail();
+  if (named && std::rename(temporary_.c_str(), file_.c_str()) != 0) fail();
+  temporary_.clear();
+}
+
+}  // namespace touchstone

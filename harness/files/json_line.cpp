@@ -1,0 +1,52 @@
+#include "harness/files/json_line.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace touchstone {
+namespace {
+
+Json parse_line(const std::string& file, std::int64_t number, std::string_view text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    // The library counts its own lines; its text begins with a name in brackets.
+    std::string message = error.what();
+    if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
+    if (message.starts_with("parse error at line 1, ")) message.erase(0, 23);
+    throw InputError(file, number, "malformed JSON: " + message);
+  }
+}
+
+}  // namespace
+
+void for_each_json_line(const std::filesystem::path& path, std::string_view what,
+                        const std::function<void(const JsonNode&)>& each) {
+  const std::string file = path.string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(
+        file, 0, fmt::format("a directory; expected a file of {}s, one JSON object a line", what));
+  }
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(file, 0, std::strerror(errno));
+  bool any = false;
+  std::string line;
+  for (std::int64_t number = 1; std::getline(stream, line); ++number) {
+    std::string_view text = line;
+    if (number == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    const Json value = parse_line(file, number, text);
+    any = true;
+    each(JsonNode(file, number, value));
+  }
+  if (stream.bad()) throw InputError(file, 0, std::strerror(errno));
+  if (!any) {
+    throw InputError(file, 1, fmt::format("no {}; expected one JSON object a line", what));
+  }
+}
+
+}  // namespace touchstone

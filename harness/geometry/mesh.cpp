@@ -1,0 +1,128 @@
+#include "harness/geometry/mesh.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "harness/geometry/mesh_format.h"
+
+namespace touchstone {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+// What a message quotes of a token that may be long or binary.
+std::string shown(std::string_view token) {
+  std::string text = token.empty() ? "nothing" : "'";
+  for (char c : token.substr(0, 40)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+  return token.empty() ? text : text + "'";
+}
+
+std::string_view without_plus(std::string_view token) {
+  if (token.size() > 1 && token[0] == '+' && token[1] != '-') token.remove_prefix(1);
+  return token;
+}
+
+}  // namespace
+
+bool TextCursor::next_line() {
+  if (rest_.empty()) {
+    line_ = {};
+    return false;
+  }
+  const std::size_t end = rest_.find('\n');
+  line_ = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  ++line_number_;
+  return true;
+}
+
+bool TextCursor::next_filled_line() {
+  while (next_line()) {
+    line_ = line_.substr(0, line_.find('#'));
+    if (!std::all_of(line_.begin(), line_.end(), is_blank)) return true;
+  }
+  return false;
+}
+
+std::string_view TextCursor::token() {
+  const auto begin = std::find_if_not(line_.begin(), line_.end(), is_blank);
+  const auto end = std::find_if(begin, line_.end(), is_blank);
+  const std::string_view found(begin, end);
+  line_ = std::string_view(end, line_.end());
+  return found;
+}
+
+std::string_view TextCursor::token_across_lines(std::string_view expected) {
+  while (true) {
+    if (const std::string_view found = token(); !found.empty()) return found;
+    if (!next_line()) fail("the file ends early; expected " + std::string(expected));
+  }
+}
+
+Vec3d TextCursor::point() {
+  const double x = number();
+  const double y = number();
+  const double z = number();
+  return {x, y, z};
+}
+
+double TextCursor::to_number(std::string_view token) const {
+  const std::string_view text = without_plus(token);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end == text.data() + text.size()) {
+    if (error == std::errc() && std::isfinite(value)) return value;
+    if (error == std::errc::result_out_of_range && text.find("e-") != std::string_view::npos) {
+      return 0;
+    }
+    if (error == std::errc::result_out_of_range && text.find("E-") != std::string_view::npos) {
+      return 0;
+    }
+  }
+  fail("expected a finite number, found " + shown(token));
+}
+
+std::int64_t TextCursor::to_integer(std::string_view token) const {
+  const std::string_view text = without_plus(token);
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    fail("expected an integer, found " + shown(token));
+  }
+  return value;
+}
+
+void add_fan(Mesh& mesh, std::span<const std::uint32_t> polygon) {
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    mesh.triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
+  }
+}
+
+Mesh read_mesh(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto reader = ending == ".obj"   ? read_obj
+                      : ending == ".off" ? read_off
+                      : ending == ".stl" ? read_stl
+                      : ending == ".ply" ? read_ply
+                                         : nullptr;
+  if (reader == nullptr) {
+    throw InputError(file.string(), 0, "unknown mesh format; expected .obj, .off, .stl or .ply");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw InputError(file.string(), 0, "cannot be read; expected a mesh file");
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  Mesh mesh = reader(file.string(), text);
+  if (mesh.vertices.empty()) {
+    throw InputError(file.string(), 0, "the mesh has no vertices; expected at least one");
+  }
+  return mesh;
+}
+
+}  // namespace touchstone

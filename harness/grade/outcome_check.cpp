@@ -1,0 +1,129 @@
+#include "harness/grade/outcome_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/core/bounds.h"
+
+namespace touchstone {
+namespace {
+
+bool in_contact(Answer answer) {
+  return answer == Answer::touching || answer == Answer::overlapping;
+}
+
+// The greatest extent and coordinate of a body, from its box; a half-space has none of its own.
+void grow(ReferenceOutcome& reference, const Shape& shape, const Pose& pose) {
+  if (shape.kind == ShapeKind::halfspace) {
+    reference.reach = std::max(reference.reach, std::abs(shape.offset));
+    return;
+  }
+  const Aabb box = tight_box(shape, pose);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.min[axis];
+    const double high = box.max[axis];
+    reference.size = std::max(reference.size, high - low);
+    reference.reach = std::max({reference.reach, std::abs(low), std::abs(high)});
+  }
+}
+
+}  // namespace
+
+void OutcomeFaults::add(const OutcomeFaults& other) {
+  compared += other.compared;
+  disagree += other.disagree;
+  grazing += other.grazing;
+  failed += other.failed;
+  crashed += other.crashed;
+  timed_out += other.timed_out;
+  unanswered += other.unanswered;
+  contacts += other.contacts;
+  values += other.values;
+  if (other.worst_pair && other.worst >= worst) {
+    worst = other.worst;
+    worst_pair = other.worst_pair;
+  }
+  worst_value_error = std::max(worst_value_error, other.worst_value_error);
+}
+
+double grazing_band(const ReferenceOutcome& reference, Precision scalar) {
+  const bool single = scalar == Precision::float32;
+  const double epsilon =
+      single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+  return (single ? 1e-4 : 1e-6) * reference.size + 8 * epsilon * reference.reach;
+}
+
+OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
+                             std::span<const ReferenceOutcome> reference, Task task,
+                             Precision scalar) {
+  OutcomeFaults faults;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const Outcome& outcome = outcomes[i];
+    const ReferenceOutcome& expected = reference[i];
+    if (in_contact(outcome.answer)) ++faults.contacts;
+    switch (outcome.status) {
+      case Status::crashed: ++faults.crashed; continue;
+      case Status::timed_out: ++faults.timed_out; continue;
+      case Status::not_converged:
+      case Status::degenerate:
+      case Status::capacity: ++faults.failed; continue;
+      case Status::unsupported: ++faults.unanswered; continue;
+      case Status::ok:
+      case Status::not_reported: break;
+    }
+    if (outcome.answer == Answer::unknown) {
+      ++faults.unanswered;
+      continue;
+    }
+    if (expected.answer == Answer::unknown) continue;
+    ++faults.compared;
+    if (in_contact(outcome.answer) != in_contact(expected.answer)) {
+      const double by = std::abs(expected.distance);
+      // Written so that an unknown distance counts as a disagreement.
+      if (by <= grazing_band(expected, scalar)) {
+        ++faults.grazing;
+      } else {
+        ++faults.disagree;
+        if (!faults.worst_pair || by > faults.worst) {
+          faults.worst = std::isnan(by) ? faults.worst : by;
+          faults.worst_pair = i;
+        }
+      }
+      continue;
+    }
+    if (task != Task::intersect && std::isfinite(outcome.distance) &&
+        std::isfinite(expected.distance) && expected.size > 0) {
+      ++faults.values;
+      faults.worst_value_error = std::max(
+          faults.worst_value_error, std::abs(outcome.distance - expected.distance) / expected.size);
+    }
+  }
+  return faults;
+}
+
+Reference::Reference(std::span<const Shape> shapes, Executor& executor)
+    : shapes_(shapes),
+      executor_(&executor),
+      solids_(shapes.begin(), shapes.end()),
+      oracles_(static_cast<std::size_t>(executor.width())) {}
+
+std::vector<ReferenceOutcome> Reference::solve(const PairGroup& group,
+                                               std::span<const std::uint32_t> shape_of,
+                                               std::span<const Pose> poses) {
+  std::vector<ReferenceOutcome> reference(group.size());
+  executor_->run(group.size(), [&](std::size_t i, int worker) {
+    ReferenceOutcome& result = reference[i];
+    const auto body = [&](std::uint32_t k) {
+      grow(result, shapes_[shape_of[k]], poses[k]);
+      return oracle::Body(solids_[shape_of[k]], poses[k]);
+    };
+    const oracle::Measure measure = oracles_[static_cast<std::size_t>(worker)].measure(
+        body(group.first[i]), body(group.second[i]));
+    result.answer = measure.answer;
+    result.distance = measure.middle();
+  });
+  return reference;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,14 @@
+// The contact manifold of one case.
+#pragma once
+
+#include "algorithms/registry.h"
+#include "harness/files/cases.h"
+
+namespace touchstone {
+
+// In the case's own order. The algorithm is made for the query and given the two shapes alone. The
+// entry is built and takes such pairs.
+Manifold solve_manifold(const ManifoldEntry& entry, const ManifoldSettings& settings,
+                        const Case& c);
+
+}  // namespace touchstone

@@ -1,0 +1,15 @@
+#include "harness/measure/narrow_choice.h"
+
+#include <limits>
+
+#include "harness/record/raw_row.h"
+
+namespace touchstone {
+
+std::string NarrowChoice::label() const {
+  return narrow_label(entry->info.name, to_string(settings.scalar),
+                      settings.tolerance.value_or(Outcome::none),
+                      settings.duality_gap.value_or(Outcome::none), warm);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,172 @@
+// The capsule of least volume that is found around a body.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "harness/geometry/enclosing_ball.h"
+#include "harness/proxies/outer_fits.h"
+
+namespace touchstone {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// An axis along `direction` (unit) from low to high of it, through `beside`.
+struct Fit {
+  Vec3d direction = Vec3d::UnitZ(), beside = Vec3d::Zero();
+  double low = 0, high = 0, radius = 0;
+  double volume = std::numeric_limits<double>::infinity();
+};
+
+double volume_of(double length, double radius) {
+  return std::numbers::pi * radius * radius * (length + 4.0 / 3 * radius);
+}
+
+// The least capsule about a line, each point being given along it and beside it.
+Fit fit_on_line(const std::vector<std::pair<double, double>>& along_and_beside, Fit fit) {
+  double least = 0, low = along_and_beside.front().first, high = low;
+  for (const auto& [along, beside] : along_and_beside) {
+    least = std::max(least, beside);
+    low = std::min(low, along);
+    high = std::max(high, along);
+  }
+  const auto with_radius = [&](double radius) {
+    Fit tried = fit;
+    tried.radius = radius;
+    tried.low = std::numeric_limits<double>::infinity();
+    tried.high = -tried.low;
+    for (const auto& [along, beside] : along_and_beside) {
+      const double ball = std::sqrt(std::max(0.0, radius * radius - beside * beside));
+      tried.low = std::min(tried.low, along + ball);
+      tried.high = std::max(tried.high, along - ball);
+    }
+    if (tried.low > tried.high) tried.low = tried.high = 0.5 * (low + high);
+    tried.volume = volume_of(tried.high - tried.low, radius);
+    return tried;
+  };
+  double a = least, b = std::hypot(least, 0.5 * (high - low));
+  Fit best = with_radius(a);
+  for (int step = 0; step < 40; ++step) {
+    const Fit first = with_radius(a + 0.382 * (b - a)), second = with_radius(a + 0.618 * (b - a));
+    const Fit& better = first.volume < second.volume ? first : second;
+    if (better.volume < best.volume) best = better;
+    (first.volume < second.volume ? b : a) =
+        first.volume < second.volume ? a + 0.618 * (b - a) : a + 0.382 * (b - a);
+  }
+  return best;
+}
+
+Fit fit_along(const Vec3d& direction, const std::vector<Vec3d>& points) {
+  std::vector<Vec3d> flat;
+  for (const Vec3d& p : points) flat.push_back(p - direction.dot(p) * direction);
+  const Ball disc = least_ball(flat);
+  Fit fit;
+  fit.direction = direction;
+  fit.beside = disc.centre;
+  std::vector<std::pair<double, double>> placed;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    placed.emplace_back(direction.dot(points[i]), (flat[i] - disc.centre).norm());
+  }
+  return fit_on_line(placed, fit);
+}
+
+Fit fit_points(const std::vector<Vec3d>& points, const Mat3d& axes) {
+  Fit best;
+  const auto consider = [&](const Vec3d& direction) {
+    const Fit fit = fit_along(direction.normalized(), points);
+    if (fit.volume < best.volume) best = fit;
+  };
+  for (int k = 0; k < 3; ++k) consider(axes.col(k));
+  for (double step = 0.2; step > 0.01; step /= 2) {
+    for (bool better = true; better;) {
+      const double before = best.volume;
+      for (int k = 0; k < 3; ++k) {
+        for (double turn : {-step, step}) consider(best.direction + turn * axes.col(k));
+      }
+      better = best.volume < before * (1 - 1e-6);
+    }
+  }
+  return best;
+}
+
+Mat3d frame_with_z(const Vec3d& z) {
+  int least = 0;
+  z.cwiseAbs().minCoeff(&least);
+  if (z == Vec3d::UnitZ()) return Mat3d::Identity();
+  Mat3d frame;
+  const Vec3d x = Vec3d::Unit(least).cross(z).normalized();
+  frame << x, z.cross(x).normalized(), z;
+  return frame;
+}
+
+// Points whose distance from an axis of symmetry along z is the greatest: of a rim one.
+std::vector<Vec3d> outline(const LocalBody& body) {
+  const Shape& s = body.shape;
+  if (s.kind == ShapeKind::hull) return body.points;
+  std::vector<Vec3d> points;
+  if (s.kind == ShapeKind::box) {
+    for (int i = 0; i < 8; ++i) {
+      points.push_back(
+          s.half_extents.cwiseProduct(Vec3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    }
+    return points;
+  }
+  points.emplace_back(s.radius, 0, -s.half_length);
+  points.emplace_back(s.kind == ShapeKind::cone ? 0 : s.radius, 0, s.half_length);
+  return points;
+}
+
+// An ellipsoid a >= b >= c, axis along a: the farthest from the segment to +-s is b or a - s.
+Part around_ellipsoid(const Shape& s) {
+  int longest = 0, shortest = 0;
+  s.radii.maxCoeff(&longest);
+  s.radii.minCoeff(&shortest);
+  const int between = longest == shortest ? longest : 3 - longest - shortest;
+  Part part;
+  part.shape.kind = ShapeKind::capsule;
+  part.shape.radius = s.radii[between] * (1 + 4 * epsilon);
+  part.shape.half_length = std::max(0.0, (s.radii[longest] - s.radii[between]) * (1 + 4 * epsilon));
+  part.pose.rotation = frame_with_z(Vec3d::Unit(longest));
+  return part;
+}
+
+}  // namespace
+
+Part outer_capsule(const LocalBody& body) {
+  const Shape& s = body.shape;
+  Part part;
+  part.shape.kind = ShapeKind::capsule;
+  if (s.kind == ShapeKind::sphere || s.kind == ShapeKind::capsule) {
+    part.shape.radius = s.radius;
+    if (s.kind == ShapeKind::capsule) part.shape.half_length = s.half_length;
+    return part;
+  }
+  if (s.kind == ShapeKind::ellipsoid) return around_ellipsoid(s);
+  const std::vector<Vec3d> points = outline(body);
+  const bool about_z = s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone;
+  Fit fit;
+  if (about_z) {
+    fit = fit_on_line({{-s.half_length, s.radius}, {s.half_length, points.back().x()}}, fit);
+  } else {
+    const bool many = s.kind == ShapeKind::hull;
+    fit = fit_points(many ? s.hull->vertices : points, fitting_axes(body));
+  }
+  const Mat3d frame = frame_with_z(fit.direction);
+  const Vec3d axis = frame.col(2);
+  const Vec3d centre = body.snap(fit.beside + 0.5 * (fit.low + fit.high) * axis);
+  double half = 0.5 * (fit.high - fit.low);
+  if (half < 1e-9 * body.size) half = 0;  // a ball
+  part.pose = {frame, centre};
+  part.shape.half_length = half;
+  // To any point of the segment as it is placed; the nearest is not farther.
+  for (const Vec3d& p : points) {
+    const Vec3d from = p - centre;
+    const double at = std::clamp(axis.dot(from), -half, half);
+    const double far = (from - at * axis).norm() + 16 * epsilon * (from.norm() + half);
+    part.shape.radius = std::max(part.shape.radius, far);
+  }
+  return part;
+}
+
+}  // namespace touchstone

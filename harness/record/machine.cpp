@@ -1,0 +1,251 @@
+#include "harness/record/machine.h"
+
+#include <fmt/core.h>
+#include <sched.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+#if defined(__GLIBC__)
+#include <gnu/libc-version.h>
+#endif
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "algorithms/core/isa.h"
+#include "harness/base/hash.h"
+#include "harness/files/csv.h"
+#include "harness/record/build_info.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::string_view unknown = "unknown";
+
+std::string first_line(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  return std::getline(stream, line) && !line.empty() ? line : std::string(unknown);
+}
+
+// The value behind "key : value" in a file such as /proc/cpuinfo.
+std::string value_of(const std::string& file, std::string_view key) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t colon = line.find(':');
+    if (!line.starts_with(key) || colon == std::string::npos) continue;
+    const std::size_t begin = line.find_first_not_of(" \t", colon + 1);
+    return begin == std::string::npos ? std::string(unknown) : line.substr(begin);
+  }
+  return std::string(unknown);
+}
+
+// Places as the kernel writes them: "0-3,6".
+std::string ranges(const std::set<int>& places) {
+  std::string text;
+  for (auto at = places.begin(); at != places.end();) {
+    const int first = *at;
+    int last = first;
+    while (++at != places.end() && *at == last + 1) last = *at;
+    if (!text.empty()) text += ',';
+    text += first == last ? std::to_string(first) : fmt::format("{}-{}", first, last);
+  }
+  return text;
+}
+
+// The processors that this process may run on.
+std::string affinity() {
+  cpu_set_t mask;
+  if (sched_getaffinity(0, sizeof mask, &mask) != 0) return {};
+  std::set<int> allowed;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (CPU_ISSET(cpu, &mask)) allowed.insert(cpu);
+  }
+  return ranges(allowed);
+}
+
+// Cores, as pairs of package and number: processors that share one count once.
+std::string physical_cores(const std::string& folder) {
+  std::set<std::string> cores;
+  for (int cpu = 0;; ++cpu) {
+    const std::string place = fmt::format("{}cpu{}/", folder, cpu);
+    if (!std::filesystem::exists(place)) break;
+    const std::string core = first_line(place + "topology/core_id");
+    if (core != unknown) cores.insert(first_line(place + "topology/physical_package_id") + core);
+  }
+  return cores.empty() ? std::string() : std::to_string(cores.size());
+}
+
+std::string boost(const std::string& folder) {
+  const std::string off = first_line(folder + "intel_pstate/no_turbo");
+  if (off != unknown) return off == "0" ? "1" : "0";
+  return first_line(folder + "cpufreq/boost");
+}
+
+// By the bit and the leaf that processors keep for it, since not every hypervisor is in /sys.
+std::string hypervisor() {
+  const std::string named = first_line("/sys/hypervisor/type");
+  if (named != unknown) return named;
+#if defined(__x86_64__)
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  constexpr unsigned present = 1u << 31;
+  if (__get_cpuid(1, &a, &b, &c, &d) == 0) return {};
+  if ((c & present) == 0) return "none";
+  __cpuid(0x40000000, a, b, c, d);
+  char vendor[13] = {};
+  std::memcpy(vendor, &b, 4);
+  std::memcpy(vendor + 4, &c, 4);
+  std::memcpy(vendor + 8, &d, 4);
+  return vendor;
+#else
+  return {};
+#endif
+}
+
+// The limits that hold for this process: its group's and those above it. `first`: the file's name
+// in version 1, whose controllers are apart; `second`: in version 2.
+std::string group_limits(const std::string& controller, const std::string& first,
+                         const std::string& second) {
+  const std::filesystem::path root = "/sys/fs/cgroup";
+  std::string limits;
+  bool any = false;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t colon = line.find(':');
+    const std::size_t end = line.find(':', colon + 1);
+    if (colon == std::string::npos || end == std::string::npos) continue;
+    const std::string names = "," + line.substr(colon + 1, end - colon - 1) + ",";
+    const bool unified = names == ",,";
+    if (!unified && names.find("," + controller + ",") == std::string::npos) continue;
+    const std::filesystem::path folder = unified ? root : root / controller;
+    std::filesystem::path group = line.substr(end + 2);
+    for (bool at_root = false; !at_root; group = group.parent_path()) {
+      at_root = group.empty();
+      const std::string value = first_line(folder / group / (unified ? second : first));
+      if (value == unknown) continue;
+      any = true;
+      const bool none = value.starts_with("max") || value == "-1" || value.size() >= 19;
+      if (!none) limits += (limits.empty() ? "" : "; ") + value;
+    }
+  }
+  return !any ? "" : limits.empty() ? "none" : limits;
+}
+
+std::string command_line() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!text.empty() && text.back() == '\0') text.pop_back();
+  // The program by its name: where it lies says nothing about the results.
+  const std::size_t end = std::min(text.find('\0'), text.size());
+  text.erase(0, text.rfind('/', end) + 1);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
+}
+
+std::string preloaded() {
+  const char* const value = std::getenv("LD_PRELOAD");
+  return value == nullptr || *value == '\0' ? "none" : value;
+}
+
+// What git says, or "unknown" where there is no git or no repository.
+std::string git(const std::string& arguments) {
+  const std::string command = fmt::format("git -C '{}' {} 2>/dev/null", source_folder, arguments);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string text;
+  char buffer[256];
+  while (pipe && std::fgets(buffer, sizeof buffer, pipe.get()) != nullptr) text += buffer;
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> machine_facts() {
+  std::vector<std::pair<std::string, std::string>> facts;
+  const auto add = [&](std::string_view name, std::string_view value) {
+    facts.emplace_back(name, value.empty() ? unknown : value);
+  };
+  const std::string cpu = "/sys/devices/system/cpu/";
+  add("processor", value_of("/proc/cpuinfo", "model name"));
+  add("microcode", value_of("/proc/cpuinfo", "microcode"));
+  add("cores_online", std::to_string(std::thread::hardware_concurrency()));
+  add("cores_physical", physical_cores(cpu));
+  add("affinity", affinity());
+  add("numa_nodes", first_line("/sys/devices/system/node/online"));
+  add("simultaneous_multithreading", first_line(cpu + "smt/active"));
+  for (int level = 0; level < 4; ++level) {
+    const std::string cache = fmt::format("{}cpu0/cache/index{}/", cpu, level);
+    add(fmt::format("cache_{}", level),
+        fmt::format("L{} {} {}", first_line(cache + "level"), first_line(cache + "type"),
+                    first_line(cache + "size")));
+  }
+  add("governor", first_line(cpu + "cpu0/cpufreq/scaling_governor"));
+  add("frequency_driver", first_line(cpu + "cpu0/cpufreq/scaling_driver"));
+  add("greatest_frequency_khz", first_line(cpu + "cpu0/cpufreq/cpuinfo_max_freq"));
+  add("boost", boost(cpu));
+  add("clock_source",
+      first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource"));
+  add("memory", value_of("/proc/meminfo", "MemTotal"));
+  utsname name{};
+  uname(&name);
+  add("kernel", fmt::format("{} {} {}", name.sysname, name.release, name.machine));
+  add("hypervisor", hypervisor());
+  add("processor_limit", group_limits("cpu", "cpu.cfs_quota_us", "cpu.max"));
+  add("memory_limit", group_limits("memory", "memory.limit_in_bytes", "memory.max"));
+  add("transparent_huge_pages", first_line("/sys/kernel/mm/transparent_hugepage/enabled"));
+  add("perf_event_paranoid", first_line("/proc/sys/kernel/perf_event_paranoid"));
+  add("address_randomisation", first_line("/proc/sys/kernel/randomize_va_space"));
+  for (const auto& [key, value] : build_facts) add(key, value);
+#if defined(__GLIBC__)
+  add("c_library", std::string("glibc ") + gnu_get_libc_version());
+#else
+  add("c_library", "");
+#endif
+  add("preloaded", preloaded());
+  add("instructions_of_machine", to_string(isa_of_machine()));
+  add("instructions_in_use", to_string(isa()));
+  std::string commit = git("rev-parse HEAD");
+  if (!commit.empty()) commit.pop_back();
+  add("commit", commit);
+  add("tree", commit.empty() ? "" : git("status --porcelain").empty() ? "clean" : "changed");
+  add(command_line_fact, command_line());
+  return facts;
+}
+
+std::string hash_of_program() {
+  std::ifstream file("/proc/self/exe", std::ios::binary);
+  std::uint64_t hash = 0;
+  std::vector<char> buffer(std::size_t{1} << 20);
+  while (file) {
+    std::ranges::fill(buffer, '\0');
+    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(file.gcount()); i += 8) {
+      std::uint64_t word = 0;
+      std::copy_n(buffer.data() + i, 8, reinterpret_cast<char*>(&word));
+      hash = mix(hash ^ word);
+    }
+  }
+  return to_hex(hash);
+}
+
+void write_facts(std::vector<std::pair<std::string, std::string>> first,
+                 const std::filesystem::path& file) {
+  CsvWriter csv(file, {"name", "value"});
+  for (auto& fact : machine_facts()) first.push_back(std::move(fact));
+  for (const auto& [name, value] : first) csv.field(name).field(value).end_row();
+  csv.close();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,172 @@
+#include "harness/scene/aabbs.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "harness/base/error.h"
+
+namespace touchstone {
+namespace {
+
+// The file: two texts of 128 bytes, each ended by a zero; the number of boxes N and of steps K; two
+// unused words; the world's box; K + 1 arrays of N boxes, the first being the state at the start. A
+// box is min x, y, z and an unused float, then max likewise.
+constexpr std::size_t text_size = 128;
+constexpr std::size_t count_at = 2 * text_size;
+constexpr std::size_t steps_at = count_at + 4;
+constexpr std::size_t world_at = count_at + 16;
+constexpr std::size_t box_size = 32;
+constexpr std::size_t header_size = world_at + box_size;
+
+std::uint32_t load(const char* from) {
+  std::uint32_t word = 0;
+  for (int i = 3; i >= 0; --i) word = (word << 8) | static_cast<unsigned char>(from[i]);
+  return word;
+}
+
+void store(std::uint32_t word, char* to) {
+  for (int i = 0; i < 4; ++i) to[i] = static_cast<char>((word >> (8 * i)) & 0xff);
+}
+
+Aabb load_box(const char* from) {
+  Aabb box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.min[i] = std::bit_cast<float>(load(from + 4 * i));
+    box.max[i] = std::bit_cast<float>(load(from + 16 + 4 * i));
+  }
+  return box;
+}
+
+void store_box(const Aabb& box, char* to) {
+  std::memset(to, 0, box_size);
+  for (std::size_t i = 0; i < 3; ++i) {
+    store(std::bit_cast<std::uint32_t>(box.min[i]), to + 4 * i);
+    store(std::bit_cast<std::uint32_t>(box.max[i]), to + 16 + 4 * i);
+  }
+}
+
+// What is wrong with a box; empty when nothing is.
+std::string fault(const Aabb& box) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char axis = "xyz"[i];
+    if (!std::isfinite(box.min[i]) || !std::isfinite(box.max[i])) {
+      return fmt::format("{} from {} to {}; expected finite numbers", axis, box.min[i], box.max[i]);
+    }
+    if (box.min[i] > box.max[i]) {
+      return fmt::format("{} from {} to {}; expected min <= max", axis, box.min[i], box.max[i]);
+    }
+  }
+  return {};
+}
+
+std::string load_text(const char* from, const std::string& file, std::string_view what) {
+  const void* end = std::memchr(from, 0, text_size);
+  if (end == nullptr) {
+    throw InputError(file, 0,
+                     fmt::format("the {} does not end; expected a text of at most 127 bytes and a "
+                                 "zero: is this a recording of Broadmark?",
+                                 what));
+  }
+  return std::string(from, static_cast<const char*>(end));
+}
+
+}  // namespace
+
+BoxRecording read_aabbs(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw InputError(file, 0, "cannot be read: " + error.message());
+  if (size < header_size) {
+    throw InputError(file, 0, fmt::format("{} bytes; expected a header of {}", size, header_size));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<char> bytes(header_size);
+  if (!stream.read(bytes.data(), header_size)) throw InputError(file, 0, "cannot be read");
+
+  BoxRecording recording;
+  recording.scene = load_text(bytes.data(), file, "scene's name");
+  recording.type = load_text(bytes.data() + text_size, file, "objects' type");
+  recording.world = load_box(bytes.data() + world_at);
+  const auto count = static_cast<std::int32_t>(load(bytes.data() + count_at));
+  const auto steps = static_cast<std::int32_t>(load(bytes.data() + steps_at));
+  if (count < 1) throw InputError(file, 0, fmt::format("{} boxes; expected at least one", count));
+  if (steps < 0) throw InputError(file, 0, fmt::format("{} steps; expected 0 or more", steps));
+  // Before anything of that size is allocated.
+  const std::uintmax_t frames = std::uintmax_t{1} + static_cast<std::uintmax_t>(steps);
+  const std::uintmax_t boxes = frames * static_cast<std::uintmax_t>(count);  // below 2^62
+  if ((size - header_size) % box_size != 0 || (size - header_size) / box_size != boxes) {
+    throw InputError(file, 0,
+                     fmt::format("{} bytes behind the header; expected {} frames of {} boxes of {} "
+                                 "bytes",
+                                 size - header_size, frames, count, box_size));
+  }
+  if (const std::string what = fault(recording.world); !what.empty()) {
+    throw InputError(file, 0, "the world's box: " + what);
+  }
+
+  const auto n = static_cast<std::size_t>(count);
+  bytes.resize(n * box_size);
+  recording.frames.reserve(frames);
+  for (std::uintmax_t frame = 0; frame < frames; ++frame) {
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+      throw InputError(file, 0, fmt::format("frame {} cannot be read", frame));
+    }
+    std::vector<Aabb>& list = recording.frames.emplace_back(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      list[i] = load_box(bytes.data() + i * box_size);
+      if (const std::string what = fault(list[i]); !what.empty()) {
+        throw InputError(file, 0, fmt::format("frame {}, box {}: {}", frame, i, what));
+      }
+    }
+  }
+  return recording;
+}
+
+void write_aabbs(const BoxRecording& recording, const std::filesystem::path& path) {
+  const std::size_t n = recording.frames.empty() ? 0 : recording.frames.front().size();
+  const bool even = std::all_of(recording.frames.begin(), recording.frames.end(),
+                                [n](const auto& frame) { return frame.size() == n; });
+  if (n == 0 || !even || n > INT32_MAX || recording.frames.size() > INT32_MAX) {
+    throw InputError(path.string(), 0,
+                     "cannot hold this recording; expected frames of equally many boxes, from 1 to "
+                     "2147483647 of each");
+  }
+  std::filesystem::path temporary = path;
+  temporary += fmt::format(".{}.part", ::getpid());
+  const auto fail = [&](const std::string& why) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw InputError(path.string(), 0, "cannot be written: " + why);
+  };
+
+  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+  std::vector<char> bytes(header_size);
+  recording.scene.copy(bytes.data(), text_size - 1);
+  recording.type.copy(bytes.data() + text_size, text_size - 1);
+  store(static_cast<std::uint32_t>(n), bytes.data() + count_at);
+  store(static_cast<std::uint32_t>(recording.frames.size() - 1), bytes.data() + steps_at);
+  store_box(recording.world, bytes.data() + world_at);
+  stream.write(bytes.data(), header_size);
+  bytes.resize(n * box_size);
+  for (const auto& frame : recording.frames) {
+    for (std::size_t i = 0; i < n; ++i) store_box(frame[i], bytes.data() + i * box_size);
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+  stream.close();
+  if (!stream) fail("is the folder there, and the disk not full?");
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) fail(error.message());
+}
+
+}  // namespace touchstone

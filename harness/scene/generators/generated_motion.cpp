@@ -1,0 +1,88 @@
+#include "harness/scene/generators/generated_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "algorithms/core/bounds.h"
+
+namespace touchstone {
+namespace {
+
+double median_size(const Scene& scene) {
+  std::vector<double> of_shape;
+  for (const Shape& shape : scene.shapes) {
+    double size = 0;
+    const Aabb box = tight_box(shape, Pose{});
+    for (std::size_t i = 0; i < 3; ++i) {
+      size = std::max(size, static_cast<double>(box.max[i]) - static_cast<double>(box.min[i]));
+    }
+    of_shape.push_back(size);
+  }
+  std::vector<double> sizes;
+  for (const Body& body : scene.bodies) {
+    if (std::isfinite(of_shape[body.shape])) sizes.push_back(of_shape[body.shape]);
+  }
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+// To the nearest body.
+std::size_t part_of(double share, std::size_t count) {
+  return static_cast<std::size_t>(std::floor(share * static_cast<double>(count) + 0.5));
+}
+
+}  // namespace
+
+void read_step(TomlTable& table, Scene& scene) {
+  if (!table.has("step")) return;
+  const double step = table.number("step", not_negative);
+  if (table.contains("speed")) table.fail("step", "given beside speed; expected one of the two");
+  Motion& motion = scene.motion;
+  if (!(motion.speed > 0)) {
+    table.fail("step", "given with a generator whose bodies stand still; expected none");
+  }
+  const double speed = step * median_size(scene) / motion.time_step;
+  const double factor = speed / motion.speed;
+  for (Body& body : scene.bodies) body.velocity *= factor;
+  motion.speed = speed;
+}
+
+void read_order(GeneratorInput& input, Scene& scene) {
+  if (!input.table.boolean("shuffled", false)) return;
+  if (!scene.pairs.empty()) {
+    input.table.fail("shuffled", "given with bodies that are listed in pairs; expected none");
+  }
+  Random random = input.random(GeneratorInput::order_stream);
+  for (std::size_t left = scene.bodies.size(); left > 1; --left) {
+    std::swap(scene.bodies[left - 1], scene.bodies[random.below(left)]);
+  }
+}
+
+void read_exchange(GeneratorInput& input, Scene& scene) {
+  std::vector<std::size_t> movers;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].moving) movers.push_back(i);
+  }
+  const auto read = [&](const char* key) {
+    const double share = input.table.number(key, {.low = 0, .high = 1}, 0.0);
+    if (share > 0 && (movers.empty() || !scene.pairs.empty())) {
+      input.table.fail(key, "given where no body moves; expected some that do");
+    }
+    return part_of(share, movers.size());
+  };
+  const std::size_t teleports = read("teleports");
+  if (teleports > 0 && movers.size() > 1) {
+    scene.motion.teleports = std::max<std::size_t>(teleports, 2);  // it takes two to exchange
+  }
+  const std::size_t churn = read("churn");
+  Random random = input.random(GeneratorInput::arrival_stream);
+  for (std::size_t i = 0; i < churn; ++i) {
+    scene.bodies.push_back(Body(scene.bodies[movers[random.below(movers.size())]]));
+  }
+  scene.motion.churn = churn;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,135 @@
+#include "harness/scene/generators/world_size.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "algorithms/core/bounds.h"
+
+namespace touchstone {
+namespace {
+
+// More where bodies are many: the fewer of all pairs overlap, the fewer of a sample do.
+constexpr std::size_t many_bodies = 200'000;
+constexpr std::size_t sampled_of_few = 16'384, sampled_of_many = 262'144;
+
+// P(X - Y <= x) for X and Y even on [0, 1].
+double triangle(double x) {
+  if (x <= -1) return 0;
+  if (x >= 1) return 1;
+  return x < 0 ? (1 + x) * (1 + x) / 2 : 1 - (1 - x) * (1 - x) / 2;
+}
+
+double overlap_probability(const Aabb& a, const Region& at, const Aabb& b, const Region& bt) {
+  double probability = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    // The origins' difference must be in [low, high]: then the intervals share a point.
+    const auto i = static_cast<std::size_t>(axis);
+    const double between = bt.low[axis] - at.low[axis];
+    const double low = static_cast<double>(a.min[i]) - static_cast<double>(b.max[i]) - between;
+    const double high = static_cast<double>(a.max[i]) - static_cast<double>(b.min[i]) - between;
+    const double width = at.width[axis];
+    probability *= width > 0 ? triangle(high / width) - triangle(low / width)
+                             : (low <= 0 && high >= 0 ? 1.0 : 0.0);
+  }
+  return probability;
+}
+
+double round_to_16_bits(double x) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);
+  return std::ldexp(std::floor(mantissa * 0x1p16 + 0.5), exponent - 16);
+}
+
+// The sum of the volumes of the bodies' boxes in their own frames.
+double own_volume(const Scene& scene) {
+  std::vector<double> volumes;
+  for (const Shape& shape : scene.shapes) {
+    const Aabb box = tight_box(shape, Pose{});
+    double volume = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      volume *= static_cast<double>(box.max[i]) - static_cast<double>(box.min[i]);
+    }
+    volumes.push_back(volume);
+  }
+  double sum = 0;
+  for (const Body& body : scene.bodies) sum += volumes[body.shape];
+  return sum;
+}
+
+// The side at which so many overlaps are expected; 0 where they are too many for any.
+double side_for_overlaps(double overlaps, std::span<const Aabb> boxes, const RegionOf& region,
+                         const Random& random) {
+  const auto expect = [&](double side) { return expected_overlaps(boxes, region, side, random); };
+  double low = 1, high = 1;
+  for (int i = 0; expect(low) < overlaps; ++i) {
+    if (i == 100) return 0;
+    low /= 2;
+  }
+  while (expect(high) > overlaps) high *= 2;
+  for (int i = 0; i < 18; ++i) {
+    const double middle = (low + high) / 2;
+    (expect(middle) >= overlaps ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+std::vector<Aabb> boxes_at_origin(const Scene& scene) {
+  std::vector<Aabb> boxes;
+  for (const Body& body : scene.bodies) {
+    boxes.push_back(tight_box(scene.shapes[body.shape], {body.pose.rotation, Vec3d::Zero()}));
+  }
+  return boxes;
+}
+
+double expected_overlaps(std::span<const Aabb> boxes, const RegionOf& region, double side,
+                         Random random) {
+  const std::size_t n = boxes.size();
+  if (n < 2) return 0;
+  double sum = 0;
+  std::size_t pairs = 0;
+  const std::size_t sampled_pairs = n > many_bodies ? sampled_of_many : sampled_of_few;
+  const auto add = [&](std::size_t i, std::size_t j) {
+    sum += overlap_probability(boxes[i], region(i, side), boxes[j], region(j, side));
+    ++pairs;
+  };
+  if (n * (n - 1) / 2 <= sampled_pairs) {
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = i + 1; j < n; ++j) add(i, j);
+    }
+  } else {
+    while (pairs < sampled_pairs) {
+      const std::size_t i = random.below(n), j = random.below(n);
+      if (i != j) add(i, j);
+    }
+  }
+  return sum / static_cast<double>(pairs) * static_cast<double>(n - 1);
+}
+
+double read_world_side(TomlTable& table, const Scene& scene, const RegionOf& region,
+                       const WorldDefaults& defaults, bool with_density, Random random) {
+  const auto others = static_cast<double>(scene.bodies.size()) - 1;
+  const bool asked = table.has("overlaps");
+  if (with_density && (table.has("density") || (defaults.density > 0 && !asked))) {
+    if (asked) table.fail("overlaps", "given beside density; expected one of the two");
+    const double density = table.number("density", positive, defaults.density);
+    return round_to_16_bits(cube_root(own_volume(scene) / density));
+  }
+  // Where nothing was asked, few bodies have few overlaps.
+  const double overlaps =
+      asked ? table.number("overlaps", positive) : std::min(defaults.overlaps, others / 2);
+  if (!(overlaps > 0)) return round_to_16_bits(cube_root(own_volume(scene)) + 1);
+  const double side =
+      overlaps < others ? side_for_overlaps(overlaps, boxes_at_origin(scene), region, random) : 0;
+  if (side == 0) {
+    table.fail("overlaps", fmt::format("found {}; {} bodies in this arrangement cannot have so "
+                                       "many: expected fewer",
+                                       overlaps, scene.bodies.size()));
+  }
+  return round_to_16_bits(side);
+}
+
+}  // namespace touchstone

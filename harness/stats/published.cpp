@@ -1,0 +1,43 @@
+#include "harness/stats/published.h"
+
+#include <utility>
+
+namespace touchstone {
+namespace {
+
+void read_claims(TomlTable& published, std::string_view key, PublishedClaim::Kind kind,
+                 std::vector<PublishedClaim>& claims) {
+  if (!published.has(key)) return;
+  for (TomlTable& table : published.tables(key)) {
+    PublishedClaim claim;
+    claim.kind = kind;
+    claim.algorithm = table.text("algorithm");
+    claim.scene = table.text("scene", "");
+    claim.pair_kind = table.text("pair_kind", "");
+    if (kind == PublishedClaim::Kind::faster) claim.than = table.text("than");
+    if (kind == PublishedClaim::Kind::iterations) {
+      claim.mean = table.number("mean", positive);
+      claim.deviation = table.number("deviation", not_negative);
+      claim.uncounted = table.integer("uncounted", 0, 1000, 0);
+    }
+    table.finish();
+    claims.push_back(std::move(claim));
+  }
+}
+
+}  // namespace
+
+Published read_published(TomlTable& campaign) {
+  Published published;
+  if (!campaign.has("published")) return published;
+  TomlTable table = campaign.inside("published", "published");
+  published.source = table.text("source");
+  published.note = table.text("note", "");
+  read_claims(table, "iterations", PublishedClaim::Kind::iterations, published.claims);
+  read_claims(table, "faster", PublishedClaim::Kind::faster, published.claims);
+  read_claims(table, "suffices", PublishedClaim::Kind::suffices, published.claims);
+  table.finish();
+  return published;
+}
+
+}  // namespace touchstone

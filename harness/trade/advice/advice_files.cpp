@@ -1,0 +1,163 @@
+#include "harness/trade/advice/advice_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/base/markdown.h"
+
+namespace touchstone {
+namespace {
+
+std::string interval(const TimedPoint& timed) {
+  if (std::isnan(timed.low)) return "";
+  return fmt::format(" ({:.4g} to {:.4g})", timed.low * 1e3, timed.high * 1e3);
+}
+
+std::string describe(const TradeOutcome& outcome, ErrorMeasure measure) {
+  const Configuration& c = outcome.point.configuration;
+  const PointErrors& errors = outcome.evaluation.errors;
+  const PipelineCounters& work = outcome.evaluation.counters;
+  std::string text = fmt::format("  bodies as      {}\n", c.representations.name());
+  if (c.broad != nullptr) {
+    text += fmt::format("  boxes          {}\n  broad phase    {}\n", c.boxes.name(),
+                        c.broad->info.name);
+  }
+  text += fmt::format("  narrow phase   {}\n", c.narrow_name());
+  text += fmt::format("  costs          {:.4g} ms a frame{}, and {:.3g} s beforehand\n",
+                      outcome.timed.seconds * 1e3, interval(outcome.timed), outcome.preparation);
+  text += fmt::format(
+      "  error          {:.3g} ({}): of {} pairs near each other {} false contacts, {} missed, {} "
+      "without an answer\n",
+      outcome.error, to_string(measure), errors.near, errors.false_positives + errors.far,
+      errors.false_negatives, errors.failed);
+  text += fmt::format(
+      "  needs          {} hulls built, {} shapes bound; for the frames looked at {} updates, {} "
+      "queries, {} witness points\n",
+      work.hulls_built, work.shapes_bound, work.updates, work.queries, work.witnesses);
+  return text;
+}
+
+std::vector<double> errors_of(const std::vector<HeldOutGrade>& grades) {
+  std::vector<double> errors;
+  for (const HeldOutGrade& grade : grades) errors.push_back(grade.error);
+  return errors;
+}
+
+std::string errors_text(const std::vector<HeldOutGrade>& grades) {
+  return fmt::format("{:.3g}", fmt::join(errors_of(grades), ", "));
+}
+
+}  // namespace
+
+std::string advice_text(const Advice& advice, const TradeRequest& request,
+                        const ErrorBudget& budget, const TradeScene& scene) {
+  std::string text = fmt::format("{}: {}; {} configurations, {} within the budget, {} timed\n\n",
+                                 scene.scene.name, to_string(budget, request.measure),
+                                 advice.configurations, advice.within_budget, advice.timed);
+  if (!advice.best) return text + "Nothing that was tried meets the budget.\n";
+  text += fmt::format("Cheapest: {}\n{}", advice.best->point.configuration.name(),
+                      describe(*advice.best, request.measure));
+  text += "  elsewhere      ";
+  if (advice.held_out.empty()) {
+    text += advice.held_out_on + "\n\n";
+  } else {
+    std::int64_t near = 0, missed = 0;
+    for (const HeldOutGrade& grade : advice.held_out) {
+      near += grade.near;
+      missed += grade.missed;
+    }
+    text += fmt::format("{} on {}: {} pairs, {} missed\n\n", errors_text(advice.held_out),
+                        advice.held_out_on, near, missed);
+  }
+  if (!advice.next_better) return text + "Nothing that was tried is better.\n";
+  return text + fmt::format("Next better: {}, for {:.3g} times the time\n{}",
+                            advice.next_better->point.configuration.name(),
+                            advice.next_better->timed.seconds / advice.best->timed.seconds,
+                            describe(*advice.next_better, request.measure));
+}
+
+void write_advice(const Advice& advice, TradeRequest request, const ErrorBudget& budget,
+                  const TradeScene& scene, const std::filesystem::path& folder) {
+  stats::write_text(folder / "advice.txt", advice_text(advice, request, budget, scene));
+  if (!advice.best) return;
+  request.grids = {grid_of(advice.best->point.configuration)};
+  if (advice.next_better) request.grids.push_back(grid_of(advice.next_better->point.configuration));
+  stats::write_text(folder / "advice.toml",
+                    trade_toml(request, folder,
+                               "The cheapest with " + to_string(budget, request.measure) +
+                                   ", and the next better behind it.\n"
+                                   "Measured by: touchstone run advice.toml"));
+}
+
+std::string verification_text(const Verification& v) {
+  std::string text = v.holds() ? "Verified: " : "Not verified: ";
+  text += fmt::format("the error is {:.3g} on the scene", v.choice.error);
+  if (v.held_out.empty()) {
+    text += fmt::format(", and there is {}", v.held_out_on);
+  } else {
+    text += fmt::format(" and {} on {}", errors_text(v.held_out), v.held_out_on);
+  }
+  text += fmt::format(", {} the budget. Of {} configurations {} others are within it",
+                      v.within_budget ? "within" : "not within", v.configurations, v.rivals);
+  if (v.dropped > 0) text += fmt::format(", of which at least {} fail elsewhere", v.dropped);
+  if (v.best.empty()) return text + ".\n";
+  return text + fmt::format(
+                    "; the fastest is {}. The choice takes {:.3f} ({:.3f} to {:.3f}) times "
+                    "its time: {}.\n",
+                    v.best, v.ratio.median, v.ratio.low, v.ratio.high,
+                    v.time == TimeVerdict::within   ? "within 10 %"
+                    : v.time == TimeVerdict::beyond ? "beyond 10 %"
+                                                    : "not known to be within 10 %");
+}
+
+VerificationRows::VerificationRows(const std::filesystem::path& file, int draws)
+    : draws_(draws),
+      file_(
+          file,
+          [&] {
+            std::vector<std::string> columns = {
+                "scene",     "scene_hash",         "bodies", "task",  "threads", "error_measure",
+                "max_error", "no_false_negatives", "choice", "error", "held_out"};
+            for (int i = 1; i <= draws; ++i) columns.push_back(fmt::format("error_{}", i));
+            for (const char* column :
+                 {"within_budget", "configurations", "rivals", "rivals_dropped", "seconds", "best",
+                  "best_seconds", "ratio", "ratio_low", "ratio_high", "rounds", "within_time",
+                  "verified"}) {
+              columns.emplace_back(column);
+            }
+            return columns;
+          }(),
+          CsvWriter::Keep::flushed_rows) {
+  file_.flush();
+}
+
+void VerificationRows::write(const TradeRequest& request, const ErrorBudget& budget,
+                             const TradeScene& scene, const Verification* verification) {
+  // Without advice: what nobody chose has no error and no time.
+  const Verification none = [] {
+    Verification empty;
+    empty.choice.error = Outcome::none;
+    empty.time = TimeVerdict::undecided;
+    return empty;
+  }();
+  const Verification& v = verification == nullptr ? none : *verification;
+  file_.field(scene.scene.name).field(scene_hash(scene.scene)).field(scene.scene.size());
+  file_.field(to_string(request.task)).field(request.threads).field(to_string(request.measure));
+  file_.field(budget.most).field(budget.no_false_negatives ? 1 : 0);
+  file_.field(verification == nullptr ? "" : v.choice.point.configuration.name());
+  file_.field(v.choice.error).field(v.held_out.empty() ? "" : v.held_out_on);
+  for (int i = 0; i < draws_; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    file_.field(at < v.held_out.size() ? v.held_out[at].error : Outcome::none);
+  }
+  file_.field(v.within_budget ? "yes" : "no").field(v.configurations).field(v.rivals);
+  file_.field(v.dropped).field(v.seconds).field(v.best).field(v.best_seconds);
+  file_.field(v.ratio.median).field(v.ratio.low).field(v.ratio.high).field(v.ratio.n);
+  file_.field(to_string(v.time)).field(v.holds() ? "yes" : "no").end_row();
+  file_.flush();
+}
+
+}  // namespace touchstone

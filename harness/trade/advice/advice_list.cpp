@@ -1,0 +1,59 @@
+#include "harness/trade/advice/advice_list.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "harness/files/toml_table.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
+
+AdviceTask read_task(TomlTable& table, const std::filesystem::path& folder,
+                     const TradeRequest& usual) {
+  AdviceTask task;
+  TradeRequest& request = task.request = usual;
+  request.scene = (folder / table.text("file")).lexically_normal();
+  if (!std::filesystem::is_regular_file(request.scene)) {
+    table.fail("file", fmt::format("found \"{}\", which is no file; expected a scene",
+                                   request.scene.string()));
+  }
+  task.name = table.text("name", request.scene.stem().string());
+  if (task.name.empty() || task.name.find('/') != std::string::npos || task.name[0] == '.') {
+    table.fail("name", fmt::format("found \"{}\"; expected a name for a folder", task.name));
+  }
+  request.name = task.name + "-advice";
+  request.task =
+      static_cast<Task>(table.choice("task", task_names, static_cast<std::size_t>(usual.task)));
+  request.measure = static_cast<ErrorMeasure>(table.choice(
+      "error", error_measure_names, static_cast<std::size_t>(default_measure(request.task))));
+  task.budget.most = table.number("max_error", not_negative, task.budget.most);
+  task.budget.no_false_negatives = table.boolean("no_false_negatives", false);
+  table.finish();
+  return task;
+}
+
+}  // namespace
+
+std::vector<AdviceTask> read_advice_list(const std::filesystem::path& file,
+                                         const TradeRequest& usual) {
+  const toml::table root = parse_toml(file);
+  TomlTable top(root, file.string(), "");
+  std::vector<AdviceTask> tasks;
+  std::set<std::string> names;
+  for (TomlTable& table : top.tables("scene")) {
+    tasks.push_back(read_task(table, file.parent_path(), usual));
+    if (!names.insert(tasks.back().name).second) {
+      table.fail("name", fmt::format("\"{}\" is there twice; expected another name for one of them",
+                                     tasks.back().name));
+    }
+  }
+  top.finish();
+  return tasks;
+}
+
+}  // namespace touchstone

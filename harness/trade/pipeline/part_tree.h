@@ -1,0 +1,62 @@
+// A tree of boxes over the parts of a body, in the body's frame: the phase between broad and
+// narrow.
+// Paper: van den Bergen, "Efficient collision detection of complex deformable models using AABB
+//        trees", J. Graphics Tools 2(4), 1997.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "algorithms/core/pose.h"
+#include "harness/proxies/representation.h"
+
+namespace touchstone {
+
+class PartTree {
+ public:
+  explicit PartTree(std::span<const Part> parts);
+
+  struct Node {
+    Vec3d centre, half;         // metres, body frame; rounded outward
+    std::uint32_t left, right;  // nodes; of a leaf, left == leaf and right is the part
+    static constexpr std::uint32_t leaf = std::numeric_limits<std::uint32_t>::max();
+    bool is_leaf() const { return left == leaf; }
+  };
+  const std::vector<Node>& nodes() const { return nodes_; }  // the root first
+  // A point of each part, body frame.
+  const Vec3d& point(std::uint32_t part) const { return points_[part]; }
+  // A half-space is alone in its tree, and has no box.
+  bool is_plane() const { return is_plane_; }
+  const Vec3d& normal() const { return normal_; }  // unit
+  double offset() const { return offset_; }
+
+ private:
+  std::uint32_t split(std::span<std::uint32_t> parts, std::span<const Node> boxes);
+
+  std::vector<Node> nodes_;
+  std::vector<Vec3d> points_;
+  bool is_plane_ = false;
+  Vec3d normal_ = Vec3d::UnitZ();
+  double offset_ = 0;
+};
+
+// A part's pose in the world.
+inline Pose placed(const Pose& body, const Pose& part) {
+  return {body.rotation * part.rotation, body.rotation * part.translation + body.translation};
+}
+
+// Parts of a, and of b.
+using PartPair = std::pair<std::uint32_t, std::uint32_t>;
+
+// Appends every pair of parts whose boxes meet; some that do not may be among them.
+void meeting_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pose& pose_b,
+                   std::vector<PartPair>& pairs);
+
+// Appends every pair of parts that may be the nearest, the one that is among them.
+void nearest_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pose& pose_b,
+                   std::vector<PartPair>& pairs);
+
+}  // namespace touchstone

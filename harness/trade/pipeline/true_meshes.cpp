@@ -1,0 +1,123 @@
+#include "harness/trade/pipeline/true_meshes.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "algorithms/registry.h"
+#include "harness/trade/pipeline/kind_batches.h"
+
+namespace touchstone {
+namespace {
+
+Representing triangles_for_meshes() {
+  return {
+      [](const Shape&, const Mesh* mesh, const Representation&) { return triangle_parts(*mesh); },
+      {}};
+}
+
+Representations meshes_as_they_are() {
+  Representations representations;
+  representations.of[mesh_body] = Representation{Form::mesh, Side::outer, 0};
+  return representations;
+}
+
+}  // namespace
+
+std::vector<Part> triangle_parts(const Mesh& mesh) {
+  std::vector<Part> parts;
+  parts.reserve(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    auto hull = std::make_shared<Hull>();
+    for (const std::uint32_t vertex : triangle) hull->vertices.push_back(mesh.vertices[vertex]);
+    hull->dimension = 2;
+    Part part;
+    part.shape.kind = ShapeKind::hull;
+    part.shape.hull = std::move(hull);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+bool is_inside(const Mesh& mesh, const Vec3d& point) {
+  double angle = 0;
+  for (const auto& triangle : mesh.triangles) {
+    const Vec3d a = mesh.vertices[triangle[0]] - point, b = mesh.vertices[triangle[1]] - point,
+                c = mesh.vertices[triangle[2]] - point;
+    const double x = a.norm(), y = b.norm(), z = c.norm();
+    angle +=
+        2 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
+  }
+  return std::abs(angle) > 2 * std::numbers::pi;
+}
+
+TrueMeshes::TrueMeshes(const SceneFrames& frames, Executor& executor)
+    : frames_(&frames),
+      library_(frames, triangles_for_meshes()),
+      solids_(library_.get(library_.complete(meshes_as_they_are()))) {
+  for (int worker = 0; worker < executor.width(); ++worker) {
+    certified_.push_back(find_narrow_phase("certified")->make({}));
+    certified_.back()->bind(solids_->shapes);
+  }
+}
+
+bool TrueMeshes::has_inside(std::uint32_t body, const Pose& pose, const Vec3d& point) const {
+  const Mesh* mesh = frames_->mesh_of[frames_->scene->bodies[body].shape];
+  return mesh != nullptr && is_inside(*mesh, pose.rotation.inverse() * (point - pose.translation));
+}
+
+std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& pair, int worker) {
+  const std::vector<Pose>& poses = frames_->frames[frame].poses;
+  const Pose &pose_a = poses[pair.a], &pose_b = poses[pair.b];
+  const StandIn &a = *solids_->of[pair.a], &b = *solids_->of[pair.b];
+  std::vector<PartPair> found;
+  nearest_parts(a.tree, pose_a, b.tree, pose_b, found);
+  // The parts that occur, numbered afresh.
+  std::vector<Pose> part_poses;
+  std::vector<std::uint32_t> shape_of;
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  const auto number = [&](std::uint32_t body, const StandIn& stand_in, std::uint32_t part) {
+    const std::uint32_t all = solids_->first[body] + part;
+    const auto [place, fresh] =
+        numbers.try_emplace(all, static_cast<std::uint32_t>(numbers.size()));
+    if (fresh) {
+      part_poses.push_back(placed(poses[body], stand_in.parts[part].pose));
+      shape_of.push_back(solids_->shape_of[all]);
+    }
+    return place->second;
+  };
+  KindBatches batches;
+  for (const auto& [i, j] : found) {
+    const std::uint32_t first = number(pair.a, a, i), second = number(pair.b, b, j);
+    batches.add(first, a.parts[i].shape.kind, second, b.parts[j].shape.kind, 0);
+  }
+  double gap = std::numeric_limits<double>::infinity();
+  for (const KindBatches::Batch& batch : batches.batches()) {
+    if (batch.size() == 0) continue;
+    std::vector<Outcome> outcomes(batch.size());
+    certified_[static_cast<std::size_t>(worker)]->solve({.task = Task::distance,
+                                                         .kind_a = batch.kind_a,
+                                                         .kind_b = batch.kind_b,
+                                                         .first = batch.first,
+                                                         .second = batch.second,
+                                                         .shape_of = shape_of,
+                                                         .poses = part_poses},
+                                                        outcomes);
+    for (const Outcome& outcome : outcomes) {
+      if (outcome.answer == Answer::touching || outcome.answer == Answer::overlapping) {
+        return {outcome.answer, Outcome::none};
+      }
+      if (outcome.answer == Answer::unknown) return {Answer::unknown, Outcome::none};
+      gap = std::min(gap, outcome.distance);
+    }
+  }
+  if (has_inside(pair.a, pose_a, pose_b(b.tree.point(0))) ||
+      has_inside(pair.b, pose_b, pose_a(a.tree.point(0)))) {
+    return {Answer::overlapping, Outcome::none};
+  }
+  return {Answer::separated, gap};
+}
+
+}  // namespace touchstone

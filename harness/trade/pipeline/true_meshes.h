@@ -1,0 +1,40 @@
+// The exact answer for a pair of which a body has a mesh: triangle by triangle, and inside of it.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "algorithms/core/executor.h"
+#include "algorithms/narrow_phase.h"
+#include "harness/trade/pipeline/stand_ins.h"
+
+namespace touchstone {
+
+// The mesh's triangles, each a flat hull, in the mesh's own frame.
+std::vector<Part> triangle_parts(const Mesh& mesh);
+
+// Whether a point lies inside of a closed mesh (metres, its frame): the winding number by solid
+// angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A mesh with
+// small holes still has an inside.
+bool is_inside(const Mesh& mesh, const Vec3d& point);
+
+class TrueMeshes {
+ public:
+  // Both outlive it.
+  TrueMeshes(const SceneFrames& frames, Executor& executor);
+
+  // The answer and the gap; the gap is NaN in contact, as meshes have no depth. No two calls with
+  // one worker at once.
+  std::pair<Answer, double> solve(std::size_t frame, const IndexPair& pair, int worker);
+
+ private:
+  bool has_inside(std::uint32_t body, const Pose& pose, const Vec3d& point) const;
+
+  const SceneFrames* frames_;
+  StandInLibrary library_;
+  std::shared_ptr<const StandIns> solids_;
+  std::vector<std::unique_ptr<NarrowPhase>> certified_;  // one a worker
+};
+
+}  // namespace touchstone

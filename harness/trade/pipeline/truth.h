@@ -1,0 +1,45 @@
+// The exact answers for the pairs of bodies of a scene that are near each other.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/outcome.h"
+#include "algorithms/core/pair_sink.h"
+#include "harness/trade/pipeline/scene_frames.h"
+
+namespace touchstone {
+
+struct TruePair {
+  IndexPair pair;
+  Answer answer = Answer::unknown;
+  // Metres, signed. NaN where it is not known: of meshes in contact there is no depth.
+  double gap = Outcome::none;
+  double size = 0;  // metres: of the smaller body, which errors are parts of
+};
+
+struct FrameTruth {
+  std::size_t frame = 0;
+  std::vector<TruePair> pairs;  // sorted
+};
+
+// Bodies are near where their boxes, tight and grown by this part of each body's own size, overlap;
+// or where the scene lists the pair.
+inline constexpr double nearness = 0.05;
+
+// All frames of a scene in the order in which samples of them are taken: frame 0, which has the
+// pairs of bodies at rest, then evenly spread however many are taken.
+std::vector<std::size_t> sampling_order(std::size_t frames);
+
+// The diameter of each body's box at its own attitude, metres; 0 for half-spaces.
+std::vector<double> body_sizes(const SceneFrames& frames);
+
+// The truth of these frames, one after the other until so many seconds are spent, but of the first
+// in any case. Pairs of two bodies at rest are in that of frame 0 alone. A mesh is a solid: a body
+// inside of it is in contact with it. Exact arithmetic, or `certified` for pairs of triangles; in a
+// child process with so many threads. Throws std::runtime_error where the first frame fails.
+std::vector<FrameTruth> find_truth(const SceneFrames& frames, std::span<const std::size_t> wanted,
+                                   double seconds, int threads);
+
+}  // namespace touchstone

@@ -1,0 +1,38 @@
+// The campaigns that come with the project can be read, and name scenes that are there.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "algorithms/registry.h"
+#include "harness/campaign/campaign.h"
+#include "tests/project_folder.h"
+
+namespace touchstone {
+namespace {
+
+TEST(Campaigns, AllAreReadAndTheirScenesAreThere) {
+  // They name peers.
+  for (const BroadPhaseEntry& entry : broad_phases()) {
+    if (!is_built(entry.info)) GTEST_SKIP() << entry.info.name << ": " << entry.info.reason;
+  }
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    if (!is_built(entry.info)) GTEST_SKIP() << entry.info.name << ": " << entry.info.reason;
+  }
+  int count = 0;
+  const std::filesystem::path folder =
+      std::filesystem::path(touchstone::project_folder) / "datasets/campaigns";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    const Campaign campaign = read_campaign(entry.path());
+    ++count;
+    for (const CampaignGroup& group : campaign.groups) {
+      for (const auto& scene : group.scenes) {
+        EXPECT_TRUE(std::filesystem::exists(scene)) << entry.path() << " names " << scene;
+      }
+    }
+  }
+  EXPECT_GE(count, 8);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,264 @@
+#include "harness/campaign/runner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "harness/base/error.h"
+#include "harness/campaign/report.h"
+#include "harness/files/csv.h"
+#include "harness/record/raw_row.h"
+#include "harness/stats/tables.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace {
+
+using namespace touchstone;
+
+class Runner : public testing::Test {
+ protected:
+  Campaign campaign(const std::string& text) {
+    std::ofstream(folder_.path() / "scene.toml")
+        << "generator = 'uniform'\ncount = 150\noverlaps = 4\n"
+           "frames = 3\nshapes = ['box', 'sphere', 'hull']\n";
+    std::ofstream(folder_.path() / "c.toml") << "scenes = 'scene.toml'\n" << text;
+    return read_campaign(folder_.path() / "c.toml");
+  }
+  std::filesystem::path out() const { return folder_.path() / "out"; }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
+  const Campaign c = campaign(
+      "broad = ['naive', 'uniform-grid']\nnarrow = ['gjk', 'sat']\n"
+      "scalars = 'double'\ntasks = ['intersect', 'penetration']\nsquares = 6");
+  const RunResult result = run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  const std::vector<RawRow> rows = read_raw_rows(out() / "raw.csv");
+  EXPECT_EQ(rows.size(), result.findings.rows().size());
+  std::map<Phase, int> checks, samples;
+  std::map<std::int64_t, std::set<std::string>> hashes;
+  std::map<std::string, std::set<std::int64_t>> processes;
+  int stops = 0;
+  for (const RawRow& row : rows) {
+    ++(row.kind == RowKind::check ? checks : samples)[row.phase];
+    EXPECT_TRUE(row.status == "unsupported" || row.seconds > 0);
+    EXPECT_EQ(row.kind == RowKind::sample, row.square >= 0);
+    if (row.kind == RowKind::sample) processes[label_of(row)].insert(row.process);
+    if (row.kind == RowKind::check && row.phase == Phase::find_pairs) {
+      hashes[row.frame].insert(row.pair_hash);
+    }
+    if (!row.stop.empty()) {
+      ++stops;
+      EXPECT_EQ(row.stop, "rounds");
+    }
+  }
+  EXPECT_EQ(checks[Phase::build], 2);
+  EXPECT_EQ(checks[Phase::update], 4);
+  EXPECT_EQ(checks[Phase::find_pairs], 6);
+  // gjk and sat, two tasks, three frames, six kinds of pairs.
+  EXPECT_EQ(checks[Phase::narrow], 2 * 2 * 3 * 6);
+  ASSERT_EQ(hashes.size(), 3u);
+  for (const auto& [frame, set] : hashes) EXPECT_EQ(set.size(), 1u);
+  // Two contestants and the twin: squares of three rounds.
+  EXPECT_EQ(samples[Phase::update], 6 * 3 * 3);
+  EXPECT_EQ(samples[Phase::find_pairs], 6 * 3 * 3);
+  EXPECT_EQ(processes["uniform-grid"], (std::set<std::int64_t>{0, 1, 2}));
+  EXPECT_EQ(stops, 1 + 2 * 6);  // a set
+  EXPECT_TRUE(std::filesystem::exists(out() / "machine.csv"));
+}
+
+// Every broad phase with some narrow phases, and every narrow phase with one broad phase.
+TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
+  const Campaign c = campaign(
+      "threads = [1, 3]\npairing = 'product'\nframes = 2\n"
+      "tasks = ['intersect', 'distance', 'penetration']\n"
+      "seconds = 1e-6\nsquares = 6\nrounds = 1\nprocesses = 1\n"
+      "[[group]]\nbroad = 'ours'\nnarrow = ['gjk', 'closed-form']\nscalars = 'double'\n"
+      "[[group]]\nbroad = 'packed-rtree'\nnarrow = 'ours'\n");
+  const RunResult result = run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  std::map<std::string, std::set<std::string>> by_cell;
+  std::set<std::string> combinations;
+  for (const RawRow& row : result.findings.rows()) {
+    EXPECT_NE(row.status, status_wrong) << label_of(row);
+    if (row.kind == RowKind::sample && row.phase == Phase::narrow) {
+      combinations.insert(row.broad + " " + row.narrow);
+    }
+    if (row.kind != RowKind::check || row.pair_hash.empty()) continue;
+    by_cell[row.broad + row.narrow + row.scalar + row.task + row.boxes + row.pair_kind +
+            std::to_string(row.frame)]
+        .insert(row.pair_hash + row.outcome_hash);
+  }
+  for (const auto& [cell, hashes] : by_cell) EXPECT_EQ(hashes.size(), 1u) << cell;
+  EXPECT_GE(combinations.size(), 20u);
+}
+
+// What comes and goes, jumps or moves is checked frame by frame like everything else.
+TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
+  const Campaign c =
+      campaign("broad = ['ours', 'peers']\nnarrow = 'gjk'\nsquares = 6\nthreads = 2");
+  std::ofstream(folder_.path() / "scene.toml")
+      << "generator = 'uniform'\ncount = 120\noverlaps = 4\nframes = 7\nchurn = 0.1\n"
+         "teleports = 0.1\nmoving = 0.5\n";
+  const RunResult result = run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  std::map<std::int64_t, std::set<std::string>> hashes;
+  std::map<std::int64_t, std::set<std::string>> found_by;
+  for (const RawRow& row : result.findings.rows()) {
+    EXPECT_EQ(row.bodies, 120);
+    if (row.kind != RowKind::check || row.phase != Phase::find_pairs) continue;
+    const BroadPhaseEntry* const entry = find_broad_phase(row.broad);
+    if (!entry->info.known_defect.empty()) continue;
+    hashes[row.frame].insert(row.pair_hash);
+    found_by[row.frame].insert(row.broad);
+  }
+  ASSERT_EQ(hashes.size(), 7u);
+  std::set<std::string> all;
+  for (const auto& [frame, set] : hashes) {
+    EXPECT_EQ(set.size(), 1u) << frame;
+    EXPECT_GE(found_by[frame].size(), 8u);
+    all.insert(set.begin(), set.end());
+  }
+  EXPECT_EQ(all.size(), 7u) << "every frame has other pairs";
+}
+
+TEST_F(Runner, RebuildsHoldsInstructionsDownAndMeasuresTheLimit) {
+  const Campaign c = campaign(
+      "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = 1\nlimit = true\n"
+      "isa = ['all', 'baseline']\nsquares = 6\nrounds = 1\nprocesses = 1\n"
+      "[[group]]\nrebuild = true\n[[group]]\n");
+  const Isa before = isa();
+  const RunResult result = run_campaign(c, out());
+  EXPECT_EQ(isa(), before);
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  std::map<std::string, std::map<std::string, int>> samples;
+  for (const RawRow& row : read_raw_rows(out() / "raw.csv")) {
+    EXPECT_EQ(row.status, "ok");
+    EXPECT_EQ(row.isa, row.isa_limit.empty() ? to_string(before) : "baseline");
+    if (row.kind != RowKind::sample) continue;
+    EXPECT_EQ(row.process, 0);
+    EXPECT_EQ(row.round, 0);
+    EXPECT_NE(row.phase, row.rebuild == 1 ? Phase::update : Phase::build);
+    if (row.phase != Phase::find_pairs || row.twin == 1) continue;
+    ++samples[row.isa_limit + (row.rebuild == 1 ? " rebuilt" : "")][row.broad];
+  }
+  ASSERT_EQ(samples.size(), 4u);
+  const std::map<std::string, int> each = {{"naive", 6}, {"sweep-and-prune", 6}, {"limit", 6}};
+  for (const auto& [block, counts] : samples) EXPECT_EQ(counts, each) << block;
+  const std::string table = broad_table(result.findings, {.page_width = 200, .noisy = true});
+  EXPECT_THAT(table, testing::HasSubstr("baseline rebuilt"));
+  EXPECT_THAT(table, testing::ContainsRegex("limit +[0-9]"));
+  // Four sets, not one.
+  const stats::Results read = stats::read_results(out());
+  EXPECT_EQ(read.sets.size(), 4u);
+  const stats::Tables tables = stats::make_tables(read, stats::Noise::kept);
+  for (const auto& row : tables.winners) EXPECT_NE(row.winner, "limit");
+  ASSERT_EQ(tables.broad_best.size(), 4u);
+  for (const auto& row : tables.broad_best) {
+    EXPECT_NE(row.ours.label, "limit");
+    EXPECT_TRUE(row.peer.label.empty());
+    EXPECT_GT(row.over_limit.median, 0);
+  }
+}
+
+TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
+  const std::string text =
+      "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = [1, 2]\nsquares = 6\n"
+      "counts = [100, 200]\nframes = 2\n";
+  const RunResult all = run_campaign(campaign(text), out());
+  for (const RawRow& row : all.findings.rows()) EXPECT_FALSE(row.lost());
+  // Nobody is so fast.
+  const RunResult none = run_campaign(campaign(text + "time_limit = 1e-9"), out());
+  int tried = 0, left_out = 0;
+  for (const RawRow& row : none.findings.rows()) {
+    if (!row.lost()) continue;
+    EXPECT_EQ(row.status, "timed_out");
+    ++(row.words.empty() ? tried : left_out);
+    if (row.words.empty()) continue;
+    EXPECT_EQ(row.words, "not tried: over the limit of 1e-09 s with 100 bodies");
+  }
+  EXPECT_EQ(tried, 2);
+  EXPECT_EQ(left_out, 2 * 3) << "the same at two threads, and with more bodies";
+  // A limit that grows faster than the count is another question.
+  const RunResult more = run_campaign(
+      campaign("broad = 'naive'\nnarrow = 'none'\nthreads = 1\nsquares = 6\nframes = 2\n"
+               "[[group]]\ncounts = 100\ntime_limit = 1e-9\n"
+               "[[group]]\ncounts = 200\ntime_limit = 10\n"),
+      out());
+  int lost = 0;
+  for (const RawRow& row : more.findings.rows()) lost += row.lost();
+  EXPECT_EQ(lost, 1);
+}
+
+TEST_F(Runner, TablesNameEveryAlgorithm) {
+  const Campaign c = campaign("broad = 'ours'\nnarrow = 'ours'\nseconds = 0.5");
+  const RunResult result = run_campaign(c, out());
+  const ReportStyle style = {.page_width = 120, .noisy = true};
+  const std::string broad = broad_table(result.findings, style);
+  const std::string narrow = narrow_tables(result.findings, style);
+  for (const BroadPhaseEntry* entry : c.groups[0].broad) {
+    EXPECT_THAT(broad, testing::HasSubstr(entry->info.name));
+  }
+  // Those that take a pair of kinds that the scene has.
+  constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::box, ShapeKind::hull};
+  for (const NarrowChoice& choice : c.groups[0].narrow) {
+    bool takes_some = false;
+    for (const ShapeKind a : kinds) {
+      for (const ShapeKind b : kinds) {
+        takes_some = takes_some || offers(*choice.entry, a, b, Task::intersect);
+      }
+    }
+    EXPECT_EQ(narrow.find(choice.entry->info.name) != std::string::npos, takes_some)
+        << choice.entry->info.name;
+  }
+  EXPECT_THAT(broad, testing::ContainsRegex("[*=][0-9]"));
+  EXPECT_THAT(broad, testing::HasSubstr("all 3 frames"));
+  EXPECT_THAT(narrow, testing::HasSubstr("agreement with exact"));
+}
+
+TEST_F(Runner, LeavesNothingBehindWhenASceneIsWrong) {
+  Campaign c = campaign("");
+  std::ofstream(folder_.path() / "scene.toml") << "generator = 'uniform'\ncount = -3\n";
+  EXPECT_THROW(run_campaign(c, out()), InputError);
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(Runner, LeavesOutWhatIsTooSlowAndSaysSo) {
+  const Campaign c = campaign("broad = 'naive'\nnarrow = 'none'\ntime_limit = 1e-9");
+  const RunResult result = run_campaign(c, out());
+  int lost = 0;
+  for (const RawRow& row : result.findings.rows()) lost += row.status == "timed_out";
+  EXPECT_EQ(lost, 1);
+  EXPECT_FALSE(result.findings.ours_are_wrong());
+  EXPECT_THAT(departures(result.findings), testing::HasSubstr("over the limit"));
+}
+
+TEST_F(Runner, RulesLeaveCellsOut) {
+  const Campaign c = campaign(
+      "broad = ['naive', 'uniform-grid']\nnarrow = ['gjk', 'sat']\ncounts = [30, 60]\n"
+      "exclude = [{broad = 'naive', counts_above = 40}, {narrow = 'gjk', scalar = 'float'},\n"
+      "           {narrow = 'sat', pair_kind = 'box-box'}]\nseconds = 0.05");
+  const RunResult result = run_campaign(c, out());
+  std::set<std::string> cells;
+  for (const RawRow& row : result.findings.rows()) {
+    if (row.status == "unsupported") continue;
+    cells.insert(label_of(row) + " " + std::to_string(row.bodies) + " " + row.pair_kind);
+  }
+  EXPECT_TRUE(cells.contains("naive 30 "));
+  EXPECT_FALSE(cells.contains("naive 60 "));
+  EXPECT_TRUE(cells.contains("uniform-grid 60 "));
+  EXPECT_TRUE(cells.contains("gjk double 60 box-box"));
+  EXPECT_FALSE(cells.contains("gjk float 60 box-box"));
+  EXPECT_FALSE(cells.contains("sat double 60 box-box"));
+  EXPECT_TRUE(cells.contains("sat double 60 box-hull"));
+  const std::vector<PlannedBlock> plan = plan_campaign(c);
+  ASSERT_EQ(plan.size(), 2u);
+  EXPECT_THAT(plan[1].sets[0].contestants, testing::ElementsAre("uniform-grid"));
+}
+
+}  // namespace

@@ -1,0 +1,275 @@
+#include "harness/grade/grade.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "harness/grade/encoding.h"
+#include "tests/harness/check/pairs.h"
+
+namespace touchstone {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+// A pair of unit cubes (half extents 1) with the second at x, and its exact answer.
+struct Cubes {
+  oracle::Oracle oracle;
+  EncodedPair pair;
+  oracle::Measure exact;
+
+  explicit Cubes(double x, const Shape& b = cube(1))
+      : pair(along_x(cube(1), b, x), Encoding::as_given),
+        exact(oracle.measure(pair.a(), pair.b())) {}
+  Grade grade(const Outcome& outcome, Task task) const {
+    return touchstone::grade(outcome, task, exact, pair.a(), pair.b());
+  }
+  WitnessGrade witnesses(const Outcome& outcome, Task task) {
+    return grade_witnesses(outcome, task, pair.a(), pair.b(), oracle);
+  }
+};
+
+Outcome outcome(Answer answer, Status status = Status::ok, double distance = Outcome::none) {
+  Outcome outcome;
+  outcome.answer = answer;
+  outcome.status = status;
+  outcome.distance = distance;
+  return outcome;
+}
+
+TEST(Grade, EveryVerdict) {
+  using enum Answer;
+  const Cubes apart(3), touch(2), meet(1.5);
+  const auto verdict = [](const Cubes& cubes, Answer answer, Status status = Status::ok) {
+    return cubes.grade(outcome(answer, status), Task::intersect).verdict;
+  };
+  for (const Status status : {Status::ok, Status::not_reported}) {
+    EXPECT_EQ(verdict(apart, separated, status), Verdict::right);
+    EXPECT_EQ(verdict(apart, overlapping, status), Verdict::silent_error);
+    EXPECT_EQ(verdict(apart, touching, status), Verdict::silent_error);
+    EXPECT_EQ(verdict(meet, overlapping, status), Verdict::right);
+    EXPECT_EQ(verdict(meet, touching, status), Verdict::right);
+    EXPECT_EQ(verdict(meet, separated, status), Verdict::silent_error);
+    EXPECT_EQ(verdict(touch, separated, status), Verdict::unscored);
+    EXPECT_EQ(verdict(touch, overlapping, status), Verdict::unscored);
+    EXPECT_EQ(verdict(apart, unknown, status), Verdict::honest_failure);
+    EXPECT_EQ(verdict(touch, unknown, status), Verdict::honest_failure);
+  }
+  for (const Status status : {Status::not_converged, Status::degenerate, Status::capacity}) {
+    EXPECT_EQ(verdict(apart, overlapping, status), Verdict::honest_failure);
+    EXPECT_EQ(verdict(apart, separated, status), Verdict::honest_failure);
+  }
+  EXPECT_EQ(verdict(apart, unknown, Status::crashed), Verdict::crashed);
+  EXPECT_EQ(verdict(apart, unknown, Status::timed_out), Verdict::timed_out);
+  EXPECT_EQ(verdict(apart, unknown, Status::unsupported), Verdict::unsupported);
+}
+
+TEST(Grade, TheOracleMayNotTell) {
+  Cubes cubes(3);
+  cubes.exact.answer = Answer::unknown;
+  cubes.exact.lower = -1;
+  cubes.exact.upper = 1;
+  const Grade grade = cubes.grade(outcome(Answer::overlapping), Task::intersect);
+  EXPECT_EQ(grade.verdict, Verdict::unscored);
+  EXPECT_TRUE(std::isnan(grade.margin));
+}
+
+TEST(Grade, NamesOfVerdictsReadBack) {
+  for (int i = 0; i < 7; ++i) {
+    const auto verdict = static_cast<Verdict>(i);
+    EXPECT_EQ(verdict_from(to_string(verdict)), verdict);
+  }
+  EXPECT_EQ(verdict_from("wrong"), std::nullopt);
+}
+
+TEST(Grade, MarginIsTheExactDistanceThatWasCalledWrongly) {
+  EXPECT_EQ(Cubes(3).grade(outcome(Answer::overlapping), Task::intersect).margin, 1);
+  EXPECT_EQ(Cubes(1.5).grade(outcome(Answer::separated), Task::intersect).margin, 0.5);
+  EXPECT_TRUE(std::isnan(Cubes(3).grade(outcome(Answer::separated), Task::intersect).margin));
+  const Grade honest =
+      Cubes(3).grade(outcome(Answer::overlapping, Status::not_converged), Task::intersect);
+  EXPECT_TRUE(std::isnan(honest.margin));
+}
+
+TEST(Grade, ErrorsOfDistances) {
+  const Cubes apart(3);
+  const auto error = [&](double distance) {
+    return apart.grade(outcome(Answer::separated, Status::ok, distance), Task::distance)
+        .distance_error;
+  };
+  EXPECT_EQ(error(1), 0);
+  EXPECT_EQ(error(1.25), 0.25);
+  EXPECT_EQ(error(0.75), -0.25);
+  EXPECT_EQ(error(inf), inf);
+  EXPECT_TRUE(std::isnan(error(Outcome::none)));
+  // Not asked, not stood by, or about bodies that overlap.
+  const Outcome far = outcome(Answer::separated, Status::ok, 2);
+  EXPECT_TRUE(std::isnan(apart.grade(far, Task::penetration).distance_error));
+  EXPECT_TRUE(
+      std::isnan(apart.grade(outcome(Answer::separated, Status::not_converged, 2), Task::distance)
+                     .distance_error));
+  EXPECT_TRUE(std::isnan(Cubes(1.5).grade(far, Task::distance).distance_error));
+  EXPECT_EQ(Cubes(2).grade(far, Task::distance).distance_error, 2);
+}
+
+TEST(Grade, ErrorsOfDepthsAndTheirTranslations) {
+  const Cubes meet(1.5);
+  const auto grade = [&](double depth, const Vec3d& normal) {
+    Outcome o = outcome(Answer::overlapping, Status::ok, -depth);
+    o.normal = normal;
+    return meet.grade(o, Task::penetration);
+  };
+  const Grade right = grade(0.5, {1, 0, 0});
+  EXPECT_EQ(right.depth_error, 0);
+  EXPECT_EQ(right.separation_error, 0);
+  EXPECT_EQ(right.excess, 0);
+  // Too shallow: its translation leaves a quarter.
+  const Grade shallow = grade(0.25, {1, 0, 0});
+  EXPECT_EQ(shallow.depth_error, -0.25);
+  EXPECT_EQ(shallow.separation_error, 0.25);
+  EXPECT_EQ(shallow.excess, 0);
+  // Another axis, and what it takes along it; a normal of any length states the direction.
+  const Grade side = grade(2, {0, 5, 0});
+  EXPECT_EQ(side.depth_error, 1.5);
+  EXPECT_EQ(side.separation_error, 0);
+  EXPECT_EQ(side.excess, 1.5);
+  // Away from it: the whole length of both.
+  EXPECT_EQ(grade(0.5, {-1, 0, 0}).separation_error, 3);
+  // No direction, no translation.
+  EXPECT_TRUE(std::isnan(grade(0.5, Vec3d::Zero()).separation_error));
+  EXPECT_TRUE(std::isnan(grade(0.5, Vec3d::Constant(Outcome::none)).excess));
+  EXPECT_EQ(grade(0.75, Vec3d::Zero()).depth_error, 0.25);
+}
+
+TEST(Grade, NormalOfAGap) {
+  const Cubes apart(3);
+  Outcome o = outcome(Answer::separated, Status::ok, 1);
+  o.normal = {1, 0, 0};
+  EXPECT_EQ(apart.grade(o, Task::distance).separation_error, 0);
+  EXPECT_EQ(apart.grade(o, Task::distance).excess, 0);
+  o.normal = {0, 1, 0};
+  EXPECT_EQ(apart.grade(o, Task::distance).excess, 3);
+}
+
+TEST(Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
+  Case c;
+  c.shape_a = cube(1);
+  c.shape_b.kind = ShapeKind::halfspace;
+  c.pose_a.translation = {0, 0, 0.5};
+  const EncodedPair pair(c, Encoding::as_given);
+  oracle::Oracle oracle;
+  const oracle::Measure exact = oracle.measure(pair.a(), pair.b());
+  EXPECT_EQ(exact.lower, -0.5);
+  Outcome o = outcome(Answer::overlapping, Status::ok, -0.5);
+  const auto grade = [&](const Vec3d& normal) {
+    o.normal = normal;
+    return touchstone::grade(o, Task::penetration, exact, pair.a(), pair.b());
+  };
+  EXPECT_EQ(grade({0, 0, -1}).separation_error, 0);
+  // Turned by a rounding error, it is as good up to that.
+  EXPECT_NEAR(grade({1e-8, 0, -1}).separation_error, 0, 1e-15);
+  EXPECT_NEAR(grade({1, 0, -1}).separation_error, std::sqrt(0.5) - 0.5, 1e-15);
+  EXPECT_EQ(grade({0, 0, 1}).separation_error, inf);
+}
+
+TEST(Grade, TwoHalfspacesOverlapForEver) {
+  Case c;
+  c.shape_a.kind = c.shape_b.kind = ShapeKind::halfspace;
+  c.shape_b.normal = {0, 1, 1};
+  const EncodedPair pair(c, Encoding::as_given);
+  oracle::Oracle oracle;
+  const oracle::Measure exact = oracle.measure(pair.a(), pair.b());
+  const auto error = [&](double distance) {
+    return touchstone::grade(outcome(Answer::overlapping, Status::ok, distance), Task::penetration,
+                             exact, pair.a(), pair.b())
+        .depth_error;
+  };
+  EXPECT_EQ(error(-inf), 0);
+  EXPECT_EQ(error(-5), -inf);
+}
+
+TEST(Grade, CertifiedBounds) {
+  const Cubes apart(3);
+  const auto error = [&](double lower, double upper, Status status = Status::ok) {
+    Outcome o = outcome(Answer::separated, status);
+    o.lower = lower;
+    o.upper = upper;
+    return apart.grade(o, Task::intersect).bounds_error;
+  };
+  EXPECT_TRUE(std::isnan(error(Outcome::none, Outcome::none)));
+  EXPECT_EQ(error(0.5, 1.5), 0);
+  EXPECT_EQ(error(1, 1), 0);
+  EXPECT_EQ(error(1.25, 2), 0.25);
+  EXPECT_EQ(error(0, 0.5), 0.5);
+  EXPECT_EQ(error(1.25, Outcome::none), 0.25);
+  EXPECT_EQ(error(0.25, Outcome::none), 0);
+  EXPECT_EQ(error(Outcome::none, 0.5), 0.5);
+  EXPECT_EQ(error(2, 0), 1);  // empty
+  // Whatever became of the answer.
+  EXPECT_EQ(error(1.25, 2, Status::not_converged), 0.25);
+  EXPECT_TRUE(std::isnan(error(1.25, 2, Status::crashed)));
+}
+
+TEST(Grade, WitnessPoints) {
+  Cubes apart(3);
+  Outcome o = outcome(Answer::separated, Status::ok, 1);
+  o.normal = {1, 0, 0};
+  o.witness_a = {1, 0.5, 0.5};
+  o.witness_b = {2, 0.5, 0.5};
+  WitnessGrade grade = apart.witnesses(o, Task::distance);
+  EXPECT_EQ(grade.off_body, 0);
+  EXPECT_EQ(grade.length_error, 0);
+  EXPECT_EQ(grade.normal_error, 0);
+  EXPECT_FALSE(grade.not_a_number);
+
+  o.witness_a = {1, 1.25, 0.5};
+  EXPECT_EQ(apart.witnesses(o, Task::distance).off_body, 0.25);
+  o.witness_a = {0.5, 0.5, 0.5};  // inside counts as on it
+  o.normal = {2, 0, 0};
+  grade = apart.witnesses(o, Task::distance);
+  EXPECT_EQ(grade.off_body, 0);
+  EXPECT_EQ(grade.length_error, 0.5);
+  EXPECT_EQ(grade.normal_error, 1);
+
+  // Of a depth, they are one translation apart.
+  Cubes meet(1.5);
+  o = outcome(Answer::overlapping, Status::ok, -0.5);
+  o.witness_a = {1, 0, 0};
+  o.witness_b = {0.5, 0, 0};
+  grade = meet.witnesses(o, Task::penetration);
+  EXPECT_EQ(grade.off_body, 0);
+  EXPECT_EQ(grade.length_error, 0);
+  EXPECT_TRUE(std::isnan(grade.normal_error));
+}
+
+TEST(Grade, WitnessPointsOfRoundBodies) {
+  Cubes ball_beside(3, ball(1));
+  Outcome o = outcome(Answer::separated, Status::ok, 1);
+  o.witness_a = {1, 0, 0};
+  o.witness_b = {1.5, 0, 0};
+  EXPECT_EQ(ball_beside.witnesses(o, Task::distance).off_body, 0.5);
+}
+
+TEST(Grade, NotANumber) {
+  Cubes apart(3), meet(1.5);
+  const auto bad = [](Cubes& cubes, const Outcome& o, Task task) {
+    return cubes.witnesses(o, task).not_a_number;
+  };
+  Outcome o = outcome(Answer::separated, Status::ok, 1);
+  EXPECT_FALSE(bad(apart, o, Task::distance));  // vectors that are not known at all
+  o.normal = {1, Outcome::none, 0};
+  EXPECT_TRUE(bad(apart, o, Task::distance));
+  EXPECT_FALSE(bad(apart, o, Task::intersect));
+  o.normal = {inf, 0, 0};
+  EXPECT_TRUE(bad(apart, o, Task::distance));
+  EXPECT_TRUE(bad(apart, outcome(Answer::separated), Task::distance));
+  EXPECT_TRUE(bad(apart, outcome(Answer::separated, Status::ok, inf), Task::distance));
+  EXPECT_TRUE(bad(meet, outcome(Answer::overlapping, Status::ok, inf), Task::penetration));
+  EXPECT_FALSE(bad(meet, outcome(Answer::overlapping, Status::ok, -inf), Task::penetration));
+  EXPECT_FALSE(bad(meet, outcome(Answer::overlapping), Task::distance));
+  EXPECT_FALSE(bad(meet, outcome(Answer::overlapping, Status::degenerate), Task::penetration));
+}
+
+}  // namespace
+}  // namespace touchstone

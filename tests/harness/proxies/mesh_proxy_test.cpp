@@ -1,0 +1,157 @@
+// What stands for meshes: outer parts hold the solid, inner ones are inside it, exactly.
+#include <gtest/gtest.h>
+
+#include "harness/base/error.h"
+#include "tests/harness/geometry/meshes.h"
+#include "tests/harness/proxies/bodies.h"
+
+namespace touchstone {
+namespace {
+
+struct NamedMesh {
+  std::string name;
+  Mesh mesh;
+};
+
+std::vector<NamedMesh> meshes() {
+  std::vector<NamedMesh> all = {{"torus", torus(1, 0.3, 24, 12)}, {"angle", angle_bracket()}};
+  Random random(3);
+  const Mat3d turn = random.rotation();
+  for (std::size_t i : {0, 1}) {
+    NamedMesh turned = all[i];
+    turned.name += " turned, far off";
+    for (Vec3d& v : turned.mesh.vertices) v = Vec3d(turn * v * 0.1 + Vec3d(1e5, 3, -2e4));
+    all.push_back(turned);
+  }
+  return all;
+}
+
+// Of the mesh's box, those that it winds about, and the others.
+std::vector<Vec3d> sample(const Mesh& mesh, std::vector<Vec3d>& outside) {
+  Vec3d low = mesh.vertices.front(), high = low;
+  for (const Vec3d& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  Random random(5);
+  std::vector<Vec3d> inside;
+  const std::vector<Triangle> surface = triangles_of(mesh);
+  for (int i = 0; i < 400; ++i) {
+    const Vec3d u(random.unit(), random.unit(), random.unit());
+    const Vec3d x = low + u.cwiseProduct(high - low);
+    (std::abs(winding_number(surface, x)) > 0.5 ? inside : outside).push_back(x);
+  }
+  return inside;
+}
+
+TEST(Meshes, OuterOnesHoldTheSolid) {
+  Exact exact;
+  for (const NamedMesh& m : meshes()) {
+    std::vector<Vec3d> outside;
+    std::vector<Vec3d> points = sample(m.mesh, outside);
+    ASSERT_GT(points.size(), 40u);
+    ASSERT_GT(outside.size(), 40u);
+    for (std::size_t i = 0; i < m.mesh.vertices.size(); i += 5) {
+      points.push_back(m.mesh.vertices[i]);
+    }
+    for (const char* form : {"sphere", "box", "oriented-box", "dop-26", "capsule", "hull-12",
+                             "hull", "parts", "parts-2", "parts-5", "icosphere-1"}) {
+      SCOPED_TRACE(m.name + ", " + form);
+      const auto parts = represent(hull_of(m.mesh), &m.mesh, parse_representation(form));
+      for (const Vec3d& p : points) {
+        EXPECT_TRUE(std::any_of(parts.begin(), parts.end(),
+                                [&](const Part& part) { return exact.holds(part, p); }));
+      }
+    }
+  }
+}
+
+TEST(Meshes, InnerOnesTouchNoTriangleAndAreInside) {
+  oracle::Oracle exact;
+  for (const NamedMesh& m : meshes()) {
+    const std::vector<Triangle> surface = triangles_of(m.mesh);
+    for (const char* form : {"sphere inner", "box inner", "oriented-box inner", "dop-14 inner",
+                             "capsule inner", "hull-12 inner", "hull inner", "parts inner"}) {
+      SCOPED_TRACE(m.name + ", " + form);
+      for (const Part& part : represent(hull_of(m.mesh), &m.mesh, parse_representation(form))) {
+        const oracle::Solid solid(part.shape);
+        Vec3d middle = part.pose.translation;
+        if (part.shape.hull != nullptr) {
+          for (const Vec3d& v : part.shape.hull->vertices) {
+            middle += v / static_cast<double>(part.shape.hull->vertices.size());
+          }
+        }
+        EXPECT_GT(std::abs(winding_number(surface, middle)), 0.9);
+        for (const Triangle& t : surface) {
+          const oracle::Solid flat(hull_shape({t.a, t.b, t.c}));
+          ASSERT_NE(exact.verdict({solid, part.pose}, {flat, Pose{}}), Answer::overlapping);
+        }
+      }
+    }
+  }
+}
+
+TEST(Meshes, PartsComeNearTheSolid) {
+  const Mesh mesh = angle_bracket();
+  const auto parts = represent(hull_of(mesh), &mesh, {Form::parts, Side::outer, 0});
+  EXPECT_EQ(parts.size(), 2u);
+  const RepresentationError error = representation_error(hull_of(mesh), &mesh, parts);
+  EXPECT_NEAR(error.added, 0, 1e-4);
+  EXPECT_NEAR(error.lost, 0, 1e-4);
+  EXPECT_NEAR(error.hausdorff, 0, error.hausdorff_deviation);
+  const RepresentationError hull =
+      representation_error(hull_of(mesh), &mesh, represent(hull_of(mesh), &mesh, {Form::hull}));
+  EXPECT_NEAR(hull.added, 0.5 / 3, 4 * hull.volume_deviation);
+  EXPECT_NEAR(hull.lost, 0, 1e-9);
+  EXPECT_NEAR(hull.hausdorff, 0.5, hull.hausdorff_deviation);
+  EXPECT_GT(hull.volume_deviation, 0);
+  EXPECT_LT(hull.volume_deviation, 1e-3);
+
+  const Mesh ring = torus(1, 0.2, 32, 16);
+  double before = 10;
+  for (int most : {1, 4, 8, 16}) {
+    const auto pieces = represent(hull_of(ring), &ring, {Form::parts, Side::outer, most});
+    EXPECT_LE(pieces.size(), static_cast<std::size_t>(most));
+    const RepresentationError e = representation_error(hull_of(ring), &ring, pieces);
+    EXPECT_LT(e.added, before) << most;
+    EXPECT_LT(e.lost, 1e-9);
+    before = e.added;
+  }
+  EXPECT_LT(before, 0.12);
+}
+
+TEST(Meshes, AsTrianglesTheyAreTheSurface) {
+  const Mesh mesh = angle_bracket();
+  const auto parts = represent(hull_of(mesh), &mesh, parse_representation("mesh"));
+  EXPECT_EQ(parts.size(), mesh.triangles.size());
+  const RepresentationError error = representation_error(hull_of(mesh), &mesh, parts);
+  EXPECT_EQ(error.added, 0);
+  EXPECT_EQ(error.lost, 1);
+  EXPECT_LT(error.hausdorff, 1e-12);
+}
+
+TEST(Meshes, PiecesThatShareAFaceStayTwoAndATriangleSoupIsOne) {
+  Mesh two = angle_bracket();
+  const Mesh one = two;  // another, on top
+  for (const Vec3d& v : one.vertices) two.vertices.push_back(v + Vec3d::UnitZ());
+  for (const auto& [a, b, c] : one.triangles) two.triangles.push_back({a + 12, b + 12, c + 12});
+  EXPECT_EQ(pieces_of(two).size(), 2u);
+  Mesh soup;
+  for (const Triangle& t : triangles_of(angle_bracket())) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    soup.vertices.insert(soup.vertices.end(), {t.a, t.b, t.c});
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  ASSERT_EQ(pieces_of(soup).size(), 1u);
+  EXPECT_TRUE(pieces_of(soup)[0].closed);
+}
+
+TEST(Meshes, OpenOnesHaveNothingInside) {
+  Mesh mesh = angle_bracket();
+  mesh.triangles.pop_back();
+  EXPECT_THROW(represent(hull_of(mesh), &mesh, parse_representation("sphere inner")), InputError);
+  EXPECT_EQ(represent(hull_of(mesh), &mesh, parse_representation("parts")).size(), 1u);
+}
+
+}  // namespace
+}  // namespace touchstone

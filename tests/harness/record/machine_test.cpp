@@ -1,0 +1,92 @@
+#include "harness/record/machine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <map>
+#include <string>
+
+namespace touchstone {
+namespace {
+
+std::map<std::string, std::string> facts() {
+  std::map<std::string, std::string> all;
+  for (const auto& [name, value] : machine_facts()) {
+    EXPECT_TRUE(all.emplace(name, value).second) << name << " twice";
+  }
+  return all;
+}
+
+TEST(Machine, TellsWhatAReaderOfTheTimesNeeds) {
+  const auto all = facts();
+  for (const char* name : {"processor",
+                           "microcode",
+                           "cores_online",
+                           "cores_physical",
+                           "simultaneous_multithreading",
+                           "cache_0",
+                           "governor",
+                           "boost",
+                           "frequency_driver",
+                           "numa_nodes",
+                           "memory",
+                           "kernel",
+                           "hypervisor",
+                           "address_randomisation",
+                           "transparent_huge_pages",
+                           "affinity",
+                           "processor_limit",
+                           "memory_limit",
+                           "compiler",
+                           "flags",
+                           "flags_bullet",
+                           "flags_fcl",
+                           "flags_libccd",
+                           "flags_onetbb",
+                           "eigen",
+                           "onetbb",
+                           "bullet",
+                           "fcl",
+                           "libccd",
+                           "ode",
+                           "mujoco",
+                           "embree",
+                           "cgal",
+                           "boost_geometry",
+                           "c_library",
+                           "instructions_in_use",
+                           "commit",
+                           "tree",
+                           "command_line",
+                           "preloaded",
+                           "clock_source",
+                           "perf_event_paranoid"}) {
+    ASSERT_TRUE(all.contains(name)) << name;
+  }
+  for (const auto& [name, value] : all) {
+    EXPECT_FALSE(value.empty()) << name;
+    EXPECT_EQ(value.find_first_of("\n\r"), std::string::npos) << name;
+  }
+  EXPECT_THAT(all.at("flags"), testing::HasSubstr("-ffp-contract=off"));
+  EXPECT_THAT(all.at("command_line"), testing::HasSubstr("test_harness_run"));
+}
+
+TEST(Machine, AffinityIsThatOfTheProcess) {
+  cpu_set_t before;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  int first = 0;
+  while (!CPU_ISSET(first, &before)) ++first;
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(first, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(facts().at("affinity"), std::to_string(first));
+  ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
+}
+
+// Facts decide whether a run may go on: they must not change by themselves.
+TEST(Machine, SaysTheSameTwice) { EXPECT_EQ(machine_facts(), machine_facts()); }
+
+}  // namespace
+}  // namespace touchstone
