@@ -54,7 +54,7 @@ BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_
 
 double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
                 const BoxSample& sample) {
-  // So many that two of them meet a dozen times where they are spread evenly.
+  // The cells are few enough that two bodies spread evenly meet a dozen times.
   constexpr std::size_t most_cells = 32 * 32 * 32;
   const bool are_few = ids.size() < 8192;
   const std::size_t side = are_few ? 8 : 32;
@@ -62,7 +62,7 @@ double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
   if (count < 2) return 1;
   CellSpace space{.origin = sample.low};
   space.last.fill(static_cast<std::uint32_t>(side) - 1);
-  std::size_t apart = 1;  // cells that the region can tell apart
+  std::size_t apart = 1;  // number of cells that the region's extents distinguish
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double extent = sample.high[axis] - sample.low[axis];
     space.inverse_side[axis] = extent > 0 ? static_cast<double>(side) / extent : 0;

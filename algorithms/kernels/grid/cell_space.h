@@ -1,4 +1,5 @@
-// Cells over a scene: where they lie and how large they are to be, whatever the boxes are like.
+// Uniform cells over a scene: their origin and their size, chosen from a sample of the boxes. Used
+// by the grid and octree broad phases.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +12,9 @@
 
 namespace touchstone {
 
-// Cells of one size in rows along each axis. What lies beyond the first or the last cell belongs to
-// that cell. In double, since differences of floats overflow; and x <= y gives cell(x) <= cell(y),
-// rounding or not, which is what the algorithms build on.
+// Cells of one size in rows along each axis. Points beyond the first or the last cell belong to
+// that cell. Coordinates are doubles, because differences of floats overflow. Rounding keeps the
+// order: x <= y implies cell(x) <= cell(y), and the algorithms rely on this.
 struct CellSpace {
   std::array<double, 3> origin{};
   std::array<double, 3> inverse_side{1, 1, 1};
@@ -24,7 +25,7 @@ struct CellSpace {
     if (!(place > 0)) return 0;
     return place < last[axis] ? static_cast<std::uint32_t>(place) : last[axis];
   }
-  // A box's size in cells, on the axis where it has the most.
+  // Returns the box's greatest extent over the three axes, in cells.
   double size(const Aabb& box) const {
     double size = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -34,28 +35,29 @@ struct CellSpace {
   }
 };
 
-// What a sample of the boxes says of all of them. A few boxes that are huge or far away hardly
-// change it, so that they cannot make the cells useless for the others.
+// Estimates for all boxes from a sample of them. The quantiles keep a few huge or distant boxes
+// from making the cells useless for the others.
 struct BoxSample {
-  // The region where most of the boxes are.
+  // The region that holds most of the boxes (metres).
   std::array<double, 3> low{}, high{};
-  // On each axis, nine boxes in ten are no longer: a cell of these proportions suits them. Where
-  // they have no length, that of another axis, or the region's extent, or 1: never zero.
+  // A length for each axis that nine boxes in ten do not exceed (metres): the proportions of a cell
+  // that suits them. An axis without extent gets the greatest length of the others, the region's
+  // extent or 1, so no side is zero.
   std::array<double, 3> side{1, 1, 1};
-  // The boxes' sizes in cells of these sides: the least of the sample, and what nine in ten do not
-  // exceed.
+  // Sizes of boxes in cells of these sides: the least of the sample, and the size that nine boxes
+  // in ten do not exceed.
   double smallest = 0, usual = 0;
 
-  // Of the region, in cells of these sides, on the axis where it has the most.
+  // The region's greatest extent over the three axes, in cells of these sides.
   double extent() const;
 };
 
-// `ids`: the boxes that are not empty.
+// `ids` lists the boxes that are not empty.
 BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
 
-// How much denser it is around a body than it would be if all were spread evenly over the sample's
-// region: by how often two bodies of a larger sample lie in one of 32^3 cells (8^3 for few bodies).
-// At least 1, at most the number of cells.
+// The density around a body, relative to bodies spread evenly over the sample's region. It is
+// estimated from how often two bodies of a larger sample lie in the same of 32^3 cells (8^3 for few
+// bodies). The result is at least 1 and at most the number of cells.
 double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
                 const BoxSample& sample);
 

@@ -1,5 +1,5 @@
-// Crowds: many items one behind the other with the same key, as bodies have that a grid cannot tell
-// apart.
+// Dense cells: long runs of items with equal keys, where a grid cannot tell bodies apart. Used by
+// the uniform and the hierarchical grid.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@
 
 namespace touchstone {
 
-// Calls visit(run) for each longest run of at least `least` >= 2 places of the range whose keys are
-// equal. Looks at few of the others.
+// Calls visit(run) for each maximal run of at least `least` >= 2 places in the range whose keys are
+// equal. It probes every `least` / 2 places and skips most of the others.
 template <class Key, class Visit>
 void visit_dense_cells(IndexRange range, std::size_t least, const Key& key, const Visit& visit) {
-  const std::size_t step = least / 2;  // such a run holds both ends of one of the steps
+  const std::size_t step = least / 2;  // a run this long contains both ends of some step
   for (std::size_t i = range.first; i + step < range.last; i += step) {
     if (key(i) != key(i + step)) continue;
     IndexRange run{i, i + step};
@@ -33,7 +33,8 @@ void visit_dense_cells(IndexRange range, std::size_t least, const Key& key, cons
   }
 }
 
-// The axis on which these boxes lie farthest apart for their mean length. `box(i)`, i < count.
+// Returns the axis with the greatest spread of minima relative to the boxes' mean length. `box(i)`
+// is defined for i < count.
 template <class Box>
 std::size_t longest_axis(std::size_t count, const Box& box) {
   std::array<double, 3> low, high, side{};
@@ -47,7 +48,7 @@ std::size_t longest_axis(std::size_t count, const Box& box) {
       side[axis] += double{own.max[axis]} - own.min[axis];
     }
   }
-  // Flat boxes are not to be told apart by a hair on the axis on which they are flat.
+  // A floor on the length keeps rounding from deciding on an axis on which the boxes are flat.
   const double least = 1e-3 * std::ranges::max(side);
   std::array<double, 3> extent;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -56,12 +57,12 @@ std::size_t longest_axis(std::size_t count, const Box& box) {
   return static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
 }
 
-// Puts a crowd in the order of its boxes' minima on the axis on which that tells most. Keeps its
-// memory.
+// Sorts a dense cell by its boxes' minima on the axis that separates them best. It keeps its memory
+// between calls.
 template <class Item>
 class DenseCellSort {
  public:
-  // The axis. `id(item)`: of its box.
+  // Returns the axis. `id(item)` is the index of the item's box.
   template <class Id>
   int operator()(Executor& executor, std::span<const Aabb> boxes, std::span<Item> crowd,
                  const Id& id) {

@@ -1,4 +1,5 @@
-// Insertion sort for what is almost in order, as boxes are from one frame to the next.
+// Insertion sort for items that are almost in order, as boxes are from one frame to the next. Used
+// by sweep-and-prune and sort-and-sweep.
 // Paper: Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992.
 #pragma once
 
@@ -7,8 +8,8 @@
 
 namespace touchstone {
 
-// Sorts ascending, or gives up and returns false as soon as the items seen so far (and 64 more)
-// need more than `moves_each` moves each; the items are then in some other order.
+// Sorts in ascending order. Gives up and returns false as soon as the first i items have needed
+// more than `moves_each` * (i + 64) moves; the items are then a permutation of the input.
 template <class Item>
 bool insertion_sort(std::span<Item> items, std::size_t moves_each) {
   std::size_t moves = 0;

@@ -1,4 +1,5 @@
-// Floats as integers of the same order, packed with an index so that whole items can be sorted.
+// Floats as integers of the same order, packed with an index so that one integer sort orders both.
+// Used by every broad phase that sorts by a coordinate.
 // Paper: Herf, "Radix Tricks", 2001 (the flip of the bits).
 #pragma once
 
@@ -7,14 +8,13 @@
 
 namespace touchstone {
 
-// x < y exactly when ordered_key(x) < ordered_key(y); -0 and +0 have the same key. Not for NaN.
+// ordered_key(x) < ordered_key(y) exactly when x < y; -0 and +0 have the same key. NaN has no key.
 inline std::uint32_t ordered_key(float x) {
   const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);  // -0 + 0 is +0
   return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
 }
 
-// Key above, index below: the order of the items is that of the keys, and of the indices where keys
-// are equal.
+// Packs the key above the index: items compare by key first and by index among equal keys.
 constexpr std::uint64_t sort_item(std::uint32_t key, std::uint32_t index) {
   return std::uint64_t{key} << 32 | index;
 }

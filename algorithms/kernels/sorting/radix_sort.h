@@ -1,4 +1,5 @@
-// Least-significant-digit radix sort, in parallel, stable, the same at every width.
+// A stable least-significant-digit radix sort. It runs in parallel, and its result does not depend
+// on the number of threads. Used by every broad phase that sorts.
 // Paper: Zagha, Blelloch, "Radix Sort for Vector Multiprocessors", Supercomputing 1991 (a histogram
 // for each block, one prefix sum over all of them, each block scatters its own items).
 #pragma once
@@ -14,7 +15,7 @@
 
 namespace touchstone {
 
-// Keeps its scratch memory from call to call.
+// The sorter keeps its scratch memory from call to call.
 template <class Item>
 class RadixSort {
  public:
@@ -22,7 +23,7 @@ class RadixSort {
   template <class Key>
   void operator()(Executor& executor, std::vector<Item>& items, int bits, const Key& key) {
     if (items.size() < 2 || bits == 0) return;
-    // Wider digits need fewer passes, but a histogram that few items do not pay for.
+    // Wider digits need fewer passes, but their histograms cost more than few items save.
     const int widest = items.size() < 4096 ? 8 : 11;
     const int passes = (bits + widest - 1) / widest;
     const int width = (bits + passes - 1) / passes;
@@ -41,8 +42,8 @@ class RadixSort {
   }
 
  private:
-  // Sixteen blocks of one size share well among 2, 4 or 8 threads; smaller ones would not pay for
-  // their histograms, larger ones leave the cache.
+  // Sixteen blocks of one size spread evenly over 2, 4 or 8 threads. Smaller blocks would not pay
+  // for their histograms; larger ones leave the cache.
   static std::size_t block_size_of(std::size_t items) {
     return std::clamp(block_count(items, 16), std::size_t{2048}, std::size_t{8192});
   }
@@ -59,7 +60,7 @@ class RadixSort {
                      std::fill_n(counts, digits, 0);
                      for (std::size_t i = first; i < last; ++i) ++counts[digit(items[i])];
                    });
-    // By rows, so that the compiler can make vectors of it: no thread waits long for this.
+    // The sum runs over rows so that the compiler can vectorise it; no thread waits long for it.
     std::uint32_t* const next = &places_[blocks * digits];
     std::fill_n(next, digits, 0);
     for (std::size_t block = 0; block < blocks; ++block) {
@@ -68,7 +69,7 @@ class RadixSort {
     }
     std::uint32_t place = 0;
     for (std::size_t d = 0; d < digits; ++d) {
-      if (next[d] == items.size()) return;  // one digit holds them all: nothing moves
+      if (next[d] == items.size()) return;  // one digit holds all items: nothing moves
       place += std::exchange(next[d], place);
     }
     for (std::size_t block = 0; block < blocks; ++block) {
@@ -90,7 +91,7 @@ class RadixSort {
   }
 
   std::vector<Item> scratch_;
-  // [block][digit]: the count, then where the next item goes; and a row for all blocks.
+  // [block][digit]: first the count, then the place of the next item. The last row sums all blocks.
   std::vector<std::uint32_t> places_;
 };
 

@@ -1,27 +1,35 @@
-// Clipped faces: the two faces that look at each other, cut to what they have in common, and four
-// corners of that.
+// Clipped faces: intersect the two faces that look at each other and keep four corners of that.
 // Paper:   Gregorius, "Robust contact creation for physics simulations", GDC 2015 (reference face
 //          and incident face); Sutherland, Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
-// Departs: the normal is that of the least penetration, of 15 axes for boxes and by EPA for others,
-//          so it need not be that of a face: both faces are seen along it, none is the reference,
-//          and each point is lifted into both. Points of no depth end the area where the bodies
-//          part. Of five corners or more those four are kept that span the greatest area of all
-//          that hold the deepest (four_points.h). A face or edge that is more than 25 degrees off
-//          being across the normal counts as the edge or point of it that lies furthest; edges that
-//          cross, and points, make one contact, the witness points of the penetration. The rim of
-//          a cylinder or cone is a polygon of 16 corners in it, a straight side is an edge, a
-//          capsule is its axis with a radius. Against a half-space no more is cut than the depth.
-// Answers: points are on the surface, or in the body, up to rounding (1e-13 of the size in double,
+// Steps:   1. Find the normal and the depth of the least penetration: 15 axes in lanes for boxes, a
+//             formula for a half-space, GJK and EPA for the others (penetration.cpp).
+//          2. Separated pairs, and pairs without a normal, end here.
+//          3. Find the face, edge or point of each body that supports it along the normal
+//             (contact_feature.cpp).
+//          4. Project both features along the normal; cut the smaller by the other's outline and
+//             where the bodies part (contact_polygon.cpp).
+//          5. Give each corner its two heights along the normal: they are the points on a and b.
+//          6. Of five corners or more keep four: the greatest area that has a deepest corner
+//             (manifold_reduction.cpp).
+//          7. If the corners miss the depth of step 1, add its witness points as a contact.
+// Departs: the normal is that of the least penetration and need not be a face's: both faces are
+// Departs: the normal is that of the least penetration and need not be a face's: both faces are
+//          projected along it, neither is the reference, and each corner is lifted into both.
+//          Corners of zero depth end the area where the bodies part. A face or edge that is tilted
+//          by more than 25 degrees counts as the edge or point of it that lies furthest; crossing
+//          edges, and points, make one contact, the witness points of the penetration. The rim of a
+//          cylinder or cone is an inscribed polygon of 16 corners, a straight side is an edge, and
+//          a capsule is its axis with a radius. Against a half-space the only cut is at depth zero.
 //          1e-4 in float) and that of the world's coordinates; the greatest depth is the depth of
 //          the penetration to 1e-8 and 1e-4. Points of cylinders, cones and ellipsoids are up
 //          to 1e-9 of the size off the line of the normal, which is EPA's tolerance.
-//          In float an area that is below rounding across, or where the bodies part within it, is
+//          In float an area that is below rounding across, or in which the bodies part, becomes
 //          one or two points.
 // Fails:   as sat and gjk do: not_converged within rounding of touching, and where EPA ends at its
-//          cap. Of a hull whose side is of several almost coplanar faces only one is taken. Solid
-//          hulls without faces have one point, and say degenerate. Capsules and edges that are
-//          parallel but for more than rounding have one point.
-// Cost:    O(n m) for faces of n and m corners, and O(k^2) for k corners of their part.
+//          cap. Only one face is taken of a hull whose side consists of several almost coplanar
+//          faces. Solid hulls without faces get one point, and the status degenerate. Capsules and
+//          edges that are parallel, but not within rounding, get one point.
+// Cost:    O(n m) for faces of n and m corners, and O(k^2) for the k corners of their intersection.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -42,7 +50,7 @@ namespace {
 
 constexpr int most_expansions = 256;
 
-// What is known of a pair before its faces are looked for; world, metres.
+// The penetration of a pair, known before its faces are searched; world coordinates, metres.
 struct Deepest {
   Answer answer;
   Status status;
@@ -92,14 +100,14 @@ class ClippedFaces final : public ContactManifold {
   struct Placed {
     const FeatureShape<Scalar>& shape;
     const Pose& pose;
-    std::uint32_t index;  // of the shape
+    std::uint32_t index;  // index of the shape
 
     const SupportShape<Scalar>& support() const { return shape.support; }
     Mat3<Scalar> rotation() const { return pose.rotation.template cast<Scalar>(); }
   };
 
   static constexpr Scalar rounding = 4 * SupportPair<Scalar>::rounding;
-  // By which the region's deepest corner may miss the depth.
+  // The tolerance by which the polygon's deepest corner may miss the depth.
   static constexpr Scalar least_digits = sizeof(Scalar) == 8 ? Scalar(1e-9) : Scalar(1e-4);
 
   Placed place(const PairBatch& batch, std::uint32_t body) const {
@@ -111,26 +119,26 @@ class ClippedFaces final : public ContactManifold {
   void solve_boxes(const Placed& a, const Placed& b, const Deepest& deepest, Manifold& manifold);
   void solve_bounded(const Placed& a, const Placed& b, Manifold& manifold);
   void solve_plane(const Placed& a, const Placed& b, Manifold& manifold);
-  // What pairs of bounded bodies have in common.
+  // The steps that all pairs of bounded bodies share; false if the corners miss the depth.
   bool solve_pair(SupportPair<Scalar>& pair, const Placed& a, const Placed& b,
                   const Deepest& deepest, Manifold& manifold);
-  // The manifold of the region's corners. `to_world` moves points there from the region, whose unit
-  // is `unit` metres. False where the region lacks the deepest point.
+  // Writes the manifold from the polygon's corners. `to_world` maps the polygon's frame, whose unit
+  // is `unit` metres, to the world. Returns false if no corner reaches the depth.
   template <class ToWorld>
   bool write(const Deepest& deepest, double unit, bool numbered, const ToWorld& to_world,
              Manifold& manifold);
 
   std::vector<FeatureShape<Scalar>> shapes_;
-  std::vector<Polytope<Scalar>> polytopes_;  // of the boxes
+  std::vector<Polytope<Scalar>> polytopes_;  // empty for shapes that are no boxes
   BoxPairLanes<Scalar> box_lanes_;
   ExpandingPolytope<Scalar> expanding_{most_expansions};
   ContactFeature<Scalar> feature_a_, feature_b_;
   ContactPolygon<Scalar> region_;
-  std::vector<Outcome> outcomes_;    // of a batch of boxes
-  std::vector<std::uint32_t> left_;  // those that the lanes leave
+  std::vector<Outcome> outcomes_;    // of a batch of box pairs
+  std::vector<std::uint32_t> left_;  // indices of the pairs that the lanes do not solve
 };
 
-// Begins the answer; false where there is no more to say.
+// Writes answer, status and normal; returns false if there is nothing more to find.
 bool begin(const Deepest& deepest, Manifold& manifold) {
   manifold.answer = deepest.answer;
   manifold.status = deepest.status;
@@ -139,7 +147,7 @@ bool begin(const Deepest& deepest, Manifold& manifold) {
   return true;
 }
 
-// The deepest point takes the place of the one nearest to it, or an empty one.
+// Replaces the contact nearest to the deepest point by it, or appends it if there is room.
 void add_deepest(const Deepest& deepest, Manifold& manifold) {
   const auto distance = [&](const ContactPoint& p) {
     return (p.on_a - deepest.on_a).squaredNorm();
@@ -164,7 +172,7 @@ bool ClippedFaces<Scalar>::write(const Deepest& deepest, double unit, bool numbe
     ContactPoint& point = manifold.points[static_cast<std::size_t>(manifold.count++)];
     point.on_a = to_world(region_.on_a(corner));
     point.on_b = to_world(region_.on_b(corner));
-    // Below rounding it is none.
+    // A depth below zero is rounding.
     point.depth = std::max(0.0, unit * static_cast<double>(corner.depth));
     if (!numbered) return;
     const std::uint64_t faces = std::uint64_t{feature_a_.number} << 16 | feature_b_.number;
@@ -180,7 +188,7 @@ bool ClippedFaces<Scalar>::write(const Deepest& deepest, double unit, bool numbe
   return found >= deepest.depth - unit * static_cast<double>(least_digits);
 }
 
-// Into outcomes_.
+// Fills outcomes_.
 template <class Scalar>
 void ClippedFaces<Scalar>::find_box_depths(const PairBatch& batch) {
   outcomes_.assign(batch.size(), {});
@@ -193,7 +201,7 @@ void ClippedFaces<Scalar>::find_box_depths(const PairBatch& batch) {
     const PolytopePair<Scalar> pair(polytopes_[a.index], a.pose, polytopes_[b.index], b.pose);
     int tested = 0;
     const Axis<Scalar> best = pair.far_apart() ? Axis<Scalar>{} : box_axis(pair, tested);
-    // Without the witness points, which take longer than the axis and are hardly ever needed.
+    // The witness points take longer than the axis and are hardly ever needed: left out here.
     Outcome& outcome = outcomes_[left_[k]];
     pair.report(best, Task::intersect, true, outcome);
     if (outcome.answer == Answer::separated) continue;

@@ -12,28 +12,28 @@ namespace {
 
 constexpr int rim_corners = 16;
 
-// A body's feature under construction: points go by the matrix.
+// A body with its feature under construction; `matrix` maps body coordinates to the frame.
 template <class Scalar>
 struct Placed {
   const FeatureShape<Scalar>& shape;
   const Mat3<Scalar>& matrix;
-  const Mat3<Scalar>& turn;  // the same without the body's scale, which may vanish when squared
+  const Mat3<Scalar>& turn;  // `matrix` without the body's scale, whose square could underflow
   const Vec3<Scalar>& centre;
   const Vec3<Scalar>& direction;
   Scalar radius;
-  Vec3<Scalar> local;  // what is furthest along this in the body is so along the direction
+  Vec3<Scalar> local;  // `direction` in body coordinates: the same points are furthest
   ContactFeature<Scalar>& feature;
 
   void add(const Vec3<Scalar>& point) {
     feature.points.push_back(matrix * point + (centre + radius * direction));
   }
-  // The image of a face's normal, outward and unit, is about along the direction.
+  // True if `outward`, the image of a face's outward normal, is nearly parallel to the direction.
   bool is_across(const Vec3<Scalar>& outward) const {
     constexpr Scalar least = 1 - greatest_tilt<Scalar> * greatest_tilt<Scalar>;
     const Scalar along = outward.dot(direction);
     return along > 0 && along * along >= least * outward.squaredNorm();
   }
-  // The image of an edge is about across the direction.
+  // True if the image of an edge is nearly perpendicular to the direction.
   bool is_level(const Vec3<Scalar>& edge) const {
     const Scalar along = local.dot(edge);
     return along * along <=
@@ -41,7 +41,7 @@ struct Placed {
   }
 };
 
-// The image of an outward normal, whatever the matrix; not unit.
+// The image of an outward normal under any matrix, reflections included; not of unit length.
 template <class Scalar>
 Vec3<Scalar> turned_normal(const Mat3<Scalar>& m, const Vec3<Scalar>& normal) {
   Mat3<Scalar> cofactors;
@@ -71,7 +71,7 @@ void find_on_box(Placed<Scalar>& body) {
     const Scalar side = std::copysign(half[face], body.local[face]);
     const Vec3<Scalar> middle = body.centre + side * m.col(face);
     const Vec3<Scalar> to_i = half[i] * m.col(i), to_j = half[j] * m.col(j);
-    // Their order does not depend on the direction, so that their numbers do not.
+    // The order of the corners, and so their numbers, does not depend on the direction.
     const Vec3<Scalar> high = middle + to_i, low = middle - to_i;
     std::vector<Vec3<Scalar>>& points = body.feature.points;
     points.resize(4);
@@ -101,7 +101,7 @@ std::uint32_t furthest_vertex(const Placed<Scalar>& body) {
   const SupportShape<Scalar>& hull = body.shape.support;
   const std::uint32_t vertex = hull.furthest(body.local);
   if (!body.shape.complete || !body.shape.faces.around(vertex).empty()) return vertex;
-  // It stands twice, or inside of a face.
+  // The vertex is a repeated one or lies inside a face: search those of the faces.
   const auto loops = body.shape.faces.all_loops();
   return *std::max_element(loops.begin(), loops.end(), [&](std::uint32_t p, std::uint32_t q) {
     return body.local.dot(hull.vertex(p)) < body.local.dot(hull.vertex(q));
@@ -125,7 +125,7 @@ void find_on_hull(Placed<Scalar>& body) {
       best_face = face;
       best_normal = outward;
     }
-    // Each edge at the vertex leads away from it in one of the faces.
+    // Each edge at the vertex leaves it in exactly one of the faces.
     const std::span<const std::uint32_t> loop = faces.loop(face);
     const auto at = std::find(loop.begin(), loop.end(), vertex);
     const std::uint32_t end = at + 1 == loop.end() ? loop.front() : *(at + 1);
@@ -148,7 +148,7 @@ void find_on_hull(Placed<Scalar>& body) {
   body.add(hull.vertex(best_end));
 }
 
-// Of a cylinder or cone, the direction of the furthest point of a rim; body coordinates.
+// The direction from a cylinder's or cone's axis to the furthest point of a rim; body coordinates.
 template <class Scalar>
 Vec3<Scalar> rim_direction(const Vec3<Scalar>& local) {
   const Scalar length = std::hypot(local.x(), local.y());

@@ -1,7 +1,8 @@
-// What of a body lies furthest in a direction: a face, an edge or a point.
+// Part of clipped-faces: the feature of a body (a face, an edge or a point) that is furthest in a
+// direction.
 //
-// A support map knows one furthest point. Bodies that lie on each other touch in more, which is
-// the face or edge around that point if it is about across the direction.
+// A support map returns one furthest point. Bodies that rest on each other touch in a face or an
+// edge around that point, if the face or edge is nearly perpendicular to the direction.
 // Paper: Gregorius, "Robust contact creation for physics simulations", GDC 2015.
 #pragma once
 
@@ -16,8 +17,8 @@
 
 namespace touchstone {
 
-// The faces of a hull, and which of them meet in a vertex. A flat hull has two, on either side; a
-// segment or a point a loop without a normal.
+// The faces of a hull and, for each vertex, the faces that meet there. A flat hull has two faces,
+// one on either side; a segment or a point has one loop without a normal.
 template <class Scalar>
 class HullFaces {
  public:
@@ -25,13 +26,13 @@ class HullFaces {
   explicit HullFaces(const Hull& hull);
 
   std::size_t size() const { return normals_.size(); }
-  // In body coordinates; unit or zero.
+  // Body coordinates; unit length, or zero for a loop without a normal.
   const Vec3<Scalar>& normal(std::uint32_t face) const { return normals_[face]; }
-  // Vertices, anticlockwise seen from outside.
+  // Vertex indices, anticlockwise seen from outside.
   std::span<const std::uint32_t> loop(std::uint32_t face) const {
     return {&loops_[loop_begin_[face]], loop_begin_[face + 1] - loop_begin_[face]};
   }
-  // The faces with this vertex; none for one that is inside the hull or stands twice.
+  // The faces with this vertex; empty for a vertex inside the hull and for a repeated one.
   std::span<const std::uint32_t> around(std::uint32_t vertex) const {
     return {around_.data() + around_begin_[vertex],
             around_begin_[vertex + 1] - around_begin_[vertex]};
@@ -46,7 +47,7 @@ class HullFaces {
   std::vector<std::uint32_t> around_begin_, around_;
 };
 
-// A shape as the search for features wants it.
+// A shape with the data that the search for features needs.
 template <class Scalar>
 struct FeatureShape {
   explicit FeatureShape(const Shape& shape)
@@ -57,27 +58,27 @@ struct FeatureShape {
 
   SupportShape<Scalar> support;
   HullFaces<Scalar> faces;
-  bool complete;  // false for a solid hull that came without faces: nothing of it is found
+  bool complete;  // false for a solid hull that came without faces: it has no features
 };
 
-// Three points or more are a convex polygon, two a segment; none: the furthest point is alone, and
-// whoever asks knows it. In the frame of who asked.
+// A feature in the frame of the caller: a convex polygon (three points or more), a segment (two) or
+// empty, when the feature is only the furthest point, which the caller already has.
 template <class Scalar>
 struct ContactFeature {
   std::vector<Vec3<Scalar>> points;
   Vec3<Scalar> normal = Vec3<Scalar>::Zero();  // of a polygon: unit, outward
-  bool numbered = false;                       // its edges are the same in every frame, and
-  std::uint16_t number = 0;                    // the body's face of this number is the polygon
+  bool numbered = false;     // true if the edges have the same numbers in every frame and
+  std::uint16_t number = 0;  // this is the number of the body's face
 };
 
-// The greatest sine of the angle by which a face or an edge is off being across the direction, so
-// as to be taken for more than its furthest point.
+// The greatest sine of the angle between the direction's perpendicular and a face or an edge that
+// still counts as a feature; beyond it only the furthest point does.
 template <class Scalar>
 inline constexpr Scalar greatest_tilt = Scalar{0.42};  // 25 degrees
 
-// The feature that supports the body in the direction (unit), about `centre`; `rotation` is that of
-// its pose. The rim of a cylinder
-// or cone is a polygon in it that has the furthest point as a corner.
+// Finds the feature that supports the body in `direction` (unit). `centre` is the body's place in
+// the frame and `rotation` its pose's. The rim of a cylinder or cone becomes an inscribed polygon
+// with the furthest point as a corner.
 template <class Scalar>
 void find_feature(const FeatureShape<Scalar>& shape, const Mat3<Scalar>& rotation,
                   const PosedShape<Scalar>& turned, const Vec3<Scalar>& centre,

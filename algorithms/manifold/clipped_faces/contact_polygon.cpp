@@ -7,10 +7,10 @@
 namespace touchstone {
 namespace {
 
-// Numbers of edges: those of a, those of b, and where the bodies part.
+// Numbers of the edges of a, of the edges of b, and of the line where the bodies part.
 constexpr std::uint16_t first_of_a = 1, first_of_b = 0x4000, parting = 0x8000;
 
-// Twice the area, anticlockwise positive.
+// Twice the signed area, positive if anticlockwise.
 template <class Points>
 auto doubled_area(const Points& points) {
   auto sum = points[0].x * 0;
@@ -121,7 +121,7 @@ void ContactPolygon<Scalar>::merge_neighbours(std::vector<Seen>& loop, Scalar di
   bool apart = !loop.empty() && !near(loop.back(), loop.front());
   for (std::size_t k = 1; k < loop.size(); ++k) apart = apart && !near(loop[k - 1], loop[k]);
   if (apart) return;
-  // Of two the first keeps its place, and the second its edge.
+  // Of two merged corners the first keeps its place, and the second its edge.
   std::size_t kept = 0;
   for (std::size_t k = 0; k < loop.size(); ++k) {
     if (kept > 0 && near(loop[kept - 1], loop[k])) {
@@ -164,11 +164,11 @@ void ContactPolygon<Scalar>::find(const ContactFeature<Scalar>& a, const Contact
   frame_ = Frame(normal);
   see(a, first_of_a, subject_);
   see(b, first_of_b, outline_);
-  // What is as narrow as rounding is a segment or a point.
+  // A polygon narrower than rounding becomes a segment or a point.
   merge_neighbours(subject_, 4 * rounding);
   merge_neighbours(outline_, 4 * rounding);
   if (subject_.size() < 2 || outline_.size() < 2) return;
-  // A segment is never what a polygon is cut by, and of two polygons the lesser is cut less.
+  // A segment never clips a polygon; of two polygons the smaller is clipped.
   const auto extent = [](const std::vector<Seen>& loop) {
     const Seen &p = loop[0], &q = loop[loop.size() / 2];
     return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
@@ -177,7 +177,7 @@ void ContactPolygon<Scalar>::find(const ContactFeature<Scalar>& a, const Contact
       outline_.size() > 2 && (subject_.size() == 2 || extent(subject_) < extent(outline_));
   if (!subject_is_a) std::swap(subject_, outline_);
   const Line height = height_of(subject_is_a ? b : a, outline_);
-  // First, as it may leave little for the others to cut.
+  // This cut comes first, because it may leave little for the others to clip.
   cut_where_apart(height, subject_is_a, rounding);
   if (outline_.size() > 2) {
     cut_by_polygon(rounding);

@@ -1,10 +1,10 @@
-// Where two features touch: their common part as seen along the normal, as far as the bodies
-// overlap there.
+// Part of clipped-faces: the contact polygon, which is the intersection of two features projected
+// along the normal, restricted to where the bodies overlap.
 // Paper: Sutherland, Hodgman, "Reentrant polygon clipping", Communications of the ACM 17(1), 1974.
-// Departs: seen along the normal neither face need be across it, and heights along it are carried
-// along, so that each point of the part lies in both faces and has a depth; one more cut leaves
-// what is not below the other face. Corners within rounding of a cut are on it, so that faces of
-// the same outline are not cut.
+// Departs: the projection is along the normal, to which neither face need be perpendicular. Corners
+//          carry their heights along it, so each lies in both faces and has a depth; one more cut
+//          removes what is outside the other face. Corners within rounding of a cut count as on it,
+//          so faces of the same outline are not cut.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace touchstone {
 
-// A corner of the region, as seen along the normal: its place across it and, along it, how high
-// the two bodies are there.
+// A corner of the contact polygon: its coordinates across the normal and the heights of both
+// bodies' surfaces there, along the normal.
 template <class Scalar>
 struct PolygonCorner {
   Scalar x, y;
@@ -26,18 +26,18 @@ struct PolygonCorner {
 template <class Scalar>
 class ContactPolygon {
  public:
-  // Of polygons and segments; the normal (unit) leads from a to b. Lengths below `rounding` are
-  // nothing. The corners are a convex loop, as seen along the normal anticlockwise; two are a
-  // segment. None where the features do not meet. Of two segments that are not parallel it knows
-  // nothing, and has none.
+  // Intersects two features, each a polygon or a segment; `normal` is unit and points from a to b.
+  // Lengths below `rounding` count as zero. The corners form a convex loop, anticlockwise seen
+  // along the normal; two corners are a segment. There are none if the features do not meet, or if
+  // they are two segments that are not parallel.
   void find(const ContactFeature<Scalar>& a, const ContactFeature<Scalar>& b,
             const Vec3<Scalar>& normal, Scalar rounding);
-  // Over a plane across the normal, at this height along it.
+  // Intersects a feature with a plane perpendicular to the normal, at `height` along it.
   void find_on_plane(const ContactFeature<Scalar>& a, Scalar height, const Vec3<Scalar>& normal,
                      Scalar rounding);
 
   const std::vector<PolygonCorner<Scalar>>& corners() const { return corners_; }
-  // Of a corner, in the frame of the features.
+  // The surface points at a corner, in the frame of the features.
   Vec3<Scalar> on_a(const PolygonCorner<Scalar>& corner) const {
     return frame_.point(corner.x, corner.y, corner.on_a);
   }
@@ -47,11 +47,11 @@ class ContactPolygon {
 
  private:
   struct Seen {
-    Scalar x, y;         // across the normal
-    Scalar height;       // along it, on the subject
+    Scalar x, y;         // coordinates across the normal
+    Scalar height;       // coordinate along the normal, on the subject
     std::uint16_t edge;  // number of the edge that begins here
   };
-  // a x + b y + c: how far within a line, or the height of a plane.
+  // The function a x + b y + c: the distance inside a line, or the height of a plane.
   struct Line {
     Scalar a, b, c;
     Scalar at(const Seen& s) const { return a * s.x + b * s.y + c; }
@@ -67,19 +67,19 @@ class ContactPolygon {
     }
   };
 
-  // `first` is the number of its first edge.
+  // Projects a feature; `first` is the number of its first edge.
   void see(const ContactFeature<Scalar>& feature, std::uint16_t first,
            std::vector<Seen>& seen) const;
   Line height_of(const ContactFeature<Scalar>& feature, const std::vector<Seen>& seen) const;
-  // Cuts the subject by the outline of the other feature.
+  // Clips the subject by the outline of the other feature.
   void cut_by_polygon(Scalar rounding);
   void cut_by_segment(Scalar rounding);
-  // Leaves what has value(seen) >= 0, a length that is affine on the subject.
+  // Keeps the part with value(seen) >= 0; `value` is a length, affine on the subject.
   template <class Value>
   void cut(const Value& value, std::uint16_t edge, Scalar rounding);
-  // Leaves what is not above, or below, the other feature.
+  // Keeps the part in which the bodies overlap: not above, or not below, the other feature.
   void cut_where_apart(const Line& height, bool subject_is_a, Scalar rounding);
-  // The corners, from what is left of the subject and the other feature's height above each place.
+  // Writes the corners from the clipped subject and the other feature's height at each place.
   void finish(const Line& height, bool subject_is_a, Scalar rounding);
   static void merge_neighbours(std::vector<Seen>& loop, Scalar distance);
 

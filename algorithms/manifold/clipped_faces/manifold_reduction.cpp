@@ -13,8 +13,8 @@ struct Choice {
   std::array<std::uint32_t, 4> corners{};
 };
 
-// The greatest with corner `first` among as many corners from it on: for each corner opposite to
-// it, the furthest on either side.
+// Offers the quadrilateral of greatest area that has corner `first` among the `count` corners from
+// `first` on: for each opposite corner it takes the furthest corner on either side of the diagonal.
 template <class Scalar>
 void offer_with(const std::vector<PolygonCorner<Scalar>>& corners, std::uint32_t first,
                 std::uint32_t count, Choice<Scalar>& best) {
@@ -26,7 +26,7 @@ void offer_with(const std::vector<PolygonCorner<Scalar>>& corners, std::uint32_t
   for (std::uint32_t opposite = 2; opposite + 1 < count; ++opposite) {
     const PolygonCorner<Scalar>& end = corners[at(opposite)];
     const Scalar x = end.x - origin.x, y = end.y - origin.y;
-    // Twice the area of the triangle; to the right of the diagonal positive.
+    // Twice the area of the triangle, positive on the right of the diagonal.
     const auto area = [&](std::uint32_t step) {
       const PolygonCorner<Scalar>& p = corners[at(step)];
       return (p.x - origin.x) * y - (p.y - origin.y) * x;
@@ -60,12 +60,12 @@ std::array<std::uint32_t, 4> choose_four(const std::vector<PolygonCorner<Scalar>
       static_cast<std::uint32_t>(std::count_if(corners.begin(), corners.end(), is_deepest));
   Choice<Scalar> best;
   if (deepest == count && count <= most_tried) {
-    // Any four: each once, from the first of them on.
+    // Any four corners qualify; each set is tried once, from its first corner on.
     for (std::uint32_t k = 0; k + 3 < count; ++k) offer_with(corners, k, count - k, best);
     return best.corners;
   }
   const std::uint32_t tried = std::min(deepest, most_tried);
-  std::uint32_t met = 0, done = 0;  // of the deepest
+  std::uint32_t met = 0, done = 0;  // counts of deepest corners
   for (std::uint32_t k = 0; k < count && done < tried; ++k) {
     if (!is_deepest(corners[k])) continue;
     if (met++ * tried / deepest < done) continue;

@@ -1,7 +1,8 @@
-// The four corners of a convex polygon that are to stand for all of it.
-// Paper: Coumans, "Contact generation", GDC 2010 (the deepest point, and then the greatest area).
-// Departs: the area is the greatest that there is for four corners one of which is the deepest, and
-// not what one corner after the other finds.
+// Part of clipped-faces: manifold reduction, which picks four corners to represent a convex contact
+// polygon.
+// Paper:   Coumans, "Contact generation", GDC 2010 (the deepest point, then the greatest area).
+// Departs: the area is the greatest over all quadruples that contain a deepest corner; the paper
+//          adds one corner after the other.
 #pragma once
 
 #include <array>
@@ -12,9 +13,9 @@
 
 namespace touchstone {
 
-// Indices of corners, in their order; of five corners or more, a convex loop. Those whose depths
-// are within `rounding` of the greatest are all deepest; at most 16 of those are tried, evenly
-// spread. Time O(n^2) for each.
+// Returns four indices in ascending order. `corners` is a convex loop of at least five. Corners
+// whose depths are within `rounding` of the greatest count as deepest; at most 16 of them are
+// tried, spread evenly. Each takes O(n^2) time.
 template <class Scalar>
 std::array<std::uint32_t, 4> choose_four(const std::vector<PolygonCorner<Scalar>>& corners,
                                          Scalar rounding);

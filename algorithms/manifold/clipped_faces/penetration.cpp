@@ -7,9 +7,9 @@
 namespace touchstone {
 namespace {
 
-constexpr int most_iterations = 128;  // of GJK
+constexpr int most_iterations = 128;  // cap on GJK's iterations
 
-// The cores share a point, up to rounding.
+// EPA, from a simplex whose distance to the origin is zero up to rounding.
 template <class Scalar>
 Penetration<Scalar> expand_from(SupportPair<Scalar>& pair, const Approach<Scalar>& found,
                                 Scalar tolerance, ExpandingPolytope<Scalar>& polytope) {

@@ -1,5 +1,5 @@
-// How deep two bounded bodies are in each other: GJK, and EPA where their cores meet.
-// Papers: as gjk_approach.h and expanding_polytope.h say.
+// Part of clipped-faces: the penetration of two bounded bodies, by GJK, and by EPA when their cores
+// overlap. Papers: see kernels/gjk/gjk_distance.h and kernels/epa/expanding_polytope.h.
 #pragma once
 
 #include "algorithms/core/outcome.h"
@@ -8,18 +8,18 @@
 
 namespace touchstone {
 
-// In the pair's frame and unit. Only answer and status are set where the bodies are apart.
+// All lengths are in the pair's frame and unit. Separated bodies set only answer and status.
 template <class Scalar>
 struct Penetration {
   Answer answer = Answer::unknown;
   Status status = Status::not_converged;
-  Scalar depth = 0;  // negative, and then below rounding, where they may be apart
+  Scalar depth = 0;  // negative only when the answer is unknown, and then below rounding
   Vec3<Scalar> normal = Vec3<Scalar>::UnitX();  // unit, from a to b
-  Vec3<Scalar> a, b;                            // points of the bodies, a - b = depth * normal
+  Vec3<Scalar> a, b;                            // points on the bodies, a - b = depth * normal
 };
 
-// Exact up to rounding for polytopes; for curved bodies good to 1e-10 of the size in double and
-// 1e-5 in float.
+// Exact up to rounding for polytopes; accurate to 1e-10 of the size in double and 1e-5 in float for
+// curved bodies.
 template <class Scalar>
 Penetration<Scalar> find_penetration(SupportPair<Scalar>& pair,
                                      ExpandingPolytope<Scalar>& polytope);
