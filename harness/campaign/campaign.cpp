@@ -1,11 +1,11 @@
 #include "harness/campaign/campaign.h"
 
-#include "harness/base/hash.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "harness/base/hash.h"
+#include "harness/record/machine.h"
 #include "harness/record/raw_row.h"
 
 namespace touchstone {
