@@ -1,3 +1,4 @@
+// Writes an outcome from the oracle's measure, with witness points from its certificate.
 #include "algorithms/oracle/answer.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 namespace touchstone::oracle {
 namespace {
 
-// The two points of the cores whose difference is one point of the difference, in the world.
+// Two points of the cores, in the world, whose difference is one point of the difference.
 struct Witnesses {
   Vec3d a = Vec3d::Zero(), b = Vec3d::Zero();
 
@@ -33,7 +34,7 @@ double ratio(const Integer& part, const Integer& whole) {
   return Integer(part >> drop).convert_to<double>() / Integer(whole >> drop).convert_to<double>();
 }
 
-// Where the ray from the origin along the normal leaves the surface.
+// The witnesses at the point where the ray from the origin along the normal leaves the surface.
 Witnesses pierced(const Certificate& certificate, const Body& a, const Body& b,
                   const Vec3d& normal) {
   Witnesses best;
@@ -49,7 +50,7 @@ Witnesses pierced(const Certificate& certificate, const Body& a, const Body& b,
                                      normal.dot(p.cross(q))};
     const double sum = weights[0] + weights[1] + weights[2];
     if (!(sum > 0)) continue;
-    // Not negative in the triangle that is hit, but for rounding.
+    // Weights in the triangle that is hit are not negative, except for rounding.
     const double inside = std::ranges::min(weights) / sum;
     if (!(inside > most)) continue;
     most = inside;
@@ -67,7 +68,7 @@ Vec3d in_world_plane_point(const Body& body) {
   return body.matrix * (body.solid->offset / n.squaredNorm() * n) + body.translation;
 }
 
-// One of the bodies is a half-space: the other's nearest point, and below it the plane's.
+// If one body is a half-space: the other's nearest point, and its projection on the plane.
 Witnesses on_plane(const Certificate& certificate, const Body& a, const Body& b,
                    const Vec3d& normal) {
   const bool plane_is_b = !certificate.a.empty();
@@ -82,7 +83,7 @@ Witnesses on_plane(const Certificate& certificate, const Body& a, const Body& b,
   return plane_is_b ? Witnesses{point, below} : Witnesses{below, point};
 }
 
-// Of the point of the difference that is the shortest connection, or translation, away.
+// The witnesses of the shortest connection, or of the shortest separating translation.
 Witnesses witnesses(const Certificate& certificate, const Body& a, const Body& b,
                     const Vec3d& normal) {
   if (certificate.a.empty() || certificate.b.empty()) {

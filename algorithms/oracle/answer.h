@@ -1,4 +1,6 @@
-// The oracle's answer as a narrow phase's outcome.
+// Part of the oracle, used by exact.cpp and certified: the exact answer as a narrow phase's
+// outcome.
+// outcome.
 #pragma once
 
 #include "algorithms/core/outcome.h"
@@ -6,9 +8,9 @@
 
 namespace touchstone::oracle {
 
-// Writes what the task asks for: a distance rounded once, witness points (metres, world) that are
-// sums of the bodies' own points, rounded as doubles are. Where an enclosure of curved cores holds
-// zero the answer is unknown, and the status not_converged.
+// Writes the outcome that the task asks for: the distance, rounded once, and witness points
+// (metres, world) that are sums of the bodies' own points, computed in doubles. If an enclosure of
+// curved cores contains zero, the answer is `unknown` and the status `not_converged`.
 void answer(Oracle& oracle, const Body& a, const Body& b, Task task, Outcome& outcome);
 
 }  // namespace touchstone::oracle

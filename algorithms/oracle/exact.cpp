@@ -1,9 +1,20 @@
-// Exact: the oracle behind the narrow phase's contract, to be asked like any other algorithm.
-// Paper:   see exact_gjk.h and expander.h; the answer is that of the exact problem in README.md
-// here. Departs: distances are rounded once, at the end; tolerance and iteration cap have nothing
-// to cut. Fails:   curved cores (cylinder, cone, ellipsoid) have an enclosure, about 1e-18 of the
-// size wide
-//          apart and 1e-12 deep; where zero is in it the answer is unknown, not_converged.
+// Exact: the oracle behind the narrow phase's contract, so that it runs like any other algorithm.
+// Paper:   see exact_gjk.h and expander.h. The answer is that of the exact problem in README.md.
+// Steps:   1. Make a solid, a core and a ball, of each shape in `bind`.
+//          2. Place a pair in doubles and search with GJK (hint); a verdict ends here if a bound on
+//             the rounding proves it.
+//          3. Place the pair on one grid of integers (grid_pair) and search with integer GJK
+//             (exact_gjk).
+//          4. If the origin is in the difference, grow a polytope in integers to its nearest face
+//             (expander).
+//          5. A half-space needs one exact support instead (half_space).
+//          6. Compare the core's signed distance with the radii, exactly (signed_root).
+//          7. Write distance and witness points from the certificate, rounded once (answer).
+// Departs: there is no tolerance and no iteration cap to set; the answer is exact before it is
+//          rounded.
+// Fails:   curved cores (cylinder, cone, ellipsoid) have an enclosure, about 1e-18 of the size wide
+//          when apart and 1e-12 when deep. If it contains zero the answer is `unknown` and the
+//          status `not_converged`.
 // Cost:    10 to 100 us a query for polytopes, up to some ms for curved cores; allocates.
 #include <vector>
 

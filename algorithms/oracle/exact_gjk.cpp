@@ -1,3 +1,4 @@
+// The integer GJK of exact_gjk.h.
 #include "algorithms/oracle/exact_gjk.h"
 
 namespace touchstone::oracle {

@@ -1,3 +1,4 @@
+// The exact matrix of a body, from its stored matrix or its quaternion.
 #include "algorithms/oracle/exact_matrix.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 namespace touchstone::oracle {
 namespace {
 
-// R(q) and |q|^2 of integers; their common power of two cancels.
+// Returns R(q) and |q|^2 in integers. The components' common power of two cancels.
 ExactMatrix of_quaternion(const std::array<double, 4>& quaternion) {
   std::array<Dyadic, 4> parts;
   int exponent = Dyadic::of_zero;

@@ -1,4 +1,4 @@
-// The linear part of a body's placement, exactly.
+// Part of the oracle: the linear part of a body's placement as exact integers.
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace touchstone::oracle {
 
-// columns[k][row] * 2^exponent / denominator; the denominator is 1 but for quaternions.
+// The matrix is columns[k][row] * 2^exponent / denominator. The denominator is 1 except for
+// quaternions.
 struct ExactMatrix {
   std::array<IntegerVector, 3> columns;
   int exponent = 0;

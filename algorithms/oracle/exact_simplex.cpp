@@ -1,3 +1,4 @@
+// The nearest feature of an integer simplex: every feature is tried, and signs are exact.
 #include "algorithms/oracle/exact_simplex.h"
 
 #include <utility>
@@ -16,7 +17,7 @@ Integer volume(const IntegerVector& x, const IntegerVector& y, const IntegerVect
   return dot(x, cross(y, z));
 }
 
-// The projection of the origin on the feature's affine hull is inside it: positive weights.
+// Returns true if the origin projects into the feature: all weights are positive.
 bool projects_inside(const ExactSimplex& simplex, Feature& f) {
   const auto at = [&](int i) -> const IntegerVector& { return simplex.at[f.vertices[i]]; };
   auto& w = f.weights;
@@ -67,7 +68,7 @@ bool projects_inside(const ExactSimplex& simplex, Feature& f) {
   return true;
 }
 
-// No vertex of the simplex is nearer to the origin than the feature's plane.
+// Returns true if no vertex of the simplex is nearer to the origin than the feature's plane.
 bool is_nearest(const ExactSimplex& simplex, const Feature& f, unsigned mask) {
   if (f.plane.contains_origin) return true;
   for (int i = 0; i < simplex.size; ++i) {
@@ -103,7 +104,7 @@ NearestPlane reduce(ExactSimplex& simplex) {
       return std::move(f.plane);
     }
   }
-  return {};  // not reached: some feature holds the nearest point
+  return {};  // not reached: some feature contains the nearest point
 }
 
 }  // namespace touchstone::oracle

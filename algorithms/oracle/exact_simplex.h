@@ -1,4 +1,5 @@
-// Simplices of the difference of two bodies, in integers.
+// Part of the oracle, used by exact_gjk and expander: simplices of the difference of two bodies, in
+// integers.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@ struct ExactSimplex {
   int size = 0;
   std::array<DifferencePoint, 4> points;
   std::array<IntegerVector, 4> at;
-  // Of the nearest point to the origin, after `reduce`: positive; their sum is `weight`.
+  // Weights of the point nearest to the origin, set by `reduce`: positive, with the sum `weight`.
   std::array<Integer, 4> weights;
   Integer weight;
 
@@ -22,16 +23,16 @@ struct ExactSimplex {
   }
 };
 
-// Where the origin is: in the simplex, or on the far side of the plane normal . x = offset > 0,
-// which touches the simplex at the nearest point, so the distance is offset / |normal|.
+// The position of the origin: either in the simplex, or beyond the plane normal . x = offset > 0,
+// which touches the simplex at the nearest point. The distance is then offset / |normal|.
 struct NearestPlane {
   bool contains_origin = false;
   IntegerVector normal;
   Integer offset;
 };
 
-// Leaves the vertices of the smallest feature that holds the nearest point to the origin. The last
-// point is the newest: features with it are tried first.
+// Keeps the vertices of the smallest feature that contains the point nearest to the origin. The
+// last point is the newest, so features that contain it are tried first.
 NearestPlane reduce(ExactSimplex& simplex);
 
 }  // namespace touchstone::oracle

@@ -1,3 +1,4 @@
+// The integer EPA of expander.h.
 #include "algorithms/oracle/expander.h"
 
 #include <algorithm>
@@ -8,10 +9,10 @@ namespace touchstone::oracle {
 namespace {
 
 constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
-// A face's distance from the origin is off by at most this: its normal by 2^-52 and its vertex by
-// two coordinate errors.
+// Error bound of a face's distance from the origin: 2^-52 from its normal and two coordinate errors
+// from its vertex.
 constexpr double distance_error = 0x1p-43;
-// Curved cores: where the bounds are this close (in the pair's unit) it is enough.
+// Curved cores: the search ends when the bounds are this close, in the pair's unit.
 constexpr double curved_width = 0x1p-40;
 constexpr int curved_expansions = 600;
 
@@ -33,8 +34,8 @@ bool Expander::add_if_outside(ExactSimplex& simplex, const IntegerVector& direct
   return outside;
 }
 
-// To a tetrahedron. Each round looks along directions at right angles to what is there; where the
-// difference has no extent along all of them it is no more than that.
+// Grows the simplex to a tetrahedron. Each round searches along directions perpendicular to the
+// simplex. If the difference has no extent along all of them, it lies in the simplex's affine hull.
 bool Expander::grow(ExactSimplex& simplex) {
   while (simplex.size < 4) {
     std::vector<IntegerVector> directions;
@@ -128,7 +129,7 @@ bool Expander::sees(std::uint32_t point, const Face& face) const {
   return dot(face.plane.exact, at_[point]) > face.offset;
 }
 
-// The faces that the point sees make way for those between the point and their horizon.
+// Replaces the faces that the point sees by faces between the point and their horizon.
 void Expander::replace_visible(std::uint32_t first, std::uint32_t point) {
   ++search_;
   visible_ = {first};
@@ -143,7 +144,7 @@ void Expander::replace_visible(std::uint32_t first, std::uint32_t point) {
       if (face.visible) visible_.push_back(neighbour);
     }
   }
-  made_of_.assign(points_.size(), no_face);  // of each vertex: the new face whose edge starts there
+  made_of_.assign(points_.size(), no_face);  // vertex -> new face whose edge starts there
   const auto first_made = static_cast<std::uint32_t>(faces_.size());
   for (const std::uint32_t gone : visible_) {
     faces_[gone].alive = false;
@@ -166,7 +167,7 @@ void Expander::replace_visible(std::uint32_t first, std::uint32_t point) {
   }
 }
 
-// offset_x / |x| < offset_y / |y|; offsets are not negative.
+// Compares offset_x / |x| < offset_y / |y|. Offsets are not negative.
 bool Expander::nearer(const Face& x, const Face& y) const {
   const double bound = 2 * filters_.nearest * distance_error;
   if (x.distance < y.distance - bound) return true;
@@ -175,7 +176,8 @@ bool Expander::nearer(const Face& x, const Face& y) const {
          y.offset * y.offset * dot(x.plane.exact, x.plane.exact);
 }
 
-// The face to look beyond: about the nearest; for a verdict only one that the origin lies on.
+// Returns the face to expand: about the nearest one; for a verdict, only one that contains the
+// origin.
 std::uint32_t Expander::next_face(ExpansionGoal goal) const {
   std::uint32_t best = no_face;
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -194,7 +196,7 @@ void Expander::find_nearest() {
     const Face& face = faces_[f];
     if (!face.alive) continue;
     inside_ = inside_ && !face.offset.is_zero();
-    // Of faces that are as near, one beyond which there is nothing.
+    // Among faces at the same distance a final one is better.
     const bool better = nearest_ == no_face || nearer(face, faces_[nearest_]) ||
                         (face.final && !faces_[nearest_].final && !nearer(faces_[nearest_], face));
     if (better) nearest_ = f;

@@ -1,7 +1,18 @@
-// EPA in integers: a polytope inside the difference of two bodies grows at its face nearest to the
-// origin until that face is one of the difference's own.
-// Paper: van den Bergen, "Proximity queries and penetration depth computation on 3D game objects",
-// GDC 2001.
+// Part of the oracle: EPA in integers. A polytope inside the difference of two bodies grows at the
+// face nearest to the origin until that face belongs to the difference itself.
+// Paper:   van den Bergen, "Proximity queries and penetration depth computation on 3D game
+//          objects", GDC 2001.
+// Steps:   1. Grow the simplex of the exact GJK to a tetrahedron (`grow`). If that fails, the
+//             difference has no volume.
+//          2. Choose the face nearest to the origin; for a verdict, a face whose plane contains the
+//             origin.
+//          3. Find the point of the difference that is furthest along the face's normal.
+//          4. If that point is not beyond the face, the face is final. A verdict ends here; a depth
+//             ends when no other face can be nearer.
+//          5. Otherwise replace the faces that the point sees by faces from the point to their
+//             horizon, and repeat from step 2. Curved cores stop when their bounds nearly meet or
+//             at an iteration cap.
+//          6. Choose the nearest face by exact comparison (`find_nearest`).
 #pragma once
 
 #include <vector>
@@ -11,27 +22,27 @@
 namespace touchstone::oracle {
 
 enum class ExpansionGoal : std::uint8_t {
-  verdict,  // whether the origin is strictly inside
-  depth,    // how far it is from the surface
+  verdict,  // tells if the origin is strictly inside
+  depth,    // the distance from the origin to the surface, metres
 };
 
 class Expander {
  public:
   explicit Expander(const Filters& filters) : filters_(filters) {}
 
-  // The simplex contains the origin; at least weakly.
+  // Requires that the simplex contains the origin, possibly on its boundary.
   void expand(GridPair& pair, const ExactSimplex& simplex, ExpansionGoal goal);
 
-  // The origin is strictly inside the polytope, hence inside the difference.
+  // True if the origin is strictly inside the polytope, and therefore inside the difference.
   bool inside() const { return inside_; }
-  // The plane normal . x = offset of the face nearest to the origin: a lower bound on the depth,
-  // offset / |normal|, and where the bodies are polytopes and the goal was the depth the depth
-  // itself. Not for a difference without volume, where depth is zero.
+  // The face nearest to the origin has the plane normal . x = offset. offset / |normal| is a lower
+  // bound on the depth; if both bodies are polytopes and the goal is `depth`, it is the depth.
+  // Valid only if the difference has volume; otherwise the depth is zero.
   bool has_volume() const { return has_volume_; }
   const IntegerVector& nearest_normal() const { return faces_[nearest_].plane.exact; }
   const Integer& nearest_offset() const { return faces_[nearest_].offset; }
-  // Along which the difference reaches least far of all directions that were tried. Without volume:
-  // along which it has no extent.
+  // The direction of least reach among all that were tried. If the difference has no volume: a
+  // direction along which it has no extent.
   const Direction& least() const { return least_; }
 
   Certificate::Surface surface() const;
@@ -42,10 +53,10 @@ class Expander {
     std::array<std::uint32_t, 3> neighbours;  // across the edge from vertices[i] to vertices[i + 1]
     Direction plane;
     Integer offset;
-    double rounded_offset;  // of plane.rounded
-    double distance;        // from the origin, in the pair's unit, off by rounding
+    double rounded_offset;  // plane.rounded . vertex
+    double distance;        // from the origin, in the pair's unit, with rounding error
     bool alive = true;
-    bool final = false;  // nothing lies beyond it
+    bool final = false;  // no point of the difference lies beyond it
     std::uint32_t seen = 0;
     bool visible = false;
   };

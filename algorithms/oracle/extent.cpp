@@ -1,4 +1,5 @@
-// What follows from one support value of a body: separation along a direction, and boxes.
+// Part of the oracle: separation along a direction and containment in a box. Both need one support
+// value.
 #include <cmath>
 #include <limits>
 
@@ -24,7 +25,7 @@ IntegerVector to_integers(const Vec3d& n) {
           parts[2].over_power(exponent)};
 }
 
-// The support of the difference of the cores along n, over |n|.
+// Support of the difference of the cores along n, divided by |n|.
 struct Reach {
   SignedRoot low, high;
 };
@@ -55,7 +56,7 @@ bool same_direction(const IntegerVector& u, const IntegerVector& v) {
 Enclosure separation_along(const Body& a, const Body& b, const Vec3d& n) {
   const IntegerVector direction = to_integers(n);
   if (is_half_space(a) || is_half_space(b)) {
-    // Only along the plane's own normal, and that is what the pair's signed distance says.
+    // Separation is possible only along the plane's normal, and equals the pair's signed distance.
     if (is_half_space(a) && !same_direction(exact_half_space(a).normal, direction))
       return {inf, inf};
     if (is_half_space(b) && !same_direction(exact_half_space(b).normal, -direction))
@@ -79,7 +80,7 @@ bool holds(const Aabb& box, const Body& body) {
       if (std::isinf(side) && side > 0) continue;
       Vec3d n = Vec3d::Zero();
       n[axis] = sign;
-      // The body against the point of the side that lies on the axis.
+      // Compares the body with the point where the box's side meets the axis.
       Pose pose;
       pose.translation[axis] = std::isinf(side) ? 0 : sign * side;
       const Solid point{Shape{}};

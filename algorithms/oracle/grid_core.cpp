@@ -1,3 +1,4 @@
+// One core of a pair: supports in doubles and integers, and points of curved cores.
 #include "algorithms/oracle/grid_core.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 
 using Vec3l = Vec3<long double>;
 
-// The furthest point of a cylinder, cone or ellipsoid around the origin.
+// Returns the furthest point of a cylinder, cone or ellipsoid around the origin.
 Vec3l furthest(Solid::Core core, const Vec3l& extents, const Vec3l& direction) {
   if (core == Solid::Core::ellipsoid) {
     const Vec3l stretched = extents.cwiseProduct(direction);
@@ -30,7 +31,7 @@ Vec3l furthest(Solid::Core core, const Vec3l& extents, const Vec3l& direction) {
   return tip.dot(direction) >= rim.dot(direction) ? tip : rim;
 }
 
-// Floor and ceiling of the root of a square, times 2^shift.
+// Floor and ceiling of sqrt(square) * 2^shift.
 SupportBounds root_bounds(const Integer& square, int shift) {
   const Integer scaled = square << (2 * shift);
   const Integer root = sqrt(scaled);
@@ -48,7 +49,7 @@ Direction make_direction(IntegerVector exact) {
   const long drop = std::max(bits - 60, 0L);
   const double unit = std::ldexp(1.0, static_cast<int>(drop - bits));
   for (int k = 0; k < 3; ++k) {
-    // Of the magnitude: Boost 1.74 loses the sign of some negative numbers that are shifted right.
+    // The shift takes the magnitude because Boost 1.74 loses the sign of some negative numbers.
     const Integer top = abs(direction.exact[k]) >> drop;
     const double magnitude = unit * static_cast<double>(top.convert_to<std::int64_t>());
     direction.rounded[k] = direction.exact[k] < 0 ? -magnitude : magnitude;
@@ -112,7 +113,7 @@ bool GridCore::holds(const std::array<std::int64_t, 3>& point) const {
   const Integer a = extent(0), b = extent(1), c = extent(2);
   switch (solid_->core) {
     case Solid::Core::ellipsoid: {
-      // An axis of no length holds coordinate 0 only, and drops out.
+      // An axis of zero length admits only coordinate 0, so it is left out.
       Integer left = 0, right = 1;
       const std::array<const Integer*, 3> coordinates = {&x, &y, &z}, axes = {&a, &b, &c};
       for (int k = 0; k < 3; ++k) {
@@ -140,7 +141,7 @@ std::uint32_t GridCore::add_point(const Vec3l& local_direction) {
   for (int k = 0; k < 3; ++k) {
     extents[k] = std::ldexp(static_cast<long double>(solid_->extents[k]), -solid_->grid[k]);
   }
-  // Lengths over the grid of one axis are not those of another.
+  // Each axis has its own grid, so lengths in grid steps differ between axes.
   Vec3l units;
   for (int k = 0; k < 3; ++k) {
     units[k] = std::ldexp(1.0L, solid_->grid[k] - solid_->exponent);
@@ -148,7 +149,8 @@ std::uint32_t GridCore::add_point(const Vec3l& local_direction) {
   const Vec3l real = furthest(solid_->core, extents.cwiseProduct(units), local_direction);
   const bool apex = solid_->core == Solid::Core::cone && real.z() > 0;
   std::array<std::int64_t, 3> point{};
-  // Rounded points may be outside: drawn in, by more each time, until they are not.
+  // A rounded point may lie outside. It is shrunk towards the centre, more each time, until it is
+  // inside.
   for (long double shrink = 0;; shrink = shrink > 0 ? 4 * shrink : 0x1p-64L) {
     for (int k = 0; k < 3; ++k) {
       if (extents[k] == 0) continue;
@@ -178,7 +180,7 @@ void GridCore::place_exactly(const ExactMatrix& matrix, long exponent, const Int
     const long shift = matrix.exponent + solid_->grid[k] - exponent;
     for (int row = 0; row < 3; ++row) {
       const Integer& entry = matrix.columns[k][row];
-      // An entry of zero may be on a grid that is too fine for this shift.
+      // A zero entry may belong to a grid that is too fine for this shift.
       columns_[k][row] = entry.is_zero() || step.is_zero()
                              ? Integer(0)
                              : Integer((entry * step * others) << shift);
@@ -227,7 +229,7 @@ std::uint32_t GridCore::exact_support(const Direction& direction, double filter_
   for (std::size_t i = 0; i < count; ++i) {
     furthest = std::max(furthest, n.x() * x_[i] + n.y() * y_[i] + n.z() * z_[i]);
   }
-  // Whoever may be the furthest is compared exactly.
+  // All vertices that may be the furthest are compared exactly.
   std::uint32_t best = 0;
   bool found = false, measured = false;
   Integer value;
@@ -252,7 +254,7 @@ std::uint32_t GridCore::exact_support(const Direction& direction, double filter_
 }
 
 SupportBounds GridCore::support_bounds(const IntegerVector& direction, int shift) const {
-  // The direction as the solid's axes see it, times the extents.
+  // Components of the direction along the solid's axes, times the extents.
   std::array<Integer, 3> along;
   for (int k = 0; k < 3; ++k) along[k] = dot(direction, columns_[k]) * extent(k);
   const Integer& end = along[2];

@@ -1,3 +1,4 @@
+// Places a pair on a common grid and scales lengths of that grid.
 #include "algorithms/oracle/grid_pair.h"
 
 #include <algorithm>
@@ -17,17 +18,18 @@ int exponent_of(double magnitude) {
   return exponent;
 }
 
-// 2^exponent, held to the range of double: what is cut off is far below the filters' bounds.
+// Returns 2^exponent, clamped to the range of double. The part that is cut off is far below the
+// filters' bounds.
 double power(int exponent) { return std::ldexp(1.0, std::clamp(exponent, -1022, 1000)); }
 
-// x * 2^exponent, in two steps: one power of two may be out of range.
+// Returns x * 2^exponent in two steps, since one power of two may be out of range.
 template <class Value>
 Value scaled_by(const Value& x, int exponent) {
   const int half = exponent / 2;
   return x * power(half) * power(exponent - half);
 }
 
-// Entries divided by a power of two, so that none is beyond 1.
+// The matrix divided by a power of two, so that no entry is beyond 1.
 struct ScaledMatrix {
   Mat3d matrix;
   int exponent;
@@ -60,7 +62,7 @@ void GridPair::place(const Body& body_a, const Body& body_b) {
   const ScaledMatrix matrix_a = scaled_matrix(body_a), matrix_b = scaled_matrix(body_b);
   const int reach_a = body_a.solid->exponent + matrix_a.exponent;
   const int reach_b = body_b.solid->exponent + matrix_b.exponent;
-  // The offset over a power of two that no origin is beyond.
+  // The offset is divided by a power of two that bounds both origins.
   const double furthest =
       std::max(body_a.translation.cwiseAbs().maxCoeff(), body_b.translation.cwiseAbs().maxCoeff());
   const int far = furthest == 0 ? 0 : exponent_of(furthest);
@@ -144,7 +146,7 @@ double GridPair::rounded_length(const Integer& length, const IntegerVector& norm
     return greatest;
   }();
   const Scaled along = scaled(normal[axis]);
-  // |normal| from its greatest component and the direction's shape.
+  // |normal| follows from its greatest component and the rounded direction.
   const double norm = direction.rounded.norm() / std::abs(direction.rounded[axis]);
   const double value = part.mantissa / (whole.mantissa * std::abs(along.mantissa) * norm);
   const long exponent = part.exponent - whole.exponent - along.exponent + exponent_ - unit_;

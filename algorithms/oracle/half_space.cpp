@@ -1,3 +1,4 @@
+// Exact signed distance between a half-space and a body, or between two half-spaces.
 #include "algorithms/oracle/half_space.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ Vec3d unit(const IntegerVector& direction) {
   return make_direction(direction).rounded.normalized();
 }
 
-// value * 2^exponent / (denominator * |normal|) as a signed root of metres.
+// Returns value * 2^exponent / (denominator * |normal|) as a signed root, in metres.
 SignedRoot over_length(const Integer& value, long exponent, const Integer& denominator,
                        const IntegerVector& normal) {
   SignedRoot root;
@@ -29,7 +30,7 @@ SignedRoot over_length(const Integer& value, long exponent, const Integer& denom
   return root;
 }
 
-// Brings x * 2^e and y * 2^f to one exponent, which is returned.
+// Brings x * 2^e and y * 2^f to one exponent and returns it.
 long align(Integer& x, long e, Integer& y, long f) {
   const long least = std::min(e, f);
   x <<= e - least;
@@ -37,7 +38,7 @@ long align(Integer& x, long e, Integer& y, long f) {
   return least;
 }
 
-// From the half-space's plane to the nearest point of the body.
+// Measures from the half-space's plane to the nearest point of the body.
 Measure above_plane(const Body& body, const Body& half_space, GridPair& pair,
                     const Filters& filters, Certificate* certificate) {
   const ExactHalfSpace plane = exact_half_space(half_space);
@@ -48,14 +49,15 @@ Measure above_plane(const Body& body, const Body& half_space, GridPair& pair,
     return measure;
   }
   Shape shape;
-  const Solid point(shape);  // stands for the half-space's origin
+  const Solid point(shape);  // a point at the half-space's origin
   Pose pose;
   pose.translation = half_space.translation;
   const Body origin(point, pose);
   pair.place(body, origin);
   pair.place_exactly();
   const Direction down = make_direction(-plane.normal);
-  // height(x) * 2^exponent / (pair's denominator * plane's * |normal|) is that of x over the plane.
+  // The height of x over the plane is height(x) * 2^exponent / (pair's denominator * plane's *
+  // |normal|).
   const auto height = [&](const Integer& along, int shift) {
     Integer value = along * plane.denominator;
     Integer offset = plane.offset * pair.denominator();
@@ -79,7 +81,7 @@ Measure above_plane(const Body& body, const Body& half_space, GridPair& pair,
   return measure;
 }
 
-// Of two half-spaces only those whose normals are opposite can be apart, or be moved apart.
+// Two half-spaces can be separated, or moved apart, only if their normals are opposite.
 Measure between_planes(const Body& a, const Body& b, Certificate* certificate) {
   const ExactHalfSpace plane_a = exact_half_space(a), plane_b = exact_half_space(b);
   Measure measure;
@@ -94,7 +96,7 @@ Measure between_planes(const Body& a, const Body& b, Certificate* certificate) {
     measure.core_lower = measure.core_upper = SignedRoot::infinity(-1);
     return measure;
   }
-  // normal_b = -against / square * normal_a. The gap times |normal_a|, with x relative to a:
+  // normal_b = -against / square * normal_a. Times |normal_a|, with x relative to a, the gap is
   // normal_a . (t_b - t_a) - offset_b * square / against - offset_a.
   const Integer square = dot(plane_a.normal, plane_a.normal);
   Integer along = 0;
@@ -140,7 +142,7 @@ ExactHalfSpace exact_half_space(const Body& body) {
   ExactHalfSpace plane;
   plane.normal = {0, 0, 0};
   if (determinant.is_zero()) return plane;
-  // n . M^-1 y <= offset, times the determinant of M without its power of two.
+  // The plane is n . M^-1 y <= offset, times the determinant of M without its power of two.
   for (int k = 0; k < 3; ++k) {
     plane.normal =
         plane.normal + parts[k].over_power(least) * cross(c[(k + 1) % 3], c[(k + 2) % 3]);

@@ -1,4 +1,4 @@
-// Half-spaces against everything.
+// Part of the oracle: pairs in which at least one body is a half-space.
 #pragma once
 
 #include "algorithms/oracle/certificates/certificate.h"
@@ -7,8 +7,8 @@
 
 namespace touchstone::oracle {
 
-// The image of a half-space: the points y, relative to the body's translation, with
-// normal . y * denominator <= offset * 2^exponent. A matrix without an inverse gives the normal 0.
+// The image of a half-space: points y, relative to the body's translation, with normal . y *
+// denominator <= offset * 2^exponent. A singular matrix gives the normal 0.
 struct ExactHalfSpace {
   IntegerVector normal;
   Integer offset, denominator;
@@ -16,8 +16,8 @@ struct ExactHalfSpace {
 };
 ExactHalfSpace exact_half_space(const Body& body);
 
-// At least one of the bodies is a half-space; core_lower, core_upper and normal are set. The pair
-// is memory to work in.
+// Sets core_lower, core_upper and normal of the result. At least one of the bodies must be a
+// half-space. `pair` is scratch memory.
 Measure measure_half_space(const Body& a, const Body& b, GridPair& pair, const Filters& filters,
                            Certificate* certificate);
 

@@ -1,3 +1,4 @@
+// The GJK in doubles of hint.h, with bounds on its rounding.
 #include "algorithms/oracle/hint.h"
 
 #include <cmath>
@@ -7,7 +8,7 @@ namespace touchstone::oracle {
 namespace {
 
 constexpr int max_iterations = 64;
-// Of one coordinate of a difference.
+// Error bound of one coordinate of a difference, in the pair's unit.
 constexpr double difference_error = 2 * GridCore::coordinate_error;
 
 struct Simplex {
@@ -16,7 +17,7 @@ struct Simplex {
   std::array<Vec3d, 4> at;
 };
 
-// What a simplex says of the origin.
+// The feature of a simplex that is nearest to the origin.
 struct Nearest {
   bool inside = false;
   double distance = std::numeric_limits<double>::infinity();
@@ -24,7 +25,7 @@ struct Nearest {
       Vec3d::Zero();  // from the origin to the nearest point, or normal to its feature
   int size = 0;
   std::array<int, 3> vertices{};
-  std::array<double, 3> weights{};  // of the nearest point; not negative, of any sum
+  std::array<double, 3> weights{};  // of the nearest point; not negative, with any sum
 };
 
 class Search {
@@ -44,7 +45,7 @@ class Search {
     if (!(part > 0)) return vertex(i);
     if (!(part < whole)) return vertex(j);
     Vec3d direction = at_[i] + part / whole * edge;
-    // Again: what rounding left along the edge would tilt a short direction.
+    // A second projection removes the rounding along the edge, which would tilt a short direction.
     direction -= direction.dot(edge) / whole * edge;
     const double distance = direction.norm();
     if (distance < best.distance)
@@ -110,7 +111,7 @@ Nearest reduce(Simplex& simplex) {
   return best;
 }
 
-// A point of the simplex for sure, whatever rounding did to the search: how far it is.
+// Distance of a point that lies in the simplex for certain, whatever rounding did to the search.
 double distance_of_point(const Simplex& simplex, const Nearest& nearest) {
   Vec3d point = Vec3d::Zero();
   double sum = 0;
@@ -121,10 +122,11 @@ double distance_of_point(const Simplex& simplex, const Nearest& nearest) {
   return point.norm() / sum;
 }
 
-// The origin is inside whatever rounding did to the points.
+// Returns true if the origin is inside, whatever rounding did to the points.
 bool surely_inside(const Simplex& simplex, double filter_scale) {
-  // A face's normal is of differences of coordinates up to 10: its components are off by less than
-  // 40 times their error and its products with a point by less than 3 * (10 * 40 + 200) times that.
+  // A face's normal is made of differences of coordinates up to 10. Its components are off by less
+  // than 40 times their error, and its products with a point by less than 3 * (10 * 40 + 200) times
+  // that.
   const double bound = filter_scale * 1800 * difference_error;
   const auto& p = simplex.at;
   const auto volume = [](const Vec3d& x, const Vec3d& y, const Vec3d& z) {
@@ -139,7 +141,7 @@ bool surely_inside(const Simplex& simplex, double filter_scale) {
 }  // namespace
 
 Hint find_hint(GridPair& pair, const Filters& filters, bool decide) {
-  // A sum of three products of coordinates up to 10 with a direction's components.
+  // Error bound of a sum of three products of coordinates up to 10 with a direction's components.
   const double plane_bound = filters.plane * 2 * GridCore::dot_error;
   const double radius_bound = filters.radius * 64 * difference_error;
   Hint hint;
@@ -161,7 +163,7 @@ Hint find_hint(GridPair& pair, const Filters& filters, bool decide) {
     const DifferencePoint point = {pair.a.support(-direction), pair.b.support(direction)};
     const Vec3d at = pair.rounded(point);
     const double along = direction.dot(at);
-    // Curved cores' support points are inner ones: they prove nothing here.
+    // Support points of curved cores lie inside the cores, so they do not prove separation.
     if (decide && !pair.is_curved()) {
       const double margin = along - plane_bound;
       if (margin > 0 && (pair.radius == 0 || margin > (pair.radius + radius_bound) *
@@ -174,7 +176,7 @@ Hint find_hint(GridPair& pair, const Filters& filters, bool decide) {
       known = known || simplex.points[i] == point || simplex.at[i] == at;
     }
     if (known) break;
-    // No nearer than the simplex is already, up to rounding.
+    // The new point is no nearer than the simplex, up to rounding.
     if (simplex.size > 0 && !(direction.dot(simplex.at[0]) - along > 0x1p-52 * std::abs(along)))
       break;
     simplex.points[simplex.size] = point;

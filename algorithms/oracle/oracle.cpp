@@ -1,3 +1,4 @@
+// Runs the oracle's parts in order: the hint in doubles, GJK in integers, EPA in integers.
 #include "algorithms/oracle/oracle.h"
 
 #include <utility>
@@ -17,7 +18,7 @@ Answer answer_of(std::strong_ordering lower, std::strong_ordering upper) {
   return lower == 0 && upper == 0 ? Answer::touching : Answer::unknown;
 }
 
-// Collects the generators that a certificate speaks of, and renumbers them.
+// Collects and renumbers the generators that a certificate uses.
 class Generators {
  public:
   Generators(const GridCore& core, std::vector<Generator>& list) : core_(core), list_(list) {}
@@ -96,7 +97,8 @@ void Oracle::Workspace::write_closest(const ExactSimplex& simplex, Certificate& 
   }
 }
 
-// What the direction proves of the cores' signed distance, with curved supports rounded up.
+// The lower bound on the cores' signed distance that the direction proves. Curved supports are
+// rounded up.
 SignedRoot Oracle::Workspace::lower_along(const Direction& direction) {
   const Integer above = pair.support_above(direction, GridPair::root_shift, filters.support);
   const Integer length = dot(direction.exact, direction.exact) << (2 * GridPair::root_shift);
@@ -107,8 +109,8 @@ void Oracle::Workspace::measure_apart(const ExactSearch& search, Measure& measur
                                       Certificate* certificate) {
   const NearestPlane& plane = search.plane;
   const ExactSimplex& simplex = search.simplex;
-  // The sum of the weights is |normal|^2 for a triangle; of an edge and a vertex the normal is the
-  // nearest point itself, times that sum.
+  // For a triangle the sum of the weights is |normal|^2. For an edge or a vertex the normal is the
+  // nearest point times that sum.
   const Integer numerator = simplex.size == 3 ? Integer(plane.offset * plane.offset) : plane.offset;
   measure.core_upper = pair.in_metres(1, numerator, simplex.weight);
   measure.core_lower = measure.core_upper;
@@ -164,8 +166,8 @@ Measure Oracle::Workspace::measure(const Body& a, const Body& b, Certificate* ce
   const double radius_a = a.solid->radius, radius_b = b.solid->radius;
   const auto lower_order = compare(measure.core_lower, radius_a, radius_b);
   const DoubleBounds lower = round_less(measure.core_lower, radius_a, radius_b);
-  // Polytopes and half-spaces are exact without a look: the bounds are the same fraction. Of a
-  // singular half-space nothing is known.
+  // Polytopes and half-spaces are exact without a comparison: both bounds are the same fraction.
+  // For a singular half-space no bound is known.
   const bool curved = a.solid->is_curved() || b.solid->is_curved();
   const bool known = measure.core_upper.sign < 0 || !measure.core_upper.is_infinite();
   measure.exact = known && (!curved || measure.core_lower == measure.core_upper);

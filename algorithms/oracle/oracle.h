@@ -1,4 +1,4 @@
-// The exact answer for a pair of bodies.
+// The oracle's interface: the exact answer for a pair of bodies. README.md states the problem.
 #pragma once
 
 #include <memory>
@@ -13,14 +13,14 @@ namespace touchstone::oracle {
 
 // The signed distance of a pair.
 struct Measure {
-  Answer answer = Answer::unknown;    // unknown: zero is in the enclosure, for curved cores only
-  SignedRoot core_lower, core_upper;  // of the cores' signed distance; see certificate.h
+  Answer answer = Answer::unknown;    // unknown: the enclosure contains zero (curved cores only)
+  SignedRoot core_lower, core_upper;  // the cores' signed distance; see certificate.h
   bool exact = false;                 // core_lower == core_upper
-  // Metres: the bodies' signed distance (> 0 the gap, < 0 minus the depth) is between these; for an
-  // exact answer they are the doubles on both sides of it.
+  // Enclosure of the bodies' signed distance in metres: > 0 is the gap, < 0 is minus the depth. If
+  // the answer is exact these are the adjacent doubles on both sides of it.
   double lower = 0, upper = 0;
-  // Of about unit length, from a to b: the direction of the shortest connection, or of the shortest
-  // separating translation of b. Zero where there is none.
+  // Direction of about unit length from a to b: of the shortest connection, or of the shortest
+  // translation of b that separates. Zero if there is none.
   Vec3d normal = Vec3d::Zero();
 
   double middle() const { return lower + (upper - lower) / 2; }
@@ -30,19 +30,20 @@ struct Enclosure {
   double lower, upper;
 };
 
-// Keeps memory from query to query; one for each thread. Numbers of the bodies are finite.
+// Keeps memory between queries; use one for each thread. All numbers of the bodies must be finite.
 class Oracle {
  public:
   explicit Oracle(const Filters& filters = {});
   ~Oracle();
   Oracle(Oracle&&) noexcept;
 
-  // Separated, touching or overlapping; unknown only for curved cores. No more work than that
-  // needs.
+  // Returns separated, touching or overlapping, with no more work than that needs. Returns unknown
+  // only for curved cores.
   Answer verdict(const Body& a, const Body& b);
-  // The exact signed distance where both cores are polytopes or half-spaces, else an enclosure.
+  // Returns the exact signed distance if both cores are polytopes or half-spaces, otherwise an
+  // enclosure.
   Measure measure(const Body& a, const Body& b);
-  // The same with its proof. `certificate.answer` is the verdict.
+  // Like `measure`, and writes the proof. `certificate.answer` is the verdict.
   Measure prove(const Body& a, const Body& b, Certificate& certificate);
 
  private:
@@ -50,12 +51,12 @@ class Oracle {
   std::unique_ptr<Workspace> workspace_;
 };
 
-// How far b has to be moved along n (not zero, any length) until the bodies have no interior point
-// in common, in metres: the support of the difference a - b along n, over |n|. Negative where they
-// are apart along n already. Infinite where a half-space forbids it.
+// The distance in metres by which b must move along n (nonzero, any length) until the bodies have
+// no interior point in common: the support of the difference a - b along n, over |n|. It is
+// negative if they are already apart along n, and infinite if a half-space prevents it.
 Enclosure separation_along(const Body& a, const Body& b, const Vec3d& n);
 
-// Whether every point of the body lies in the closed box, exactly.
+// Returns true if every point of the body lies in the closed box; exact.
 bool holds(const Aabb& box, const Body& body);
 
 }  // namespace touchstone::oracle

@@ -1,3 +1,4 @@
+// Makes a solid from each kind of shape.
 #include "algorithms/oracle/solid.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ Solid::Solid(const Shape& shape) {
     case ShapeKind::cylinder:
     case ShapeKind::cone:
       extents = {shape.radius, shape.radius, shape.half_length};
-      // A cone without a height is a disc, as a cylinder without one is.
+      // A cone without height is a disc, like a cylinder without height.
       core = shape.kind == ShapeKind::cone && shape.half_length > 0 ? Core::cone : Core::cylinder;
       if (shape.radius == 0) {
         core = Core::polytope;
@@ -55,7 +56,7 @@ Solid::Solid(const Shape& shape) {
   std::frexp(greatest.maxCoeff(), &exponent);
   for (int k = 0; k < 3; ++k) {
     if (is_curved()) {
-      // 63 bits for a coordinate, and at least those of the extent itself.
+      // The grid gives a coordinate 63 bits, at least as many as the extent itself has.
       if (extents[k] > 0) grid[k] = std::ilogb(extents[k]) - 62;
       continue;
     }

@@ -1,4 +1,4 @@
-// Bodies of the exact problem.
+// Part of the oracle, used by harness/grade too: the bodies of the exact problem.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@
 
 namespace touchstone::oracle {
 
-// A shape made ready, once: a core and a ball around it.
+// A shape prepared once: a core and a ball around it.
 struct Solid {
   enum class Core : std::uint8_t { polytope, cylinder, cone, ellipsoid, halfspace };
 
-  // The shape's numbers are finite, and a hull is there where it is needed. The solid keeps no
-  // reference to it.
+  // The shape's numbers must be finite, and a hull must be set if the kind is hull. The solid keeps
+  // no reference to the shape.
   explicit Solid(const Shape& shape);
 
   Core core = Core::polytope;
-  double radius = 0;  // metres: of the ball, which no matrix deforms
+  double radius = 0;  // metres; no matrix deforms the ball
 
   // Polytope: the core is the convex hull of these, in body coordinates. Sphere: the centre.
   // Capsule: the lower end of the segment, then the upper one. Box: vertex i has +half_extents[k]
-  // where bit k of i is set, -half_extents[k] otherwise. Hull: its vertices. Cylinder, cone and
-  // ellipsoid that are a point or a segment are polytopes too: of both ends, (0, 0, -half_length)
-  // and (0, 0, +half_length), or -radii and +radii.
+  // if bit k of i is set, otherwise -half_extents[k]. Hull: its vertices. A cylinder, cone or
+  // ellipsoid that is a point or a segment is a polytope of its two ends, (0, 0, -half_length) and
+  // (0, 0, +half_length), or -radii and +radii.
   std::vector<Vec3d> vertices;
 
   // Cylinder, cone: radius, radius, half length; ellipsoid: semi-axes. At least two are > 0.
@@ -37,18 +37,19 @@ struct Solid {
 
   bool is_curved() const { return core > Core::polytope && core < Core::halfspace; }
 
-  // Made from the above.
+  // The members below are derived from those above.
   bool is_box = false;  // the vertices are those of a box, numbered as above
-  // Coordinate k of every vertex, and of every point of a curved core that is used, is an integer
-  // times 2^grid[k].
+  // Coordinate k of every vertex, and of every point made on a curved core, is an integer times
+  // 2^grid[k].
   std::array<int, 3> grid{};
-  // No coordinate is greater than 2^exponent in magnitude; the vertices over that, for filters.
+  // No coordinate is greater than 2^exponent in magnitude. x, y, z are the vertices divided by
+  // that, for filters.
   int exponent = 0;
   std::vector<double> x, y, z;
 };
 
-// {M v + t : v in the core} + Ball(radius). M is `matrix` as it stands, every stored number
-// literal; with a quaternion (w, x, y, z; not zero) it is R(q) / |q|^2 instead, which is exactly
+// The set {M v + t : v in the core} + Ball(radius). M is `matrix` with every stored number taken
+// literally. With a quaternion (w, x, y, z; nonzero) it is R(q) / |q|^2 instead, which is exactly
 // orthonormal.
 struct Body {
   const Solid* solid = nullptr;

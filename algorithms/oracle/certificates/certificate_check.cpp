@@ -1,3 +1,4 @@
+// Derives both bounds of a certificate in rationals and compares them with the claim.
 #include "algorithms/oracle/certificates/certificate_check.h"
 
 #include <algorithm>
@@ -48,10 +49,10 @@ class Difference {
   std::vector<RationalVector> a_, b_;
 };
 
-// Minus the least distance of the triangles' planes from the origin. No edge is without its
-// reverse, so the surface goes around the origin a whole number of times; that is at least once,
-// as each triangle goes the same way. So each ray from the origin meets the surface, no nearer than
-// the nearest plane.
+// Returns minus the least distance of the triangles' planes from the origin. Every edge has its
+// reverse, so the surface winds around the origin a whole number of times, and at least once, since
+// all triangles wind in one direction. So each ray from the origin meets the surface, no nearer
+// than the nearest plane.
 SignedSquare surface_depth(const Certificate::Surface& surface, const Difference& difference) {
   std::vector<RationalVector> points;
   for (const DifferencePoint& point : surface.points) points.push_back(difference(point));
@@ -79,7 +80,7 @@ SignedSquare proven_upper(const Certificate& certificate, const RationalCore& a,
                           const RationalCore& b) {
   if (certificate.upper.sign > 0 && certificate.upper.is_infinite()) return {1};
   const Difference difference(a.points(certificate.a), b.points(certificate.b));
-  // Two half-spaces are their own proof: along any other direction they have no gap.
+  // Two half-spaces are their own proof: no other direction has a gap.
   if (a.is_halfspace() && b.is_halfspace()) return gap_along(a.normal(), a, b);
   require(!certificate.closest.empty() || !certificate.surface.triangles.empty(),
           "nothing is there to prove the upper bound");
@@ -116,7 +117,7 @@ std::string fault(const Certificate& certificate, const Body& a, const Body& b) 
   try {
     const SignedSquare lower = signed_square(certificate.lower);
     const SignedSquare upper = signed_square(certificate.upper);
-    // Far finer than what is claimed, whose rounding is of about the claim's own size.
+    // Roots are far finer than the claim, whose rounding is of about its own size.
     const mp_bitcnt_t root_bits =
         256 + size_of(certificate.lower.numerator) + size_of(certificate.lower.denominator);
     const RationalCore core_a(a, root_bits), core_b(b, root_bits);

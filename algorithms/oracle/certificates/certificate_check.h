@@ -1,4 +1,5 @@
-// Verifies certificates, in rationals and without any of the oracle's own arithmetic.
+// Part of the oracle: verifies certificates in rationals, without any of the oracle's own
+// arithmetic.
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace touchstone::oracle {
 
-// Why the certificate does not prove its answer and its bounds for these bodies; empty where it
-// does.
+// Returns the reason why the certificate does not prove its answer and bounds for these bodies, or
+// an empty string if it does.
 std::string fault(const Certificate& certificate, const Body& a, const Body& b);
 
 }  // namespace touchstone::oracle

@@ -1,3 +1,4 @@
+// Supports and points of a core in rationals. Only roots are rounded, upward.
 #include "algorithms/oracle/certificates/rational_core.h"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ RationalVector RationalCore::point_in_body(const Generator& generator) const {
   return x;
 }
 
-// Whether a round core holds the point.
+// Returns true if a round core contains the point.
 bool RationalCore::holds(const RationalVector& x) const {
   const auto& [r, s, h] = extents_;
   if (solid_.core == Solid::Core::ellipsoid) {

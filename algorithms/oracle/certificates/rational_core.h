@@ -1,4 +1,4 @@
-// A body's core in the world, in rationals: as certificates are checked against it.
+// Part of the oracle, used by certificate_check alone: a body's core in the world, in rationals.
 #pragma once
 
 #include <array>
@@ -10,22 +10,22 @@
 
 namespace touchstone::oracle {
 
-// The solid stays alive. What is wrong with the body, or with a generator, is thrown as a Fault.
+// The solid must outlive this object. A faulty body or generator throws a Fault.
 class RationalCore {
  public:
-  // Roots are taken to so many bits.
+  // Roots are computed to `root_bits` bits.
   RationalCore(const Body& body, mp_bitcnt_t root_bits);
 
   bool is_halfspace() const { return solid_.core == Solid::Core::halfspace; }
-  // A half-space is normal . x <= height; the normal is outward, and zero where the matrix is
-  // singular, so that there is no half-space.
+  // A half-space is normal . x <= height. The normal is outward; it is zero if the matrix is
+  // singular, and then there is no half-space.
   const RationalVector& normal() const { return normal_; }
 
-  // At least the greatest n . x of the core's points x; none where they have no greatest.
+  // An upper bound on n . x over the core's points x; empty if n . x is unbounded.
   std::optional<mpq_class> support(const RationalVector& n) const;
 
-  // The generators in the world, each checked to lie in the core; of a half-space, a point of its
-  // plane.
+  // The generators in world coordinates, each checked to lie in the core. For a half-space: one
+  // point of its plane.
   std::vector<RationalVector> points(const std::vector<Generator>& generators) const;
 
  private:

@@ -1,3 +1,4 @@
+// Conversions to GMP's rationals and vector arithmetic on them.
 #include "algorithms/oracle/certificates/rationals.h"
 
 #include <cmath>
@@ -15,7 +16,7 @@ mpq_class rational(long double x) {
   require(std::isfinite(x), "a number of a body or of a generator is not finite");
   int exponent = 0;
   mpq_class sum;
-  for (x = std::frexp(x, &exponent); x != 0;) {  // as a sum of doubles
+  for (x = std::frexp(x, &exponent); x != 0;) {  // a sum of doubles
     const auto part = static_cast<double>(x);
     sum += mpq_class(part);
     x -= part;

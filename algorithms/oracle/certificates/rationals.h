@@ -1,5 +1,5 @@
-// Rational numbers and vectors of them, in which certificates are checked; nothing here is shared
-// with the arithmetic that makes them. All exact but for one bound.
+// Part of the oracle: rational numbers and vectors, in which certificates are checked. This code
+// shares nothing with the arithmetic that makes them. Everything is exact except `root_above`.
 #pragma once
 
 #include <gmpxx.h>
@@ -12,13 +12,13 @@
 
 namespace touchstone::oracle {
 
-// Thrown where a certificate, or what it is of, does not hold.
+// Thrown if a certificate, or a body that it names, is invalid.
 struct Fault {
   std::string reason;
 };
 void require(bool holds, const char* otherwise);
 
-// Throw Fault where a number is not finite.
+// Exact. Throws Fault if the number is not finite.
 mpq_class rational(long double x);
 mpq_class rational(const Integer& x);
 
@@ -36,13 +36,13 @@ RationalVector operator-(const RationalVector& u, const RationalVector& v);
 RationalVector operator*(const mpq_class& s, const RationalVector& v);
 bool is_zero(const RationalVector& v);
 
-// At least the root of x >= 0, too great by less than 2^-bits over the denominator of x; the root
-// itself where it is rational.
+// An upper bound on the root of x >= 0, too great by less than 2^-bits over the denominator of x.
+// If the root is rational, it is returned itself.
 mpq_class root_above(const mpq_class& x, mp_bitcnt_t bits);
 
-// Of a length x, the rational x * |x|, which orders as the lengths do; or infinitely long.
+// For a length x the rational x * |x|, which orders like the lengths; or an infinite length.
 struct SignedSquare {
-  int infinite = 0;  // its sign
+  int infinite = 0;  // the sign of an infinite length, else 0
   mpq_class square = {};
 
   friend std::strong_ordering operator<=>(const SignedSquare& x, const SignedSquare& y) {
@@ -51,10 +51,10 @@ struct SignedSquare {
   }
 };
 
-// Of the length x / sqrt(square).
+// The length x / sqrt(square).
 SignedSquare quotient(const mpq_class& x, const mpq_class& square);
 
-// Throws Fault where it is no number.
+// Throws Fault if x is not a number.
 SignedSquare signed_square(const SignedRoot& x);
 
 }  // namespace touchstone::oracle

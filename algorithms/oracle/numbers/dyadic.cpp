@@ -1,3 +1,4 @@
+// Rounds integers times powers of two to doubles.
 #include "algorithms/oracle/numbers/dyadic.h"
 
 #include <algorithm>
@@ -5,10 +6,10 @@
 namespace touchstone::oracle {
 namespace {
 
-// Of a number >= 0.
+// Rounds mantissa * 2^exponent for a mantissa >= 0.
 double round(const Integer& mantissa, long exponent, bool up) {
   if (mantissa.is_zero()) return 0;
-  constexpr long least_exponent = -1074;  // of the last place of a subnormal double
+  constexpr long least_exponent = -1074;  // exponent of a subnormal double's last place
   const long bits = static_cast<long>(msb(mantissa)) + 1;
   const long drop = std::max(bits - 53, least_exponent - exponent);
   Integer kept = mantissa;

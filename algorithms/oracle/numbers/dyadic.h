@@ -1,4 +1,4 @@
-// Floating-point numbers as what they are: integers times powers of two.
+// Part of the oracle: floating-point numbers as integers times powers of two.
 #pragma once
 
 #include <bit>
@@ -11,20 +11,20 @@
 
 namespace touchstone::oracle {
 
-// mantissa * 2^exponent; the mantissa is odd, or zero with the greatest exponent there is.
+// mantissa * 2^exponent. The mantissa is odd, or zero with a very great exponent.
 struct Dyadic {
   static constexpr int of_zero = std::numeric_limits<int>::max() / 4;
 
   Integer mantissa = 0;
   int exponent = of_zero;
 
-  // The number over 2^e, for e <= exponent.
+  // The number divided by 2^e, for e <= exponent.
   Integer over_power(int e) const {
     return mantissa.is_zero() ? Integer(0) : mantissa << (exponent - e);
   }
 };
 
-// Exact, for finite numbers of up to 64 bits.
+// Exact for finite numbers of up to 64 bits.
 template <class Scalar>
 Dyadic dyadic(Scalar x) {
   static_assert(std::numeric_limits<Scalar>::radix == 2 &&
@@ -48,14 +48,14 @@ Dyadic dyadic(Scalar x) {
   return {mantissa, exponent + zeros};
 }
 
-// mantissa * 2^exponent, the mantissa's magnitude in [1/2, 1) and off by its last digits; 0 for 0.
+// mantissa * 2^exponent with the mantissa's magnitude in [1/2, 1), off in its last digits; 0 for 0.
 struct Scaled {
   double mantissa;
   long exponent;
 };
 Scaled scaled(const Integer& x);
 
-// mantissa * 2^exponent rounded to a double towards minus infinity, towards plus infinity.
+// mantissa * 2^exponent as a double, rounded towards minus infinity and plus infinity.
 double round_down(const Integer& mantissa, long exponent);
 double round_up(const Integer& mantissa, long exponent);
 

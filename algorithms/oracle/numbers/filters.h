@@ -1,11 +1,11 @@
-// Bounds on what rounding does in the oracle's floating-point filters.
+// Part of the oracle: factors on the error bounds of its floating-point filters, for tests.
 #pragma once
 
 namespace touchstone::oracle {
 
-// A filter decides in doubles where its bound allows, and leaves the rest to integers. Each bound
-// is multiplied by the number here: 1 except in the tests that prove that a broken filter is
-// noticed.
+// A filter decides in doubles if its error bound permits, and otherwise leaves the decision to
+// integers. Each bound is multiplied by the factor here. The factors are 1 except in tests, which
+// prove that a broken filter is noticed.
 struct Filters {
   double plane = 1;        // a direction separates the cores
   double tetrahedron = 1;  // the origin is inside four points of the difference

@@ -1,4 +1,4 @@
-// The integers of the exact problem.
+// Part of the oracle: the integers of the exact problem, and vectors of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 #include <concepts>
 #include <cstdint>
 
-// Boost 1.74 asks every type that meets a number whether it is a container of bytes, and Eigen's
-// answer to that does not compile.
+// Boost 1.74 tests whether each type that meets a number is a container of bytes, and that test
+// does not compile for Eigen's types.
 template <class Type>
 requires std::derived_from<Type, Eigen::EigenBase<Type>>
 struct boost::multiprecision::detail::is_byte_container<Type> : boost::false_type {
@@ -16,7 +16,7 @@ struct boost::multiprecision::detail::is_byte_container<Type> : boost::false_typ
 
 namespace touchstone::oracle {
 
-// Unbounded; 1,024 bits are held without touching the heap, which covers bodies of about one size.
+// Unbounded. Up to 1,024 bits need no heap memory, which covers bodies of similar size.
 using Integer = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<1024, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked,

@@ -1,3 +1,4 @@
+// Exact comparison of signed roots, and their rounding to doubles.
 #include "algorithms/oracle/numbers/signed_root.h"
 
 #include <algorithm>
@@ -34,8 +35,9 @@ DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_
   constexpr double inf = std::numeric_limits<double>::infinity();
   if (value.is_infinite()) return {value.sign * inf, value.sign * inf};
   const Sum radius = sum(radius_a, radius_b);
-  // The root as an integer over 2^-shift: 64 bits at least, and 200 below the radius' first. More
-  // where the radius leaves so little of the root that these do not tell the double.
+  // The root as an integer over 2^-shift: at least 64 bits, and 200 below the radius's first bit.
+  // The shift grows if the radius cancels so much of the root that these bits do not determine the
+  // double.
   long shift = 0;
   if (value.sign != 0) {
     const long bits =
@@ -55,7 +57,7 @@ DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_
       whole = sqrt(square);
       exact = rest.is_zero() && whole * whole == square;
     }
-    // sign * root is between whole and the next integer away from zero.
+    // sign * root is between `whole` and the next integer away from zero.
     Integer low = value.sign < 0 ? -whole : whole, high = low;
     if (!exact) (value.sign < 0 ? low -= 1 : high += 1);
     if (!radius.mantissa.is_zero()) {
@@ -64,7 +66,7 @@ DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_
       high -= r;
     }
     const DoubleBounds bounds = {round_down(low, -shift), round_up(high, -shift)};
-    // Both integers have the same doubles beside them: then so has the number between.
+    // If both integers have the same neighbouring doubles, so has the number between them.
     if (exact || (round_down(high, -shift) == bounds.low && round_up(low, -shift) == bounds.high)) {
       return bounds;
     }

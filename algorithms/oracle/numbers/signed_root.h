@@ -1,4 +1,5 @@
-// Signed lengths whose squares are rational: what distances and depths of polytopes are.
+// Part of the oracle: signed lengths whose squares are rational, such as distances and depths of
+// polytopes.
 #pragma once
 
 #include <compare>
@@ -8,7 +9,7 @@
 namespace touchstone::oracle {
 
 // sign * sqrt(numerator / denominator), in metres. The denominator is positive, or zero for an
-// infinite length; the fraction need not be in lowest terms. Sign 0: nothing, with numerator 0.
+// infinite length. The fraction need not be in lowest terms. Sign 0 is zero, with numerator 0.
 struct SignedRoot {
   int sign = 0;
   Integer numerator = 0;
@@ -19,12 +20,12 @@ struct SignedRoot {
   static SignedRoot infinity(int sign) { return {sign, 1, 0}; }
 };
 
-// Exact.
+// The comparisons are exact.
 std::strong_ordering operator<=>(const SignedRoot& x, const SignedRoot& y);
 bool operator==(const SignedRoot& x, const SignedRoot& y);
 
-// The doubles on both sides of value - radius_a - radius_b, the same one twice where it is a
-// double; and the order of value and radius_a + radius_b. Radii are finite and >= 0.
+// `round_less` returns the doubles on both sides of value - radius_a - radius_b, the same one twice
+// if that is a double. `compare` orders value and radius_a + radius_b. Radii are finite and >= 0.
 struct DoubleBounds {
   double low, high;
 };
