@@ -1,23 +1,22 @@
-// Boost.Geometry's R-tree, bulk-loaded, and asked once for each of its boxes.
+// Boost.Geometry's R-tree, bulk-loaded and queried once with each of its boxes.
 // Paper:   Guttman, "R-trees: a dynamic index structure for spatial searching", SIGMOD 1984; packed
 //          as in Garcia, Lopez, Leutenegger, "A greedy algorithm for bulk loading R-trees", GIS
-//          1998. Boost 1.74, geometry::index::rtree (A. Wulkiewicz) with linear<8>, the fastest
-//          node size (of 4, 8, 16) but for 4, which is as fast to load and query and slower to
-//          change; the splitting rule makes no difference to a packed tree.
-// Departs: boxes of floats, which Boost's `intersects` takes as closed. The tree has no query of
-//          all pairs: each box is asked about in the order of the tree, which is kinder to the
-//          cache than that of the ids, and a pair is taken where it comes with the smaller id.
-//          Bodies that moved, came or went are removed and inserted, one by one, until there were a
-//          quarter as many of them as there are bodies; then the tree, which gets worse by it, is
-//          loaded anew. (Where few move, a frame takes 0.8 to 0.93 times as long as one that is
-//          loaded; limits from a tenth to all of the bodies differ by a few hundredths.)
+//          1998. Boost 1.74, geometry::index::rtree (A. Wulkiewicz) with linear<8>. Of the node
+//          sizes 4, 8 and 16 it is the fastest, but for 4, which loads and queries as fast and
+//          changes more slowly; the splitting rule makes no difference to a packed tree.
+// Departs: the boxes are of floats, and Boost's `intersects` treats them as closed. The tree has no
+//          query of all pairs: each box is a query, in the order of the tree, which uses the cache
+//          better than the order of the ids, and a pair counts when the smaller id is the query's.
+//          Bodies that moved, came or went are removed and inserted one by one, which makes the
+//          tree worse, until a quarter as many have changed as there are bodies; then the tree is
+//          loaded anew. (If few bodies move, a frame takes 0.8 to 0.93 of the time of one that
+//          loads the tree; limits from a tenth to all of the bodies differ by a few hundredths.)
 // Fails:   every pair is found twice, and every box finds itself.
-// Cost:    O(n log n) to load, O(log n) to insert or remove; a query O(log n + its pairs) where
-// boxes
+// Cost:    O(n log n) to load, O(log n) to insert or remove; a query O(log n + its pairs) if boxes
 //          are small.
 #include "algorithms/broad_phase.h"
 #if TOUCHSTONE_BUILT
-#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost's own headers include some, and say so
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost's own headers include some and warn
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -29,7 +28,7 @@ namespace {
 
 using Point = boost::geometry::model::point<float, 3, boost::geometry::cs::cartesian>;
 using Box = boost::geometry::model::box<Point>;
-using Value = std::pair<Box, std::uint32_t>;  // whose box
+using Value = std::pair<Box, std::uint32_t>;  // a box and its body's id
 using Rtree = boost::geometry::index::rtree<Value, boost::geometry::index::linear<8>>;
 
 Box to_boost(const Aabb& box) {
@@ -90,11 +89,11 @@ class BoostRtree final : public BroadPhase {
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
-  std::vector<Box> boxes_;        // by id: as they are in the tree
+  std::vector<Box> boxes_;        // indexed by id, as in the tree
   std::vector<Value> values_;     // scratch
   std::vector<Value> converted_;  // scratch
   Rtree tree_;
-  std::size_t changes_ = 0;  // since it was loaded
+  std::size_t changes_ = 0;  // bodies changed since the tree was loaded
   std::int64_t candidates_ = 0;
 };
 

@@ -1,18 +1,18 @@
-// What Bullet's narrow phases share: its shapes for ours, the transforms of a query, and what is
-// made of a contact.
+// Used by Bullet's narrow phases and contact manifolds: Bullet's shapes for ours, the transforms of
+// a query, and the conversion of a contact into an outcome.
 //
-// No margins beyond the shape: 0 for hull, box, cylinder, cone and ellipsoid (Bullet's default of
-// 0.04 rounds them); a sphere's and a capsule's margin is their radius, by Bullet's design.
-// Ellipsoids, which Bullet does not have, are a btConvexInternalShape with a support function of
-// its own. The two poses are given relative to the first body's centre, subtracted in double before
-// they become Bullet's scalars, and hulls are centred on the mean of their vertices, as MPR needs
-// an interior point at the origin.
-// Half-spaces are not offered: Bullet's plane has no support function, and its own algorithm for it
-// is one support call of the other body, none of GJK, SAT and MPR. Tolerances, and iteration caps
-// but MPR's, are compiled into Bullet and stay its own; each algorithm says what they are.
+// Shapes have no margin beyond their surface: 0 for hull, box, cylinder, cone and ellipsoid
+// (Bullet's default of 0.04 rounds them); a sphere's and a capsule's margin is their radius, by
+// Bullet's design. Bullet has no ellipsoid: ours is a btConvexInternalShape with its own support
+// function. The two poses are relative to the first body's centre, subtracted in double before the
+// conversion to Bullet's scalars. Hulls are centred on the mean of their vertices, because MPR
+// needs an interior point at the origin.
+// Half-spaces are not supported: Bullet's plane has no support function, and its own algorithm for
+// it is one support call of the other body, not GJK, SAT or MPR. Tolerances and iteration caps
+// (except MPR's) are compiled into Bullet and stay as they are; each algorithm states them.
 //
-// Bullet's scalar is a matter of how it was built, and so of how this file is compiled: for double
-// once more, into a module (bullet_double.h).
+// Bullet's scalar depends on how Bullet was built, so this file is compiled a second time, in
+// double, into a module (bullet_double.h).
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
@@ -38,7 +38,7 @@
 
 namespace touchstone::bullet {
 
-// What Bullet is given, for NarrowPhaseEntry::encoding.
+// The bits that Bullet gets, for NarrowPhaseEntry::encoding.
 inline Encoding encoding(ShapeKind, ShapeKind, Task, Precision scalar) {
   return scalar == Precision::float32 ? Encoding::float32_relative : Encoding::relative;
 }
@@ -76,14 +76,15 @@ class Ellipsoid final : public btConvexInternalShape {
   const char* getName() const override { return "Ellipsoid"; }
 };
 
-// What is bound for a shape.
+// The Bullet object for a bound shape.
 struct Body {
-  std::unique_ptr<btConvexShape> shape;            // null where the algorithm has no such shape
-  Vec3d centre = Vec3d::Zero();                    // of the Bullet shape, in body coordinates
-  const btConvexPolyhedron* polyhedron = nullptr;  // of SAT and clipping; null where there is none
+  std::unique_ptr<btConvexShape> shape;  // null if the algorithm does not support the shape
+  Vec3d centre = Vec3d::Zero();          // centre of the Bullet shape, in body coordinates
+  const btConvexPolyhedron* polyhedron =
+      nullptr;  // used by SAT and clipping; null if there is none
 };
 
-// setMargin recomputes the dimensions from sums, which rounds; so they are set again.
+// setMargin recomputes the dimensions from rounded sums; this restores the given ones.
 template <class BulletShape>
 std::unique_ptr<btConvexShape> without_margin(std::unique_ptr<BulletShape> shape,
                                               const btVector3& dimensions) {
@@ -131,15 +132,15 @@ inline Body make_body(const Shape& shape) {
   return body;
 }
 
-// The faces and edges that Bullet's separating axes and clipping work on, of boxes and hulls.
+// Makes the faces and edges of boxes and hulls that Bullet's SAT and clipping need.
 inline void make_polyhedron(Body& body) {
   if (!body.shape || !body.shape->isPolyhedral()) return;
   auto& shape = static_cast<btPolyhedralConvexShape&>(*body.shape);
-  constexpr int most_vertices = 32767;  // Bullet numbers them with short integers
+  constexpr int most_vertices = 32767;  // Bullet's vertex indices are short integers
   const int count = shape.getNumVertices();
   if (count > most_vertices) return;
-  // Bullet reads what it has not set where its hull has less than a tetrahedron's faces: so its
-  // hull is looked at first.
+  // Bullet reads uninitialised memory if its hull has fewer faces than a tetrahedron. This computes
+  // the hull once more to exclude that.
   std::vector<btVector3> vertices(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) shape.getVertex(i, vertices[static_cast<std::size_t>(i)]);
   btConvexHullComputer hull;
@@ -149,22 +150,23 @@ inline void make_polyhedron(Body& body) {
   if (std::isfinite(features->m_localCenter.length2())) body.polyhedron = features;
 }
 
-// One query. The transforms are relative to `origin`, the world position of a's centre.
+// One query. The transforms are relative to `origin`, the world position of a's centre (metres).
 struct Query {
   Task task;
   const Body& a;
   const Body& b;
-  btDiscreteCollisionDetectorInterface::ClosestPointInput input;  // transforms, and a cut-off
+  btDiscreteCollisionDetectorInterface::ClosestPointInput input;  // transforms and a cut-off
+                                                                  // distance
   Vec3d origin;
 };
 
-// What Bullet says of a pair: the normal points from b to a, and distance < 0 is the depth.
+// A contact as Bullet reports it: the normal points from b to a, and distance < 0 is the depth.
 struct Contact {
   btVector3 normal_on_b, point_on_b;
   btScalar distance;
 };
 
-// The deepest, or else nearest, contact that is reported.
+// Collects the deepest contact, or the nearest if none is deep.
 struct Deepest final : btDiscreteCollisionDetectorInterface::Result {
   std::optional<Contact> contact;
 
@@ -193,12 +195,12 @@ inline void report(const Contact& contact, const Query& query, Outcome& outcome)
   outcome.normal = normal;
   outcome.witness_b = query.origin + from_bullet(contact.point_on_b);
   outcome.witness_a = outcome.witness_b - outcome.distance * normal;
-  // MPR has no direction where the surfaces touch.
+  // MPR reports a zero direction if the surfaces touch.
   if (normal.isZero()) outcome.normal.setConstant(Outcome::none);
 }
 
-// The contract around one of Bullet's algorithms, which has prepare(Body&), called once a shape,
-// and answer(Query&, Outcome&).
+// The contract around one of Bullet's algorithms, which provides prepare(Body&), called once for
+// each shape, and answer(Query&, Outcome&).
 template <class Algorithm>
 class BulletNarrowPhase final : public NarrowPhase {
  public:
@@ -244,7 +246,7 @@ class BulletNarrowPhase final : public NarrowPhase {
   std::vector<Body> bodies_;
 };
 
-// For NarrowPhaseEntry::make, of the algorithm with that name.
+// Makes the algorithm named `name`, for NarrowPhaseEntry::make.
 template <class Algorithm>
 std::unique_ptr<NarrowPhase> make(const char* name, const NarrowPhaseSettings& settings) {
   if constexpr (std::is_same_v<btScalar, float>) {

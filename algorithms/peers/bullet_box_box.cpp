@@ -1,8 +1,8 @@
-// Bullet's box-box test: separating axes, then the faces clipped against each other.
+// Bullet's box-box test: separating axes, then clipping of the faces against each other.
 // Paper:   none; Bullet 3.24, btBoxBoxDetector: dBoxBox of R. Smith's ODE.
-// Departs: bodies and poses as bullet_bodies.h says.
-// Fails:   takes the depth at its deepest contact. All thresholds are absolute lengths, up
-//          to 1e-5 in either build, so gaps below that are overlaps in double too.
+// Departs: bullet_bodies.h states how bodies and poses are converted.
+// Fails:   the depth is that of the deepest contact. All thresholds are absolute lengths, up to
+//          1e-5 in either build, so smaller gaps are reported as overlaps in double too.
 // Cost:    O(1).
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"
@@ -26,7 +26,7 @@ struct BoxBox {
       outcome.status = Status::ok;
       report(*deepest.contact, query, outcome);
     } else {
-      // No contact may also mean that clipping the faces left nothing of an overlap.
+      // The clipping may also have removed all contacts of an overlap.
       outcome.status = Status::not_reported;
       outcome.answer = Answer::separated;
     }

@@ -1,17 +1,18 @@
 // Bullet's broad phases: the dynamic AABB tree and the 32-bit three-axis sweep and prune.
-// Paper:   none; Bullet 3.24, btDbvtBroadphase and bt32BitAxisSweep3 (E. Coumans, N. Presson,
-//          S. Hobbs), each with its btHashedOverlappingPairCache.
-// Departs: as few margins as Bullet allows: gDbvtMargin is 0, collisions are found in the query
-//          (m_deferedcollide), every stale pair is looked at in each frame (m_cupdates = 100), and
-//          only boxes that moved are set. Bullet's cache still holds more than the closed pairs
-//          (leaves that shrank, quantised end points, boxes beyond the world), so each of its pairs
-//          is tested against the given boxes, which have the same bits in Bullet's floats.
-//          The sweep needs a world and a capacity: both are made twice as large as needed, and the
-//          sweep is made anew when a box leaves the world or the capacity is used up.
-// Fails:   removing a body looks through all cached pairs, so churn is quadratic; the sweep moves
-//          each new end point through the whole axis, so building it is quadratic. The tree's pairs
-//          come in an order that depends on addresses (its balancing compares pointers).
-// Cost:    tree: O(log n) a moved box, and a query in which all moved boxes meet both trees; sweep:
+// Paper:   none; Bullet 3.24, btDbvtBroadphase and bt32BitAxisSweep3 (E. Coumans, N. Presson, S.
+//          Hobbs), each with its btHashedOverlappingPairCache.
+// Departs: the adapter asks for the smallest margins that Bullet allows: gDbvtMargin is 0, the
+//          query finds the collisions (m_deferedcollide), each frame checks every stale pair
+//          (m_cupdates = 100), and only boxes that moved are set. Bullet's cache still holds more
+//          than the closed pairs (leaves that shrank, quantised end points, boxes beyond the
+//          world), so the adapter tests each cached pair against the given boxes, which have the
+//          same bits in Bullet's floats. The sweep needs a world and a capacity: both are twice as
+//          large as necessary, and the adapter builds a new sweep when a box leaves the world or
+//          the capacity is exhausted.
+// Fails:   removing a body scans all cached pairs, so churn is quadratic. The sweep moves each new
+//          end point through the whole axis, so its build is quadratic. The order of the tree's
+//          pairs depends on addresses (its balancing compares pointers).
+// Cost:    tree: O(log n) a moved box, and a query of all moved boxes against both trees; sweep:
 //          O(distance moved in the order) an end point. O(n + k) memory for k cached pairs.
 #include <algorithm>
 #include <cstdint>
@@ -40,9 +41,9 @@ std::uint32_t to_id(const btBroadphaseProxy* proxy) {
 class Tree {
  public:
   Tree() {
-    // A global of Bullet's, read where a leaf grows (btDbvt::update). It is set once, before the
-    // first tree of this process exists, under the lock of a static's initialiser; nobody writes it
-    // later, so workers with trees of their own may read it.
+    // gDbvtMargin is a global of Bullet's that btDbvt::update reads when a leaf grows. It is
+    // written once, under the lock of this static's initialiser, before the process has its first
+    // tree; workers with their own trees may then read it.
     [[maybe_unused]] static const btScalar margin = gDbvtMargin = 0;
   }
   ~Tree() { clear(); }
@@ -60,8 +61,8 @@ class Tree {
   bool takes(const FrameChange&) const { return true; }
 
  private:
-  // Bullet's destructor leaves the proxies behind, and destroyProxy looks through the pairs for
-  // each; so they are destroyed against a cache that holds none.
+  // Bullet's destructor leaks the proxies, and destroyProxy scans the pairs for each of them. An
+  // empty pair cache makes destroying them cheap.
   void clear() {
     if (!broad_) return;
     btNullPairCache none;
@@ -86,8 +87,8 @@ class AxisSweep {
     world_ = World::around(boxes);
     used_ = count(boxes);
     capacity_ = std::max(2 * used_, std::size_t{64});
-    // Within these bounds no step of the quantisation overflows; it clamps, in order, what is
-    // beyond, so that no pair is lost.
+    // Within these bounds no step of the quantisation overflows. Bullet clamps what is beyond them
+    // and keeps the order, so no pair is lost.
     constexpr double limit = 1e18;
     btVector3 low, high;
     for (int axis = 0; axis < 3; ++axis) {
@@ -105,7 +106,7 @@ class AxisSweep {
     used_ += change.inserted.size();
     used_ -= change.removed.size();
     const auto held = [&](std::uint32_t id) { return world_.holds(change.boxes[id]); };
-    // Removed bodies make room before the inserted ones come.
+    // Removed bodies make room before the inserted ones arrive.
     return used_ <= capacity_ && std::ranges::all_of(change.moved, held) &&
            std::ranges::all_of(change.inserted, held);
   }
@@ -183,7 +184,7 @@ class BulletBroadPhase final : public BroadPhase {
   Structure structure_;
   btBroadphaseInterface* broad_ = nullptr;
   std::span<const Aabb> boxes_;
-  std::vector<btBroadphaseProxy*> proxies_;  // by id; null where there is no body
+  std::vector<btBroadphaseProxy*> proxies_;  // indexed by id; null for an empty slot
   std::vector<btVector3> converted_;         // scratch
   std::int64_t candidates_ = 0;
 };

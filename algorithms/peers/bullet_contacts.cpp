@@ -1,19 +1,18 @@
-// Bullet's contact manifolds of boxes and hulls: its collision algorithms, and its manifold of four
+// Bullet's contact manifolds of boxes and hulls: its collision algorithms and the manifold of four
 // points that they fill.
 // Paper:   none; Bullet 3.24, btBoxBoxCollisionAlgorithm (dBoxBox of R. Smith's ODE) and
 //          btConvexConvexAlgorithm (normal by GJK and EPA, faces by btPolyhedralContactClipping),
 //          each into a btPersistentManifold.
-// Departs: bodies and poses as bullet_bodies.h says, so no margins. As the world's dispatcher
-// would,
-//          the threshold of a manifold is 0.02 of the lesser body's size: points that far apart are
-//          reported too, and points that near to each other are one. The manifold is empty before
-//          each query: no points of an earlier frame are in it.
+// Departs: bullet_bodies.h states how bodies and poses are converted; there are no margins. The
+//          threshold of a manifold is 0.02 of the smaller body's size, as in the world's
+//          dispatcher: Bullet also reports points that far apart, and merges points that near to
+//          each other. The manifold is empty before each query, so it holds no points of an earlier
+//          frame.
 // Fails:   thresholds are absolute lengths: below 1e-3 m much is lost. The clipping works on
-// vertices
-//          that Bullet's hull computer has put on a grid: errors of 3e-4 of the size, in either
-//          build; it measures depth across a's face, and puts the point on a along the normal,
-//          which may be another. Points of the fifth corner on are weighed as they come, so that
-//          the area kept depends on their order.
+//          vertices that Bullet's hull computer has snapped to a grid: errors of 3e-4 of the size,
+//          in either build. It measures depth across a's face, and puts the point on a along the
+//          normal, which may have another direction. From the fifth corner on the reduction is
+//          incremental, so the area kept depends on the order of the corners.
 // Cost:    O(n m) for faces of n and m corners; EPA.
 #include "algorithms/contact_manifold.h"
 #include "algorithms/peers/bullet_double.h"
@@ -35,7 +34,7 @@ using Wrapper = btCollisionObjectWrapper;
 
 constexpr btScalar breaking_threshold = btScalar(0.02);  // gContactBreakingThreshold's default
 
-// Bullet's algorithm for a pair of objects and a manifold, made once for all pairs.
+// Bullet's algorithm for a pair of objects and a manifold, constructed once for all pairs.
 struct BoxBox {
   btBoxBoxCollisionAlgorithm algorithm;
 

@@ -1,11 +1,12 @@
-// Bullet's double build, which has the same symbols as its single one and other contents.
+// Used by Bullet's narrow phases and contact manifolds: access to Bullet's double build, whose
+// symbols have the same names as those of its single build and other contents.
 //
 // The two must never be in one scope of the dynamic linker. The program is linked with the single
-// build; the narrow phases and contact manifolds are compiled a second time with
-// BT_USE_DOUBLE_PRECISION, into a module that is linked with the double libraries. The module is
-// loaded when a double algorithm is first made: RTLD_LOCAL keeps its symbols from the program, and
-// RTLD_DEEPBIND has it and its libraries look in themselves before the program. What passes between
-// the two is the contract alone.
+// build; the narrow phases and contact manifolds are compiled a second time, with
+// BT_USE_DOUBLE_PRECISION, into a module that is linked with the double libraries. The program
+// loads the module when it first makes a double algorithm: RTLD_LOCAL hides the module's symbols
+// from the program, and RTLD_DEEPBIND makes the module and its libraries search themselves before
+// the program. Only objects of the contract pass between the two.
 #pragma once
 
 #include <dlfcn.h>
@@ -21,8 +22,8 @@
 
 namespace touchstone::bullet {
 
-// TOUCHSTONE_BULLET_MODULE is the module's file name. Where there is none,
-// TOUCHSTONE_BULLET_NO_DOUBLE says why.
+// TOUCHSTONE_BULLET_MODULE is the module's file name. A build without the module defines
+// TOUCHSTONE_BULLET_NO_DOUBLE, the reason.
 #ifdef TOUCHSTONE_BULLET_MODULE
 inline constexpr const char* module_name = TOUCHSTONE_BULLET_MODULE;
 inline constexpr bool has_double = true;
@@ -33,14 +34,13 @@ inline constexpr bool has_double = false;
 inline std::string lacking() { return "double is not built, because " TOUCHSTONE_BULLET_NO_DOUBLE; }
 #endif
 
-// Of each of Bullet's narrow phases.
+// The scalars that each of Bullet's narrow phases supports.
 inline std::vector<Precision> scalars() {
   if (has_double) return {Precision::float32, Precision::float64};
   return {Precision::float32};
 }
 
-// What the module has of a contract: one function, which gives null where it has no algorithm of
-// that name.
+// The module's function for a contract: it returns null if no algorithm has that name.
 template <class Contract>
 struct InDouble;
 template <>
@@ -54,8 +54,8 @@ struct InDouble<ContactManifold> {
   static constexpr const char* symbol = "touchstone_bullet_double_manifold";
 };
 
-// The module of the program's own build: it lies beside the program or, seen from a test program,
-// in the folder of the program. Throws std::runtime_error where it is not found or not loaded.
+// Loads the module of the program's own build. It lies beside the program; from a test program, in
+// the folder of the program. Throws std::runtime_error if it is missing or does not load.
 inline void* load_double(const char* symbol) {
   const auto fail = [](const std::string& why) {
     throw std::runtime_error("Bullet's double build: " + why);
@@ -71,7 +71,8 @@ inline void* load_double(const char* symbol) {
   return found;
 }
 
-// The algorithm with that name, in double. It stays loaded: its code is needed to destroy it.
+// Makes the algorithm with that name, in double. The module stays loaded, since destroying the
+// algorithm needs its code.
 template <class Contract, class Settings>
 std::unique_ptr<Contract> make_double(const char* name, const Settings& settings) {
   using Module = InDouble<Contract>;

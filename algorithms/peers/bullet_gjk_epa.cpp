@@ -1,12 +1,12 @@
 // Bullet's GJK with EPA.
-// Paper:   none; Bullet 3.24, btGjkPairDetector: GJK by G. van den Bergen, JGT 1999, and EPA by
-//          N. Presson, btGjkEpa2.
-// Departs: bodies and poses as bullet_bodies.h says. Bullet has no boolean GJK: intersect asks for
-//          the distance with a cut-off at touch.
-// Fails:   all thresholds are absolute lengths, 1e-2 to 1e-6: bodies of millimetres that overlap
-//          are told apart, and gaps of 1e-5 between larger ones are taken for overlaps. In double
-//          they are 1e-6 to 1e-14. EPA takes its first tetrahedron for the answer where the horizon
-//          degenerates, in either.
+// Paper:   none; Bullet 3.24, btGjkPairDetector: GJK by G. van den Bergen, JGT 1999, and EPA by N.
+//          Presson, btGjkEpa2.
+// Departs: bullet_bodies.h states how bodies and poses are converted. Bullet has no boolean GJK:
+//          intersect computes the distance with a cut-off at touch.
+// Fails:   all thresholds are absolute lengths, 1e-2 to 1e-6: overlapping bodies of millimetres are
+//          reported as separated, and gaps of 1e-5 between larger ones as overlaps. In double the
+//          thresholds are 1e-6 to 1e-14. In either build EPA returns its first tetrahedron if the
+//          horizon degenerates.
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"
@@ -30,7 +30,8 @@ struct GjkEpa {
     const btConvexShape* b = query.b.shape.get();
     btGjkPairDetector detector(a, b, &simplex_, &epa_);
     if (query.task != Task::distance) {
-      // Bullet compares the cores, without margins, with this. Touching bodies are kept.
+      // Bullet compares this cut-off with the distance of the cores, without margins. Touching
+      // bodies are kept.
       const btScalar margins = a->getMargin() + b->getMargin();
       query.input.m_maximumDistanceSquared =
           margins * margins + std::numeric_limits<btScalar>::min();
@@ -44,7 +45,7 @@ struct GjkEpa {
     } else if (query.task != Task::distance && found_distance(detector.m_lastUsedMethod)) {
       outcome.answer = Answer::separated;  // beyond the cut-off
     } else {
-      // GJK came to its cap of 1000, or EPA found nothing where GJK says that they overlap.
+      // GJK reached its cap of 1000, or EPA found nothing although GJK reports an overlap.
       constexpr int cap = 1000;
       outcome.answer = Answer::unknown;
       outcome.status = detector.m_curIter > cap ? Status::not_converged : Status::degenerate;
@@ -52,7 +53,7 @@ struct GjkEpa {
   }
 
  private:
-  // btGjkPairDetector's numbers: GJK's distance stands (1, 5, 8), or that of EPA's own GJK (6).
+  // Bullet's numbers of its methods: GJK's distance stands for 1, 5 and 8; EPA's own GJK's for 6.
   static bool found_distance(int method) {
     return method == 1 || method == 5 || method == 6 || method == 8;
   }

@@ -1,11 +1,12 @@
 // Bullet's Minkowski portal refinement.
 // Paper:   none; Bullet 3.24, btMprPenetration.h: G. Snethen, Game Programming Gems 7, by way of
 //          libccd.
-// Departs: bodies and poses as bullet_bodies.h says. The boolean stops after the refined portal.
-//          The cap on iterations is ours, as the search for a portal has none.
+// Departs: bullet_bodies.h states how bodies and poses are converted. The boolean stops after the
+//          refined portal. The cap on iterations is ours, since Bullet's search for a portal has
+//          none.
 // Fails:   all thresholds are absolute, 1e-6 and a float's epsilon in either build. The depth is
-//          along the portal, an upper bound, and the witness points are one in the overlap and that
-//          point moved, so they are not on the surfaces.
+//          along the portal, an upper bound. The witness points are a point of the overlap and that
+//          point moved by the depth, so they are not on the surfaces.
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"
@@ -53,9 +54,9 @@ class Mpr {
   }
 
  private:
-  // The loop that looks for a portal has no cap in Bullet, so the support function has one: it is
-  // called for both bodies in each step of every loop. Refining has 1000 steps in Bullet, and so
-  // has finding the depth.
+  // Bullet's search for a portal has no cap, so the support function has one: every step of every
+  // loop calls it for both bodies. Bullet's refinement has 1000 steps, and so has its search for
+  // the depth.
   struct TooMany {};
   static constexpr int default_cap = 3000;
 

@@ -1,10 +1,10 @@
 // Bullet's separating axis test of two polyhedra.
-// Paper:   none; Bullet 3.24, btPolyhedralContactClipping: P. Terdiman's.
-// Departs: bodies and poses as bullet_bodies.h says. The depth is measured with
-//          btConvexPolyhedron::project along the axis found, since findSeparatingAxis keeps it to
-//          itself.
-// Fails:   works on vertices that Bullet's hull computer has put on a grid: errors of 3e-4 of the
-//          size, in either build. All thresholds are absolute lengths. Where faces meet squarely,
+// Paper:   none; Bullet 3.24, btPolyhedralContactClipping, by P. Terdiman.
+// Departs: bullet_bodies.h states how bodies and poses are converted. The depth is measured with
+//          btConvexPolyhedron::project along the axis found, since findSeparatingAxis does not
+//          return it.
+// Fails:   works on vertices that Bullet's hull computer has snapped to a grid: errors of 3e-4 of
+//          the size, in either build. All thresholds are absolute lengths. If faces meet squarely,
 //          two of their edges may win by a rounding, and the witness point is then on those, off
 //          the surfaces.
 // Cost:    O(E^2 V).
@@ -32,8 +32,8 @@ struct PolyhedralSat {
     const btTransform& at_a = query.input.m_transformA;
     const btTransform& at_b = query.input.m_transformB;
     outcome.status = Status::ok;
-    Deepest deepest;  // given the point of two edges here, those of faces by the clipping
-    btVector3 axis;   // from b to a
+    Deepest deepest;  // holds the edges' contact from here on, or the faces' after clipping
+    btVector3 axis;   // points from b to a
     if (!btPolyhedralContactClipping::findSeparatingAxis(hull_a, hull_b, at_a, at_b, axis,
                                                          deepest)) {
       outcome.answer = Answer::separated;

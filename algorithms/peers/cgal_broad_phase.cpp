@@ -1,18 +1,17 @@
-// CGAL's intersection of boxes: streamed segment trees, a scan of the two sides where few are left.
+// CGAL's intersection of boxes: streamed segment trees, and a scan of both sides once few are left.
 // Paper:   Zomorodian, Edelsbrunner, "Fast software for box intersections", SoCG 2000; CGAL 5.5,
 //          box_self_intersection_d (L. Kettner, A. Meyer, A. Zomorodian), closed boxes of floats.
 //          CGAL is under the GNU General Public License, and so is a program with this file in it;
 //          TOUCHSTONE_WITH_CGAL=OFF leaves it out.
-// Departs: nothing is kept from frame to frame, as CGAL keeps nothing; the boxes are handed over as
-//          values, the smallest model of its concept that there is (CGAL's manual finds pointers
-//          better for large boxes only), and in the order of their ids in every frame. The boxes
-//          at which a scan takes over are 100 a side, not the default of 10: half the time at 1,000
-//          bodies, two thirds at 10,000. CGAL loses pairs at the greatest float, with which it
-//          marks the ends of the axis; so that is given as the float before it, and in a frame with
-//          such a box each pair is tested against the given boxes.
-// Fails:   boxes that begin at one coordinate cannot be split there, and are scanned: where most
-// do, on
-//          the axes y and z, it is quadratic.
+// Departs: CGAL keeps nothing from frame to frame. The boxes are values of the smallest model of
+//          its concept (CGAL's manual finds pointers better for large boxes only), in the order of
+//          their ids in every frame. The scan takes over at 100 boxes a side instead of the default
+//          of 10: half the time at 1,000 bodies, two thirds at 10,000. CGAL loses pairs at the
+//          greatest float, with which it marks the ends of the axis; the adapter passes the float
+//          before it instead, and in a frame with such a box it tests each pair against the given
+//          boxes.
+// Fails:   boxes that begin at the same coordinate cannot be split there and are scanned: quadratic
+//          if most do so on the axes y and z.
 // Cost:    O(n log^3 n + k) time, O(n) memory.
 #include "algorithms/broad_phase.h"
 #if TOUCHSTONE_BUILT
@@ -88,7 +87,7 @@ class CgalBoxIntersection final : public BroadPhase {
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
-  // Whether all are as they were given.
+  // Returns true if no box had to be changed.
   static bool to_cgal(std::span<const Aabb> boxes, std::vector<Box>& converted) {
     bool exact = true;
     converted.clear();
@@ -106,7 +105,7 @@ class CgalBoxIntersection final : public BroadPhase {
 
   std::span<const Aabb> given_;
   bool exact_ = true;
-  std::vector<Box> boxes_;      // CGAL changes their order
+  std::vector<Box> boxes_;      // CGAL reorders them
   std::vector<Box> converted_;  // scratch
   std::int64_t candidates_ = 0;
 };

@@ -1,21 +1,22 @@
 // Embree's collision of a scene with itself; the scene is one user geometry of boxes.
 // Paper:   Wald, Woop, Benthin, Johnson, Ernst, "Embree: a kernel framework for efficient CPU ray
-//          tracing", SIGGRAPH 2014; Embree 3.13, rtcCollide. `embree-low` builds its BVH anew in
-//          each frame, along a Morton curve (Lauterbach et al., "Fast BVH construction on GPUs",
-//          Eurographics 2009), which RTC_BUILD_QUALITY_LOW stands for; `embree-refit` builds it by
+//          tracing", SIGGRAPH 2014; Embree 3.13, rtcCollide. `embree-low` builds its BVH in each
+//          frame along a Morton curve (Lauterbach et al., "Fast BVH construction on GPUs",
+//          Eurographics 2009), which is Embree's RTC_BUILD_QUALITY_LOW; `embree-refit` builds it by
 //          the surface area heuristic and then only refits it (RTC_BUILD_QUALITY_REFIT).
-// Departs: a dynamic scene (RTC_SCENE_FLAG_DYNAMIC) of low quality, in which alone the geometry's
-//          quality counts. Embree gives leaves' boxes, each pair both ways: those with the smaller
-//          primitive first are tested against the given boxes. It drops boxes beyond 1.84e18, so
-//          larger worlds are scaled down by a power of two; rounding keeps the order of floats, so
-//          that no pair is lost. It has threads=<the executor's width> and, being built on oneTBB
-//          too, finds the pairs in the executor's arena, on the threads that ours have; on one
-//          thread in an arena of one, whatever else the process has made of Embree.
-// Fails:   on more than one thread the pairs come in another order each time. Refitting follows
-//          what moves a little: where bodies mix, the tree becomes useless, until some come or go
+// Departs: the scene is dynamic (RTC_SCENE_FLAG_DYNAMIC) and of low quality, since only then the
+//          geometry's quality counts. Embree reports pairs of leaf boxes in both orders: the
+//          adapter tests those with the smaller primitive first against the given boxes. Embree
+//          drops boxes beyond 1.84e18, so larger worlds are scaled down by a power of two; rounding
+//          keeps the order of floats, so no pair is lost. Embree gets threads=<the executor's
+//          width> and is built on oneTBB too, so it finds the pairs in the executor's arena, on the
+//          threads that ours use; at width one it runs in an arena of one thread, whatever else the
+//          process does with Embree.
+// Fails:   on more than one thread the order of the pairs differs each time. A refitted tree suits
+//          bodies that move a little: where bodies mix it becomes useless, until some come or go
 //          and it is built again. Threads=N limits oneTBB in the whole process to N while Embree is
 //          in use.
-// Cost:    O(n log n) time to build, O(n) to refit; O(n + k) to query where boxes are small; O(n)
+// Cost:    O(n log n) time to build, O(n) to refit; O(n + k) to query if boxes are small; O(n)
 //          memory.
 #include "algorithms/broad_phase.h"
 #if TOUCHSTONE_BUILT
@@ -40,8 +41,8 @@ float reach_of(const Aabb& box) {
   return reach;
 }
 
-// Embree builds four primitives and fewer in another way, which does not bear coincident points (an
-// assertion ends the process). Empty primitives, which it skips, make them more.
+// Embree builds four primitives and fewer by another method, which aborts on coincident points (an
+// assertion). Empty primitives, which it skips, fill up to this number.
 constexpr std::size_t fewest = 5;
 
 RTCBounds to_embree(const Aabb& box, float scale) {
@@ -111,7 +112,7 @@ class EmbreeBroadPhase final : public BroadPhase {
     const auto collide = [&] { rtcCollide(scene_, scene_, &Found::add, &found); };
     if (width_ == 1) {
       alone_.execute(collide);
-    } else {  // the first task is all the work, and the others' threads take their share of it
+    } else {  // the first task is all of the work; the other tasks' threads join it
       executor_->run(width_, [&](std::size_t task, int) {
         if (task == 0) collide();
       });
@@ -135,12 +136,12 @@ class EmbreeBroadPhase final : public BroadPhase {
  private:
   static constexpr std::uint32_t none = 0xffffffff;
 
-  // Of one thread; a cache line each.
+  // A count of one thread, in a cache line of its own.
   struct alignas(64) Count {
     std::int64_t pairs = 0;
   };
 
-  // What Embree's callback is given. Its threads are those of the arena.
+  // The argument of Embree's callback. Its threads are those of the arena.
   struct Found {
     EmbreeBroadPhase& of;
     PairSink& sink;
@@ -161,7 +162,7 @@ class EmbreeBroadPhase final : public BroadPhase {
     }
   };
 
-  // A geometry of its own for each build: one that is refitted would else keep its tree.
+  // Attaches a new geometry for each build: a refitted geometry would keep its tree.
   void attach() {
     if (geometry_ != nullptr) rtcDetachGeometry(scene_, 0);
     geometry_ = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
@@ -188,12 +189,12 @@ class EmbreeBroadPhase final : public BroadPhase {
   RTCScene scene_;
   RTCGeometry geometry_ = nullptr;
   std::span<const Aabb> boxes_;
-  std::vector<std::uint32_t> ids_;         // by primitive
-  std::vector<std::uint32_t> primitives_;  // by id
-  std::vector<RTCBounds> bounds_;          // by primitive
+  std::vector<std::uint32_t> ids_;         // indexed by primitive
+  std::vector<std::uint32_t> primitives_;  // indexed by id
+  std::vector<RTCBounds> bounds_;          // indexed by primitive
   std::vector<RTCBounds> converted_;       // scratch
-  float scale_ = 1;                        // of them
-  std::vector<Count> given_;               // by thread
+  float scale_ = 1;                        // factor of the bounds' coordinates
+  std::vector<Count> given_;               // indexed by thread
   std::int64_t candidates_ = 0;
 };
 

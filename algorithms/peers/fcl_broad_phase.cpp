@@ -1,23 +1,22 @@
 // FCL's seven broad-phase managers.
-// Paper:   none; FCL 0.7, the managers of fcl/broadphase for double (J. Pan, S. Chitta,
-//          D. Manocha, "FCL: A General Purpose Library for Collision and Proximity Queries", ICRA
-//          2012).
-// Departs: the boxes are written into the objects' protected `aabb`, since computeAABB puts a box
-//          around a turned body's bounding sphere; floats are exact in FCL's doubles. Each pair
-//          that a manager calls back with is tested against the given boxes: the hash does no box
-//          test, and the trees keep the larger box of a body that shrank. SaP repeats pairs, so
+// Paper:   none; FCL 0.7, the managers of fcl/broadphase for double (J. Pan, S. Chitta, D. Manocha,
+//          "FCL: A General Purpose Library for Collision and Proximity Queries", ICRA 2012).
+// Departs: the adapter writes the boxes into the objects' protected `aabb`, since computeAABB makes
+//          a box around a rotated body's bounding sphere; floats are exact in FCL's doubles. It
+//          tests each pair that a manager calls back with against the given boxes: the hash does no
+//          box test, and the trees keep the larger box of a body that shrank. SaP repeats pairs, so
 //          they are sorted and made unique. Four managers are made anew where FCL 0.7 cannot update
 //          them:
-//          - SaP, in a frame in which bodies come or go, or a box does more than slide.
-//            unregisterObject reads a list node that it has freed; registerObject misses the boxes
-//            that contain the new one; update links an end point to itself, and then runs for ever
-//            or crashes, when a box's two ends on an axis do not both rise, both fall or both stay.
-//          - the tree in an array, when bodies come: its insertion reads nodes that it has freed as
-//            the array grows. Its re-balancing from the top renumbers the nodes behind the
-//            manager's back, and boxes are then taken for others'; so that is switched off
-//            (max_tree_nonbalanced_level), and the incremental one is left.
-//          - the interval tree, in every frame: update(objects) never moves upper end points, and
-//            update() does the work of a fresh set-up and loses its old intervals.
+//                   - SaP, in a frame in which bodies come or go, or a box does more than slide.
+//          unregisterObject reads a list node that it has freed; registerObject misses the boxes
+//          that contain the new one; update links an end point to itself, and then runs for ever or
+//          crashes, when a box's two ends on an axis do not both rise, both fall or both stay.
+//                   - the tree in an array, when bodies come: its insertion reads nodes that it has
+//          freed as the array grows. Its re-balancing from the top renumbers the nodes behind the
+//          manager's back, which exchanges boxes; so that is switched off
+//          (max_tree_nonbalanced_level), and the incremental one remains.
+//                   - the interval tree, in every frame: update(objects) never moves upper end
+//          points, and update() does the work of a fresh set-up and loses its old intervals.
 //          - the hash, when a box leaves the limits: two boxes that overlap only outside are lost.
 // Fails:   SaP and the interval tree order equal end points at random, so they miss pairs that
 //          merely touch, and pairs of flat boxes. SaP and the hash are quadratic in dense scenes.
@@ -46,7 +45,7 @@
 namespace touchstone {
 namespace {
 
-// The tree in an array loses its copy of the leaves (see above): that is no news to a leak check.
+// The tree in an array leaks its copy of the leaves (see above); the leak check ignores it.
 void register_all(fcl::BroadPhaseCollisionManager<double>& manager,
                   const std::vector<fcl::CollisionObject<double>*>& objects) {
 #if defined(__SANITIZE_ADDRESS__)
@@ -63,7 +62,7 @@ fcl::AABB<double> to_fcl(const Aabb& box) {
           fcl::Vector3d(box.max[0], box.max[1], box.max[2])};
 }
 
-// A body that is nothing but its box.
+// A body that consists of its box.
 class BoxObject final : public Object {
  public:
   explicit BoxObject(std::uint32_t id) : Object(nullptr), id_(id) {}
@@ -74,11 +73,11 @@ class BoxObject final : public Object {
   std::uint32_t id_;
 };
 
-// How a manager is made, and which changes it takes; the others are answered by making it anew.
+// The making of a manager, and the changes that it accepts; after any other it is made anew.
 template <class M>
 struct Incremental {
   static constexpr bool repeats = false;  // calls back with a pair more than once
-  // Whether update(those that moved) is worth it; a tree's update() takes less time than its query.
+  // True if update(moved objects) pays; a tree's update() takes less time than its query.
   static bool by_list(std::size_t, std::size_t) { return false; }
   std::unique_ptr<Manager> make(std::span<const Aabb>) { return std::make_unique<M>(); }
   bool takes(const FrameChange&, std::span<const BoxObject>) const { return true; }
@@ -95,7 +94,7 @@ struct SortAndSweep {
     return std::ranges::all_of(change.moved, [&](std::uint32_t id) {
       const fcl::AABB<double>& before = objects[id].getAABB();
       const fcl::AABB<double> now = to_fcl(change.boxes[id]);
-      // FCL leaves out what it takes for equal, and would then not know where the box was.
+      // FCL skips boxes that it takes for equal and would then not know where the box was.
       if (before.equal(now)) return false;
       const auto slides = [&](int i) {
         const double low = now.min_[i] - before.min_[i], high = now.max_[i] - before.max_[i];
@@ -133,9 +132,10 @@ struct SpatialHash {
   static constexpr bool repeats = false;
   static bool by_list(std::size_t moved, std::size_t live) { return 2 * moved < live; }
 
-  // FCL gives no rule for the cell. Here it is the mean of the boxes' longest sides (Teschner et
-  // al., "Optimized Spatial Hashing for Collision Detection of Deformable Objects", VMV 2003), but
-  // at least a 64th of the limits, or one huge box would fill the memory with its cells. A bucket a
+  // FCL gives no rule for the cell. This is the mean of the boxes' longest sides (Teschner et al.,
+  // "Optimized Spatial Hashing for Collision Detection of Deformable Objects", VMV 2003), but at
+  // least a 64th of the limits, or one huge box would fill the memory with its cells. There is a
+  // bucket a body, at least FCL's own 1000.
   // body, at least FCL's own 1000.
   std::unique_ptr<Manager> make(std::span<const Aabb> boxes) {
     limits_ = World::around(boxes);
@@ -150,7 +150,7 @@ struct SpatialHash {
     const double mean = count > 0 ? sum / count : 0;
     // FCL's cells are half open, [floor, ceil): two boxes that touch on a border of cells would
     // miss each other, and a flat box there would be in no cell. This factor keeps the borders off
-    // all coordinates that come up in practice.
+    // all coordinates that occur in practice.
     constexpr double odd = 1.00073612984531;
     const double cell = odd * std::max(mean, limits_.widest() / 64);
     return std::make_unique<fcl::SpatialHashingCollisionManager<double>>(
@@ -212,7 +212,7 @@ class FclBroadPhase final : public BroadPhase {
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 
  private:
-  // What FCL's callback is given.
+  // The argument of FCL's callback.
   struct Found {
     std::span<const Aabb> boxes;
     PairBuffer& out;
@@ -229,7 +229,7 @@ class FclBroadPhase final : public BroadPhase {
     }
   };
 
-  // FCL throws on input that it does not take; the pairs of the frame are then not known.
+  // Runs an action; if FCL throws on the input, the pairs of the frame are unknown.
   template <class Action>
   void guard(Action action) {
     try {
@@ -263,7 +263,7 @@ class FclBroadPhase final : public BroadPhase {
 
   void apply(const FrameChange& change) {
     extend();
-    // Before their boxes change: managers look for a body where its box says that it is.
+    // Removal precedes the change of boxes: managers look for a body at its box.
     for (const std::uint32_t id : change.removed) manager_->unregisterObject(&objects_[id]);
     batch_.clear();
     for (const std::uint32_t id : change.moved) {
@@ -283,7 +283,7 @@ class FclBroadPhase final : public BroadPhase {
     }
   }
 
-  // One object for each slot, without moving those that there are.
+  // Makes one object for each slot, and moves none of those that exist.
   void extend() {
     while (objects_.size() < boxes_.size()) {
       objects_.emplace_back(static_cast<std::uint32_t>(objects_.size()));
@@ -292,12 +292,12 @@ class FclBroadPhase final : public BroadPhase {
 
   Rules rules_;
   std::span<const Aabb> boxes_;
-  // By id, in one array: two managers keep sets ordered by address, and so the order of their pairs
-  // is that of the ids. The managers hold pointers, so it is never reallocated under them.
+  // Objects by id, in one array: two managers keep sets ordered by address, so the order of their
+  // pairs is that of the ids. The managers hold pointers: it is never reallocated under them.
   std::vector<BoxObject> objects_;
   std::unique_ptr<Manager> manager_;
   std::vector<Object*> batch_;                // scratch
-  PairBuffer found_;                          // scratch, of a manager that repeats itself
+  PairBuffer found_;                          // scratch of a manager that repeats pairs
   std::vector<fcl::AABB<double>> converted_;  // scratch
   std::size_t live_ = 0;
   std::int64_t candidates_ = 0;

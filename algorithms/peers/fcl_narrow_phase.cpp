@@ -2,25 +2,25 @@
 // Paper:   Pan, Chitta, Manocha, "FCL: A general purpose library for collision and proximity
 //          queries", ICRA 2012; the library is FCL 0.7. fcl-libccd: libccd's MPR for collision and
 //          FCL's continuation of libccd's GJK for distance. fcl-indep: FCL's own GJK and EPA.
-// Departs: the solvers that fcl::collide and fcl::distance look up are called without the look-up:
-//          the same answers, with the iteration caps in reach (requests have no field for them) and
-//          without a result object to allocate. The defaults are those of the requests.
-//          tolerance: fcl-libccd takes it as MPR's, or as the least gain of a step of its distance;
+// Departs: the adapter calls the solvers that fcl::collide and fcl::distance look up, without the
+//          look-up: the answers are equal, the iteration caps are in reach (requests have no field
+//          for them) and no result object is allocated. The defaults are those of the requests.
+//          tolerance: fcl-libccd uses it as MPR's, or as the least gain of a step of its distance;
 //          fcl-indep as a length for EPA and for "inside", and as a part of the distance for GJK.
-//          max_iterations: of fcl-libccd the distance loops and MPR's search for the depth have a
-//          cap, MPR's first loops have none; of fcl-indep both loops, and EPA's stores grow with
-//          it. The closed forms know neither. FCL never tells that a cap has ended a query.
-//          fcl-indep's EPA hands out the depth negated and the normal in a's frame: both are turned
-//          back here. Witness points of a penetration are not reported: FCL gives one contact
-//          point, with another meaning for each kind pair. Without faces a hull is scanned, not
-//          walked on. In float, fcl-libccd still computes in double: only shapes and poses are
-//          floats.
+//          max_iterations: in fcl-libccd it caps the distance loops and MPR's search for the depth;
+//          MPR's first loops have no cap. In fcl-indep it caps both loops, and EPA's stores grow
+//          with it. The closed forms use neither. FCL never reports that a cap has ended a query.
+//          fcl-indep's EPA returns the depth negated and the normal in a's frame; the adapter
+//          converts both. Witness points of a penetration are not reported: FCL gives one contact
+//          point, with another meaning for each kind pair. A hull without faces is scanned; one
+//          with faces is climbed. In float, fcl-libccd still computes in double: only shapes and
+//          poses are floats.
 // Fails:   MPR's depth is along its portal, an upper bound. fcl-indep: gaps below 1e-6 m are
 //          overlaps; EPA's depth is off by half and more where supports are coplanar. Two opposed
-//          half-spaces get the opposite answer, and a cone on a half-space is taken for a ball when
+//          half-spaces get the opposite answer, and a cone on a half-space counts as a ball when
 //          its tip points down. Distance: far off in some pairs of flat faces, as it stops at the
-//          first step that gains little; "overlapping" where it ran out of iterations. Poses become
-//          quaternions in fcl-libccd: a rotation that is not orthonormal is another there.
+//          first step that gains little; "overlapping" when it runs out of iterations. fcl-libccd
+//          turns rotations into quaternions, which changes those that are not orthonormal.
 // Cost:    fcl-libccd allocates two objects a query, EPA of fcl-indep its stores.
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@
 #include "algorithms/narrow_phase.h"
 
 #if TOUCHSTONE_BUILT
-// GCC sees FCL's contacts of separated bodies, which are never read, once they are inlined here.
+// GCC warns of the contacts of separated bodies, which are never read, once FCL is inlined here.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
@@ -51,7 +51,7 @@
 namespace touchstone {
 namespace {
 
-// In the order of ShapeKind.
+// FCL's shapes in the order of ShapeKind.
 template <class S>
 using FclShapes = std::tuple<fcl::Sphere<S>, fcl::Capsule<S>, fcl::Box<S>, fcl::Cylinder<S>,
                              fcl::Cone<S>, fcl::Ellipsoid<S>, fcl::Convex<S>, fcl::Halfspace<S>>;
@@ -77,7 +77,8 @@ template <class S>
 std::unique_ptr<fcl::Convex<S>> make_convex(const Hull& hull) {
   auto vertices = std::make_shared<std::vector<Vec3<S>>>();
   for (const Vec3d& vertex : hull.vertices) vertices->push_back(vertex.cast<S>());
-  auto faces = std::make_shared<std::vector<int>>();  // each: its count, then its vertices
+  auto faces =
+      std::make_shared<std::vector<int>>();  // each face is its count and then its vertices
   for (const Hull::Face& face : hull.faces) {
     faces->push_back(static_cast<int>(face.loop.size()));
     for (const std::uint32_t vertex : face.loop) faces->push_back(static_cast<int>(vertex));
@@ -117,7 +118,7 @@ fcl::Transform3<S> to_fcl(const Pose& pose) {
   return transform;
 }
 
-// What the requests of fcl::collide and fcl::distance hand on to the solver.
+// Sets on the solver the numbers that the requests of fcl::collide and fcl::distance carry.
 template <class S>
 void set_tolerance(fcl::detail::GJKSolver_libccd<S>& solver, S tolerance) {
   solver.collision_tolerance = tolerance;
@@ -137,24 +138,24 @@ template <class S>
 void set_max_iterations(fcl::detail::GJKSolver_indep<S>& solver, unsigned int cap) {
   solver.gjk_max_iterations = static_cast<S>(cap);
   solver.epa_max_iterations = cap;
-  solver.epa_max_vertex_num = cap + 4;  // a vertex an iteration, and two faces a vertex
+  solver.epa_max_vertex_num = cap + 4;  // one vertex an iteration, and two faces a vertex
   solver.epa_max_face_num = 2 * solver.epa_max_vertex_num;
 }
 
-// Whether FCL answers a collision of these kinds without either solver.
+// True if FCL answers a collision of these kinds without either solver.
 constexpr bool has_closed_form(ShapeKind a, ShapeKind b) {
   using enum ShapeKind;
   if (b == halfspace || (a == box && b == box)) return true;
   return a == sphere && (b == sphere || b == capsule || b == box || b == cylinder);
 }
 
-// No distance to a half-space, and no contact of two.
+// FCL has no distance to a half-space, and no contact of two half-spaces.
 bool supports(ShapeKind kind_a, ShapeKind kind_b, Task task) {
   if (task == Task::distance) return kind_b != ShapeKind::halfspace;
   return task == Task::intersect || kind_a != ShapeKind::halfspace;
 }
 
-// The same of a distance, of fcl-libccd.
+// True if FCL answers a distance of these kinds without fcl-libccd's loops.
 constexpr bool has_closed_distance(ShapeKind a, ShapeKind b) {
   using enum ShapeKind;
   if (a == sphere) return b == sphere || b == capsule || b == box || b == cylinder;
@@ -165,7 +166,7 @@ Encoding matrix_encoding(ShapeKind, ShapeKind, Task, Precision scalar) {
   return scalar == Precision::float32 ? Encoding::float32 : Encoding::as_given;
 }
 
-// Only libccd's own loops are given quaternions.
+// Only libccd's own loops use quaternions.
 Encoding quaternion_encoding(ShapeKind a, ShapeKind b, Task task, Precision scalar) {
   if (task == Task::distance ? has_closed_distance(a, b) : has_closed_form(a, b)) {
     return matrix_encoding(a, b, task, scalar);
@@ -282,7 +283,7 @@ class Fcl final : public NarrowPhase {
       return;
     }
     outcome.distance = 0 - static_cast<double>(depth);
-    // FCL gives a zero vector where it knows no direction.
+    // FCL returns a zero vector if it has no direction.
     if (normal.squaredNorm() > S(0.5)) outcome.normal = normal.template cast<double>();
   }
 

@@ -1,20 +1,20 @@
-// libccd: GJK, GJK with EPA, and MPR (XenoCollide), over support functions of our own.
+// libccd: GJK, GJK with EPA, and MPR (XenoCollide), over our own support functions.
 // Paper:   D. Fiser, libccd 2.1; GJK of Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation
 //          1988; EPA of van den Bergen, GDC 2001; MPR of Snethen, Game Programming Gems 7, 2008.
-// Departs: libccd brings no shapes, so the support functions are here: of the affine image of the
-//          body as the pose states it, balls not deformed; hulls are scanned from end to end. It
-//          works in world coordinates, has no distance query, and no use for a half-space.
-//          max_iterations (1000 without): GJK does not tell when its cap has ended a query, and the
-//          loops of EPA and MPR have none. So support points are counted; past the cap, for EPA and
-//          MPR that of all loops of the query together, the support functions answer with points
-//          far behind, which each loop takes for its end, and the status is not_converged.
-//          tolerance reaches MPR as a length, and EPA as its square, which is what EPA compares;
-//          without one they have libccd's 1e-4. GJK has none to set: it goes by 2^-52, absolute.
-//          Witness points are not reported: libccd gives one point, an average.
-// Fails:   GJK: overlap for gaps below about 1e-8 m; wrong at millimetre scale and far below.
-//          EPA: too shallow, at worst 1e-8 for deep hulls, as it replaces one face at a time where
-//          there should be a horizon. MPR: the depth is along the portal and so an upper bound.
-//          libccd's -1 stands for "separated" and for "gave up": the status is not_reported.
+// Departs: libccd has no shapes, so the support functions are here: they are those of the affine
+//          image of the body under its pose, with balls not deformed; hulls are scanned from end to
+//          end. libccd works in world coordinates, and it has neither a distance query nor
+//          half-spaces. max_iterations (1000 by default): GJK does not report that its cap has
+//          ended a query, and the loops of EPA and MPR have none. So the adapter counts support
+//          points (for EPA and MPR over all loops of the query together); past the cap the support
+//          functions return points far behind, which end each loop, and the status is
+//          not_converged. tolerance reaches MPR as a length, and EPA as its square, which is what
+//          EPA compares; the default is libccd's 1e-4. GJK has none to set: it uses 2^-52,
+//          absolute. Witness points are not reported: libccd gives one point, an average.
+// Fails:   GJK: overlap for gaps below about 1e-8 m; wrong at millimetre scale and far below. EPA:
+//          too shallow, at worst 1e-8 for deep hulls, as it replaces one face at a time instead of
+//          removing all that the new point sees. MPR: the depth is along the portal and so an upper
+//          bound. libccd's -1 stands for "separated" and for "gave up": the status is not_reported.
 // Cost:    one support call of both bodies an iteration; EPA allocates its polytope in each query.
 #include <cmath>
 
@@ -31,19 +31,19 @@ enum class Method : std::uint8_t { gjk, epa, mpr };
 
 constexpr long default_max_iterations = 1000;
 
-// How many support points the query has asked for, each of a pair of calls, and may ask for.
+// The support calls of a query and their limit; a support point takes two calls, one a body.
 struct Query {
   long calls = 0;
-  long limit = 0;  // in calls
+  long limit = 0;  // greatest number of calls
   long support_points() const { return calls / 2; }
   bool stopped() const { return calls > limit; }
 };
 
-// What libccd is given as an object.
+// The object that libccd passes to the support functions.
 struct Body {
   const Shape* shape;
   const Pose* pose;
-  Vec3d center;  // in body coordinates, an interior point
+  Vec3d center;  // an interior point, in body coordinates
   Query* query;
 };
 
@@ -51,7 +51,7 @@ const Body& body_of(const void* object) { return *static_cast<const Body*>(objec
 Vec3d to_eigen(const ccd_vec3_t& v) { return {v.v[0], v.v[1], v.v[2]}; }
 void set(ccd_vec3_t* out, const Vec3d& v) { ccdVec3Set(out, v.x(), v.y(), v.z()); }
 
-// Zero where the direction is zero or NaN, so that the answer stays a point of the body.
+// Zero if the direction is zero or NaN, so that the support stays a point of the body.
 template <class Direction>
 Direction normalized_or_zero(const Direction& direction) {
   const double norm = direction.norm();
@@ -63,7 +63,7 @@ Vec3d on_disk(double radius, const Vec3d& direction, double z) {
   return {rim.x(), rim.y(), z};
 }
 
-// The farthest point of the shape, balls taken off, in body coordinates.
+// The furthest point of the shape's core (without the ball), in body coordinates.
 template <ShapeKind kind>
 Vec3d core_support(const Shape& shape, const Vec3d& direction) {
   if constexpr (kind == ShapeKind::sphere) {
@@ -166,8 +166,8 @@ class Libccd final : public NarrowPhase {
     ccd.center1 = center;
     ccd.center2 = center;
     const long limit = support_limit(batch.task);
-    // GJK is let into one iteration more than is allowed, so that who asks for it is found out. MPR
-    // comes to its own cap only where its direction is NaN, which no support point can end.
+    // GJK gets one iteration more than allowed, so that using it is detected. MPR reaches its own
+    // cap only if its direction is NaN, which no support point can end.
     ccd.max_iterations =
         static_cast<unsigned long>(method_ == Method::mpr ? limit : max_iterations_ + 1);
     for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -184,8 +184,8 @@ class Libccd final : public NarrowPhase {
   }
 
  private:
-  // Support points that a query may ask for. GJK asks for one before its loop, EPA for up to eight
-  // between GJK's loop and its own, MPR for two before its first loop.
+  // Limit on a query's support points. GJK computes one before its loop, EPA up to eight between
+  // GJK's loop and its own, MPR two before its first loop.
   long support_limit(Task task) const {
     switch (method_) {
       case Method::gjk: return 1 + max_iterations_;
@@ -200,7 +200,7 @@ class Libccd final : public NarrowPhase {
     return {&shapes_[shape], &batch.poses[id], centers_[shape], query};
   }
 
-  // The sum of the bodies' reaches, each from its origin.
+  // The sum of the bodies' reaches, each from its origin (metres).
   double size(const PairBatch& batch, std::size_t i) const {
     return reaches_[batch.shape_of[batch.first[i]]] + reaches_[batch.shape_of[batch.second[i]]];
   }
@@ -243,7 +243,7 @@ class Libccd final : public NarrowPhase {
       return;
     }
     outcome.distance = 0 - depth;
-    // libccd moves b by depth along it. Touching bodies are given a zero vector or NaN.
+    // libccd moves b by depth along this direction. For touching bodies it is zero or NaN.
     const Vec3d normal = to_eigen(direction);
     if (normal.squaredNorm() > 0.5) outcome.normal = normal;
   }

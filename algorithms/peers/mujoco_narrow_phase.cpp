@@ -2,15 +2,15 @@
 // Paper:   Todorov, Erez, Tassa, "MuJoCo: A physics engine for model-based control", IROS 2012; MPR
 //          of Snethen, Game Programming Gems 7, 2008, by libccd over MuJoCo's support functions.
 // Departs: no model is compiled: the functions read no more of a model than the shapes of its geoms
-//          and MPR's options, and no more of its state than their poses, so two geoms are filled in
-//          for each query. A hull is a mesh about the mean of its vertices, in floats, and without
-//          the graph that MuJoCo climbs on: all vertices are looked at, and there is no pair with
-//          a plane, which is what a half-space is.
-//          The deepest contact is reported. tolerance and max_iterations are MPR's; without them it
-//          has MuJoCo's, 1e-6 m and 50. Witness points are not reported: MuJoCo gives their middle.
-// Fails:   two boxes: half of the depth where a face is hit, for that is what it puts in a contact.
-//          MPR's depth is along the portal, an upper bound. A cylinder that stands on a plane may
-//          have no contact. No query tells that it failed.
+//          and MPR's options, and no more of its state than their poses, so the adapter fills in
+//          two geoms for each query. A hull is a mesh about the mean of its vertices, in floats,
+//          and without the graph that MuJoCo climbs: MuJoCo scans all vertices, and supports no
+//          pair of a hull and a plane, which is its half-space. The deepest contact is reported.
+//          tolerance and max_iterations are MPR's; the defaults are MuJoCo's, 1e-6 m and 50.
+//          Witness points are not reported: MuJoCo gives their middle.
+// Fails:   two boxes: half of the depth where a face is hit, because that is what MuJoCo puts in a
+//          contact. MPR's depth is along the portal, an upper bound. A cylinder that stands on a
+//          plane may have no contact. No query reports a failure.
 // Cost:    closed forms O(1); otherwise a support call of both bodies an iteration.
 #include "algorithms/narrow_phase.h"
 
@@ -25,7 +25,8 @@
 namespace touchstone {
 namespace {
 
-// MuJoCo has no cone, and no function for two planes. That for a mesh and a plane needs the graph.
+// MuJoCo has no cone and no function for two planes; its function for a mesh and a plane needs the
+// graph.
 bool supports(ShapeKind kind_a, ShapeKind kind_b, Task) {
   const bool cone = kind_a == ShapeKind::cone || kind_b == ShapeKind::cone;
   return !cone && (kind_a < ShapeKind::hull || kind_b != ShapeKind::halfspace);
@@ -97,7 +98,7 @@ class Mujoco final : public NarrowPhase {
   void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
     const bool rounds = encoding(batch.kind_a, batch.kind_b, batch.task, Precision::float64) ==
                         Encoding::float32_relative;
-    // The table has each pair in the order of MuJoCo's types only.
+    // The table holds each pair only in the order of MuJoCo's types.
     const mjtGeom type_a = type_of(batch.kind_a), type_b = type_of(batch.kind_b);
     const bool swapped = type_a > type_b;
     const mjfCollision collide =
@@ -126,8 +127,8 @@ class Mujoco final : public NarrowPhase {
   }
 
  private:
-  // What MuJoCo has as doubles is rounded too where the vertices are, so that there is one problem
-  // that it is given.
+  // Rounds MuJoCo's doubles too if the vertices are rounded, so that all numbers of a problem have
+  // one encoding.
   static double number(double x, bool rounds) {
     return rounds ? static_cast<double>(static_cast<float>(x)) : x;
   }
@@ -149,7 +150,8 @@ class Mujoco final : public NarrowPhase {
     }
   }
 
-  // A plane is solid below z = 0. `offset` is from the origin to that of the half-space's body.
+  // Places a plane, which is solid below z = 0. `offset` leads from the origin to the origin of the
+  // half-space's body.
   void place_plane(const Shape& shape, const Mat3d& rotation, const Vec3d& offset) {
     const Vec3d turned = rotation * shape.normal;
     const Vec3d normal = turned.stableNormalized();
@@ -185,7 +187,7 @@ class Mujoco final : public NarrowPhase {
   std::vector<Vec3d> centres_;
   std::vector<float> vertices_;
   std::vector<int> mesh_begin_, mesh_size_, mesh_graph_;
-  // Of the two geoms; matrices row by row.
+  // Data of the two geoms; matrices row by row.
   std::array<int, 2> types_{}, meshes_{};
   std::array<mjtNum, 6> sizes_{}, positions_{};
   std::array<mjtNum, 18> rotations_{};

@@ -1,27 +1,26 @@
 // ODE's spaces: the multi-resolution hash, the quadtree, and sweep and prune.
 // Paper:   none; ODE 0.16, dHashSpace (R. Smith), dQuadTreeSpace (E. de Vries), dSweepAndPruneSpace
-//          (A. Moravanszky, P. Terdiman's box pruning), each asked by dSpaceCollide.
-// Departs: a body is a geom of a class of its own, whose box is the given one: floats are exact in
-//          Debian's ODE, which is built for doubles, and in one for floats. Boxes are brought up to
-//          date by dSpaceClean in build and update, which dSpaceCollide would else do first. Every
-//          pair of the callback is tested against the given boxes. ODE's manual leaves the settings
-//          to the scene:
-//          - the hash's cells go from the size of the smallest box to that of the greatest, but no
-//            cell is so small that a coordinate's cell is beyond an int, which ODE aborts on. ODE
-//            is given coordinates that are shifted to be positive: it loses pairs where the address
-//            of a cell changes sign, as about the origin;
-//          - the quadtree has the world (core/world.h) as its bounds, which is made anew when a box
-//            leaves it, and about as many leaves as there are bodies; bodies are put in with their
-//            boxes known, or all would first go through one list;
+//          (A. Moravanszky, P. Terdiman's box pruning), each queried by dSpaceCollide.
+// Departs: a body is a geom of our own class, with the given box: floats are exact in Debian's ODE,
+//          which is built for doubles, and in a build for floats. dSpaceClean updates the boxes in
+//          build and update; dSpaceCollide would else do it first. The adapter tests every pair of
+//          the callback against the given boxes. ODE's manual leaves the settings to the scene:
+//                   - the hash's cells range from the size of the smallest box to that of the
+//          greatest, but no cell is so small that a coordinate's cell is beyond an int, on which
+//          ODE aborts. ODE gets coordinates that are shifted to be positive: it loses pairs where
+//          the address of a cell changes sign, as it does about the origin;
+//                   - the quadtree has the world (core/world.h) as its bounds and is made anew when
+//          a box leaves it; it has about as many leaves as there are bodies. Bodies are inserted
+//          with their boxes known, or all would first go through one list;
 //          - the sweep sorts on the axis on which the world is widest, and tests the thinnest last.
-//          A box that ends at the greatest float is given as endless, or the sweep would pass its
-//          own sentinel. ODE's library has globals, so all calls of a process take turns.
+//                   A box that ends at the greatest float is given as infinite, or the sweep would
+//          pass its own sentinel. ODE's library has globals, so all calls of a process take turns.
 // Fails:   the hash keeps a table of n^2 bits, and gives up (`capacity`) where that is 2 GB, from
 //          131,072 bodies on. The quadtree is flat, its axes are x and y, and all boxes that lie
 //          across its middle lines are tested against everything: far from linear. The sweep is
 //          quadratic in the boxes that overlap on its axis.
-// Cost:    hash O(n levels + k) time beside clearing its table, quadtree O(n sqrt(n) + k) where
-//          boxes are small, sweep O(n + pairs on the axis); O(n) memory but for the hash.
+// Cost:    hash O(n levels + k) time beside clearing its table, quadtree O(n sqrt(n) + k) if boxes
+//          are small, sweep O(n + pairs on the axis); O(n) memory but for the hash.
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
 #if TOUCHSTONE_BUILT
@@ -36,7 +35,7 @@ namespace {
 
 constexpr float greatest = std::numeric_limits<float>::max();
 
-// What a geom holds: its box as ODE writes boxes, and whose it is.
+// The data of a geom: its box in ODE's order, and its body's id.
 struct Body {
   std::array<dReal, 6> box;  // min, max on x, then on y, then on z
   std::uint32_t id;
@@ -44,7 +43,7 @@ struct Body {
 
 Body& body_of(dGeomID geom) { return *static_cast<Body*>(dGeomGetClassData(geom)); }
 
-// What is added to all coordinates before ODE has them.
+// An offset added to all coordinates before ODE gets them (metres).
 using Shift = std::array<double, 3>;
 
 void set_box(Body& body, const Aabb& box, const Shift& by) {
@@ -55,7 +54,7 @@ void set_box(Body& body, const Aabb& box, const Shift& by) {
   }
 }
 
-// Of our geoms: ODE has room for four classes. To be asked for with the library's lock.
+// Returns the class of our geoms: ODE has room for four. The caller holds the library's lock.
 int geom_class() {
   static const int kind = [] {
     dGeomClass boxes{};
@@ -83,8 +82,8 @@ class Hash {
     const dSpaceID space = dHashSpaceCreate(nullptr);
     if (least > most_) return space;  // no body
     least = std::max(least, finest(world_.widest()));
-    // A cell's address is 1000 level + 100 x + 10 y + z, unsigned; where that passes zero inside of
-    // a box, ODE looks for its cells in other places than where it has put them.
+    // A cell's address is 1000 level + 100 x + 10 y + z, unsigned. If that passes zero inside a
+    // box, ODE looks for the box's cells in other places than those where it put them.
     for (std::size_t axis = 0; axis < 3; ++axis) shift_[axis] = -world_.min[axis];
     if (least < 0) {
       const int worst = std::min(most_, -1);
@@ -106,7 +105,7 @@ class Hash {
   const Shift& shift() const { return shift_; }
 
  private:
-  // The cells that ODE takes for a box are 2^level wide. A point's level is 0.
+  // The cells that ODE chooses for a box are 2^level wide. A point's level is 0.
   static int level_of(const Aabb& box) {
     double side = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -116,7 +115,7 @@ class Hash {
     std::frexp(side, &level);
     return level;
   }
-  // The level at which 2^30 cells reach that far.
+  // The level at which 2^30 cells span `reach`.
   static int finest(double reach) {
     int level = 0;
     std::frexp(reach, &level);
@@ -139,7 +138,7 @@ class QuadTree {
       centre[axis] = static_cast<dReal>(world_.min[axis] / 2 + world_.max[axis] / 2);
       extents[axis] = static_cast<dReal>(world_.max[axis] / 2 - world_.min[axis] / 2);
     }
-    constexpr int deepest = 10;  // a million leaves, which ODE makes at once
+    constexpr int deepest = 10;  // a million leaves, which ODE allocates at once
     int depth = 1;
     while (depth < deepest && (std::size_t{1} << 2 * depth) < boxes.size()) ++depth;
     return dQuadTreeSpaceCreate(nullptr, centre, extents, depth);
@@ -256,7 +255,7 @@ class OdeBroadPhase final : public BroadPhase {
     dSpaceClean(space_);
   }
 
-  // Its geoms go with a space.
+  // Destroys the space and, with it, its geoms.
   void clear() {
     if (space_ != nullptr) dSpaceDestroy(space_);
     space_ = nullptr;
@@ -272,7 +271,7 @@ class OdeBroadPhase final : public BroadPhase {
     geoms_[id] = geom;
   }
 
-  // ODE looks at a geom's box again when the geom was moved.
+  // Marks a geom as moved, so that ODE reads its box again.
   static void tell(dGeomID geom) {
     const auto& box = body_of(geom).box;
     dGeomSetPosition(geom, box[0], box[2], box[4]);
@@ -280,9 +279,9 @@ class OdeBroadPhase final : public BroadPhase {
 
   Rules rules_;
   std::span<const Aabb> boxes_;
-  dSpaceID space_ = nullptr;  // null where there are too many bodies for it
+  dSpaceID space_ = nullptr;  // null if there are too many bodies for it
   std::size_t live_ = 0;
-  std::vector<dGeomID> geoms_;   // by id; null where there is no body
+  std::vector<dGeomID> geoms_;   // indexed by id; null for an empty slot
   std::vector<Body> converted_;  // scratch
   std::int64_t candidates_ = 0;
 };

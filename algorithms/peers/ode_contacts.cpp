@@ -1,13 +1,12 @@
 // ODE's contacts of two boxes.
 // Paper:   none; ODE 0.16, dBoxBox by R. Smith (separating axes, then one face clipped against the
 //          other).
-// Departs: asked for four contacts, among which it then chooses. ODE gives one point for each, on
-// the
-//          body whose face was clipped, or half way between two edges; the point on the other body
-//          is as far from it as the contact is deep, along the normal.
-// Fails:   takes the axes of faces for deeper by a twentieth, so that the normal is not always that
-//          of the least penetration. It has no contact for some boxes of the same orientation that
-//          overlap. Never tells that it failed.
+// Departs: the adapter asks for four contacts, and ODE chooses among its own. ODE reports one point
+//          for each, on the body whose face was clipped, or half way between two edges; the point
+//          on the other body is derived: as far from it as the contact is deep, along the normal.
+// Fails:   prefers the axes of faces by a twentieth of the depth, so that the normal is not always
+//          that of the least penetration. It reports no contact for some overlapping boxes of the
+//          same orientation. It never reports a failure.
 // Cost:    O(1).
 #include "algorithms/contact_manifold.h"
 #if TOUCHSTONE_BUILT
@@ -57,8 +56,8 @@ class OdeContacts final : public ContactManifold {
   }
 
  private:
-  // `code` says whose axis it was: up to 3 a's, so that b's face was clipped, up to 6 b's, beyond
-  // two edges'.
+  // `code` numbers the axis: up to 3 it is a's, so b's face was clipped; up to 6 it is b's; beyond
+  // 6 it belongs to two edges.
   static void add(const dContactGeom& contact, int code, Manifold& manifold) {
     const double part_of_a = code <= 3 ? 1 : code <= 6 ? 0 : 0.5;
     const Vec3d found(contact.pos[0], contact.pos[1], contact.pos[2]);
@@ -71,7 +70,7 @@ class OdeContacts final : public ContactManifold {
   std::vector<std::array<dReal, 4>> sides_;
 };
 
-// ODE is built for one of them.
+// The scalar for which ODE is built.
 constexpr Precision scalar =
     std::is_same_v<dReal, double> ? Precision::float64 : Precision::float32;
 
@@ -80,7 +79,7 @@ constexpr Precision scalar =
 #else
 namespace touchstone {
 namespace {
-constexpr Precision scalar = Precision::float64;  // Debian's
+constexpr Precision scalar = Precision::float64;  // Debian's build
 }  // namespace
 }  // namespace touchstone
 #endif

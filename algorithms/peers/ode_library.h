@@ -1,5 +1,6 @@
-// ODE's library, which is set up once a process and has globals: the broad phases' calls take
-// turns, and so do the making and the end of all geoms. And how it has a pose.
+// Used by ODE's narrow phase, contacts and broad phases: the set-up of ODE's library, once a
+// process, a lock for its globals, and the conversion of a pose. The calls of the broad phases run
+// under the lock, and so do making and destroying geoms.
 #pragma once
 
 #include <ode/ode.h>
@@ -16,7 +17,7 @@ struct Library {
   Library() { dInitODE2(0); }
 };
 
-// Of ODE in this thread, for as long as the lock is kept.
+// Locks ODE, and prepares it for this thread.
 inline std::unique_lock<std::mutex> enter() {
   static Library library;
   std::unique_lock lock(library.mutex);
@@ -24,7 +25,7 @@ inline std::unique_lock<std::mutex> enter() {
   return lock;
 }
 
-// A pose as ODE has it, rows of four.
+// A pose in ODE's layout: rows of four.
 struct Placement {
   dVector3 position;
   dMatrix3 rotation;

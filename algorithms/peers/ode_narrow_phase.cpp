@@ -1,19 +1,17 @@
 // ODE's colliders of spheres, capsules, boxes and planes.
-// Paper:   none; ODE 0.16: dBoxBox (separating axes, then the faces clipped against each other)
-//          and the closed forms that dCollide looks up for the other kinds, by R. Smith.
-// Departs: dBoxBox is asked for as many contacts as there can be, eight, for then it need not
-// choose
-//          among them, which takes longer; "contacts unimportant" would be faster still but misses
-//          every sixth overlap. The depth of two boxes is dBoxBox's own and not that of a contact.
-//          dCollide is asked for one contact, and puts the deepest first. Boxes are given to
-//          dBoxBox as it takes them, without a geom; the others have two geoms a shape, as a geom
-//          never collides with itself. A half-space is a plane, below which is solid; its normal is
-//          turned by the pose's matrix. Witness points are not reported: ODE gives one contact
-//          point, with another meaning for each kind pair.
-// Fails:   dBoxBox takes the axes of faces for deeper by a twentieth, and hands out what that
-//          chooses: depths up to 5 % too great. It has no contact for some boxes of the same
-//          orientation that overlap. A capsule whose segment meets the box has no more depth than
-//          its radius. No query tells that it failed.
+// Paper:   none; ODE 0.16: dBoxBox (separating axes, then the faces clipped against each other) and
+//          the closed forms that dCollide looks up for the other kinds, by R. Smith.
+// Departs: the adapter asks dBoxBox for as many contacts as there can be, eight, because a choice
+//          among them takes longer; "contacts unimportant" would be faster still but misses every
+//          sixth overlap. The depth of two boxes is dBoxBox's own and not that of a contact.
+//          dCollide returns one contact, the deepest. dBoxBox takes boxes without geoms; the
+//          others have two geoms a shape, as a geom never collides with itself. A half-space is a
+//          plane, below which is solid; the pose's matrix turns its normal. Witness points are not
+//          reported: ODE gives one contact point, with another meaning for each kind pair.
+// Fails:   dBoxBox prefers the axes of faces by a twentieth of the depth and returns the depth of
+//          the axis that it chose: up to 5 % too great. It reports no contact for some overlapping
+//          boxes of the same orientation. A capsule whose segment meets the box is never deeper
+//          than its radius. No query reports a failure.
 // Cost:    O(1).
 #include "algorithms/narrow_phase.h"
 #if TOUCHSTONE_BUILT
@@ -97,7 +95,7 @@ class OdeNarrowPhase final : public NarrowPhase {
         const ode::Placement at_a(pose_a), at_b(pose_b);
         dVector3 normal;
         dReal depth = 0;
-        int code = 0;  // left as it is where there is no contact
+        int code = 0;  // unchanged if there is no contact
         const int count =
             dBoxBox(at_a.position, at_a.rotation, sides_[a].data(), at_b.position, at_b.rotation,
                     sides_[b].data(), normal, &depth, &code, static_cast<int>(contacts.size()),
@@ -108,7 +106,7 @@ class OdeNarrowPhase final : public NarrowPhase {
         place(geom_a, shapes_[a], pose_a);
         place(geom_b, shapes_[b], pose_b);
         const int count = dCollide(geom_a, geom_b, 1, contacts.data(), sizeof contacts[0]);
-        // In a contact the normal leads from b into a.
+        // A contact's normal points from b into a.
         report(count > 0, -to_vector(contacts[0].normal), contacts[0].depth, batch.task,
                outcomes[i]);
       }
@@ -118,10 +116,10 @@ class OdeNarrowPhase final : public NarrowPhase {
  private:
   std::span<const Shape> shapes_;
   std::vector<std::array<dReal, 4>> sides_;
-  std::array<std::vector<Geom>, 2> geoms_;  // for each side of a pair, one a shape
+  std::array<std::vector<Geom>, 2> geoms_;  // indexed by side of a pair, then by shape
 };
 
-// ODE is built for one of them.
+// The scalar for which ODE is built.
 constexpr Precision scalar =
     std::is_same_v<dReal, double> ? Precision::float64 : Precision::float32;
 
@@ -138,7 +136,7 @@ bool supports(ShapeKind a, ShapeKind b, Task) {
 #else
 namespace touchstone {
 namespace {
-constexpr Precision scalar = Precision::float64;  // Debian's
+constexpr Precision scalar = Precision::float64;  // Debian's build
 }  // namespace
 }  // namespace touchstone
 #endif
