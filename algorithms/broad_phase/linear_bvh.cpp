@@ -1,16 +1,25 @@
-// Linear BVH: boxes along a space-filling curve, and the binary tree that the bits of their places
-// make, built and bounded in one pass from the leaves up; each leaf looks for its partners.
+// Linear BVH: sort the boxes along a space-filling curve; the bits of their keys define a binary
+// tree, built and bounded in one pass from the leaves up; each leaf queries the tree.
 // Paper:   Lauterbach et al., "Fast BVH Construction on GPUs", Eurographics 2009; Karras,
 //          "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees", HPG 2012;
 //          Apetrei, "Fast and Simple Agglomerative LBVH Construction", CGVC 2014 (one pass).
-// Departs: a leaf has 16 boxes, for vectors of them, and its key is that of its first. The curve is
-//          Hilbert's, and the size class comes before the place on it, so that large boxes have
-//          subtrees of their own. A leaf visits only what comes behind it, so that each pair is met
-//          once. While bodies move a little the keys are kept and the same tree gets new bounds;
-//          it is made anew when the leaves have grown by a quarter.
-// Fails:   long thin boxes in all directions: leaves overlap whatever their order is.
-// Cost:    O(n) time for keys and tree, O(n log n + k) to be expected for the search; k = pairs
-// that
+// Steps:   1. Sort the boxes by size class and then along a Hilbert curve
+//             (kernels/bvh/hilbert_sort.h).
+//          2. Make a leaf of every 16 boxes; its key is its first box's, followed by its number.
+//          3. Climb from each leaf: join the neighbour whose key shares more leading bits. Of the
+//             two children, the first to arrive at a node stops and the second continues with both
+//             bounds.
+//          4. In an update keep the order and repeat step 3; start at step 1 when the leaves' sides
+//             have grown by a quarter, or bodies come or go.
+//          5. For each leaf, traverse the tree for the leaves after it whose bounds overlap its
+//             own.
+//          6. Test the leaf's 16 boxes against theirs and each other (kernels/boxes/group_scan.h).
+// Departs: a leaf has 16 boxes, so that vectors of them are tested, and the key of its first. The
+//          curve is Hilbert's, and the size class precedes the place on it, so that large boxes
+//          have their own subtrees. A leaf visits only leaves after it, so each pair is met once.
+//          While bodies move a little the order is kept, and the tree over it gets new bounds.
+// Fails:   long thin boxes in all directions: leaves overlap in any order.
+// Cost:    O(n) time for keys and tree, O(n log n + k) expected for the search; k = pairs that
 //          overlap. About 70 bytes a body.
 #include <atomic>
 #include <bit>
@@ -39,7 +48,7 @@ class LinearBvh final : public BroadPhase {
     if (!change.inserted.empty() || !change.removed.empty()) return build(change.boxes);
     if (change.moved.empty()) return;
     fit(change.boxes);
-    // Written so that a NaN, of bounds that overflow, makes a new order.
+    // The negation makes a NaN, from bounds that overflow, rebuild the order.
     if (!(spread() <= 1.25 * spread_at_build_)) build(change.boxes);
   }
 
@@ -72,20 +81,20 @@ class LinearBvh final : public BroadPhase {
   static constexpr std::size_t leaves_a_task = 32;
   static constexpr std::uint32_t leaf_bit = 0x80000000;
   static constexpr std::uint32_t nobody = 0xffffffff;
-  // A leaf's key with its number behind it differs from the next leaf's at some bit, and of two
-  // splits of a node the one at the higher bit comes first; so bits fall on the way down, and no
-  // leaf is deeper than there are bits.
+  // The key of a leaf, followed by its number, differs from the next leaf's in some bit. Of two
+  // splits of a node the one at the higher bit is above the other, so the split bit falls on the
+  // way down and the depth of a leaf is at most the number of bits.
   static constexpr int leaf_number_bits = 28;
   static constexpr std::size_t most_levels = HilbertSort::key_bits + leaf_number_bits;
 
   using Lanes = box_lanes::baseline::Lanes;
-  using Corner = std::array<float, 4>;  // of which three are used: a vector's worth
+  using Corner = std::array<float, 4>;  // three coordinates and one unused: a vector's worth
 
   // Node i splits between leaves i and i + 1.
   struct Node {
-    std::array<Corner, 2> low, high;     // of the two children
-    std::array<std::uint32_t, 2> child;  // a node, or a leaf with its bit set
-    std::array<std::uint32_t, 2> last;   // of the leaves below the child
+    std::array<Corner, 2> low, high;     // bounds of the two children
+    std::array<std::uint32_t, 2> child;  // a node, or a leaf with leaf_bit set
+    std::array<std::uint32_t, 2> last;   // the last leaf below each child
   };
   struct Scratch {
     std::vector<IndexRange> partners;
@@ -112,7 +121,7 @@ class LinearBvh final : public BroadPhase {
     return {leaf * group_size, std::min((leaf + 1) * group_size, boxes_.size())};
   }
 
-  // Where the keys of a leaf and the next one differ.
+  // The bits in which the keys of a leaf and the next one differ.
   std::uint64_t difference(std::size_t leaf) const {
     const auto key = [&](std::size_t i) {
       return order_.key(i * group_size) << leaf_number_bits | i;
@@ -120,8 +129,8 @@ class LinearBvh final : public BroadPhase {
     return key(leaf) ^ key(leaf + 1);
   }
 
-  // From a leaf up, as far as the other child of a node has been there already: which of the two is
-  // first makes no difference to the tree.
+  // Climbs from a leaf while the other child of each node has arrived before. The order of arrival
+  // does not change the tree.
   void climb(std::size_t leaf) {
     Aabb bounds = bounds_of(boxes_, places_of(leaf));
     leaves_[leaf] = bounds;
@@ -130,7 +139,7 @@ class LinearBvh final : public BroadPhase {
     std::size_t last = leaf;
     const std::size_t end = leaves_.size() - 1;
     while (first != 0 || last != end) {
-      // The neighbour to which it is closer.
+      // The node belongs with the neighbour whose key differs in lower bits.
       const bool is_left = first == 0 || (last != end && difference(last) < difference(first - 1));
       const std::size_t parent = is_left ? last : first - 1;
       Node& into = nodes_[parent];
@@ -166,14 +175,15 @@ class LinearBvh final : public BroadPhase {
     scan_group(boxes_, places_of(leaf), leaves_[leaf], scratch.partners, scratch.group, out);
   }
 
-  // The leaves behind this one whose bounds overlap its own.
+  // Collects the leaves after this one whose bounds overlap its own.
   void find_partners(std::size_t leaf, Scratch& scratch) const {
     Corner low{}, high{};
     std::copy_n(leaves_[leaf].min.begin(), 3, low.begin());
     std::copy_n(leaves_[leaf].max.begin(), 3, high.begin());
     const Lanes::Floats own_low = Lanes::load(low.data());
     const Lanes::Floats own_high = Lanes::load(high.data());
-    std::array<std::uint32_t, most_levels + 1> open;  // a node is left for its two children
+    std::array<std::uint32_t, most_levels + 1> open;  // the traversal replaces a node by its two
+                                                      // children
     std::size_t count = 0;
     open[count++] = root_;
     while (count > 0) {
@@ -198,11 +208,11 @@ class LinearBvh final : public BroadPhase {
   Executor& executor_;
   std::vector<Scratch> scratch_;
   HilbertSort order_;
-  AabbSoA boxes_;             // in that order
-  std::vector<Aabb> leaves_;  // their bounds
+  AabbSoA boxes_;             // sorted along the curve
+  std::vector<Aabb> leaves_;  // bounds of the leaves
   std::vector<Node> nodes_;
   std::uint32_t root_ = 0;
-  // Of each node, the far end of the child that was there first.
+  // For each node, the far end of the child that arrived first.
   std::vector<std::atomic<std::uint32_t>> arrivals_;
   double spread_at_build_ = 0;
 };

@@ -1,7 +1,12 @@
 // Naive: test every box against every other.
-// Paper:   none; the definition of the problem, and the reference that the others are checked
-//          against.
-// Departs: tests a vector of boxes at a time, in tiles that stay in the first cache.
+// Paper:   none; this is the definition of the problem, and the reference for the other algorithms.
+// Steps:   1. List the slots that have a body.
+//          2. Gather their boxes into one array for each coordinate.
+//          3. Cut the rows into tasks of 256 boxes.
+//          4. For each task go through the boxes from its first row on, in tiles of 1024.
+//          5. Test each row against the boxes of the tile that come after it, a vector at a time.
+//          6. Write the pairs that overlap into the task's chunk of the sink.
+// Departs: tests a vector of boxes at a time, in tiles that stay in the first-level cache.
 // Fails:   quadratic, whatever the scene.
 // Cost:    O(n^2) time, O(n) memory beside the output.
 #include "algorithms/broad_phase.h"
@@ -26,7 +31,7 @@ class Naive final : public BroadPhase {
     sink.start(block_count(arrays_.size(), rows_a_task));
     for_each_block(executor_, arrays_.size(), rows_a_task,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
-                     // The first tile holds all of the rows; the others lie behind them.
+                     // The first tile contains all of the task's rows; the others come after them.
                      for (std::size_t tile = first; tile < arrays_.size(); tile += tile_size) {
                        const IndexRange columns{tile, std::min(tile + tile_size, arrays_.size())};
                        scan_boxes(arrays_, {first, last}, {&columns, 1}, sink.chunk(task));

@@ -1,15 +1,26 @@
-// Hilbert pyramid: boxes of about one size in the order of a Hilbert curve, in blocks of 16 under a
-// tree of bounds without pointers; groups of 256 boxes look for their partners together.
+// Packed R-tree: boxes of about one size in the order of a Hilbert curve, in blocks of 16 under an
+// implicit tree of bounds without pointers; groups of 256 boxes query it together.
 // Paper:   Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (Hilbert order, full nodes); Wald,
 //          Benthin, Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for wide vectors).
-// Departs: boxes much larger than what a block takes up come in a class behind, so that they do not
-//          blow up the bounds of small ones. Blocks are paired with those behind them only, so each
-//          pair comes once. What is to be tested next is listed first and then gone through, so
-//          that hardly a branch has to be guessed. While bodies move a little the order is kept,
-//          and made anew when the bounds of the blocks have grown by a quarter.
-// Fails:   long thin boxes in all directions: their blocks overlap whatever their order is.
-// Cost:    O(n) time for order and tree, O(n + k) to be expected for the search; k = pairs that
-//          overlap. About 50 bytes a body.
+// Steps:   1. Sort the boxes by size class and then along a Hilbert curve
+//             (kernels/bvh/hilbert_sort.h).
+//          2. Bound every 16 boxes by a block, every 16 blocks by a group, and so on to the root
+//             (kernels/bvh/implicit_rtree.h).
+//          3. In an update keep the order and repeat step 2; start at step 1 when the blocks' sides
+//             have grown by a quarter, or bodies come or go.
+//          4. For each group of 256 boxes, descend the tree level by level and list the blocks that
+//             overlap the group's bounds and are not before it.
+//          5. For each block of the group, narrow that list to the blocks that overlap it.
+//          6. Test its 16 boxes against each other; list the boxes of the others that overlap its
+//             bounds, and test each of these against the 16 at once.
+// Departs: boxes much larger than the extent of a block follow in a class of their own, so that
+//          they do not inflate the bounds of small ones. Blocks are paired only with those after
+//          them, so each pair comes once. Each stage first lists its candidates and then goes
+//          through the list, which leaves few branches to mispredict. While bodies move a little
+//          the order is kept.
+// Fails:   long thin boxes in all directions: their blocks overlap in any order.
+// Cost:    O(n) time for order and tree, O(n + k) expected for the search; k = pairs that overlap.
+//          About 50 bytes a body.
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -38,7 +49,7 @@ class PackedRTree final : public BroadPhase {
     if (!change.inserted.empty() || !change.removed.empty()) return build(change.boxes);
     if (change.moved.empty()) return;
     fit(change.boxes);
-    // Written so that a NaN, of bounds that overflow, makes a new order.
+    // The negation makes a NaN, from bounds that overflow, rebuild the order.
     if (!(pyramid_.spread() <= 1.25 * spread_)) build(change.boxes);
   }
 
@@ -81,7 +92,7 @@ class PackedRTree final : public BroadPhase {
   std::vector<RTreeScratch> scratch_;
   HilbertSort order_;
   ImplicitRTree pyramid_;
-  double spread_ = 0;  // when the order was made
+  double spread_ = 0;  // spread of the blocks when the order was made
 };
 
 }  // namespace

@@ -2,13 +2,21 @@
 // on each axis, and intersect the three lists.
 // Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992, and
 //          Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE", I3D 1995.
-// Departs: a list on one axis can hold O(n^2) pairs, so it is kept in runs: in the order of the
-//          minima, the boxes that overlap box i and start behind it are those at the places
-//          rank(i)+1 .. end(i). So three lists take O(n) memory and lose nothing. To intersect
-//          them, the shortest is walked, and a pair is in another list when either box's place is
-//          in the other one's run there; that compares places, never coordinates.
-// Fails:   as slow as the shortest of the three lists is long: quadratic in dense clusters, n^(5/3)
-//          in uniform scenes. Status::capacity beyond 2^30 boxes.
+// Steps:   1. On each axis, sort the 2n box ends: radix sort, or insertion sort from the last
+//             frame's order while that takes few moves.
+//          2. Sweep each axis once: number the boxes by their minima (rank), and note for each the
+//             last box that starts before it ends. The boxes in between are its run.
+//          3. The lengths of the runs sum up to the axis's number of pairs; pick the axis with the
+//             fewest.
+//          4. Store each box's three runs as if they were the box, in the order of that axis.
+//          5. Go through the runs of that axis, a vector of boxes at a time.
+//          6. Report a pair if on both other axes one box's rank lies in the other's run.
+// Departs: a list on one axis can hold O(n^2) pairs, so it is stored as runs: in the order of the
+//          minima, the boxes that overlap box i and start after it are those at the places
+//          rank(i)+1 .. end(i). Three lists thus take O(n) memory and lose nothing. The shortest is
+//          traversed, and tests of the other two compare places, never coordinates.
+// Fails:   takes time in proportion to the shortest of the three lists: quadratic in dense
+//          clusters, n^(5/3) in uniform scenes. Returns Status::capacity beyond 2^30 boxes.
 // Cost:    O(n log n + k) time, O(n) memory beside the output; k = pairs on the shortest list.
 #include <algorithm>
 #include <array>
@@ -78,11 +86,11 @@ class SortAndSweep final : public BroadPhase {
 
   struct Axis {
     std::size_t number;
-    // (key of the coordinate, is_max or 0 + place in ids_), ascending: where a box ends and another
-    // starts, the start comes first, because boxes that touch overlap.
+    // (key of the coordinate, is_max or 0 + place in ids_), ascending. At equal coordinates a start
+    // precedes an end, because boxes that touch overlap.
     std::vector<std::uint64_t> ends;
-    std::vector<std::uint32_t> rank, end;  // of each box: the first and last place of its run
-    std::uint64_t pairs;                   // on the axis's list
+    std::vector<std::uint32_t> rank, end;  // first and last place of each box's run
+    std::uint64_t pairs;                   // length of the axis's list
   };
 
   std::uint64_t item(const Axis& axis, std::span<const Aabb> boxes, std::uint32_t which) const {
@@ -104,7 +112,7 @@ class SortAndSweep final : public BroadPhase {
     radix_sort_(executor_, axis.ends, 32, key_of);
   }
 
-  // Makes each axis's list, and lays out their runs in the order of the shortest.
+  // Makes each axis's list, and stores the runs in the order of the shortest.
   void sweep() {
     const auto list = [&](std::size_t a, int) { make_list(axes_[a]); };
     executor_.run(axes_.size(), std::cref(list));
@@ -141,8 +149,8 @@ class SortAndSweep final : public BroadPhase {
     }
   }
 
-  // A place as a float of the same order, exactly, so that a vector of places is tested like a
-  // vector of coordinates: there are 2^30 finite floats from 1 up.
+  // Maps a place to a float, exactly and in the same order, so that places are tested in vectors as
+  // coordinates are. There are 2^30 finite floats from 1 up.
   static float as_float(std::uint32_t place) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(1.0f) + place);
   }
@@ -152,7 +160,7 @@ class SortAndSweep final : public BroadPhase {
   std::array<Axis, 3> axes_{Axis{0, {}, {}, {}, 0}, Axis{1, {}, {}, {}, 0}, Axis{2, {}, {}, {}, 0}};
   RadixSort<std::uint64_t> radix_sort_;
   int shortest_ = 0;
-  AabbSoA runs_;  // [rank, end] on each axis, as boxes
+  AabbSoA runs_;  // [rank, end] of each box on each axis
 };
 
 }  // namespace

@@ -1,9 +1,16 @@
 // Sweep and prune: sort the boxes on one axis, sweep, test the other two.
 // Paper:   Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE: An Interactive and Exact Collision Detection
 //          System for Large-Scale Environments", I3D 1995.
-// Departs: one axis instead of three, that on which the boxes' centres vary most; only minima are
-//          sorted, and no list of pairs is kept from frame to frame. Coherence shortens the sort:
-//          the last frame's order is repaired by insertion while that is cheap.
+// Steps:   1. Choose the axis along which the boxes' centres vary most. In an update keep the last
+//             axis unless its variance falls below three quarters of the best.
+//          2. Sort the boxes by their minima on it: radix sort, or insertion sort from the last
+//             frame's order while that takes few moves.
+//          3. Gather the boxes in that order into one array for each coordinate.
+//          4. For each box, test those after it, a vector at a time, on the other two axes.
+//          5. Stop at the first that begins after the box's end.
+// Departs: sorts one axis instead of three, and only the minima; keeps no list of pairs from frame
+//          to frame. Coherence shortens the sort: insertion repairs the last frame's order while
+//          that is cheap.
 // Fails:   goes quadratic when most boxes overlap on the axis (stacks, walls), and grows like
 //          n^(5/3) in scenes that are uniform in three dimensions.
 // Cost:    O(n log n + k) time, O(n) memory beside the output; k = pairs that overlap on the axis.
@@ -34,7 +41,7 @@ class SweepAndPrune final : public BroadPhase {
 
   void update(const FrameChange& change) override {
     if (!change.inserted.empty() || !change.removed.empty()) return build(change.boxes);
-    // An axis that is nearly as good as the best is kept, because its order is at hand.
+    // An axis nearly as good as the best stays, because its order is at hand.
     const Variances variance = variances(change.boxes);
     if (variance[axis_] < 0.75 * std::ranges::max(variance)) return build(change.boxes);
     for_each_block(executor_, order_.size(), 8192,
@@ -85,15 +92,16 @@ class SweepAndPrune final : public BroadPhase {
                    [&](std::size_t i) { return index_of(order_[i]); });
   }
 
-  // Of the boxes' centres on each axis, times 4 n. The sums of the blocks are added in their order,
-  // so the axis is the same at every width. In double the squares of the greatest floats are
-  // finite.
+  // The variances of the boxes' centres on each axis, times 4 n. The sums of the blocks are added
+  // in their order, so the axis is the same at every width. In double the squares of the greatest
+  // floats are finite.
   Variances variances(std::span<const Aabb> boxes) {
     constexpr std::size_t block_size = 8192;
     sums_.assign(block_count(ids_.size(), block_size), {});
     for_each_block(executor_, ids_.size(), block_size,
                    [&](std::size_t block, std::size_t first, std::size_t last) {
-                     const Aabb& origin = boxes[ids_[0]];  // far coordinates cancel
+                     const Aabb& origin = boxes[ids_[0]];  // offsets from one box: far coordinates
+                                                           // cancel
                      Sums sums;
                      for (std::size_t i = first; i < last; ++i) {
                        const Aabb& box = boxes[ids_[i]];
@@ -131,7 +139,7 @@ class SweepAndPrune final : public BroadPhase {
   std::size_t axis_ = 0;
   std::vector<std::uint64_t> order_;  // (key of the minimum, id), ascending
   RadixSort<std::uint64_t> radix_sort_;
-  AabbSoA arrays_;  // in that order
+  AabbSoA arrays_;  // sorted by the minima
 };
 
 }  // namespace

@@ -2,16 +2,26 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 7.1; the home-cell rule is the
 //          reference-point method of Dittrich, Seeger, "Data Redundancy and Duplicate Detection in
 //          Spatial Join Processing", ICDE 2000.
+// Steps:   1. Sample the boxes; choose cells of twice the size that nine boxes in ten do not
+//             exceed.
+//          2. Set boxes aside as large if they touch more than 64 cells.
+//          3. Write an entry for each cell of each other box, and radix-sort the entries by cell.
+//          4. Sort cells of 512 entries and more by their boxes' minima on the axis that separates
+//             these best.
+//          5. Gather the boxes in that order, with a bit for each axis on which the box starts in
+//             the cell.
+//          6. In each cell test each box against those after it, by a sweep if the cell was sorted.
+//          7. Report a pair only in its home cell, which the bits of step 5 decide.
+//          8. Test each large box against all boxes.
 // Departs: the cells have the proportions of the usual box and twice its size. They are runs of
-//          sorted entries, so empty cells cost nothing. A pair is reported only in its home cell,
-//          which holds the component-wise greater of the two minimum corners, so there is nothing
-//          to sort out afterwards. A cell where boxes crowd is swept along its longest axis. Boxes
-//          that touch more than 64 cells are kept apart and tested against all.
-// Fails:   sizes of many orders: the cells suit nine boxes in ten, small boxes crowd in them, and
-//          many large ones each meet every box. A world more than 2^20 cells wide.
+//          sorted entries, so empty cells cost nothing. The home cell of a pair contains the
+//          component-wise greater of the two minimum corners, so no pair comes twice. Dense cells
+//          are swept along an axis.
+// Fails:   sizes of many orders of magnitude: the cells suit nine boxes in ten, many small boxes
+//          share a cell, and each of many large boxes is tested against every box. A world more
+//          than 2^20 cells wide.
 // Cost:    O(n) for boxes of about one size, spread out; about O(m^(5/3)) in a cell of m boxes,
-// O(n)
-//          for each large box. O(n) memory beside the output.
+//          O(n) for each large box. O(n) memory beside the output.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -105,7 +115,7 @@ class UniformGrid final : public BroadPhase {
   struct Entry {
     std::uint64_t cell;
     std::uint32_t id;
-    std::uint32_t starts;  // bit of an axis: the box's minimum lies in this cell's slab
+    std::uint32_t starts;  // bits of the axes on which the box's minimum lies in this cell
   };
   struct Cells {
     std::array<std::uint32_t, 3> low, high;
@@ -139,7 +149,7 @@ class UniformGrid final : public BroadPhase {
     return cells;
   }
 
-  // Where the entries and the large boxes of each block of boxes begin.
+  // Finds where the entries and the large boxes of each block of boxes begin.
   void count_entries(std::span<const Aabb> boxes) {
     begins_.assign(block_count(ids_.size(), boxes_a_block), {});
     for_each_block(executor_, ids_.size(), boxes_a_block,
@@ -191,7 +201,7 @@ class UniformGrid final : public BroadPhase {
     return at;
   }
 
-  // Cells with many entries, which are put in the order of their boxes' minima on an axis.
+  // Finds cells with many entries, and sorts each by its boxes' minima on an axis.
   void list_crowds(std::span<const Aabb> boxes) {
     crowds_.clear();
     visit_dense_cells(
@@ -203,9 +213,10 @@ class UniformGrid final : public BroadPhase {
         });
   }
 
-  // The large boxes, then the entries. A cell is a pair's home when on each axis one of the two
-  // starts in its slab: a row wants of the column what it does not bring itself. A large box counts
-  // as starting in every slab, and wants all of the other, which just one entry of a box has.
+  // Gathers the large boxes, then the entries. A cell is a pair's home if on each axis one of the
+  // two boxes starts in it: `wants_` of a row holds the axes on which it does not start itself, and
+  // `marks_` of the column must include them. A large box counts as starting everywhere and wants
+  // all axes of the other box, which exactly one entry of a box has.
   void gather(std::span<const Aabb> boxes) {
     const std::size_t count = large_.size() + entries_.size();
     arrays_.gather(executor_, boxes, count, [&](std::size_t i) {
@@ -224,11 +235,11 @@ class UniformGrid final : public BroadPhase {
                    });
   }
 
-  // The large boxes that are to meet those of the columns before `last`.
+  // The large boxes to test against the columns before `last`.
   IndexRange large_rows(std::size_t last) const { return {0, std::min(large_.size(), last)}; }
 
-  // Calls visit(rows, cell, axis) for each cell of the entries of [first, last): they are to meet
-  // those behind them in their cell, by a sweep along the axis if there is one.
+  // Calls visit(rows, cell, axis) for each cell with entries in [first, last): each row meets those
+  // after it in the cell, by a sweep along `axis` unless that is no_axis.
   template <class Visit>
   void visit_cells(std::size_t first, std::size_t last, const Visit& visit) const {
     const auto places = [&](std::size_t from, std::size_t to) {
@@ -261,9 +272,9 @@ class UniformGrid final : public BroadPhase {
   Executor& executor_;
   std::vector<std::uint32_t> ids_;
   CellSpace space_;
-  std::array<int, 3> shift_{};  // of each axis' cell number in Entry::cell
+  std::array<int, 3> shift_{};  // first bit of each axis's cell number in Entry::cell
   std::vector<Begin> begins_;
-  std::vector<Entry> entries_;  // in the order of the cells
+  std::vector<Entry> entries_;  // sorted by cell
   std::vector<std::uint32_t> large_;
   RadixSort<Entry> radix_sort_;
   std::vector<Crowd> crowds_;

@@ -32,7 +32,7 @@ KdPart KdBodies::start(Executor& executor, std::span<const Aabb> boxes,
       all.sum_of_sizes[axis] += range.sum_of_sizes[axis];
     }
   }
-  // Flat boxes are not to be told apart by a hair on the axis on which they are flat.
+  // A floor on the length keeps rounding from deciding on an axis on which the boxes are flat.
   const double least = 1e-3 * std::ranges::max(all.sum_of_sizes);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     weight_[axis] = least > 0 ? 1 / std::max(all.sum_of_sizes[axis], least) : 1;
@@ -46,8 +46,8 @@ std::size_t KdBodies::longest(const KdRange& range) const {
   return static_cast<std::size_t>(std::ranges::max_element(length) - length.begin());
 }
 
-// Puts those to the front for which the condition holds, and says where they end. Without a branch:
-// it would be guessed wrong half the time.
+// Moves the bodies for which the condition holds to the front and returns their end. It has no
+// branch, because that would be mispredicted half the time.
 template <class Condition>
 std::uint32_t KdBodies::divide(std::uint32_t first, std::uint32_t last, const Condition& holds) {
   std::uint32_t end = first;
@@ -60,8 +60,8 @@ std::uint32_t KdBodies::divide(std::uint32_t first, std::uint32_t last, const Co
   return end;
 }
 
-// Puts those to the front that are larger on the axis than the limit, unless they are many, and
-// says where they end.
+// Moves the bodies larger than the limit on the axis to the front, unless they are many, and
+// returns their end.
 std::uint32_t KdBodies::keep(std::uint32_t first, std::uint32_t last, std::size_t axis,
                              double limit, KdRange& range) {
   if (range.size[axis] <= limit) return first;
@@ -73,7 +73,7 @@ std::uint32_t KdBodies::keep(std::uint32_t first, std::uint32_t last, std::size_
     count += large ? 1 : 0;
     greatest = std::max(greatest, large ? 0 : size);
   }
-  // They are tested against each other, which is to cost no more than the rest.
+  // They are tested against each other, which must not cost more than the rest.
   const double all = last - first;
   if (count > std::min(all / 8, 16 * std::sqrt(all))) return first;
   range.size[axis] = greatest;

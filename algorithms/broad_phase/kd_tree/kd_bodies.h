@@ -1,10 +1,10 @@
-// Bodies in the order of a kd-tree's nodes, and how those of a node are split.
+// Part of kd-tree: the bodies in the order of the nodes, and the split of a node.
 // Paper:   Serpa, Rodrigues, "Flexible Use of Temporal and Spatial Reasoning for Fast and Scalable
 //          CPU Broad-Phase Collision Detection Using KD-Trees", Computer Graphics Forum 2019.
-// Departs: bodies are split by their centres, and only those stay at a node that are large for it.
-//          The plane is the cell's middle, on the axis where it is longest for the mean size of a
-//          body; the tight cell's middle where that is far from halving the bodies, and their
-//          median where that is too.
+// Departs: bodies are split by their centres, and only those that are large for a node stay at it.
+//          The plane is the middle of the cell, on its longest axis relative to the bodies' mean
+//          size. If that is far from halving the bodies, it is the middle of their tight cell; if
+//          that is too, their median.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct alignas(16) KdBody {
   float size(std::size_t axis) const { return max[axis] - min[axis]; }
 };
 
-// Where the centres of some bodies lie, and their greatest sizes; both may be too large.
+// Bounds of the centres of some bodies, and of their sizes; both may be too large.
 struct KdRange {
   static constexpr float inf = std::numeric_limits<float>::infinity();
   std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf}, size{};
@@ -46,27 +46,26 @@ struct KdRange {
   double extent(std::size_t axis) const { return double{high[axis]} - low[axis]; }
 };
 
-// Bodies that are yet to be split, by their places.
+// A range of bodies that are yet to be split, by their places.
 struct KdPart {
   std::uint32_t first = 0, last = 0;
   KdRange range;
 };
 
-// The node's own come first, then those of the children.
+// A split node: its own bodies come first, then those of the children.
 struct KdSplit {
   std::uint32_t own_end = 0;
-  std::array<KdPart, 2> children;  // empty ones of a leaf
+  std::array<KdPart, 2> children;  // empty in a leaf
   bool is_leaf() const { return children[1].last == 0; }
 };
 
 class KdBodies {
  public:
-  // Takes the boxes of these bodies; all of them as one part.
+  // Takes the boxes of these bodies and returns them as one part.
   KdPart start(Executor& executor, std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
-  // Puts the bodies of a part into the order of its halves. Parts that have no body in common may
-  // be split at the same time.
+  // Sorts the bodies of a part into its halves. Disjoint parts may be split concurrently.
   KdSplit split(const KdPart& part);
-  // New boxes of the same bodies.
+  // Replaces the boxes of the same bodies.
   void update(Executor& executor, std::span<const Aabb> boxes);
 
   std::size_t size() const { return bodies_.size(); }
@@ -76,7 +75,7 @@ class KdBodies {
  private:
   static constexpr std::size_t block_size = 8192;
   static constexpr std::uint32_t leaf_size = 32;
-  static constexpr std::uint32_t least_members = 4;  // of a node
+  static constexpr std::uint32_t least_members = 4;  // least number of bodies in a node
 
   static KdBody body(std::span<const Aabb> boxes, std::uint32_t id) {
     return {boxes[id].min, id, boxes[id].max};
@@ -88,8 +87,8 @@ class KdBodies {
   std::uint32_t divide(std::uint32_t first, std::uint32_t last, const Condition& holds);
 
   std::vector<KdBody> bodies_;
-  std::vector<KdRange> ranges_;     // of blocks
-  std::array<double, 3> weight_{};  // of an extent on each axis
+  std::vector<KdRange> ranges_;     // one for each block
+  std::array<double, 3> weight_{};  // factor of an extent on each axis
 };
 
 }  // namespace touchstone

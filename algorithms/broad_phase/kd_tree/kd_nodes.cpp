@@ -17,7 +17,7 @@ void extend(Aabb& bounds, const Aabb& box) {
 
 }  // namespace
 
-// Level by level down to the cut, so that all nodes of a level are split at the same time.
+// Splits level by level down to the cut, so that the nodes of a level are split concurrently.
 void KdNodes::build(Executor& executor, std::span<const Aabb> boxes,
                     std::span<const std::uint32_t> ids) {
   const KdPart all = bodies_.start(executor, boxes, ids);
@@ -75,7 +75,7 @@ void KdNodes::update(Executor& executor, std::span<const Aabb> boxes) {
   fit(executor);
 }
 
-// The bodies as a structure of arrays, and the nodes' bounds.
+// Writes the bodies as a structure of arrays, and computes the nodes' bounds.
 void KdNodes::fit(Executor& executor) {
   arrays_.resize(bodies_.size());
   const auto task = [&](std::size_t i, int) {

@@ -1,9 +1,9 @@
-// The nodes of a kd-tree over bodies that lie one behind the other in their order, with the bounds
-// of their bodies. Built and fitted on all threads.
+// Part of kd-tree: the nodes over the ordered bodies, with their bounds. They are built and
+// refitted on all threads.
 // Paper:   Serpa, Rodrigues, "Flexible Use of Temporal and Spatial Reasoning for Fast and Scalable
 //          CPU Broad-Phase Collision Detection Using KD-Trees", Computer Graphics Forum 2019.
-// Departs: each node keeps the bounds of its bodies, see kd_bodies.h for the split. Nodes of at
-//          most 2048 bodies are built with all that is below them by one task.
+// Departs: each node keeps the bounds of its bodies; kd_bodies.h describes the split. One task
+//          builds the whole subtree of a node of at most 2048 bodies.
 #pragma once
 
 #include <cstddef>
@@ -18,41 +18,41 @@
 
 namespace touchstone {
 
-// Its own bodies come first, then those of the left and of the right child.
+// A node: its own bodies come first, then those of the left and of the right child.
 struct KdNode {
   static constexpr std::uint32_t none = 0xffffffff;
 
-  Aabb bounds = Aabb::empty();  // of all of them
+  Aabb bounds = Aabb::empty();  // bounds of all its bodies
   std::uint32_t first = 0, own_end = 0, last = 0;
-  std::uint32_t left = none;  // the right one is the next; none of a leaf
+  std::uint32_t left = none;  // the right child is the next node; none for a leaf
   bool is_leaf() const { return left == none; }
 };
 
-// A node above the cut, or at it: then the whole of what is below it is made by one task.
+// A top node: above the cut, or at it; one task builds the whole subtree of a node at the cut.
 struct KdTop {
-  std::uint32_t parent;  // in the list of these; none of the root
+  std::uint32_t parent;  // index among the top nodes; none for the root
   KdPart part;
   KdSplit split = {};
-  double spread = 0;  // of the leaves below it: the sum of their bounds' sides, metres
+  double spread = 0;  // sum of the sides of the bounds of the leaves below it, metres
 
   bool is_whole() const { return split.is_leaf(); }
 };
 
-// Keeps its memory.
+// The nodes of the tree; they keep their memory.
 class KdNodes {
  public:
-  // Of the boxes of these bodies.
+  // Builds the tree of the boxes of these bodies.
   void build(Executor& executor, std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
-  // New boxes of the same bodies in the same nodes.
+  // Replaces the boxes of the same bodies, in the same nodes.
   void update(Executor& executor, std::span<const Aabb> boxes);
 
-  const AabbSoA& boxes() const { return arrays_; }  // in the order of the tree
+  const AabbSoA& boxes() const { return arrays_; }  // sorted as in the tree
   const KdNode& operator[](std::size_t node) const { return nodes_[node]; }
   std::span<const KdTop> tops() const { return tops_; }  // parents come first
   std::uint32_t node_of_top(std::size_t top) const {
     return base_ + static_cast<std::uint32_t>(top);
   }
-  // Of all leaves.
+  // The sum of the sides of all leaves' bounds, metres.
   double spread() const;
 
   std::size_t held_bytes() const;
@@ -68,10 +68,10 @@ class KdNodes {
 
   KdBodies bodies_;
   AabbSoA arrays_;
-  // Those below a top node begin at half the place of its first body, since there are at least four
-  // bodies a leaf; the top nodes come behind them all.
+  // Nodes below a top node begin at half of the place of its first body, since a leaf has at least
+  // four bodies; the top nodes come after all of these.
   std::vector<KdNode> nodes_;
-  std::uint32_t base_ = 0;  // where the top nodes begin
+  std::uint32_t base_ = 0;  // first of the top nodes
   std::vector<KdTop> tops_;
 };
 

@@ -1,16 +1,28 @@
-// kd-tree whose nodes hold their bodies one behind the other: what of one half reaches into the
-// other is handed down as a list, and the leaves are tested a vector at a time.
+// kd-tree over bodies stored in the order of its nodes: boxes of one half that reach into the other
+// are passed down as a list, and leaves are tested a vector at a time.
 // Paper:   Serpa, Rodrigues, "Flexible Use of Temporal and Spatial Reasoning for Fast and Scalable
 //          CPU Broad-Phase Collision Detection Using KD-Trees", Computer Graphics Forum 2019.
-// Departs: bodies are split by their centres, and each node keeps the bounds of its bodies, so that
-//          only those stay at an inner node that are large for it: with all that straddle the
-//          plane, most of a uniform scene would. See kernels/kd_bodies.h for where the plane is.
-//          While bodies move a little the tree is kept, and made anew when the bounds of its leaves
-//          have grown by a quarter.
+// Steps:   1. Split the bodies by their centres down to leaves of 32; bodies larger than half of a
+//             node's cell stay at the node (kd_bodies.cpp).
+//          2. Compute the bounds of each node from its bodies and its children (kd_nodes.cpp).
+//          3. In an update keep the tree and repeat step 2; start at step 1 when the bounds of the
+//             leaves have grown by a quarter, or bodies come or go.
+//          4. Descend from the root with a list: the bodies of earlier nodes that overlap the
+//             node's bounds.
+//          5. At each node test its own bodies against each other and the list.
+//          6. For each child keep of the list, and of the node's own bodies, what overlaps the
+//             child's bounds. For the right child add what overlaps it from the left child's
+//             subtree.
+//          7. Each node of at most 2048 bodies is a task, which gathers its list along its
+//             ancestors.
+// Departs: bodies are split by their centres and each node has the bounds of its bodies, so only
+//          bodies that are large for a node stay at it; if all that straddle the plane stayed, most
+//          of a uniform scene would. kd_bodies.h says where the plane is. While bodies move a
+//          little the tree is kept.
 // Fails:   long thin boxes in all directions: the bounds of all nodes overlap, and each leaf is
-//          tested against all that comes before it.
-// Cost:    O(n log n) time, O(n log n + k) to be expected for the search; k = pairs that overlap.
-//          About 100 bytes a body.
+//          tested against all bodies before it.
+// Cost:    O(n log n) time, O(n log n + k) expected for the search; k = pairs that overlap. About
+//          100 bytes a body.
 #include <algorithm>
 
 #include "algorithms/broad_phase.h"
@@ -37,7 +49,7 @@ class KdTree final : public BroadPhase {
     if (!change.inserted.empty() || !change.removed.empty()) return build(change.boxes);
     if (change.moved.empty()) return;
     nodes_.update(executor_, change.boxes);
-    // Written so that a NaN, of bounds that overflow, makes a new tree.
+    // The negation makes a NaN, from bounds that overflow, rebuild the tree.
     if (!(nodes_.spread() <= 1.25 * spread_)) build(change.boxes);
   }
 
@@ -63,11 +75,11 @@ class KdTree final : public BroadPhase {
 
  private:
   static constexpr std::uint32_t rows_a_task = 512;
-  // A node of no more is not looked into for those of its bodies that overlap a bound.
+  // A subtree of at most this many bodies is searched as one array, not node by node.
   static constexpr std::uint32_t collected_at_once = 256;
 
-  // To look for the partners of some bodies of a top node's own; of all below it, too, if it is
-  // whole.
+  // The search for partners of `rows`, which are bodies of a top node's own, and of all bodies
+  // below the node if `whole`.
   struct Task {
     std::uint32_t top;
     IndexRange rows;
@@ -94,7 +106,8 @@ class KdTree final : public BroadPhase {
   double spread_ = 0;
 };
 
-// Many bodies of a node's own, that are large or lie in one place, are cut into several tasks.
+// Cuts the own bodies of a node into several tasks if they are many: large ones, or ones in one
+// place.
 void KdTree::list_tasks() {
   tasks_.clear();
   for (std::uint32_t i = 0; i < nodes_.tops().size(); ++i) {
@@ -110,7 +123,7 @@ void KdTree::list_tasks() {
   }
 }
 
-// What comes before a top node in the tree is gone through once more for each of them.
+// Searches for a task. Each task goes through the nodes before its top node again.
 void KdTree::search(const Task& task, Scratch& scratch, PairBuffer& out) const {
   const KdNode& node = nodes_[nodes_.node_of_top(task.top)];
   const std::size_t first = scratch.list.start();
@@ -129,7 +142,7 @@ void KdTree::search(const Task& task, Scratch& scratch, PairBuffer& out) const {
   scratch.list.drop(first);
 }
 
-// The list: all bodies that come before the node's own and could overlap one of them.
+// `list` holds all bodies before the node's own that could overlap one of them.
 void KdTree::search(const KdNode& node, IndexRange list, Scratch& scratch, PairBuffer& out) const {
   pair(node, {node.first, node.own_end}, list, scratch, out);
   if (node.is_leaf()) return;
@@ -163,7 +176,7 @@ void KdTree::take(IndexRange range, const Aabb& bound, Scratch& scratch) const {
   scratch.work.box_tests += static_cast<std::int64_t>(range.last - range.first);
 }
 
-// Of the node's bodies and of all below it.
+// Appends the bodies of the node's subtree that overlap `bound`.
 void KdTree::collect(const KdNode& from, const Aabb& bound, Scratch& scratch) const {
   ++scratch.work.node_visits;
   ++scratch.work.box_tests;
