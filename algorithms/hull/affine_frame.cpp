@@ -1,3 +1,4 @@
+// The affine frame of affine_frame.h, computed in double-double precision.
 #include "algorithms/hull/affine_frame.h"
 
 #include <algorithm>
@@ -7,7 +8,8 @@
 namespace touchstone {
 namespace {
 
-// Thinner than this, relative to the greatest distance between points, is rounding.
+// A set thinner than this, relative to the greatest distance between points, is flat up to
+// rounding.
 constexpr double flat = 0x1p-48;
 
 double largest(const Vec3d& v) { return v.cwiseAbs().maxCoeff(); }
@@ -26,7 +28,7 @@ std::size_t argmax(const std::vector<DoubleDouble3>& v, Measure measure) {
   return best;
 }
 
-// Offsets from the first of the points, scaled to about 1 in two steps, so that nothing overflows.
+// Returns offsets from the first point, scaled to about 1 in two steps, so that nothing overflows.
 std::vector<DoubleDouble3> scaled_offsets(const std::vector<Vec3d>& points) {
   double magnitude = 0;
   for (const Vec3d& p : points) magnitude = std::max(magnitude, largest(p));
@@ -65,7 +67,7 @@ OwnFrame own_frame(const std::vector<Vec3d>& points) {
   frame.offsets = scaled_offsets(points);
   std::vector<DoubleDouble3>& d = frame.offsets;
   const auto length = [](const DoubleDouble3& x) { return x.value().norm(); };
-  // From an extreme point: the one farthest from the first.
+  // The frame's origin is an extreme point: the one farthest from the first.
   const DoubleDouble3 origin = d[argmax(d, length)];
   for (DoubleDouble3& x : d) x = x - origin;
   const DoubleDouble3 u = d[argmax(d, length)];
@@ -104,7 +106,7 @@ OwnFrame own_frame(const std::vector<Vec3d>& points) {
   for (std::size_t i = 0; i < d.size(); ++i) {
     Vec3d& p = frame.points[i];
     p = {ratio(dot(vw, d[i]), volume), ratio(dot(wu, d[i]), volume), ratio(dot(uv, d[i]), volume)};
-    if (volume < 0) std::swap(p.x(), p.y());  // keeps anticlockwise what is anticlockwise
+    if (volume < 0) std::swap(p.x(), p.y());  // keeps anticlockwise loops anticlockwise
   }
   return frame;
 }

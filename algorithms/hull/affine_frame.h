@@ -1,4 +1,5 @@
-// Points in an affine frame of their own, where no set is thin.
+// Part of algorithms/hull, used by convex_hull.cpp alone: points in an affine frame
+// in which no set is thin.
 #pragma once
 
 #include <vector>
@@ -8,18 +9,19 @@
 
 namespace touchstone {
 
-// The points in a frame of their own: affine coordinates along three edges of a tetrahedron that
-// spans them, the longest there is, then the widest, then the thickest. Hulls are the same in every
-// affine frame, and in this one no set is thin, far off, large or small. Computed in twice the
-// precision from exact differences, so that even a sliver's coordinates are good to a double.
+// A frame for the points: affine coordinates along three edges of a tetrahedron that spans them
+// (the longest edge, then the widest triangle, then the thickest tetrahedron). A hull's faces are
+// the same in every affine frame, and in this one no set is thin, distant, large or small. The
+// coordinates are computed in double-double precision from exact differences, so that even a
+// sliver's are accurate to a double.
 struct OwnFrame {
   int dimension = 0;
-  std::vector<DoubleDouble3> offsets;  // of the points from one of them, divided by a power of two
-  std::vector<Vec3d> points;           // own coordinates; beyond `dimension` they are 0
-  double thickness = 1;                // over length
+  std::vector<DoubleDouble3> offsets;  // from one of the points, divided by a power of two
+  std::vector<Vec3d> points;           // affine coordinates; 0 beyond `dimension`
+  double thickness = 1;                // the least thickness over length
 };
 
-// At least one point, all finite.
+// Requires at least one point; all must be finite.
 OwnFrame own_frame(const std::vector<Vec3d>& points);
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// Runs Qhull in the points' affine frame and checks its faces before it accepts them.
 #include "algorithms/hull/convex_hull.h"
 
 #include <fmt/core.h>
@@ -21,7 +22,7 @@ namespace {
 
 using Loop = std::vector<std::uint32_t>;
 
-// How far a merged face may miss a point, in the points' own frame.
+// The distance by which a merged face may miss a point, in affine coordinates.
 constexpr double face_tolerance = 1e-10;
 
 // --- Qhull --------------------------------------------------------------------------------------
@@ -32,12 +33,12 @@ void for_each(const setT* set, Visit visit) {
   for (const setelemT* e = set->e; e->p != nullptr; ++e) visit(static_cast<const T*>(e->p));
 }
 
-// One run of Qhull's reentrant library. Its errors jump back to within qh_new_qhull and come out as
-// a status; what is called later here cannot fail.
+// One run of Qhull's reentrant library. Its errors jump back into qh_new_qhull and become a status.
+// The functions that are called afterwards cannot fail.
 class QhullRun {
  public:
   QhullRun(std::vector<Vec3d>& points, double merge_distance) {
-    std::FILE* messages = open_memstream(&text_, &text_size_);  // they must go somewhere
+    std::FILE* messages = open_memstream(&text_, &text_size_);  // Qhull requires a file
     if (messages == nullptr) return;
     std::string options = "qhull Pp";
     if (merge_distance > 0) options += fmt::format(" C-{}", merge_distance);
@@ -62,8 +63,8 @@ class QhullRun {
 
   bool ok() const { return messages_ != nullptr && status_ == 0; }
 
-  // The directed edges of each facet are chained, whatever Qhull's orientation; empty where they do
-  // not make one loop each.
+  // Chains the directed edges of each facet, independent of Qhull's orientation. Returns an empty
+  // list if the edges of a facet do not form one loop.
   std::vector<Loop> loops() const {
     std::vector<Loop> result;
     for (const facetT* f = qh_.facet_list; f != nullptr && f->next != nullptr; f = f->next) {
@@ -113,7 +114,7 @@ class QhullRun {
 
 // --- faces from loops ---------------------------------------------------------------------------
 
-// Twice the vector area (Newell); `p` gives a vertex's position.
+// Twice the vector area (Newell). `p` holds the vertices' positions.
 Vec3d area_vector(const Loop& loop, const std::vector<Vec3d>& p) {
   Vec3d sum = Vec3d::Zero();
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
@@ -129,7 +130,7 @@ Vec3d area_vector(const Loop& loop, const std::vector<DoubleDouble3>& p) {
   return sum.value();
 }
 
-// A vertex of two faces only lies on an edge that merging made straight.
+// Removes vertices of only two faces: they lie on an edge that merging made straight.
 void drop_straight_vertices(std::vector<Loop>& loops, std::size_t vertices) {
   std::vector<int> faces(vertices, 0);
   for (const Loop& loop : loops) {
@@ -138,7 +139,8 @@ void drop_straight_vertices(std::vector<Loop>& loops, std::size_t vertices) {
   for (Loop& loop : loops) std::erase_if(loop, [&](std::uint32_t v) { return faces[v] == 2; });
 }
 
-// Turns the loops anticlockwise; false unless each is convex and has every point behind it.
+// Orients the loops anticlockwise. Returns false unless each loop is convex and has every point
+// behind it.
 bool orient(std::vector<Loop>& loops, const std::vector<Vec3d>& p, double tolerance) {
   Vec3d centre = Vec3d::Zero();
   for (const Vec3d& x : p) centre += x / static_cast<double>(p.size());
@@ -167,8 +169,8 @@ bool orient(std::vector<Loop>& loops, const std::vector<Vec3d>& p, double tolera
   return true;
 }
 
-// The edges between the loops; empty unless each is in two loops, once each way, and Euler's
-// formula holds.
+// Returns the edges between the loops, or none unless each edge is in two loops, once in each
+// direction, and Euler's formula holds.
 std::vector<Hull::Edge> edges_between(const std::vector<Loop>& loops) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> left;
   std::vector<std::uint32_t> used;
@@ -191,9 +193,9 @@ std::vector<Hull::Edge> edges_between(const std::vector<Loop>& loops) {
   return edges;
 }
 
-// Adds faces, edges and neighbours to a solid; leaves it without where Qhull or the check fails.
+// Adds faces, edges and neighbours to a solid hull. Leaves them empty if Qhull or the check fails.
 void add_faces(Hull& hull, OwnFrame& frame) {
-  // What rounding of the given coordinates may have moved the points off their plane.
+  // The distance by which rounding of the given coordinates may move points off their plane.
   const double rounding =
       std::min(4 * std::numeric_limits<double>::epsilon() / frame.thickness, 1e-4);
   std::vector<Loop> loops;
@@ -226,7 +228,7 @@ void add_faces(Hull& hull, OwnFrame& frame) {
 
 // --- reduction ----------------------------------------------------------------------------------
 
-// The indices of the corners of a flat set's hull (monotone chain: Andrew, Information Processing
+// Indices of the corners of a flat set's hull (monotone chain: Andrew, Information Processing
 // Letters 9, 1979).
 std::vector<std::uint32_t> flat_corners(const std::vector<Vec3d>& p) {
   std::vector<std::uint32_t> order(p.size());
@@ -247,13 +249,13 @@ std::vector<std::uint32_t> flat_corners(const std::vector<Vec3d>& p) {
       }
       corners.push_back(i);
     }
-    corners.pop_back();  // the other chain's first
+    corners.pop_back();  // it is the first point of the other chain
     std::reverse(order.begin(), order.end());
   }
   return corners;
 }
 
-// The indices of the points to keep, ascending.
+// Indices of the points to keep, ascending.
 std::vector<std::uint32_t> corners_of(const Hull& hull, const OwnFrame& frame) {
   std::vector<std::uint32_t> kept;
   if (hull.dimension == 0) {
@@ -269,7 +271,7 @@ std::vector<std::uint32_t> corners_of(const Hull& hull, const OwnFrame& frame) {
     for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) {
       if (!hull.neighbours[v].empty()) kept.push_back(v);
     }
-  } else {  // not known which: all but the repeated
+  } else {  // the extreme points are unknown: keeps all distinct points
     std::map<std::array<double, 3>, std::uint32_t> first;
     for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) {
       const Vec3d& p = hull.vertices[v];

@@ -1,4 +1,5 @@
-// Convex hulls with their faces, edges and neighbours, computed by Qhull.
+// Convex hulls with their faces, edges and neighbours, computed by Qhull. Used by whatever makes a
+// hull shape: scenes, case files, tests.
 #pragma once
 
 #include <memory>
@@ -8,16 +9,16 @@
 
 namespace touchstone {
 
-// The hull of at least one finite point (metres); the points are kept, in order and literally, as
-// its vertices, whether extreme or not (repeated and interior points belong to no face, edge or
-// neighbour list). A point, a segment and a flat set give dimension 0, 1, 2 and no faces; what is
-// thinner than 2^-48 of its length is rounding, and counts as flat. Where Qhull gives up on a set
-// that is solid (slivers), or what it gives does not pass a check, dimension is 3 and the faces are
-// empty: algorithms that need them then say `degenerate`.
+// Returns the hull of at least one finite point (metres). The points are its vertices, in order and
+// literally, extreme or not; repeated and interior points belong to no face, edge or neighbour
+// list. A point, a segment and a flat set have dimension 0, 1 and 2 and no faces; a set thinner
+// than 2^-48 of its length counts as flat. If Qhull fails on a solid set (slivers), or its result
+// does not pass a check, dimension is 3 and the faces are empty; algorithms that need faces then
+// report `degenerate`.
 std::shared_ptr<const Hull> make_hull(std::vector<Vec3d> points);
 
-// The same without the points that are no vertices of the hull: what a mesh is reduced to. Never
-// empty.
+// Like make_hull, but drops the points that are not vertices of the hull, for the reduction of
+// meshes. The result is never empty.
 std::shared_ptr<const Hull> make_reduced_hull(const std::vector<Vec3d>& points);
 
 }  // namespace touchstone

@@ -1,15 +1,26 @@
-// Minkowski portal refinement: a ray from inside the Minkowski difference C = A - B to the origin;
-// a triangle of support points that it passes through is pushed outward until the origin is inside,
-// or a plane has it outside.
+// Minkowski portal refinement (MPR, XenoCollide): casts a ray from inside the Minkowski difference
+// C = A - B to the origin and pushes the triangle of support points that it passes through outward,
+// until the origin is inside or a plane separates it.
 // Paper:   Snethen, "XenoCollide: Complex Collision Made Simple", Game Programming Gems 7, 2008.
-// Departs: for a depth the ray is cast again from the origin along the portal's normal until that
-//          stays, which lowers the bound each time. How portals are found: portal_search.h.
-// Answers: the depth is that along the normal of the last portal, so moving b by it separates: an
-//          upper bound of the penetration depth, not in general the least. `lower` is certified,
-//          `upper` is 0. For a half-space the exact depth (kernels/halfspace.h).
-// Fails:   says not_converged at the cap, and where rounding hides on which side of C the origin
-//          is; flat and very thin differences end there sooner (plates of 1:1e8 at gaps of 1e-6).
-// Cost:    a support call an iteration; few iterations for polytopes, and a hundred or more for the
+// Steps:   1. `bind` makes a support shape of each shape; `solve` prefetches the shapes of later
+//             pairs.
+//          2. A half-space takes one support point (kernels/minkowski/halfspace).
+//          3. Otherwise find a portal for the ray from the centres' difference to the origin
+//             (kernels/mpr/portal_search).
+//          4. Push the portal outward until a plane separates or the origin is enclosed.
+//          5. For a depth, push the portal to the surface of C.
+//          6. Cast a ray from the origin along the portal's normal, and repeat until the depth no
+//             longer falls.
+//          7. Write the depth along the last normal and the witness points where the ray passes the
+//             portal.
+// Departs: for a depth the ray is cast again from the origin along the portal's normal until the
+//          normal stays, which lowers the bound each time.
+// Answers: the depth is that along the normal of the last portal. Moving b by it separates, so it
+//          is an upper bound on the penetration depth and in general not the least. `lower` is
+//          certified; `upper` is 0. For a half-space the depth is exact.
+// Fails:   reports not_converged at the cap, and if rounding hides on which side of C the origin
+//          is. Flat and very thin differences end there sooner (plates of 1:1e8 at gaps of 1e-6).
+// Cost:    one support call per iteration; few iterations for polytopes, a hundred or more for the
 //          depth of curved shapes.
 #include <algorithm>
 
@@ -21,7 +32,7 @@
 namespace touchstone {
 namespace {
 
-// One query on two bounded bodies.
+// Solves one query on two bounded bodies.
 template <class Scalar>
 void solve_pair(SupportPair<Scalar>& pair, int max_iterations, Scalar tolerance, Task task,
                 Outcome& outcome) {
@@ -86,7 +97,7 @@ class Mpr final : public NarrowPhase {
   static constexpr double default_tolerance = 1e-10;
 
   int max_iterations_;
-  Scalar tolerance_;  // in units of the pair
+  Scalar tolerance_;  // in the pair's unit
   std::vector<SupportShape<Scalar>> shapes_;
   ShapePrefetch<Scalar> ahead_;
 };

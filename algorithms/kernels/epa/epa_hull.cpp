@@ -1,3 +1,4 @@
+// The surface of EPA: horizon, cone and the nearest face.
 #include "algorithms/kernels/epa/epa_hull.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 
 using face_planes::faces_a_word;
 
-// The origin is beyond a plane with such a distance.
+// The origin is outside a plane that is nearer to it than this.
 template <class Scalar>
 constexpr Scalar outside = -2 * SupportPair<Scalar>::rounding;
 
@@ -46,7 +47,7 @@ bool EpaHull<Scalar>::start(const std::array<DifferencePoint<Scalar>, 4>& corner
   unused_.clear();
   std::ranges::copy(corners, vertices_.begin());
   vertex_count_ = first_fresh_ = 4;
-  // The cone from corner 2 over the face opposite, which comes last.
+  // The cone from corner 2 over the opposite face, which comes last.
   static constexpr Edge edges[4][4] = {{{0, 14}, {1, 6}, {2, 9}},
                                        {{1, 13}, {3, 10}, {2, 1}},
                                        {{3, 12}, {0, 2}, {2, 5}},
@@ -125,8 +126,8 @@ bool EpaHull<Scalar>::add(const DifferencePoint<Scalar>& point, int face, Scalar
   return true;
 }
 
-// The edges where the point sees no further, in turn. True where they form one ring, which meets
-// no vertex twice.
+// Collects the horizon's edges in order. Returns true if they form one ring that visits no vertex
+// twice.
 template <class Scalar>
 bool EpaHull<Scalar>::find_horizon() {
   int faces = 0;
@@ -139,7 +140,7 @@ bool EpaHull<Scalar>::find_horizon() {
       const int face = static_cast<int>(i * faces_a_word) + std::countr_zero(left);
       places_[faces++] = face;
       for (int edge = 4 * face; edge < 4 * face + 3; ++edge) {
-        // Without a branch, as there is no telling.
+        // The loop has no branch, since the outcome is unpredictable.
         const auto [tail, twin] = edges_[edge];
         const bool on_horizon = !is_visible(face_of(twin));
         const int to = on_horizon ? tail : elsewhere;
@@ -164,7 +165,7 @@ bool EpaHull<Scalar>::find_horizon() {
   return at == first && !early;
 }
 
-// Leaves in `visible_` what is connected with the face.
+// Keeps in `visible_` only the faces connected with `face`.
 template <class Scalar>
 void EpaHull<Scalar>::keep_connected(int face) {
   std::ranges::fill(reached_, 0);
@@ -184,8 +185,8 @@ void EpaHull<Scalar>::keep_connected(int face) {
   visible_.swap(reached_);
 }
 
-// The planes of the cone over the horizon. False where one does not exist or has the origin
-// outside.
+// Computes the planes of the cone over the horizon. Returns false if one does not exist or has the
+// origin outside.
 template <class Scalar>
 bool EpaHull<Scalar>::find_planes(const Vec3<Scalar>& tip, Scalar furthest) {
   const auto size = static_cast<std::size_t>(ring_size_);
@@ -193,8 +194,8 @@ bool EpaHull<Scalar>::find_planes(const Vec3<Scalar>& tip, Scalar furthest) {
   return face_planes::planes_through(cone, outside<Scalar>, furthest, planes_);
 }
 
-// Puts faces without an area in the plane behind. False where one has the origin outside, or the
-// tip is on the horizon.
+// Gives a face without area the plane of the face behind it. Returns false if a plane has the
+// origin outside, or if the tip is on the horizon.
 template <class Scalar>
 bool EpaHull<Scalar>::mend_planes(const Vec3<Scalar>& tip) {
   for (int i = 0; i < ring_size_; ++i) {
@@ -213,7 +214,7 @@ bool EpaHull<Scalar>::mend_planes(const Vec3<Scalar>& tip) {
   return true;
 }
 
-// For the faces of the cone: first those of the faces that go.
+// Assigns places to the faces of the cone: first those of the removed faces.
 template <class Scalar>
 void EpaHull<Scalar>::choose_places() {
   for (int i = ring_size_; i < visible_count_; ++i) {

@@ -1,11 +1,22 @@
-// The surface of a convex polytope that has the origin inside, while points are added to it.
-//
-// Its faces are triangles. A point takes the place of the faces that it sees with the cone over
-// their horizon.
+// The hull of EPA: a convex polytope of triangles around the origin, to which points are added.
+// Used by expanding_polytope.h alone.
 // Paper:   Barber, Dobkin, Huhdanpaa, "The quickhull algorithm for convex hulls", ACM TOMS 22(4),
-// 1996 (horizon, cone). Departs: the visible faces are found among all faces and not by a walk from
-// one of them; the horizon is checked to be one closed ring, and all planes of the cone are known,
-// before anything is changed. A face without an area lies in its neighbour's plane.
+//          1996 (horizon, cone).
+// Steps:   1. Start with a tetrahedron (`start`).
+//          2. To add a point, find the faces that it sees: those whose plane is below it
+//             (face_planes).
+//          3. Collect the edges between visible and other faces, the horizon, and check that they
+//             form one closed ring (`find_horizon`). If not, keep only the visible faces connected
+//             with the given face and try again.
+//          4. Compute the planes of all triangles from the point to the ring, the cone
+//             (`find_planes`). A triangle without area takes the plane of its neighbour
+//             (`mend_planes`).
+//          5. If the horizon and all planes are valid, write the cone into the places of the
+//             visible faces.
+//          6. For the nearest face, take the least plane distance; replace it by the triangle's own
+//             distance and search again until the least is a triangle's (`nearest_face`).
+// Departs: visible faces are found among all faces instead of by a walk from one of them. Nothing
+//          changes before the horizon and all planes of the cone are known to be valid.
 #pragma once
 
 #include <array>
@@ -22,30 +33,30 @@ namespace touchstone {
 template <class Scalar>
 class EpaHull {
  public:
-  // Memory for that many vertices is taken here, and none later on.
+  // Allocates memory for `most_vertices` vertices; nothing is allocated later.
   explicit EpaHull(std::size_t most_vertices);
 
-  // Begins with a tetrahedron that has the origin inside or, up to rounding, on it. False where a
-  // face has no plane or the origin is outside of it.
+  // Starts with a tetrahedron that contains the origin, possibly on its surface up to rounding.
+  // Returns false if a face has no plane or the origin is outside it.
   bool start(const std::array<DifferencePoint<Scalar>, 4>& corners);
 
   struct Nearest {
-    int face = -1;                                              // -1: all were set aside
-    Scalar distance = std::numeric_limits<Scalar>::infinity();  // no more than the triangle's
+    int face = -1;                                              // -1: all faces are set aside
+    Scalar distance = std::numeric_limits<Scalar>::infinity();  // at most the triangle's
   };
-  // The face that is nearest to the origin. Planes are never further than their triangles, so they
-  // serve until one comes up.
+  // Returns the face nearest to the origin. A plane is never farther than its triangle, so the
+  // triangle's distance is computed only for faces that reach the front.
   Nearest nearest_face();
   void set_aside(int face) { key(face) = std::numeric_limits<Scalar>::infinity(); }
 
-  // Adds a point that the face sees; new faces further from the origin than `furthest` are set
-  // aside. False, and nothing changed, where rounding leaves no proper horizon or cone.
+  // Adds a point that the face sees. New faces farther from the origin than `furthest` are set
+  // aside. Returns false and changes nothing if rounding leaves no proper horizon or cone.
   bool add(const DifferencePoint<Scalar>& point, int face, Scalar furthest);
 
   Vec3<Scalar> normal(int face) const { return block(face).normal(lane_of(face)); }
-  // Of the face's plane from the origin.
+  // Distance of the face's plane from the origin.
   Scalar distance(int face) const { return block(face).distance[lane_of(face)]; }
-  // Anticlockwise seen from outside.
+  // Vertices, anticlockwise seen from outside.
   std::array<int, 3> corners(int face) const {
     return {edges_[4 * face].tail, edges_[4 * face + 1].tail, edges_[4 * face + 2].tail};
   }
@@ -54,7 +65,7 @@ class EpaHull {
     return {vertices_[corners[0]].difference, vertices_[corners[1]].difference,
             vertices_[corners[2]].difference};
   }
-  // Calls visit(face) for each face until it returns false; false then.
+  // Calls visit(face) for each face until it returns false, and then returns false.
   template <class Visit>
   bool all_faces(const Visit& visit) const {
     for (int f = 0; f < first_fresh_; ++f) {
@@ -65,10 +76,10 @@ class EpaHull {
 
  private:
   using Block = face_planes::Block<Scalar>;
-  // Edge k of face f, from its corner k to the next, is number 4 f + k.
+  // Edge k of face f leads from its corner k to the next corner and has the index 4 f + k.
   struct Edge {
     int tail;  // the corner
-    int twin;  // the edge of the neighbour, which goes back
+    int twin;  // the reverse edge, of the neighbour
   };
 
   static std::size_t block_of(int face) { return static_cast<unsigned>(face) / Block::size; }
@@ -97,12 +108,12 @@ class EpaHull {
   int vertex_count_ = 0;
   std::vector<Block> blocks_;
   std::vector<Edge> edges_;
-  int first_fresh_ = 0;      // this face and those behind it were never used
-  std::vector<int> unused_;  // faces before it
-  // Of the point that is being added: bits of the faces that it sees, and where the cone's faces
-  // go, first in their places; for each vertex on the horizon where the edge leads that begins
-  // there, and its twin, of a face that stays; the vertices in turn, the first of them also last;
-  // the cone's planes.
+  int first_fresh_ = 0;      // this face and all later ones were never used
+  std::vector<int> unused_;  // free faces before first_fresh_
+  // Scratch memory for the point that is being added. visible_: bits of the faces that it sees.
+  // places_: where the faces of the cone are stored. head_, beyond_: for each vertex on the
+  // horizon, the end of the edge that begins there, and its twin in a face that stays. ring_: the
+  // horizon's vertices in order, with the first repeated at the end.
   std::vector<std::uint64_t> visible_, reached_;
   std::vector<int> places_, head_, beyond_, ring_;
   int visible_count_ = 0;

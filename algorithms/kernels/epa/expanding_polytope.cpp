@@ -1,3 +1,4 @@
+// The loop of EPA, its start and its witness points.
 #include "algorithms/kernels/epa/expanding_polytope.h"
 
 #include <algorithm>
@@ -37,8 +38,8 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
     return result;
   }
 
-  std::array<int, 3> best{};  // the corners of the last face to lower the upper bound
-  Scalar held = infinity;     // the nearest of the faces that cannot be expanded
+  std::array<int, 3> best{};  // corners of the last face that lowered the upper bound
+  Scalar held = infinity;     // the nearest face that cannot be expanded
   result.end = ExpansionEnd::cap;
   for (int iteration = 1; iteration <= max_iterations_; ++iteration) {
     const auto [nearest, distance] = surface_.nearest_face();
@@ -56,7 +57,7 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
     const Vec3<Scalar> normal = surface_.normal(nearest);
     const DifferencePoint<Scalar> point = pair.support(normal);
     const Scalar height = normal.dot(point.difference);
-    // So written that NaN ends the loop.
+    // This form of the comparison ends the loop for NaN.
     const bool met = !(height - std::min(distance, surface_.distance(nearest)) > goal.tolerance);
     if (met || height < result.upper) {
       result.upper = height;
@@ -89,8 +90,9 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
   return result;
 }
 
-// Adds support points that are off the simplex until it is a tetrahedron. The origin, which is on
-// the simplex, is then on its surface. False where the difference has no volume.
+// Adds support points away from the simplex until it is a tetrahedron. The origin lies on the
+// simplex, and therefore on the tetrahedron's surface. Returns false if the difference has no
+// volume.
 template <class Scalar>
 bool ExpandingPolytope<Scalar>::grow_to_tetrahedron(SupportPair<Scalar>& pair,
                                                     Simplex<Scalar>& simplex,
@@ -102,7 +104,7 @@ bool ExpandingPolytope<Scalar>::grow_to_tetrahedron(SupportPair<Scalar>& pair,
   }
   while (simplex.size < 4) {
     const Vec3<Scalar>& base = simplex.points[0].difference;
-    // Directions that leave the simplex.
+    // Directions that leave the simplex's affine hull.
     std::array<Vec3<Scalar>, 6> directions;
     int count = 0;
     Vec3<Scalar> edge = Vec3<Scalar>::Zero();
@@ -152,7 +154,7 @@ bool ExpandingPolytope<Scalar>::grow_to_tetrahedron(SupportPair<Scalar>& pair,
   return true;
 }
 
-// True where the origin is on the inner side of every face, beyond doubt.
+// Returns true if the origin is on the inner side of every face by more than rounding.
 template <class Scalar>
 bool ExpandingPolytope<Scalar>::encloses_origin() const {
   return surface_.all_faces([&](int face) {
@@ -164,8 +166,8 @@ bool ExpandingPolytope<Scalar>::encloses_origin() const {
   });
 }
 
-// The origin's projection on the face of the upper bound; of several faces in that plane, the one
-// that it falls on.
+// Projects the origin on the face of the upper bound. If several faces lie in its plane, the one
+// that contains the projection is used.
 template <class Scalar>
 void ExpandingPolytope<Scalar>::find_witnesses(const std::array<int, 3>& best,
                                                Expansion<Scalar>& result) const {

@@ -1,13 +1,28 @@
-// EPA: grow a polytope inside the difference of two bodies, at the face nearest to the origin.
+// EPA: a polytope inside the difference of two bodies grows at the face nearest to the origin. Used
+// by gjk, gjk-templated and gjk-lanes (through gjk_query) and by clipped-faces.
 //
-// The polytope's vertices are points of the difference, so the origin's distance from its nearest
-// face is a lower bound on the depth; a support call along any unit vector gives an upper bound. It
-// ends where they meet.
+// The polytope's vertices are points of the difference, so the origin's distance from the nearest
+// face is a lower bound on the depth. A support point along any unit vector gives an upper bound.
+// The search ends when the bounds meet.
 // Paper:   van den Bergen, "Proximity queries and penetration depth computation on 3D game
-// objects", GDC 2001. Departs: both bounds are kept, and the upper one is the answer: that
-// translation does separate. A face that cannot be expanded is set aside and holds the lower bound
-// down. The start is a tetrahedron that may have the origin on its surface. The surface is kept by
-// polytope_surface.h.
+//          objects", GDC 2001.
+// Steps:   1. Grow the given simplex to a tetrahedron with support points away from it
+//             (`grow_to_tetrahedron`). If there are none, the difference is flat and the depth is
+//             zero.
+//          2. Choose the face nearest to the origin; its distance raises the lower bound
+//             (epa_hull).
+//          3. Find the support point along its normal; its height is an upper bound, and the least
+//             one is the answer.
+//          4. If the height is negative, a plane separates the bodies: stop.
+//          5. If the bounds meet to the tolerance, or both lie on one side of goal.enough, stop.
+//          6. Otherwise add the point to the hull. If rounding prevents that, set the face aside;
+//             it limits the lower bound from then on. Repeat from step 2.
+//          7. If the origin may be outside (goal.doubtful), check it against every face
+//             (`encloses_origin`).
+//          8. Project the origin on the face of the answer; its weights give the witness points
+//             (origin_projection).
+// Departs: both bounds are kept, and the answer is the upper one, because that translation does
+//          separate. The first tetrahedron may have the origin on its surface.
 #pragma once
 
 #include <array>
@@ -18,24 +33,24 @@
 
 namespace touchstone {
 
-// Where to stop, for the depth of the cores; lengths in the pair's unit.
+// Termination criteria for the depth of the cores; lengths in the pair's unit.
 template <class Scalar>
 struct ExpansionGoal {
-  Scalar tolerance;  // the bounds are this close
-  // The lower bound exceeds `enough`, or the upper bound is no greater: for queries that only ask
-  // for a verdict. Negative: go on to the tolerance.
+  Scalar tolerance;  // stop when the bounds are this close
+  // Stops when the lower bound exceeds `enough` or the upper bound does not: for queries that need
+  // only a verdict. Negative: continue to the tolerance.
   Scalar enough = -1;
-  // The origin may prove to be outside: then a plane between is looked for, and a positive depth is
-  // only claimed after all faces were checked.
+  // The origin may lie outside. Then a separating plane ends the search, and a positive depth is
+  // claimed only after all faces are checked.
   bool doubtful = false;
 };
 
 enum class ExpansionEnd : std::uint8_t {
   converged,  // the bounds are within the tolerance
-  enough,     // they are on one side of goal.enough
+  enough,     // both bounds are on one side of goal.enough
   apart,      // a plane separates the origin from the difference: `upper` is negative
   flat,       // the difference has no volume: the depth is zero
-  stuck,      // rounding: no face can be expanded
+  stuck,      // rounding lets no face be expanded
   cap,        // too many iterations
 };
 
@@ -53,10 +68,10 @@ struct Expansion {
 template <class Scalar>
 class ExpandingPolytope {
  public:
-  // `max_iterations` >= 1; memory for that many is taken here, and none in a query.
+  // `max_iterations` >= 1. The constructor allocates memory for that many; a query allocates none.
   explicit ExpandingPolytope(int max_iterations);
 
-  // The simplex has the origin inside or, up to rounding, on it; it may have any size.
+  // The simplex may have any size and contains the origin, possibly on its boundary up to rounding.
   Expansion<Scalar> expand(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex,
                            const ExpansionGoal<Scalar>& goal);
 

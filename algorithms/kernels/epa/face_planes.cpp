@@ -1,3 +1,4 @@
+// Selects the instruction level for the loops in face_planes.inl.
 #include "algorithms/kernels/epa/face_planes.h"
 
 #include <algorithm>
@@ -14,9 +15,9 @@ namespace {
 
 using real_lanes::Quad;
 
-// A plane through corners that rounding r moves tilts by r / h where h is the triangle's least
-// height. So it moves the nearest point, and that point's distance is off by r^2 / h^2: by a
-// sixteenth of rounding where h^2 is this.
+// Rounding r of the corners tilts a plane by r / h, where h is the triangle's least height. The
+// nearest point moves accordingly, and its distance changes by r^2 / h^2. That is a sixteenth of
+// the rounding if h^2 has this value.
 template <class Scalar>
 constexpr Scalar uncertain = 16 * SupportPair<Scalar>::rounding;
 
@@ -53,7 +54,7 @@ void seen_from(std::span<const Block<Scalar>> blocks, const Vec3<Scalar>& point,
 template <class Scalar>
 bool planes_through(const Cone<Scalar>& cone, Scalar inside, Scalar furthest,
                     ConePlanes<Scalar>& planes) {
-  // Rings are short: more than eight lanes would mostly be filled in vain.
+  // Rings are short: with more than eight lanes most would be empty.
   constexpr bool is_wide = avx2::RealLanes<Scalar>::width >= 8;
   const Isa level = isa();
   switch (is_wide && level == Isa::avx512 ? Isa::avx2 : level) {

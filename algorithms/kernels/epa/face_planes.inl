@@ -1,5 +1,5 @@
-// The loops of face_planes.h. Included by face_planes.cpp once for each level of vector
-// instructions, inside that level's namespace; the same at every level.
+// The loops of face_planes.h. face_planes.cpp includes this file once for each level of vector
+// instructions, inside that level's namespace. Results are equal at every level.
 #include "algorithms/kernels/epa/triangle_lanes.inl"
 
 template <class Scalar>
@@ -66,14 +66,14 @@ TOUCHSTONE_TARGET void seen_from_at(std::span<const Block<Scalar>> blocks,
   }
 }
 
-// The differences of a vector of points.
+// Gathers a vector of points' differences.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> differences(
     const DifferencePoint<Scalar>* points, const int* places) {
   using Lanes = RealLanes<Scalar>;
   Quad<Scalar> quads[Lanes::width];
   for (std::size_t k = 0; k < Lanes::width; ++k) {
-    // With a number of what follows in the point.
+    // The fourth number is whatever follows in the point; it is not used.
     std::memcpy(&quads[k], &points[places[k]], sizeof quads[k]);
   }
   typename Lanes::Real columns[4];

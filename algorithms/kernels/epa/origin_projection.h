@@ -1,4 +1,5 @@
-// The origin's projection on a face of a polytope that is made of triangles.
+// The projection of the origin on a polytope's face that consists of triangles. Used by
+// expanding_polytope and gjk-lanes.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 
 namespace touchstone {
 
-// Of several triangles in one plane, the one that the projection falls on, or nearly; where all are
-// flat, the middle of the first.
+// Among triangles in one plane, selects the one that contains the projection or is closest to that.
+// If all are flat it gives the centre of the first.
 template <class Scalar>
 class OriginProjection {
  public:
@@ -32,7 +33,7 @@ class OriginProjection {
 
   bool is_inside() const { return least_ >= 0; }
   const std::array<int, 3>& vertices() const { return vertices_; }
-  // Barycentric, of these vertices; none is negative.
+  // Barycentric weights of these vertices; none is negative.
   std::array<Scalar, 3> weights() const {
     std::array<Scalar, 3> weights;
     Scalar sum = 0;

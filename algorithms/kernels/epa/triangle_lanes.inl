@@ -1,14 +1,14 @@
-// The planes of triangles, one a lane, as triangle_plane of simplex.h finds them: from the corner
-// opposite the longest edge, so that slivers lose no digits. Included by loops over real_lanes.h
-// once for each level of vector instructions; the same at every level.
+// The planes of triangles, one per lane, computed like triangle_plane of simplex.h: from the corner
+// opposite the longest edge, so that slivers lose no digits. Included by face_planes.inl and by
+// gjk-lanes once for each level of vector instructions; results are equal at every level.
 #include "algorithms/kernels/simd/lane_vectors.inl"
 
 template <class Scalar>
 struct TrianglePlanes {
   using Real = typename RealLanes<Scalar>::Real;
-  Vectors<Scalar> normal;  // unit, towards where the corners are seen anticlockwise
-  Real distance;           // from the origin along the normal; NaN where the triangle is flat
-  Real length, squared;    // squares: of the longest edge, and of the height over it times that
+  Vectors<Scalar> normal;  // unit, towards the side from which the corners are anticlockwise
+  Real distance;           // from the origin along the normal; NaN if the triangle is flat
+  Real length, squared;    // squares of the longest edge, and of that times the height over it
 };
 
 template <class Scalar>

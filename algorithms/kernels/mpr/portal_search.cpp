@@ -1,3 +1,4 @@
+// The portal search of portal_search.h.
 #include "algorithms/kernels/mpr/portal_search.h"
 
 #include <algorithm>
@@ -49,13 +50,13 @@ typename PortalSearch<Scalar>::Depth PortalSearch<Scalar>::settle_from_portal() 
 template <class Scalar>
 typename PortalSearch<Scalar>::Depth PortalSearch<Scalar>::settle(Depth from) {
   start_ = {Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero()};
-  // On a curved surface portals are too narrow to go over their edges.
+  // On a curved surface portals are too narrow to turn over their edges.
   const bool flat = pair_.is_polytope() && pair_.radius() == 0;
   Depth least = from;
   Vec3<Scalar> ray = from.normal;
   for (int loop = 0; loop < max_iterations_; ++loop) {
     if (flat && is_portal_of(ray)) {
-      // It is on the surface, and has the foot of its own normal.
+      // The portal is on the surface and contains the projection of the origin on its own plane.
       least.settled = ray == normal_ && depth_ == least.depth;
       if (least.settled) break;
     } else {
@@ -83,7 +84,7 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::cast(const Vec3<Scalar
   return discover(furthest);
 }
 
-// The corners of a flat side are furthest in directions beside its normal.
+// Starts with support points in directions beside the ray: for a flat face they are its corners.
 template <class Scalar>
 typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::cast_along_normal(const Vec3<Scalar>& ray,
                                                                             const Point& furthest) {
@@ -117,8 +118,8 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::discover(const Point& 
   return close();
 }
 
-// Finds the third point, by way of others for the first two: the ray is on the positive side of the
-// plane of start, first and second.
+// Finds the third point and may replace the first two on the way. The ray is on the positive side
+// of the plane through start, first and second.
 template <class Scalar>
 typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::close() {
   auto& [v1, v2, v3] = portal_;
@@ -126,10 +127,10 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::close() {
     ++iterations_;
     const Vec3<Scalar> w1 = from_start(v1), w2 = from_start(v2);
     Vec3<Scalar> normal = w1.cross(w2);
-    // All in line with the start: what of the ray is across them.
+    // All points are in line with the start: the ray's component across that line is used.
     const bool in_line = !(normal.norm() > rounding * w1.norm() * w2.norm());
     if (in_line) normal = ray_;
-    // Almost in line, the product is not across the first any more.
+    // If they are almost in line, the cross product is no longer perpendicular to the first point.
     normal -= normal.dot(w1) / w1.squaredNorm() * w1;
     if (!(normal.squaredNorm() > 0)) return Exit::stuck;
     v3 = support(normal.normalized());
@@ -152,13 +153,13 @@ bool PortalSearch<Scalar>::is_portal_of(const Vec3<Scalar>& ray) {
   return side(v1, v2) >= 0 && side(v2, v3) >= 0 && side(v3, v1) >= 0;
 }
 
-// Makes the portal one for a ray that it was not one for, from the same start.
+// Changes the portal to one of a new ray from the same start that the old one does not contain.
 template <class Scalar>
 typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::turn() {
   auto& [v1, v2, v3] = portal_;
   const Scalar of_12 = side(v1, v2), of_23 = side(v2, v3), of_31 = side(v3, v1);
   const Scalar least = std::min({of_12, of_23, of_31});
-  // The edge that the ray is beyond, the other way round.
+  // The edge that the ray is beyond, reversed.
   if (least == of_12) {
     std::swap(v1, v2);
   } else if (least == of_23) {
@@ -186,12 +187,12 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::refine(Goal goal) {
     const Point v4 = support(normal_);
     if (separated_) return Exit::done;
     depth_ = v4.difference.dot(normal_);
-    // Written so that NaN ends the loop. Before the origin is inside, only the end of the
-    // precision stops the search.
+    // This form of the comparison ends the loop for NaN. Until the origin is inside, only the limit
+    // of precision ends the search.
     const Scalar slack = nearest > rounding ? tolerance_ : rounding / 4;
     if (!(depth_ - nearest > slack)) return Exit::done;
-    // Of the three portals that v4 makes with two of the old corners, the one that the ray passes
-    // most clearly: signs alone are noise where it passes a corner.
+    // The point v4 makes three portals with two old corners each. The search keeps the one that the
+    // ray passes most clearly; signs alone are noise if the ray passes a corner.
     const Scalar of_1 = side(v4, v1), of_2 = side(v4, v2), of_3 = side(v4, v3);
     const Scalar over_12 = std::min(of_1, -of_2), over_23 = std::min(of_2, -of_3),
                  over_31 = std::min(of_3, -of_1);
@@ -201,7 +202,8 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::refine(Goal goal) {
   return Exit::capped;
 }
 
-// The origin is, up to rounding, a mean with weights >= 0 of the start and the portal.
+// Returns true if the origin is, up to rounding, a mean of the start and the portal with
+// non-negative weights.
 template <class Scalar>
 bool PortalSearch<Scalar>::origin_is_inside() const {
   const auto& [v1, v2, v3] = portal_;

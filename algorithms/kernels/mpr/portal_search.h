@@ -1,10 +1,26 @@
-// Where a ray from inside the Minkowski difference C = A - B leaves it: between three support
-// points, its portal, which is pushed outward. What the portal methods share.
+// The portal search of MPR: finds where a ray leaves the Minkowski difference C = A - B. The ray
+// passes through a triangle of support points, its portal, which is pushed outward. Used by mpr and
+// mpr-refined.
 // Paper:   Snethen, "XenoCollide: Complex Collision Made Simple", Game Programming Gems 7, 2008.
-// Departs: any ray, not only one to the origin; where the centres coincide it is along x. A hit is
-// believed only where weights of the four points give the origin up to rounding; a portal that is a
-// sliver does not pass. From one ray to the next a polytope's portal goes over its edges, and is
-// not looked for again.
+// Steps:   1. Choose a start inside C, the difference of the centres, and the ray from it to the
+//             origin (`decide`).
+//          2. Take the support point along the ray and one across it; replace them until a third
+//             closes a portal around the ray (`discover`, `close`).
+//          3. Take the support point along the portal's normal. If the origin is beyond its plane,
+//             the bodies are separated (`refine`).
+//          4. If the origin is inside the portal's plane, stop. Otherwise the point makes three
+//             portals with the old corners: keep the one that the ray passes most clearly, and
+//             repeat step 3.
+//          5. Accept an overlap only if weights of the start and the portal give the origin up to
+//             rounding.
+//          6. For a depth, push the portal to the surface of C; its plane's height is the depth
+//             (`settle_from_portal`).
+//          7. Cast a ray from the origin along that normal, find its portal, and repeat while the
+//             depth falls by the tolerance (`settle`). For polytopes the old portal turns over its
+//             edges to the new ray (`turn`).
+// Departs: the ray may have any direction; if the centres coincide it is the x axis. A portal that
+//          is a sliver does not prove a hit. For polytopes the search of step 2 is not repeated for
+//          each ray.
 #pragma once
 
 #include <array>
@@ -16,8 +32,8 @@
 
 namespace touchstone {
 
-// Of one query on two bounded bodies, with their radii. Lengths are in the pair's unit, directions
-// of unit length.
+// One query on two bounded bodies with their radii. Lengths are in the pair's unit; directions have
+// unit length.
 template <class Scalar>
 class PortalSearch {
  public:
@@ -28,55 +44,56 @@ class PortalSearch {
 
   enum class Exit : std::uint8_t {
     done,
-    straight,  // the ray leaves C in the point that lies furthest along it, thrice in the portal
+    straight,  // the ray leaves C at its point furthest along the ray, which is all three corners
     capped,
-    stuck,  // rounding: a portal without an area
+    stuck,  // the portal has no area because of rounding
   };
-  // A direction, and how far C reaches along it: moving b so far separates.
+  // A direction and the extent of C along it: moving b by `depth` along `normal` separates the
+  // bodies.
   struct Depth {
     Scalar depth = std::numeric_limits<Scalar>::infinity();
     Vec3<Scalar> normal = Vec3<Scalar>::Zero();
-    bool settled = false;  // no direction near it has less, to the tolerance
+    bool settled = false;  // a local minimum, to the tolerance
   };
 
-  // The cap is of each loop. `tolerance`: how far C may reach beyond a portal that is on its
-  // surface, and how much less a depth must be to go on.
+  // The iteration cap applies to each loop. `tolerance` bounds how far C may reach beyond a portal
+  // that counts as on its surface, and is the least decrease of a depth that continues the search.
   PortalSearch(SupportPair<Scalar>& pair, int max_iterations, Scalar tolerance)
       : pair_(pair), max_iterations_(max_iterations), tolerance_(tolerance) {}
 
-  // Writes answer and status. Where they overlap, start and portal have the origin inside, and
-  // normal() and depth() are the portal's, or the ray's where it is straight.
+  // Writes answer and status. If the bodies overlap, the start and the portal enclose the origin,
+  // and normal() and depth() are those of the portal, or of the ray if the exit is `straight`.
   Exit decide(Outcome& outcome);
-  // After decide(): the portal is pushed on to the surface, and then settled.
+  // Pushes the portal of decide() to the surface, then settles as below.
   Depth settle_from_portal();
-  // Casts rays from the origin, each along the normal of the portal before, as long as its depth is
-  // less by the tolerance: to a local minimum of the depth. Begins with the direction of `from` and
-  // a portal whose cone from the origin is anywhere. The depth of `from` may be unknown, infinity.
+  // Casts rays from the origin, each along the normal of the last portal, while the depth falls by
+  // the tolerance: descends to a local minimum of the depth. Starts with the direction of `from`;
+  // the current portal may lie anywhere around the origin. The depth of `from` may be infinity.
   Depth settle(Depth from);
-  // A portal for a ray from the origin, which is inside of C; `furthest` is support(ray).
+  // Finds a portal for a ray from the origin, which must be inside C. `furthest` is support(ray).
   Exit cast(const Vec3<Scalar>& ray, const Point& furthest);
-  // The same for a ray that is about the normal of a portal on the surface.
+  // Like `cast`, for a ray that is approximately the normal of a portal on the surface.
   Exit cast_along_normal(const Vec3<Scalar>& ray, const Point& furthest);
 
-  // The point of C that lies furthest in a direction.
+  // Returns the point of C that is furthest in a direction.
   Point support(const Vec3<Scalar>& direction);
-  // A support plane had all of C beyond it; normal() is then its direction.
+  // True if all of C was beyond a support plane; normal() is then its direction.
   bool separated() const { return separated_; }
 
   const Point& start() const { return start_; }
   const Portal& portal() const { return portal_; }
   void set_portal(const Portal& portal) { portal_ = portal; }
-  // The point where the ray passes the portal, as points of the two bodies.
+  // The point where the ray passes through the portal, as points of the two bodies.
   Point passage() const;
   const Vec3<Scalar>& normal() const { return normal_; }
-  Scalar depth() const { return depth_; }  // along the normal, of C or at least of the portal
+  Scalar depth() const { return depth_; }  // along the normal: of C, or at least of the portal
   int iterations() const { return iterations_; }
 
  private:
   enum class Goal : std::uint8_t { origin, surface };
 
   Vec3<Scalar> from_start(const Point& point) const { return point.difference - start_.difference; }
-  // Positive where the ray passes the plane of start, p and q on its positive side.
+  // Positive if the ray is on the positive side of the plane through start, p and q.
   Scalar side(const Point& p, const Point& q) const {
     return from_start(p).cross(from_start(q)).dot(ray_);
   }

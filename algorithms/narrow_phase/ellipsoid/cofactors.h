@@ -1,4 +1,5 @@
-// A symmetric matrix of three rows by its cofactors.
+// Part of ellipsoid: a symmetric 3x3 matrix by its cofactors, for solving and a bound on its
+// eigenvalues. Includes core only.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,7 @@ namespace touchstone {
 
 template <class Scalar>
 struct Cofactors {
-  Vec3<Scalar> x, y, z;  // its rows are its columns
+  Vec3<Scalar> x, y, z;  // rows, which are equal to the columns
   Scalar determinant;
 
   explicit Cofactors(const Mat3<Scalar>& m)
@@ -22,8 +23,8 @@ struct Cofactors {
   Vec3<Scalar> solve(const Vec3<Scalar>& c) const {
     return Vec3<Scalar>{x.dot(c), y.dot(c), z.dot(c)} / determinant;
   }
-  // No eigenvalue of a matrix of this trace that has none below zero is less, whatever rounding did
-  // to the cofactors.
+  // A lower bound on the eigenvalues of a matrix of this trace that has no negative one; it holds
+  // whatever rounding did to the cofactors.
   Scalar least(Scalar trace) const {
     const Scalar lost = 4 * std::numeric_limits<Scalar>::epsilon() * trace * trace;
     const Scalar norm = std::sqrt(x.squaredNorm() + y.squaredNorm() + z.squaredNorm());

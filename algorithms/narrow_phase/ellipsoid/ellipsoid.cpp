@@ -1,20 +1,33 @@
-// Ellipsoids by their smooth support functions: Newton on the sphere of normals.
+// Ellipsoids by their smooth support functions, with Newton's method on the sphere of normals.
 // Paper:   Perram, Wertheim, J. Computational Physics 58, 1985 (intersect); Lin, Han, "On the
 //          distance between two ellipsoids", SIAM J. Optimization 13(1), 2002 (the problem); Absil,
 //          Mahony, Sepulchre, "Optimization Algorithms on Matrix Manifolds", 2008, ch. 6 (Newton).
-// Departs: the distance is looked for among planes and not among points, so that it is exact to
-//          second order and a bound at every step; the same climb finds depths. A depth is proven
-//          the least by an ellipsoid inside the sum of the bodies, or by branch and bound over the
-//          normals.
+// Steps:   1. Pairs whose bounding balls are apart are separated (not for distance).
+//          2. Write each body as a matrix applied to the unit ball, in the pair's unit
+//             (ellipsoid_pair).
+//          3. intersect: search the weight of Perram and Wertheim's function until a plane
+//             separates or a common point appears (ellipsoid_contact).
+//          4. distance and depth: from the line of centres, ascend to the normal with the greatest
+//             gap between the support planes, by damped Newton steps (newton_ascent).
+//          5. distance: the gap and the support points there enclose it. If the ascent is
+//             undecided, step 3 decides and the ascent starts again at its normal.
+//          6. depth: test whether an ellipsoid inside the bodies' sum proves that overlap to be the
+//             least (ellipsoid_depth).
+//          7. If it does not, search all normals by branch and bound, with an ascent from each
+//             better one.
+//          8. Write the distance with both bounds, the normal and the witness points.
+// Departs: the distance is searched among planes instead of points, so that it is exact to second
+//          order and a bound at every step; the same ascent finds depths. The least depth is proven
+//          by an inner ellipsoid or by branch and bound.
 // Answers: sphere or ellipsoid with ellipsoid: all tasks.
 // Fails:   never answers `touching`; unknown / not_converged within 4e-15 (double) or 2e-6 (float)
-//          of touching, as a part of the pair's size. Bodies without volume, and ones so thin that
-//          the squares of their radii are lost in rounding, where the nearest point is on the flat
-//          of one: not_converged. A depth with a far second best that is as good to 1e-3 and
-//          poorly curved: not_converged with bounds.
-// Cost:    O(1); 4 to 6 Newton steps of two support calls, a search of about 100 where a depth is
-//          not proven at once. Caps: 64 steps, 2000 planes. Tolerance, as a part of the size: 1e-12
-//          (double) or 2e-6 (float).
+//          of touching, relative to the pair's size. Bodies without volume, or so thin that the
+//          squares of their radii are lost in rounding, are not_converged if the nearest point is
+//          on the flat side of one. A depth is not_converged with bounds if a distant second
+//          minimum is as good to 1e-3 and poorly curved.
+// Cost:    O(1); 4 to 6 Newton steps of two support calls, and a search of about 100 planes if a
+//          depth is not proven at once. Caps: 64 steps, 2000 planes. Tolerance relative to the
+//          size: 1e-12 (double) or 2e-6 (float).
 #include <algorithm>
 #include <cmath>
 
@@ -67,7 +80,8 @@ class EllipsoidPlanes final : public NarrowPhase {
  private:
   static constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
 
-  // Whether they share a point, and a normal that separates them where they do not.
+  // Decides whether the bodies share a point. Returns a normal, which separates them if they do
+  // not.
   Vec3<Scalar> decide(const EllipsoidPair<Scalar>& pair, Outcome& outcome) const {
     const EllipsoidContact<Scalar> found = contact(pair, step_cap_);
     outcome.answer = found.answer;
@@ -112,7 +126,7 @@ class EllipsoidPlanes final : public NarrowPhase {
       outcome.status = Status::ok;
       return;
     }
-    // A ball whose centre is outside: as far as from its centre.
+    // A ball whose centre is outside the ellipsoid: the depth follows from the centre's distance.
     if (found.plane.gap > rounding) {
       const Scalar distance = found.plane.between.norm();
       const bool inside = distance - pair.radius < -rounding;
@@ -143,11 +157,12 @@ class EllipsoidPlanes final : public NarrowPhase {
           origin, outcome);
   }
 
-  // The cores are apart, or nearly so: between the plane's gap and its points.
+  // Writes the distance of cores that are apart, or nearly so: between the plane's gap and the
+  // distance of its points.
   static void write_distance(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& plane,
                              const Vec3d& origin, Outcome& outcome) {
     const Scalar distance = plane.between.norm();
-    // The points' own direction, where they are far enough apart to have one.
+    // The direction between the points is used if they are far enough apart to define one.
     const bool far = distance > 1024 * rounding && plane.gap > distance / 2;
     const Vec3<Scalar> normal = far ? Vec3<Scalar>(plane.between / distance) : plane.normal;
     write(pair, normal, plane, far ? distance : plane.gap, plane.gap, distance, origin, outcome);

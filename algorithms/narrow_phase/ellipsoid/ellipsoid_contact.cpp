@@ -1,3 +1,4 @@
+// The search of ellipsoid_contact.h: bracketed Newton steps on the weight.
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_contact.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace touchstone {
 template <class Scalar>
 EllipsoidContact<Scalar> contact(const EllipsoidPair<Scalar>& pair, int most_iterations) {
   constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
-  // Weights below this lose the lighter matrix to rounding.
+  // With a weight below this, rounding loses the lighter matrix.
   constexpr Scalar lightest = std::numeric_limits<Scalar>::epsilon();
   const Vec3<Scalar>& c = pair.centre;
   EllipsoidContact<Scalar> found;
@@ -21,7 +22,7 @@ EllipsoidContact<Scalar> contact(const EllipsoidPair<Scalar>& pair, int most_ite
   const auto a_times = [&](const Vec3<Scalar>& x) -> Vec3<Scalar> {
     return pair.is_ball ? Vec3<Scalar>(pair.radius * x) : Vec3<Scalar>(pair.p * x);
   };
-  // No semi-axis of both bodies together is shorter; for when it is needed.
+  // Lower bound on the semi-axes of both bodies together; computed when first needed.
   Scalar shortest = -1;
 
   Vec3<Scalar> n = c;
@@ -44,8 +45,8 @@ EllipsoidContact<Scalar> contact(const EllipsoidPair<Scalar>& pair, int most_ite
       const Vec3<Scalar> in_a = a_times(pn), in_b = pair.q * qn;
       const Scalar room = 1 - std::max(scale_a, scale_b);
       if (room > 0) {
-        // Both bodies scaled to the room that is left, about the point, make a difference with a
-        // ball of this radius in it.
+        // Both bodies, scaled about the point to the remaining room, have a difference that
+        // contains a ball of this radius.
         if (shortest < 0) {
           const Mat3<Scalar> both = aa + pair.qq;
           shortest = std::sqrt(Cofactors<Scalar>(both).least(both.trace()));
@@ -56,7 +57,7 @@ EllipsoidContact<Scalar> contact(const EllipsoidPair<Scalar>& pair, int most_ite
           break;
         }
       }
-      // Newton on the slope of the concave function, within what is known of its root.
+      // A Newton step on the slope of the concave function, kept inside the bracket of its root.
       const Scalar slope = (scale_a - scale_b) * (scale_a + scale_b);
       (slope > 0 ? low : high) = b;
       const Vec3<Scalar> turn = Cofactors<Scalar>(a * aa + b * pair.qq).solve(in_a - in_b);

@@ -1,3 +1,4 @@
+// The proof of least depth by inner ellipsoids, and the branch and bound over normals.
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_depth.h"
 
 #include <algorithm>
@@ -11,8 +12,8 @@ namespace {
 template <class Scalar>
 constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
 
-// Ellipsoids E inside of the sum of both cores that touch it along a plane's normal: one for each
-// way to turn, or to mirror, S across the normal.
+// Ellipsoids E inside the sum of both cores that touch it along a plane's normal: one for each
+// rotation S around the normal, or reflection.
 template <class Scalar>
 class InnerEllipsoids {
  public:
@@ -34,12 +35,12 @@ class InnerEllipsoids {
     b2_.noalias() = pair.q * v2;
   }
 
-  // E E^T; cosine and sine of the turn, and -1 to mirror.
+  // Returns E E^T for the rotation's cosine and sine; `mirror` is -1 for a reflection, else 1.
   Mat3<Scalar> turned(Scalar cosine, Scalar sine, Scalar mirror) const {
     if (is_ball_) return squares(a1_, a2_);
     return squares(a1_ + cosine * b1_ + sine * b2_, a2_ + mirror * (cosine * b2_ - sine * b1_));
   }
-  // The one that is greatest in the sum of its squares.
+  // Returns the E E^T with the greatest sum of squares.
   Mat3<Scalar> greatest() const {
     if (is_ball_) return squares(a1_, a2_);
     const Scalar a1b1 = a1_.dot(b1_), a1b2 = a1_.dot(b2_);
@@ -61,7 +62,7 @@ class InnerEllipsoids {
   Vec3<Scalar> along_, a1_, a2_, b1_, b2_;
 };
 
-// Whether a symmetric matrix has no negative eigenvalue.
+// Returns true if a symmetric matrix has no negative eigenvalue.
 template <class Scalar>
 bool has_none_negative(const Mat3<Scalar>& m) {
   const Scalar d0 = m(0, 0);
@@ -73,38 +74,38 @@ bool has_none_negative(const Mat3<Scalar>& m) {
   return m(2, 2) - l2 * m(2, 0) - off * off / d1 >= 0;
 }
 
-// The cores are no further apart than two points of them.
+// A bound without proof: the cores are no further apart than two of their points.
 template <class Scalar>
 Scalar nothing_known(const EllipsoidPlane<Scalar>& plane) {
   return -plane.between.norm() - rounding<Scalar>;
 }
 
-// A lower bound of the overlap along every normal, where the inner ellipsoid proves one that is
-// near the plane's own.
+// A lower bound on the overlap along every normal, if the inner ellipsoid proves one near the
+// plane's own; otherwise `nothing_known`.
 template <class Scalar>
 Scalar proven(const EllipsoidPlane<Scalar>& plane, const Mat3<Scalar>& inner) {
   const Scalar depth = -plane.gap, reach = plane.reach_a + plane.reach_b;
-  // Were b moved by the slide, the plane would be stationary.
+  // If b moved by the slide, the plane would be stationary.
   const Scalar least = depth - plane.slide.norm();
   if (!(depth > 0)) return least;
-  // What rounding may have done to the eigenvalues.
+  // Bound on the error of the eigenvalues.
   const Scalar slack = rounding<Scalar> / 4 * inner.trace();
   Mat3<Scalar> rest = inner;
   rest.diagonal().array() -= depth * reach + slack;
   if (has_none_negative(rest)) return least;
-  // Circles of minima, as of equal bodies, have an eigenvalue that is zero.
+  // A circle of minima, as between equal bodies, has an eigenvalue of zero.
   rest.diagonal().array() += 2 * slack;
   return reach > 0 && has_none_negative(rest) ? least - 2 * slack / reach : nothing_known(plane);
 }
 
-// Normals around that of a minimum along which no overlap is less than `enough`.
+// Normals around a minimum's along which no overlap is less than `enough`.
 template <class Scalar>
 struct Cap {
   Vec3<Scalar> normal;
   Scalar angle;
 };
 
-// The lesser eigenvalue of a symmetric matrix that has a third one of zero.
+// The lesser nonzero eigenvalue of a symmetric matrix whose third eigenvalue is zero.
 template <class Scalar>
 Scalar least_across(const Mat3<Scalar>& across) {
   const Scalar trace = across.trace();
@@ -136,7 +137,7 @@ Cap<Scalar> cap_around(const EllipsoidPlane<Scalar>& plane, const Mat3<Scalar>& 
 template <class Scalar>
 struct Triangle {
   std::array<Vec3<Scalar>, 3> corners;  // unit vectors
-  Scalar lower;                         // what is known of the overlap in it
+  Scalar lower;                         // lower bound on the overlap in it
   int level;
 };
 
@@ -193,7 +194,7 @@ class Search {
   bool is_proven() const { return best_.lower >= -best_.plane.gap - 4 * tolerance_; }
 
   void keep(const EllipsoidPlane<Scalar>& plane, const InnerEllipsoids<Scalar>& inner) {
-    // The slide is as much as another place of b.
+    // A slide amounts to another position of b.
     const Scalar slide = plane.slide.norm();
     if (caps_ == static_cast<int>(kept_.size()) || slide > tolerance_) return;
     const Vec3<Scalar> touch = plane.a - plane.b;
@@ -212,8 +213,8 @@ class Search {
     kept_[caps_++] = cap_around(plane, best, -best_.plane.gap - tolerance_ + slide);
   }
 
-  // Of the overlap along the normals of a triangle. A better minimum that is met on the way is
-  // kept.
+  // Lower bound on the overlap over all normals in the triangle. Updates the best minimum if it
+  // finds a better one.
   Scalar bound(const Triangle<Scalar>& triangle) {
     const auto& [x, y, z] = triangle.corners;
     const Vec3<Scalar> middle = (x + y + z).normalized();

@@ -1,3 +1,4 @@
+// The pair, its planes, and the derivatives that the ascent uses.
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_pair.h"
 
 #include <algorithm>
@@ -11,14 +12,14 @@
 namespace touchstone {
 namespace {
 
-// Metres, at least half of how far the turned body reaches.
+// Returns at least half the extent of the rotated body, in metres.
 double reach(const Shape& shape, const Pose& pose) {
   if (shape.kind == ShapeKind::sphere) return shape.radius;
   return shape.radii.maxCoeff() * pose.rotation.cwiseAbs().maxCoeff();
 }
 
-// The support of the core that m makes of the unit ball: how far it reaches along n, the inverse of
-// that, and where. A reach whose square has lost its digits is made zero.
+// The support of the core that m makes of the unit ball: its extent along n, the inverse of that,
+// and the point. An extent whose square has lost its digits becomes zero.
 template <class Scalar>
 void support(const Mat3<Scalar>& m, const Vec3<Scalar>& n, Scalar& reach, Scalar& per_reach,
              Vec3<Scalar>& point) {
@@ -36,7 +37,7 @@ Vec3<Scalar> unit_vector(const Vec3<Scalar>& v) {
   return (1 / std::sqrt(v.squaredNorm())) * v;
 }
 
-// The curvature radii of the difference at a plane: a symmetric matrix that vanishes along n.
+// The curvature radii of the difference at a plane: a symmetric matrix that is zero along n.
 template <class Scalar>
 class Curvature {
  public:
@@ -61,10 +62,10 @@ class Curvature {
   Scalar least() const {
     return (trace_ - std::sqrt(std::max(trace_ * trace_ - 4 * determinant_, Scalar{0}))) / 2;
   }
-  // Of the matrix plus `shift` times the identity, across n.
+  // Determinant of the matrix plus `shift` times the identity, across n.
   Scalar determinant(Scalar shift) const { return determinant_ + shift * (trace_ + shift); }
-  // (matrix + shift)^-1 times a vector across n: the inverse of a matrix of two rows is its trace
-  // less itself, over its determinant.
+  // Returns (matrix + shift)^-1 times a vector across n. The inverse of a 2x2 matrix is its trace
+  // minus itself, divided by its determinant.
   Vec3<Scalar> solve(const Vec3<Scalar>& across, Scalar shift) const {
     const Scalar x = across.x(), y = across.y(), z = across.z(), own = trace_ + shift;
     return Vec3<Scalar>{own * x - (xx_ * x + xy_ * y + xz_ * z),
@@ -75,17 +76,17 @@ class Curvature {
 
  private:
   Scalar xx_, xy_, xz_, yy_, yz_, zz_;
-  Scalar trace_, determinant_;  // of two rows, across n
+  Scalar trace_, determinant_;  // of the 2x2 matrix across n
 };
 
-// The best plane for the squares of the reaches, each weighed so that it is the reach here. It
-// overshoots no edge of a body that is nearly flat, as Newton's does.
+// The best plane for the squares of the reaches, weighted to equal the reaches here. Unlike
+// Newton's step it does not overshoot the edge of a nearly flat body.
 template <class Scalar>
 Vec3<Scalar> reweighted(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& at) {
   Mat3<Scalar> sum = at.gap * Mat3<Scalar>::Identity();
   sum += at.per_reach_a * pair.pp + at.per_reach_b * pair.qq;
   const Cofactors<Scalar> cofactors(sum);
-  // No centre, or no inverse: the normal as it is.
+  // Without a centre or an inverse the normal stays as it is.
   const Vec3<Scalar> next = cofactors.solve(pair.centre);
   return next.squaredNorm() > 0 ? next : at.normal;
 }

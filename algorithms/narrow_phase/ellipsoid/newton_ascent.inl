@@ -1,6 +1,7 @@
-// The loop of the climb of ellipsoid_pair.h. Included by ellipsoid_pair.cpp once for each level of
-// vector instructions, inside that level's namespace; the same at every level. What it calls is
-// inlined, for what is not is compiled without the level's instructions.
+// Part of ellipsoid: the loop of the ascent of ellipsoid_pair.h. ellipsoid_pair.cpp includes this
+// file once for each level of vector instructions, inside that level's namespace. Results are equal
+// at every level. All functions called here are inlined, since others are compiled without the
+// level's instructions.
 
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<Scalar>& pair,
@@ -9,7 +10,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<
                                                             Scalar tolerance) {
   constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
   constexpr Scalar noise = rounding / 4;
-  // Beyond it witness points that are within the tolerance would still lie askew.
+  // Beyond this slide witness points within the tolerance would still be oblique.
   const Scalar askew = std::max(tolerance, sizeof(Scalar) == 8 ? Scalar{1e-10} : rounding);
   const Scalar inside = std::max(pair.radius - rounding, Scalar{0});
   Climb<Scalar> found;
@@ -17,7 +18,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<
   int here = 0;
   planes[here] = EllipsoidPlane<Scalar>(pair, start);
   Scalar damping = 0;
-  // So written that NaN is no step.
+  // This form of the comparisons rejects a step to NaN.
   const auto is_better = [&](const EllipsoidPlane<Scalar>& next, const EllipsoidPlane<Scalar>& at) {
     return next.gap > at.gap + noise ||
            (next.gap > at.gap - noise && next.slide_squared < at.slide_squared);
@@ -36,14 +37,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<
     if (goal.only_verdict && at.between.squaredNorm() < inside * inside) {
       return end(ClimbEnd::inside);
     }
-    // The distance of the two points is above the gap by no more than slide^2 / (2 gap).
+    // The distance of the two points exceeds the gap by at most slide^2 / (2 gap).
     const bool near = at.gap > 0 && slide <= 2 * tolerance * at.gap;
     if (slide <= tolerance * tolerance || (near && slide <= askew * askew)) {
       return end(apart ? ClimbEnd::apart : ClimbEnd::stationary);
     }
     const Curvature<Scalar> curvature(pair, at);
     Scalar shift = at.gap;
-    // Where the function is not concave, the curvature alone still leads uphill.
+    // If the function is not concave here, the curvature alone still gives an ascent direction.
     if (shift < 0 && !(curvature.determinant(shift) > 0 && curvature.trace() + 2 * shift > 0)) {
       shift = -curvature.least() / 2;
     }
@@ -56,7 +57,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<
         damping = newton ? damping / 16 : Scalar{0};
         break;
       }
-      // Not even a short step leads uphill.
+      // True if even a short step does not ascend.
       const bool spent = !newton && !(step.squaredNorm() > noise * noise);
       if (spent || found.iterations >= goal.most_iterations) return end(ClimbEnd::stuck);
       ++found.iterations;

@@ -1,23 +1,34 @@
-// Minkowski portal refinement down to a local minimum of the penetration depth, and a look at what
-// is around it, so that the depth is often the least, and then proven to be.
+// MPR refined: descends to a local minimum of the penetration depth and then searches all other
+// directions for a lower one, so that the depth is often the least, and proven to be.
 // Paper:   Snethen, "XenoCollide: Complex Collision Made Simple", Game Programming Gems 7, 2008;
 //          Zhang et al., "Incremental penetration depth estimation between convex geometries",
 //          arXiv 2304.07357, 2023 (rays from the origin along the last portal's normal, warm
 //          start).
-// Departs: where the difference C = A - B of the bodies is a polytope, portals all around the
-//          origin hold a lower bound of the depth. The lowest is divided by the support point along
-//          its normal, and the search goes down again from a normal that has less; until none is
-//          below the depth, which is then proven to be the least, or many are.
-// Answers: moving b by the depth along the normal separates, and no direction near that has less.
-//          `lower` and `upper` are certified: they are together where it is proven to be the least.
-//          For a half-space the exact depth (kernels/halfspace.h).
-// Warm:    keeps the last normal. Bodies that it still separates take one support point. From a
-//          normal that was proven to be the best the search goes down first, and ends if that is
-//          proven again; if not, the lesser of its depth and the cold one is the answer.
-// Fails:   as mpr does. Not the least depth for about a third of the pairs that are deep in each
-//          other, for a tenth of shallow ones. Curved bodies: nothing around is looked at.
-// Cost:    mpr's, and for polytopes a support point for the first lower bound and for each portal
-//          that is divided, eight at most.
+// Steps:   1. With a memory, try the support plane of the last normal; if it separates, stop.
+//          2. If that normal had the least depth, descend from it and prove it again (step 5); if
+//             proven, stop.
+//          3. Decide with a portal for the ray from the centres' difference to the origin
+//             (kernels/mpr/portal_search).
+//          4. For a depth, descend to a local minimum (`settle_from_portal`); if the ray left C at
+//             its furthest point, try four tilted directions first (`leave_corner`).
+//          5. For polytopes, cover all directions by portals around the origin
+//             (portal_subdivision): their least height is a lower bound on the depth.
+//          6. Divide the lowest portal by the support point along its normal, at most eight times,
+//             while few portals are below the depth.
+//          7. If a normal with less depth appeared, descend from it too; also from the last normal
+//             if it is lower.
+//          8. Write the least depth and the certified lower bound.
+// Departs: portals in all directions hold a lower bound on the depth. The papers only descend.
+// Answers: moving b by the depth along the normal separates, and no direction near it has less.
+//          `lower` and `upper` are certified; they meet if the depth is proven to be the least. For
+//          a half-space the depth is exact.
+// Warm:    keeps the last normal. Bodies that it still separates take one support point. If the
+//          depth from a normal that was the least is not proven again, the lesser of it and the
+//          cold one is the answer.
+// Fails:   like mpr. It misses the least depth for about a third of the pairs that overlap deeply
+//          and for a tenth of shallow ones. Curved bodies: steps 5 to 7 are left out.
+// Cost:    like mpr; for polytopes one more support point for the first lower bound and one for
+//          each portal that is divided, at most eight.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -34,15 +45,16 @@
 namespace touchstone {
 namespace {
 
-// What a PairMemory holds: the last normal, from a to b in world axes (zero: none), and whether it
-// was proven to have the least depth (not 0: a memory of foreign bytes must be safe to read).
+// The content of a PairMemory: the last normal, from a to b in world axes (zero: none), and a flag
+// for a normal proven to have the least depth. Any nonzero flag is true, because a memory of
+// foreign bytes must be safe to read.
 struct Memory {
   std::array<double, 3> normal{};
   std::uint64_t is_least = 0;
 };
 static_assert(sizeof(Memory) <= sizeof(PairMemory));
 
-// One query on two bounded bodies.
+// Solves one query on two bounded bodies.
 template <class Scalar>
 class RefinedDepth {
  public:
@@ -69,10 +81,10 @@ class RefinedDepth {
   using Depth = typename Search::Depth;
   using Exit = typename Search::Exit;
   static constexpr Scalar rounding = Search::rounding;
-  // With more portals below the depth than these, no proof is near.
+  // If more portals than this are below the depth, a proof is out of reach.
   static constexpr int most_open = 3;
 
-  // The least of those considered; it has a witness where it is settled.
+  // Keeps the least depth; a settled one has witness points.
   void consider(const Depth& found) {
     if (!(found.depth < best_.depth)) return;
     best_ = found;
@@ -101,7 +113,7 @@ class RefinedDepth {
         return;
       }
     }
-    // All that a cold start does, so that a warm one is never worse.
+    // A warm start does all that a cold start does from here on, so that it is never worse.
     const Depth before = std::exchange(best_, {});
     const Point witness_before = witness_;
     const Exit exit = search_.decide(outcome);
@@ -124,8 +136,8 @@ class RefinedDepth {
     consider(search_.settle({.normal = normal}));
   }
 
-  // Where the ray leaves C in the point furthest along it, that may be the nearest way out, as for
-  // balls, or the way to a corner: then directions beside it have less.
+  // Used if the ray leaves C at the point furthest along it. The ray may be the shortest way out,
+  // as for balls, or point to a corner; then directions beside it have less depth.
   Depth leave_corner() {
     const Depth along{search_.depth(), search_.normal(), true};
     const Vec3<Scalar> across = along.normal.unitOrthogonal();
@@ -146,8 +158,9 @@ class RefinedDepth {
     return search_.settle(least);
   }
 
-  // Raises the lower bound, and goes down from normals that have less, until none is left or too
-  // many are. The cover begins with the portal and the point opposite, or with the tetrahedron.
+  // Raises the lower bound and descends from normals with less depth, until none is left or too
+  // many portals are open. The cover starts with the portal and the opposite support point, or else
+  // with the tetrahedron.
   void look_around(const std::array<Point, 4>* tetrahedron) {
     if (!best_.settled || !pair_.is_polytope() || pair_.radius() > 0) return;
     const auto& [p, q, r] = search_.portal();
@@ -199,7 +212,7 @@ class RefinedDepth {
   PortalSearch<Scalar> search_;
   Depth best_;
   Point witness_;
-  Scalar lower_ = 0;  // of the least depth
+  Scalar lower_ = 0;  // on the least depth
 };
 
 template <class Scalar>
@@ -245,7 +258,7 @@ class MprRefined final : public NarrowPhase {
   }
 
   int max_iterations_;
-  std::optional<double> tolerance_;  // in units of the pair
+  std::optional<double> tolerance_;  // in the pair's unit
   std::vector<SupportShape<Scalar>> shapes_;
   ShapePrefetch<Scalar> ahead_;
 };

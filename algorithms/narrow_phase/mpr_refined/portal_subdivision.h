@@ -1,9 +1,11 @@
-// Portals all around the origin, inside of a convex set: a lower bound of how near its surface is,
-// which is raised by dividing them.
+// Part of mpr-refined: portals in all directions around the origin, inside a convex set. They give
+// a lower bound on the distance to its surface, and dividing them raises it. Includes core and
+// kernels.
 // Paper:   Snethen, "XenoCollide: Complex Collision Made Simple", Game Programming Gems 7, 2008
-// (a portal). Departs: not one portal around a ray, but as many as it takes to hold all directions.
-// There is no horizon to be found, as in EPA: portals may overlap, and the edges between the first
-// ones stay, so that those which are nearer to the origin than the surface keep the bound low.
+//          (portals).
+// Departs: there are as many portals as cover all directions, instead of one around a ray. There is
+//          no horizon as in EPA: portals may overlap, and the edges between the first ones stay.
+//          Edges that are nearer to the origin than the surface therefore keep the bound low.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +17,8 @@
 
 namespace touchstone {
 
-// Triangles between points of the set whose cones from the origin hold all directions: in none of
-// them does the set end nearer to the origin than the triangle.
+// Triangles between points of the set whose cones from the origin cover all directions. In no
+// direction does the set end nearer to the origin than its triangle.
 template <class Scalar>
 class PortalSubdivision {
  public:
@@ -29,7 +31,7 @@ class PortalSubdivision {
     Scalar lower;  // no point of the triangle is nearer to the origin
   };
 
-  // False where rounding may have the origin outside.
+  // Returns false if the origin may be outside because of rounding.
   bool start(const std::array<Point, 4>& tetrahedron) {
     Simplex<Scalar> simplex;
     simplex.size = 4;
@@ -63,8 +65,8 @@ class PortalSubdivision {
     return {points_[i], points_[j], points_[k]};
   }
 
-  // Divides the lowest by a point on the outer side of its plane: the new ones hold its directions,
-  // and more where the point is beyond its edges.
+  // Divides the lowest portal by a point on the outer side of its plane. The new portals cover its
+  // directions, and more if the point is beyond its edges.
   void divide_lowest(const Point& point) {
     const std::array<std::uint8_t, 3> corners = lowest().corners;
     portals_[&lowest() - portals_.data()] = portals_[portal_count_ - 1];
@@ -86,7 +88,7 @@ class PortalSubdivision {
     const Scalar length = normal.norm();
     Portal& portal = portals_[portal_count_++];
     portal = {{i, j, k}, Vec3<Scalar>::UnitX(), 0};
-    // Whatever rounding did to the normal, this is below the triangle.
+    // The triangle is above this height, whatever rounding did to the normal.
     if (length > 0) {
       portal.normal = normal / length;
       portal.lower = std::min({p.dot(portal.normal), q.dot(portal.normal), r.dot(portal.normal)});
