@@ -1,12 +1,11 @@
-// Which faces a convex polytope of few vertices has, while points are added to it; where they lie
-// is known elsewhere.
-//
-// Its faces are triangles. A point takes the place of the faces that it sees with the cone over
-// their horizon.
+// Part of gjk-lanes: the faces of a convex polytope with few vertices, as triangles of vertex
+// indices, while vertices are added. The vertices' positions are kept in lane_expand.inl. Includes
+// the standard library only.
 // Paper:   Barber, Dobkin, Huhdanpaa, "The quickhull algorithm for convex hulls", ACM TOMS 22(4),
-// 1996 (horizon, cone). Departs: no face knows its neighbours. For each vertex of the faces that go
-// the other ends of their edges are toggled in a word, face by face: what is left are its two
-// neighbours on the horizon. Nothing is looked for, and little can be mispredicted.
+//          1996 (horizon, cone).
+// Departs: faces do not store their neighbours. For each vertex of the removed faces a word toggles
+//          the other ends of their edges, face by face; the two bits that remain are its neighbours
+//          on the horizon. The method needs no search and few unpredictable branches.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +26,8 @@ class BitsetHull {
   static constexpr std::array<Corners, 4> tetrahedron = {
       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 
-  // What add() has found: the horizon, its first vertex again at the end; where the faces from each
-  // of its edges to the new vertex are; and, behind those, faces that are no more.
+  // The result of add(): the horizon with its first vertex repeated at the end; the places of the
+  // faces from each of its edges to the new vertex; and, behind those, the places of removed faces.
   struct Cone {
     std::size_t size = 0, gone = 0;
     std::array<std::uint8_t, most_vertices + 1> ring{};
@@ -36,22 +35,22 @@ class BitsetHull {
   };
 
   std::size_t vertices() const { return vertices_; }
-  // Faces, those that are no more among them, have lesser numbers.
+  // Upper bound on the indices of faces; removed faces are included.
   std::size_t faces() const { return faces_; }
-  // Anticlockwise seen from outside.
+  // Vertices, anticlockwise seen from outside.
   const Corners& corners(std::size_t face) const { return corners_[face]; }
   const Cone& cone() const { return cone_; }
 
-  // Begins with the tetrahedron of vertices 0 to 3, of which 3 is on the side of 0, 1 and 2 that
-  // sees them anticlockwise.
+  // Starts with the tetrahedron of vertices 0 to 3. From vertex 3 the triangle 0, 1, 2 must be
+  // anticlockwise.
   void start() {
     vertices_ = faces_ = tetrahedron.size();
     std::ranges::copy(tetrahedron, corners_.begin());
   }
 
-  // Adds a vertex, of which there are fewer than most_vertices, that sees these faces. False where
-  // they are not a disc, which rounding may do: then the surface is of no more use until it is
-  // started anew.
+  // Adds a vertex that sees these faces. Requires vertices() < most_vertices. Returns false if the
+  // faces do not form a disc, which rounding may cause; the hull is then invalid until start() is
+  // called.
   bool add(const Faces& seen) {
     std::uint64_t touched = 0;
     std::size_t visible = 0;
@@ -85,8 +84,8 @@ class BitsetHull {
  private:
   static std::uint64_t bit(std::size_t vertex) { return std::uint64_t{1} << vertex; }
 
-  // From an edge that the first face has with it on. True where the horizon is one ring that meets
-  // no vertex twice, and the visible faces are all on one side of it.
+  // Follows the horizon from an edge of the first face on it. Returns true if the horizon is one
+  // ring that visits no vertex twice, with all visible faces on one side.
   bool walk_horizon(std::size_t visible, std::uint64_t touched) {
     std::size_t tail = 0, at = 0;
     bool found = false;
@@ -114,15 +113,15 @@ class BitsetHull {
     neighbours_[tail] = 0;
     cone_.ring[size] = static_cast<std::uint8_t>(tail);
     cone_.size = size;
-    // Euler: a disc of triangles has as many as vertices on its rim, less two, and two for each
-    // vertex inside. With another ring somewhere there would be other numbers.
+    // Euler's formula: a disc of triangles has as many faces as vertices on its rim, minus two,
+    // plus two for each vertex inside. A second ring would change these numbers.
     const auto inside = static_cast<std::size_t>(std::popcount(touched)) - size;
     return at_tail == (second | bit(before)) && visible + 2 == size + 2 * inside;
   }
 
   std::size_t vertices_ = 0, faces_ = 0;
   std::array<Corners, most_faces> corners_{};
-  std::array<std::uint64_t, most_vertices> neighbours_{};  // none between the calls
+  std::array<std::uint64_t, most_vertices> neighbours_{};  // zero between the calls
   Cone cone_;
 };
 

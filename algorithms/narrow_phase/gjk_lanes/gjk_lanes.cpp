@@ -1,27 +1,36 @@
-// GJK and EPA, many pairs at once: one pair a lane of vectors.
+// GJK and EPA for many pairs at once: one pair per lane of vectors.
 // Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; the nearest
 //          feature of a simplex: Ericson, "Real-Time Collision Detection", 2005, section 9.5; van
 //          den Bergen, GDC 2001, as in expanding_polytope.h.
-// Departs: every lane takes each step, whatever the size of its simplex: the regions of all
-//          features are looked at, and one is selected. Lanes whose pairs are answered take the
-//          next pairs of the batch. Vertices of hulls of up to 16 are turned into the frame of the
-//          walk when a pair enters its lane; those of greater ones are scanned, sixteen at a time,
-//          one lane after the other. Where the origin is too near the face of a tetrahedron to be
-//          inside for sure, a corner behind that face is looked for, and one of the three
-//          tetrahedra around the axis to it is. For depths the tetrahedra of 128 pairs are kept and
-//          their polytopes grown in lanes: nearest faces, visible faces and planes of all at once,
-//          horizons (small_surface.h) one by one. What rounding leaves open, and whatever the lanes
-//          do not take, is asked again one by one as `gjk` does: the verdicts are as reliable as
-//          those.
-//          Takes spheres, capsules, boxes and hulls. One by one go hulls of more than 192 vertices
-//          or far from their own origin, bodies whose matrix is no rotation nor near one, and,
-//          where there is no AVX2, all pairs in double: two lanes a vector are slower than none.
-// Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
-//          part of the pair's size.
-// Cost:    as gjk's walk, for all lanes what the slowest of them costs; pays from batches of about
-//          four pairs on. Depths take 0.4 to 0.7 of gjk's time in float and up to all of it in
-//          double, the less the fewer vertices the hulls have; a pair whose polytope grows beyond
-//          64 vertices is asked one by one from the start. Caps and tolerance are gjk's.
+// Steps:   1. Load one pair per lane and rotate its bodies into the lane's frame (lane_start).
+//             Pairs whose bounding balls are apart are separated at once.
+//          2. Find the support point of every lane (lane_support).
+//          3. Add it to the lane's simplex and select the feature nearest to the origin, for
+//             simplices of all sizes together (lane_step).
+//          4. A lane ends at a support plane that separates, at a tetrahedron that surely contains
+//             the origin, at a point nearer than the radii, or when its bounds meet (lane_gjk).
+//          5. Write the answers of ended lanes (lane_answer) and give these lanes the next pairs of
+//             the batch.
+//          6. For depths, keep the tetrahedra of up to 128 pairs and grow their polytopes in lanes
+//             (lane_depths, lane_expand, bitset_hull).
+//          7. Solve the pairs that the lanes leave open one by one, as `gjk` does
+//             (kernels/gjk/gjk_query).
+// Departs: every lane takes each step, whatever the size of its simplex: all regions are computed
+//          and one is selected. Hulls of at most 16 vertices are rotated when their pair enters a
+//          lane; larger ones are scanned sixteen vertices at a time, one lane after the other. If
+//          the origin is too close to a face of the tetrahedron, a point behind that face is tried.
+//          In EPA nearest faces, visible faces and planes are computed for all lanes together,
+//          horizons one by one.
+// Answers: spheres, capsules, boxes and hulls. The lanes leave open hulls of more than 192 vertices
+//          or far from their own origin, bodies whose matrix is not close to a rotation, and
+//          without AVX2 all pairs in double, since two lanes per vector are slower than none.
+//          Verdicts are as reliable as gjk's.
+// Fails:   like gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching,
+//          relative to the pair's size.
+// Cost:    like gjk's iterations; all lanes take as long as the slowest. It pays from batches of
+//          about four pairs. Depths take 0.4 to 0.7 of gjk's time in float and up to all of it in
+//          double, less for hulls with fewer vertices. A pair whose polytope grows beyond 64
+//          vertices is solved one by one from the start. Caps and tolerance are gjk's.
 #include <algorithm>
 
 #include "algorithms/kernels/gjk/gjk_query.h"
@@ -63,7 +72,7 @@ class GjkInLanes final : public NarrowPhase {
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
   GjkLanes<Scalar> lanes_;
-  std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave
+  std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
 };
 
 std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {

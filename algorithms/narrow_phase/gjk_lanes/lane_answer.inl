@@ -1,11 +1,11 @@
-// What lanes that have ended say. Part of gjk_lanes.inl.
+// Part of gjk-lanes, included by lane_gjk.inl: writes the answers of lanes that have ended.
 #include "algorithms/narrow_phase/gjk_lanes/lane_start.inl"
 
-// The nearest points of simplices.
+// The points of the lanes' simplices that are nearest to the origin.
 template <class Scalar>
 struct Nearest {
-  Vectors<Scalar> point, on_a;  // of the difference, and the core of a
-  unsigned sound;               // lanes: no weight is negative
+  Vectors<Scalar> point, on_a;  // of the difference, and on the core of a
+  unsigned sound;               // lanes without a negative weight, as bits
 };
 
 template <class Scalar, bool points>
@@ -25,7 +25,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Nearest<Scalar> find_nearest(
   Real of_c = zero, of_d = zero;
   Nearest<Scalar> nearest;
   nearest.point = b.point;
-  // The second time for what rounding has left.
+  // The second pass removes what rounding left.
   for (int time = 0; time < 2; ++time) {
     const Real left_c = -dot<Scalar>(nearest.point, to_c),
                left_d = -dot<Scalar>(nearest.point, to_d);
@@ -45,8 +45,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Nearest<Scalar> find_nearest(
   return nearest;
 }
 
-// Writes distances, or depths below zero, bounds, normals and witness points of those lanes, but
-// where the nearest point is not where the support plane says: the lanes that have them.
+// Writes distances (depths if negative), bounds, normals and witness points of the given lanes.
+// Leaves out lanes whose nearest point does not agree with the support plane. Returns the lanes
+// that it wrote, as bits.
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
                                            const LaneGoal<Scalar>& goal,
@@ -98,8 +99,8 @@ TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
   return lanes;
 }
 
-// Writes the answers of lanes that have ended, and the places of those that have none to `left`;
-// how many are there then.
+// Writes the answers of lanes that have ended, and the places of pairs without an answer to `left`.
+// Returns the new number of places in `left`.
 template <class Scalar, bool points>
 TOUCHSTONE_TARGET std::size_t answer_lanes(const PairTable<Scalar>& table,
                                            const LaneGoal<Scalar>& goal, Walkers<Scalar>& walkers,
@@ -115,7 +116,7 @@ TOUCHSTONE_TARGET std::size_t answer_lanes(const PairTable<Scalar>& table,
       (goal.starts == nullptr ? apart : inside) = written;
     }
     if (walkers.shallow != 0 && goal.starts == nullptr) {
-      // A point of the difference that is nearer than the radii.
+      // A point of the difference that is nearer than the radii proves an overlap.
       const Real length = Lanes::sqrt(dot<Scalar>(nearest.point, nearest.point));
       const Real enough =
           walkers.radius_a + walkers.radius_b - Lanes::broadcast(lane_rounding<Scalar>);

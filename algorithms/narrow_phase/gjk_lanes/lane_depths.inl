@@ -1,10 +1,10 @@
-// EPA in lanes, from the tetrahedra around the origin that the walk ends with; part of
-// gjk_lanes.inl. The bounds are those of expanding_polytope.h, and what does not converge is left
-// to that.
+// Part of gjk-lanes, included by lane_gjk.inl: EPA in lanes, from the tetrahedra around the origin
+// that GJK ends with. The bounds are those of expanding_polytope.h. Pairs that do not converge are
+// left to the serial EPA.
 #include "algorithms/narrow_phase/gjk_lanes/lane_expand.inl"
 #include "algorithms/narrow_phase/gjk_lanes/lane_support.inl"
 
-// Notes the tetrahedra of these lanes, which the origin is in.
+// Stores the tetrahedra of these lanes, which contain the origin.
 template <class Scalar>
 TOUCHSTONE_TARGET void note_starts(const Walkers<Scalar>& walkers, unsigned lanes,
                                    DepthStarts<Scalar>& starts) {
@@ -30,8 +30,8 @@ TOUCHSTONE_TARGET void note_starts(const Walkers<Scalar>& walkers, unsigned lane
   }
 }
 
-// Gives the next tetrahedra to the lanes that have none, and the places of the pairs whose
-// tetrahedra are of no use to `left`; how many are there then.
+// Gives the next tetrahedra to free lanes, and writes the places of pairs with unusable tetrahedra
+// to `left`. Returns the new number of places in `left`.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
                                               const LaneGoal<Scalar>& goal, std::size_t& next,
@@ -44,7 +44,7 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
   for (std::size_t lane = 0; lane < Lanes::width && next < starts.count; ++lane) {
     if ((expanders.active >> lane & 1) != 0) continue;
     const DepthStart<Scalar>& start = starts.all[next++];
-    // It walked, so it is not left.
+    // The pair was loaded before, so it loads again.
     load_pair<Scalar, scans>(table, goal, start.place, lane, walkers);
     for (std::size_t k = 0; k < 4; ++k) {
       expanders.points[k][lane] = start.points[k];
@@ -98,8 +98,8 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
   return left;
 }
 
-// Writes the depth of a lane's pair. The origin's projection on the nearest face is that of the
-// witness points, or on another in its plane.
+// Writes the depth of a lane's pair. The witness points are at the origin's projection on the
+// nearest face, or on another face in its plane.
 template <class Scalar>
 TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
                                    const Walkers<Scalar>& walkers,
@@ -163,7 +163,7 @@ TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoa
   outcome.witness_b = origin + unit * on_b.template cast<double>();
 }
 
-// One step of every lane: answers where the bounds meet, and another vertex where they do not.
+// Takes one step of every lane: writes the answer if the bounds meet, otherwise adds a vertex.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
                                         const LaneGoal<Scalar>& goal, Walkers<Scalar>& walkers,
@@ -209,8 +209,8 @@ TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
   return left;
 }
 
-// The depths of the pairs that are noted; the places of those that stay open to `left`, and how
-// many are there then.
+// Finds the depths of the stored pairs and writes the places of those that stay open to `left`.
+// Returns the new number of places in `left`.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t expand_lanes(const PairTable<Scalar>& table,
                                            const LaneGoal<Scalar>& goal, std::size_t left) {
@@ -219,7 +219,7 @@ TOUCHSTONE_TARGET std::size_t expand_lanes(const PairTable<Scalar>& table,
   std::ranges::fill(walkers.corners_a, goal.some_vertices);
   std::ranges::fill(walkers.corners_b, goal.some_vertices);
   Expanders<Scalar> expanders;
-  // So that lanes without a pair have numbers.
+  // Lanes without a pair need valid numbers too.
   std::memset(expanders.points, 0, 4 * sizeof expanders.points[0]);
   std::size_t next = 0;
   while (next < goal.starts->count || expanders.active != 0) {

@@ -1,10 +1,9 @@
-// The polytopes that EPA grows in lanes. Part of gjk_lane_depths.inl.
-//
-// All lanes look for their nearest face together, and for the faces that the new point sees, and
-// find the planes of the cone; each lane on its own has its horizon.
+// Part of gjk-lanes, included by lane_depths.inl: the polytopes that EPA grows in lanes. The
+// nearest faces, the faces that a new point sees and the planes of the cone are computed for all
+// lanes together; each lane finds its horizon alone.
 
-// The polytopes of as many pairs as there are lanes. Faces that are no more, or not yet, are
-// infinitely far away.
+// The polytopes of one pair per lane. Faces that are removed or not yet made are infinitely far
+// away.
 template <class Scalar>
 struct Expanders {
   using Real = typename RealLanes<Scalar>::Real;
@@ -12,8 +11,8 @@ struct Expanders {
 
   Vectors<Scalar> normal[BitsetHull::most_faces];  // unit, outward
   Real distance[BitsetHull::most_faces];           // from the origin
-  std::size_t faces = 0;                           // that some lane has, and those before it
-  // Vertices of the difference, and on the core of a.
+  std::size_t faces = 0;                           // the greatest number of faces over all lanes
+  // Vertices of the difference, and their points on the core of a.
   Quad<Scalar> points[BitsetHull::most_vertices][width], on_a[BitsetHull::most_vertices][width];
   BitsetHull surfaces[width];
   std::int32_t iterations[width];
@@ -26,7 +25,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> from_quads(const Quad<Scalar
   columns_of<Scalar>(quads, columns);
   return {columns[0], columns[1], columns[2]};
 }
-// Lane l's quad at place(l).
+// The quad of lane l is at place(l).
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void to_quads(const Vectors<Scalar>& v, Quad<Scalar>* quads) {
   typename RealLanes<Scalar>::Real columns[4] = {v.x, v.y, v.z, v.z};
@@ -39,7 +38,7 @@ struct NearestFaces {
   using Real = typename RealLanes<Scalar>::Real;
   Vectors<Scalar> normal;
   Real distance;
-  Real place;  // its number
+  Real place;  // the face's index
 };
 
 template <class Scalar>
@@ -61,7 +60,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE NearestFaces<Scalar> nearest_faces(
   return nearest;
 }
 
-// Bits of the faces that see the point of their lane.
+// Sets the bits of the faces that the point of their lane sees.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void find_visible(
     const Expanders<Scalar>& expanders, const Vectors<Scalar>& point, unsigned lanes,
@@ -79,8 +78,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void find_visible(
   }
 }
 
-// Puts the cones over their horizons in the place of what the new vertices see. The lanes in which
-// that made a proper polytope.
+// Replaces the faces that the new vertices see by the cones over their horizons. Returns the lanes
+// in which this made a valid polytope, as bits.
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned add_vertices(Expanders<Scalar>& expanders, const Corner<Scalar>& corner,
                                         unsigned lanes) {
@@ -92,7 +91,7 @@ TOUCHSTONE_TARGET unsigned add_vertices(Expanders<Scalar>& expanders, const Corn
   alignas(64) Quad<Scalar> points[width], on_a[width];
   to_quads<Scalar>(corner.point, points);
   to_quads<Scalar>(corner.on_a, on_a);
-  // So many lanes have a cone of more faces.
+  // larger[n]: the lanes whose cone has more than n faces, as bits.
   unsigned larger[BitsetHull::most_vertices + 1]{};
   std::size_t most = 0;
   unsigned good = 0;
@@ -109,7 +108,7 @@ TOUCHSTONE_TARGET unsigned add_vertices(Expanders<Scalar>& expanders, const Corn
       reinterpret_cast<Scalar*>(&expanders.distance[cone.places[i]])[lane] =
           std::numeric_limits<Scalar>::infinity();
     }
-    // Faces that were not in use by any lane are nowhere in the others.
+    // Faces that no lane used before are infinitely far away in the other lanes.
     for (; expanders.faces < surface.faces(); ++expanders.faces) {
       expanders.distance[expanders.faces] =
           Lanes::broadcast(std::numeric_limits<Scalar>::infinity());

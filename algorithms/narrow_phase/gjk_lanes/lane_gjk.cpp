@@ -1,3 +1,5 @@
+// Part of gjk-lanes: prepares shapes and batches for the loops in lane_gjk.inl, and selects the
+// instruction level.
 #include "algorithms/narrow_phase/gjk_lanes/lane_gjk.h"
 
 #include <algorithm>
@@ -22,38 +24,42 @@ namespace {
 
 using real_lanes::Quad;
 
-// What the lanes of a batch have in common.
+// Parameters that all lanes of a batch share.
 template <class Scalar>
 struct LaneGoal {
   const LaneShape<Scalar>* shapes;
-  const hull_scan::VertexBlock<Scalar>* some_vertices;  // of a hull, where there is one
-  int halves_a, halves_b;                               // of a box 3, of a segment 1, else none
-  std::uint32_t vertices_a, vertices_b;  // turned: the most of a hull, in fours; of others none
-  bool scans_a, scans_b;                 // hulls that are not turned
+  const hull_scan::VertexBlock<Scalar>* some_vertices;  // of some hull, if there is one
+  int halves_a, halves_b;                               // half edges: 3 of a box, 1 of a segment,
+                                                        // else 0
+  std::uint32_t vertices_a, vertices_b;  // rotated hulls: the greatest number of vertices, rounded
+                                         // up to fours; else 0
+  bool scans_a, scans_b;                 // hulls that are scanned instead of rotated
   bool round;                            // a body has a radius
   bool centred;                          // all centres are the origins of the bodies
   bool distances;
-  DepthStarts<Scalar>* starts;  // where depths are asked for
-  Scalar corner_error;  // how far rounding moves a point of the difference, in the unit, at most
+  DepthStarts<Scalar>* starts;  // if depths are requested
+  Scalar corner_error;  // upper bound on the rounding error of a point of the difference, in the
+                        // unit
   Scalar tolerance;
   Scalar most_iterations;
-  std::int32_t most_expansions;  // those of the walk with them
+  std::int32_t most_expansions;  // including the iterations of GJK
 };
 
-// Pairs whose depths are looked for together.
+// The number of pairs whose depths are computed together.
 constexpr std::size_t most_starts = 128;
 
-// Shorter ways have lost their digits, or are about to. (Squares of lengths.)
+// The square of the least length of a search direction; shorter ones have lost their digits, or
+// nearly so.
 template <class Scalar>
 constexpr Scalar shortest_square = sizeof(Scalar) == 8 ? Scalar(1e-200) : Scalar(1e-24);
 
-// As in SupportPair, of which the lanes compute what it computes.
+// The rounding of SupportPair, since the lanes compute the same numbers.
 template <class Scalar>
 constexpr Scalar lane_rounding = SupportPair<Scalar>::rounding;
 
-// How far a point of the difference is off at most: the table in SupportPair, for cores that are
-// not curved, gives 26 u for each component where the centres are the origins of the bodies, with
-// the three half edges of a box added one by one, and 31 u more where they are not.
+// Error bound of a point of the difference. The table in SupportPair gives 26 u per component for
+// cores that are not curved, if the centres are the origins of the bodies and the three half edges
+// of a box are added one by one, and 31 u more if the centres are not.
 template <class Scalar>
 struct CornerError {
   static constexpr Scalar centred = 48 * unit_roundoff<Scalar>;
@@ -64,7 +70,7 @@ struct CornerError {
 #define TOUCHSTONE_LOOPS "algorithms/narrow_phase/gjk_lanes/lane_gjk.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-// At the level in use; in doubles not at the lowest.
+// Runs the loops at the active level; for doubles there is none at the lowest level.
 template <class Scalar>
 std::size_t walk_here(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
                       std::span<const std::uint32_t> queue, std::size_t left) {
@@ -106,7 +112,8 @@ void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
     if (shapes[i].kind == ShapeKind::hull) {
       lane.vertices = shape.vertices.data();
       lane.block_count = static_cast<std::uint32_t>(shape.vertices.size());
-      // Far from its origin, its centre must be turned with care; cells are not for lanes.
+      // The centre of a hull far from its origin must be rotated with care. Cube maps are not used
+      // in lanes.
       lane.fits = shape.is_near_origin && shape.cells.empty();
       lane.scans = lane.fits && shapes[i].hull->vertices.size() > most_turned_vertices;
     }
@@ -127,7 +134,7 @@ std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const Bo
                                     const Goal& asked, std::span<Outcome> outcomes,
                                     std::uint32_t* left) {
   const bool hull_a = kind_a == ShapeKind::hull, hull_b = kind_b == ShapeKind::hull;
-  // In fours, as vertices are turned; a block has copies of the first behind the last.
+  // Vertices are rotated in fours. A block has copies of the first vertex behind the last.
   const std::uint32_t vertices = (most_vertices_ + 3) / 4 * 4;
   const LaneGoal<Scalar> turned{
       .shapes = shapes_.data(),
@@ -155,7 +162,7 @@ std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const Bo
     places_.push_back(static_cast<std::uint32_t>(places_.size()));
   }
   const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
-  // Without wider vectors, lanes of doubles are slower than one pair at a time.
+  // Without wider vectors lanes of doubles are slower than one pair at a time.
   constexpr bool wants_avx2 = std::is_same_v<Scalar, double>;
   if (wants_avx2 && isa() == Isa::baseline) {
     std::ranges::copy(places, left);

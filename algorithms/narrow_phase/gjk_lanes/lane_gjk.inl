@@ -1,41 +1,43 @@
-// The loops of gjk_lanes.h. Included by gjk_lanes.cpp once for each level of vector instructions,
-// inside that level's namespace.
+// Part of gjk-lanes: the loops of lane_gjk.h. lane_gjk.cpp includes this file once for each level
+// of vector instructions, inside that level's namespace.
 #include "algorithms/narrow_phase/gjk_lanes/lane_step.inl"
 
-// Bodies of as many pairs as there are lanes, and how far the walk between them has come. Lengths
-// are in the unit of each pair, as seen from the centre of a.
+// The bodies of one pair per lane, and the state of its GJK search. Lengths are in the unit of each
+// pair, relative to the centre of a.
 template <class Scalar>
 struct Walkers {
   using Lanes = RealLanes<Scalar>;
   using Real = typename Lanes::Real;
   static constexpr std::size_t width = Lanes::width;
 
-  // As loaded, a quad a lane: numbers of the poses (see load_pair), sizes; and where vertices are.
+  // The loaded data, one quad per lane: numbers of the poses (see load_pair), sizes, and pointers
+  // to vertices.
   Quad<Scalar> poses[6][width], sizes[width], extents_a[width], extents_b[width];
   const hull_scan::VertexBlock<Scalar>*corners_a[width], *corners_b[width];
   std::uint32_t blocks_a[width], blocks_b[width];
   double unit[width];  // metres
   std::uint32_t place[width];
 
-  // Vertices, those of b with its centre; or the half edges of a box, the half of a segment; or the
-  // columns of a matrix, where vertices are scanned.
+  // Vertices, for b with its centre; or the half edges of a box or a segment; or the columns of a
+  // matrix if vertices are scanned.
   Vectors<Scalar> a[most_turned_vertices], b[most_turned_vertices];
   Vectors<Scalar> centre_b;
   Real radius_a, radius_b;
 
   LaneSimplex<Scalar> simplex;
-  Vectors<Scalar> way;  // away from the origin, through the nearest point; of any length
-  Real length;          // of the way
-  Real along;           // the nearest point along the way, times its length
-  Real plane;           // the newest support plane, so too
-  Real count;           // of iterations
-  // Of lanes that have the origin inside, or pierce: while they look for a corner behind the face
-  // that they came through.
+  Vectors<Scalar> way;  // from the origin through the nearest point, of any length; the search
+                        // direction is opposite
+  Real length;          // of `way`
+  Real along;           // the nearest point's component along `way`, times its length
+  Real plane;           // the newest support plane's, likewise
+  Real count;           // number of iterations
+  // The tetrahedron of lanes that have the origin inside, and of `piercing` lanes, which search for
+  // a point behind the face that they came through.
   Tetrahedron<Scalar> around;
 
-  // Lanes that walk, and those that have ended, by how; as bits.
+  // Lanes that iterate, and those that have ended, by their end; as bits.
   unsigned active = 0, apart = 0, inside = 0, shallow = 0, doubtful = 0;
-  unsigned piercing = 0;  // of those that walk
+  unsigned piercing = 0;  // a part of `active`
 
   unsigned ended() const { return apart | inside | shallow | doubtful; }
 };
@@ -50,7 +52,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_walked(bool apart, std::int32_t i
 #include "algorithms/narrow_phase/gjk_lanes/lane_answer.inl"
 #include "algorithms/narrow_phase/gjk_lanes/lane_depths.inl"
 
-// Of these lanes it is known that their bodies overlap.
+// Ends lanes whose bodies are known to overlap.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void end_inside(const LaneGoal<Scalar>& goal,
                                                     Walkers<Scalar>& walkers, unsigned lanes) {
@@ -61,7 +63,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void end_inside(const LaneGoal<Scalar>& goal
   }
 }
 
-// One step of every lane that walks.
+// Takes one step of every active lane.
 template <class Scalar, bool points, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
                                                  Walkers<Scalar>& walkers) {
@@ -80,7 +82,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
     if (goal.starts == nullptr) {
       stop &= ~Lanes::bits(Lanes::less(tolerance, open)) & ~walkers.piercing;
     } else if (goal.round) {
-      // How deep the radii are in each other is known.
+      // The depth of the radii in each other is known here.
       shallow =
           walkers.active & ~walkers.piercing &
           Lanes::bits(both(Lanes::less(open, tolerance),
@@ -118,7 +120,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
   const Real square = dot<Scalar>(step.way, step.way);
   Real length = Lanes::sqrt(square);
   Real along = dot<Scalar>(step.way, corner.point);
-  // So written that NaN ends the walk.
+  // This form of the comparison ends the search for NaN.
   const auto nearer = Lanes::less(along * walkers.length, walkers.along * length);
   const unsigned in_time =
       Lanes::bits(Lanes::less(walkers.count, Lanes::broadcast(goal.most_iterations)));
@@ -126,7 +128,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
       in_time & step.found &
       Lanes::bits(both(nearer, Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square)));
   walkers.way = select<Scalar>(on, step.way, way);
-  // Too near the face that it came through: a corner behind that tells.
+  // The origin is too near the face that the search came through: a point behind that face decides.
   walkers.piercing = walkers.active & step.unsure & in_time;
   if (walkers.piercing != 0) {
     const auto turns = Lanes::mask(walkers.piercing);
@@ -154,7 +156,7 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
                                          const LaneGoal<Scalar>& goal,
                                          std::span<const std::uint32_t> queue, std::size_t left) {
   constexpr std::size_t width = RealLanes<Scalar>::width;
-  // So that lanes without a pair have numbers.
+  // Lanes without a pair need valid numbers too.
   Walkers<Scalar> walkers{};
   std::ranges::fill(walkers.corners_a, goal.some_vertices);
   std::ranges::fill(walkers.corners_b, goal.some_vertices);
@@ -171,7 +173,8 @@ TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
   return left;
 }
 
-// Depths: those of a part of the queue after the other, so that what is noted stays in the cache.
+// Computes depths for one part of the queue after the other, so that the stored tetrahedra stay in
+// the cache.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t find_depths(const PairTable<Scalar>& table,
                                           const LaneGoal<Scalar>& goal,

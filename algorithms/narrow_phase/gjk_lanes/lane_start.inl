@@ -1,7 +1,7 @@
-// How lanes take new pairs. Part of gjk_lanes.inl.
+// Part of gjk-lanes, included by lane_answer.inl: loads new pairs into free lanes.
 
-// The centre of a hull that is near its origin, from there; metres, world axes, behind a number
-// that means nothing.
+// The centre of a hull that is near its origin, relative to the origin: metres, world axes. The
+// first of the four numbers is unused.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> turned_centre(const LaneShape<Scalar>& shape,
                                                                const Pose& pose) {
@@ -12,9 +12,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> turned_centre(const LaneShape<S
   return __builtin_shufflevector(sum, sum, 0, 0, 1, 2);
 }
 
-// Whether balls around the bodies are apart, from the offset of their centres: a matrix makes no
-// vector longer than by its Frobenius norm, of which a rotation has the root of 3. Such as are far
-// from that, or about to be too long or short for a square, are left to the walk.
+// Returns true if balls around the bodies are apart. `offset` is between their centres. A matrix
+// lengthens a vector by at most its Frobenius norm, which is sqrt(3) for a rotation. Matrices far
+// from that, and numbers whose squares may overflow or underflow, are left to the search.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool balls_apart(const Quad<double>& offset, double reach_a,
                                                      const Pose& pose_a, double reach_b,
@@ -32,7 +32,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool balls_apart(const Quad<double>& offset,
 
 enum class Loaded : std::uint8_t { walks, apart, left };
 
-// Puts the pair's numbers into the lane, where they have a unit as in SupportPair.
+// Stores the pair's numbers in the lane, scaled by a unit as in SupportPair.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& table,
                                                      const LaneGoal<Scalar>& goal,
@@ -77,7 +77,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   walkers.corners_a[lane] = a.vertices;
   walkers.corners_b[lane] = b.vertices;
   if constexpr (scans) {
-    // Looked at once the other lanes have theirs.
+    // The vertices are used after the other lanes are loaded.
     if (goal.scans_a) fetch_blocks(a.vertices, a.block_count);
     if (goal.scans_b) fetch_blocks(b.vertices, b.block_count);
   }
@@ -86,8 +86,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   return Loaded::walks;
 }
 
-// Of a vertex of each lane and the three after it, one coordinate, which is so far into their
-// block.
+// Loads one coordinate of a vertex of each lane and of the three after it. `offset` is the
+// coordinate's position in the block.
 template <class Scalar, std::size_t... lane>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void four_vertices(
     const hull_scan::VertexBlock<Scalar>* const* blocks, std::size_t offset,
@@ -99,8 +99,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void four_vertices(
   columns_of<Scalar>(quads, four);
 }
 
-// The core of a body, turned and in the pair's unit; vertices from `centre`, or without it from
-// that of the body.
+// Rotates the core of a body and scales it to the pair's unit. Vertices are relative to `centre`,
+// or to the body's centre if it is null.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
     const Vectors<Scalar> columns[3], const Quad<Scalar>* extents, int halves,
@@ -130,8 +130,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
   }
 }
 
-// Scales the columns of a matrix. Lanes whose greatest entry is about that of a rotation: the unit
-// is above the size of the body then, and not far.
+// Scales the columns of a matrix. Returns the lanes whose greatest entry is about that of a
+// rotation, as bits: then the unit is above the size of the body, and near it.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned scale_columns(Vectors<Scalar> columns[3],
                                                            typename RealLanes<Scalar>::Real scale) {
@@ -149,7 +149,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned scale_columns(Vectors<Scalar> colum
                           Lanes::less(greatest, Lanes::broadcast(Scalar(1.001)))));
 }
 
-// What a pair will be read of, a while before.
+// Prefetches the data of a later pair.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void fetch_bodies(const PairTable<Scalar>& table,
                                                       const LaneGoal<Scalar>& goal,
@@ -160,8 +160,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void fetch_bodies(const PairTable<Scalar>& t
   }
 }
 
-// Turns the bodies that are loaded: all lanes, of which those that were come to what they were. The
-// lanes whose matrices are good for it.
+// Rotates the loaded bodies in all lanes; lanes that were active before get the same values again.
+// Returns the lanes whose matrices are usable, as bits.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned turn_lanes(const LaneGoal<Scalar>& goal,
                                                         Walkers<Scalar>& walkers) {
@@ -195,8 +195,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned turn_lanes(const LaneGoal<Scalar>& 
   return usable;
 }
 
-// Gives the next pairs of the queue to the lanes that do not walk, and the places of those that the
-// lanes do not take to `left`; how many are there then.
+// Gives the next pairs of the queue to free lanes and writes the places of pairs that the lanes
+// cannot take to `left`. Returns the new number of places in `left`.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
                                           const LaneGoal<Scalar>& goal,

@@ -1,15 +1,15 @@
-// The step of GJK's walk in lanes: from a simplex and a new corner to the feature that is nearest
-// to the origin, of all sizes at once. Part of gjk_lanes.inl.
+// Part of gjk-lanes, included by lane_gjk.inl: one step of GJK in lanes. It takes a simplex and a
+// new corner to the feature nearest to the origin, for simplices of all sizes together.
 #include "algorithms/kernels/batch/pair_lanes.inl"
 #include "algorithms/kernels/epa/triangle_lanes.inl"
 
 template <class Scalar>
 struct Corner {
   Vectors<Scalar> point;  // of the difference
-  Vectors<Scalar> on_a;   // only where points are asked for
+  Vectors<Scalar> on_a;   // on the core of a; only if points are requested
 };
 
-// Up to three corners; what a lane has not, is any number.
+// Up to three corners; corners that a lane does not have are arbitrary numbers.
 template <class Scalar>
 struct LaneSimplex {
   Corner<Scalar> b, c, d;
@@ -18,8 +18,9 @@ struct LaneSimplex {
 
 template <class Scalar>
 struct LaneStep {
-  Vectors<Scalar> way;  // through the nearest point, of any length
-  // Lanes, as bits: a way; the origin surely inside; inside as it seems, but too near a face.
+  Vectors<Scalar> way;  // from the origin through the nearest point, of any length
+  // Lanes as bits: with a search direction; with the origin surely inside; with the origin
+  // apparently inside, but too near a face.
   unsigned found, inside, unsure;
 };
 
@@ -35,13 +36,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void put_where(typename RealLanes<Scalar>::M
   if constexpr (points) to.on_a = select<Scalar>(mask, from.on_a, to.on_a);
 }
 
-// Lanes, of those asked for, in which the origin is inside a tetrahedron whatever rounding did to
-// its corners: the determinants of its corners by threes, each with the origin, keep their signs.
-// `sides` are those of the faces at a. Corners that are off by r change that of p, q and s by no
-// more than r (|q x s| + |p x s| + |p x q|) + r^2 (|p| + |q| + |s|) + r^3; its own rounding is less
-// than 20 u times the squares of the lengths and the greatest length. As |q||s| + |p||s| + |p||q|
-// <= p^2 + q^2 + s^2, there is a quick test that is enough for most; where the origin is near a
-// face only the products themselves say so.
+// Returns those of the `asked` lanes in which a tetrahedron contains the origin whatever rounding
+// did to its corners: the determinants of the corners by threes, each with the origin, keep their
+// signs. `sides` are the determinants of the faces at a. Corners that are off by r change the
+// determinant of p, q and s by at most r (|q x s| + |p x s| + |p x q|) + r^2 (|p| + |q| + |s|) +
+// r^3; its own rounding is less than 20 u times the squares of the lengths and the greatest length.
+// Because |q||s| + |p||s| + |p||q| <= p^2 + q^2 + s^2, a quick test suffices for most; if the
+// origin is near a face, only the products themselves decide.
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned surely_inside(const Vectors<Scalar>& a, const Vectors<Scalar>& b,
                                          const Vectors<Scalar>& c, const Vectors<Scalar>& d,
@@ -78,7 +79,8 @@ TOUCHSTONE_TARGET unsigned surely_inside(const Vectors<Scalar>& a, const Vectors
   };
   const Real ab = area(a, b), ac = area(a, c), ad = area(a, d);
   const Real bc = area(b, c), cd = area(c, d), db = area(d, b);
-  // The areas' own rounding comes to 16 u of the greatest square, and what is relative to 1 / 64.
+  // The areas' own rounding is at most 16 u of the greatest square; relative errors are at most 1 /
+  // 64.
   const Real areas[4] = {ab + bc + ac, ac + cd + ad, ad + db + ab, bc + cd + db};
   const Scalar r = corner_error * (Scalar(1) + Scalar(1) / 64);
   const Real rest =
@@ -87,9 +89,9 @@ TOUCHSTONE_TARGET unsigned surely_inside(const Vectors<Scalar>& a, const Vectors
   return quickly | keep_signs(errors);
 }
 
-// The same of a double pyramid: a tetrahedron, and a corner e on the other side of the face of b, c
-// and d. An origin that is too near that face for either half is well inside one of the three
-// tetrahedra around the axis a e.
+// Like surely_inside, for a double pyramid: a tetrahedron, and a corner e on the other side of the
+// face b, c, d. If the origin is too near that face for either half, it is well inside one of the
+// three tetrahedra around the axis a e.
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned surely_between(const Tetrahedron<Scalar>& half, const Vectors<Scalar>& e,
                                           Scalar corner_error, unsigned asked) {
@@ -110,11 +112,11 @@ TOUCHSTONE_TARGET unsigned surely_between(const Tetrahedron<Scalar>& half, const
   return inside;
 }
 
-// In the lanes `on`: the simplex becomes the feature that is nearest, which the new corner is on.
-// `solid`: some lane has d. Regions are told apart by the products of edges: bc is that of the
-// edges from the new corner, which is a, to b and to c. Where rounding lets them overlap, the
-// first is taken of corner, edges ad, ac, ab, faces adb, acd, abc. Where the origin is inside, but
-// not surely, the lane's `around` is the tetrahedron; with points, where it is surely, too.
+// Reduces the simplex in the lanes `on` to the nearest feature, which contains the new corner.
+// `solid`: some lane has d. Regions follow from dot products of edges: bc is that of the edges from
+// the new corner a to b and to c. If rounding lets regions overlap, the first is taken in the order
+// corner, edges ad, ac, ab, faces adb, acd, abc. `around` becomes the tetrahedron if the origin is
+// inside but not surely; with `points` also if it is surely inside.
 template <class Scalar, bool points, bool solid>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scalar>& simplex,
                                                                const Corner<Scalar>& corner,
@@ -135,7 +137,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
   const Real bb = dot<Scalar>(ab, ab), cc = dot<Scalar>(ac, ac), bc = dot<Scalar>(ab, ac);
   const Mask past_b = both(has_b, Lanes::less(zero, along_b));
   const Mask past_c = both(has_c, Lanes::less(zero, along_c));
-  // Beyond an edge, as seen from the third corner of a face.
+  // Masks of projections beyond an edge, as seen from the third corner of a face.
   const Mask b_from_c = Lanes::less(bb * along_c - bc * along_b, zero);
   const Mask c_from_b = Lanes::less(cc * along_b - bc * along_c, zero);
   Vectors<Scalar> normal = cross<Scalar>(ab, ac);
@@ -190,14 +192,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneStep<Scalar> take_step(LaneSimplex<Scala
   const Mask on_face = without(without(either(either(face_b, face_c), face_d), on_corner), on_edge);
   const Real one = Lanes::broadcast(1), inverse = one / square;
   Vectors<Scalar> way = moved<Scalar>(a, along * inverse, edge);
-  // What is left along the edge is rounding, and would tilt the support plane.
+  // The remaining component along the edge is rounding, and would tilt the support plane.
   way = moved<Scalar>(way, -dot<Scalar>(way, edge) * inverse, edge);
   const Vectors<Scalar> outward =
       scaled<Scalar>(Lanes::select(Lanes::less(side, zero), -one, one), normal);
   step.way = select<Scalar>(on_corner, a, select<Scalar>(on_edge, way, outward));
   step.found = Lanes::bits(either(either(on_edge, on_face), on_corner)) & ~step.unsure;
 
-  // What is kept beside a: of ab and abc first b, of ad and adb first d, and c of the others.
+  // Corners kept beside a: for ab and abc first b, for ad and adb first d, and c for the others.
   const Mask by_b = without(without(face_b, face_c), face_d);
   const Mask first_b = either(without(without(edge_b, edge_c), edge_d), both(by_b, on_face));
   put_where<Scalar, points>(by_b, c, simplex.d);

@@ -1,6 +1,7 @@
-// The support points of lanes. Part of gjk_lanes.inl.
+// Part of gjk-lanes, included by lane_depths.inl: the support points of lanes.
 
-// Of vertices, in fours, the one furthest along the way, or least far; of several the first.
+// The vertex that is furthest along `way`, or least far; the first of several. `count` is a
+// multiple of four.
 template <class Scalar, bool forward>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_vertex(const Vectors<Scalar>* vertices,
                                                                     std::uint32_t count,
@@ -20,7 +21,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_vertex(const Vector
   return best;
 }
 
-// Half edges, each added or taken away, whichever goes further along the way, or less far.
+// Adds or subtracts each half edge, so that the corner is furthest along `way`, or least far.
 template <class Scalar, bool forward>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_corner(const Vectors<Scalar>* halves,
                                                                     int count,
@@ -36,7 +37,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_corner(const Vector
   return corner;
 }
 
-// Of the vertices of each lane, the one furthest in its direction, turned by the matrix of these
+// The vertex of each lane that is furthest in its direction, rotated by the matrix of these
 // columns.
 template <class Scalar>
 TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
@@ -68,8 +69,8 @@ TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
                        columns[2]);
 }
 
-// The points of the cores that are least far along the way on a, and furthest on b, and their
-// difference.
+// The point on the core of a that is least far along `way`, the point on b that is furthest, and
+// their difference.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Scalar>& goal,
                                                                const Walkers<Scalar>& walkers,
