@@ -1,4 +1,5 @@
-// How many boxes there are of each magnitude, and how long they are: what size classes are made of.
+// Part of hierarchical-grid: the number of boxes of each magnitude and their longest sides, from
+// which the size classes are chosen.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace touchstone {
 
 struct BoxMeasure {
   std::size_t members = 0;
-  std::array<double, 3> side{};  // the longest on each axis
+  std::array<double, 3> side{};  // longest side on each axis, metres
 
   void add(const BoxMeasure& other) {
     members += other.members;
@@ -32,7 +33,7 @@ struct BoxMeasure {
   }
 };
 
-// By the power of two of the longest side: as many as a float can have.
+// A box's magnitude is the exponent of its longest side; a float has this many exponents.
 inline constexpr std::size_t box_magnitudes = 256;
 inline std::size_t magnitude(const Aabb& box) {
   const float side =
@@ -41,7 +42,7 @@ inline std::size_t magnitude(const Aabb& box) {
 }
 using BoxMeasures = std::array<BoxMeasure, box_magnitudes>;
 
-// `ids`: of boxes that are not empty. `blocks`: scratch memory.
+// `ids` lists the boxes that are not empty; `blocks` is scratch memory.
 BoxMeasures measure_boxes(Executor& executor, std::span<const Aabb> boxes,
                           std::span<const std::uint32_t> ids, std::vector<BoxMeasures>& blocks);
 

@@ -38,8 +38,8 @@ void GridLevels::make_levels(Executor& executor, std::span<const Aabb> boxes,
     const double of_b = cells_wide(b);
     return of_a > of_b || (of_a == of_b && a < b);
   });
-  // From the smallest up. A level is closed when it has members enough; the largest few have one of
-  // their own, however few they are.
+  // Classes are formed from the smallest magnitude up. A class closes when it has enough members;
+  // the largest boxes get a class of their own, however few they are.
   BoxMeasure open;
   std::size_t place = 0;
   for (std::size_t i = 0; i < box_magnitudes; ++i) {
@@ -73,7 +73,7 @@ void GridLevels::sort_items(Executor& executor, std::span<const Aabb> boxes,
               [bits = id_bits_](std::uint64_t item) { return item >> bits; });
 }
 
-// The crowds of a level become levels behind it, which may have crowds themselves.
+// Makes levels of a level's dense cells and inserts them after it; these may have dense cells too.
 void GridLevels::split_crowds(Executor& executor, std::span<const Aabb> boxes, std::size_t level) {
   list_crowds(boxes, levels_[level].boxes);
   if (crowds_.empty()) return;
@@ -146,7 +146,7 @@ void GridLevels::sort_crowd(Executor& executor, std::span<const Aabb> boxes, con
               });
 }
 
-// At most four entries a body.
+// Makes the index, of at most four entries a body.
 void GridLevels::index_cells(Executor& executor) {
   std::size_t entries = 0;
   for (Level& level : levels_) {

@@ -1,6 +1,6 @@
-// Bodies sorted by the cells of grids: a grid for each size class, and one more for what crowds in
-// one cell of another, as a dense cluster in a wide world does.
-// Papers: Ericson, "Real-Time Collision Detection", 2005, section 7.2 (a grid a size class);
+// Part of hierarchical-grid: bodies sorted by the cells of grids, with one grid for each size class
+// and one for each dense cell of another, such as a dense cluster in a wide world.
+// Papers: Ericson, "Real-Time Collision Detection", 2005, section 7.2 (a grid for each size class);
 //         Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", thesis, Berkeley 1996.
 #pragma once
 
@@ -21,34 +21,34 @@
 
 namespace touchstone {
 
-// Keeps its memory.
+// The levels; they keep their memory.
 class GridLevels {
  public:
   struct Level {
     SerpentineGrid grid;
     IndexRange boxes{0, 0};
-    Aabb bounds = everywhere;      // of them, of a crowd
-    std::uint64_t first_cell = 0;  // of the grid's, among those of all
-    std::size_t first_entry = 0;   // in the index
+    Aabb bounds = everywhere;      // bounds of a dense cell's boxes; unlimited for a size class
+    std::uint64_t first_cell = 0;  // number of the grid's first cell among the cells of all levels
+    std::size_t first_entry = 0;   // place in the index
     int index_shift = 0;
   };
 
-  // `ids`: of boxes that are not empty. A cube of cells gets about `bodies_a_cube`, where they are
-  // spread as elsewhere.
+  // `ids` lists the boxes that are not empty. A cube of cells holds about `bodies_a_cube` where the
+  // density is the average.
   void sort(Executor& executor, std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
             double bodies_a_cube);
 
-  // By size; the crowds of each come behind it. Their boxes come in this order.
+  // The levels, by size; those of dense cells follow their own. The boxes are in the same order.
   std::span<const Level> levels() const { return levels_; }
   std::size_t size() const { return items_.size(); }
   std::uint32_t id(std::size_t place) const {
     return static_cast<std::uint32_t>(items_[place] & ((std::uint64_t{1} << id_bits_) - 1));
   }
-  // The number of the cell in its level's grid.
+  // The number of the box's cell in its level's grid.
   std::uint64_t cell(const Level& level, std::size_t place) const {
     return cell(place) - level.first_cell;
   }
-  // The first box in this cell of the level or behind it.
+  // The first box of the level in this cell or a later one.
   std::size_t find(const Level& level, std::uint64_t cell) const {
     const std::uint64_t entry = level.first_entry + (cell >> level.index_shift);
     if (level.index_shift == 0) return index_[entry];
@@ -64,9 +64,9 @@ class GridLevels {
  private:
   static constexpr std::size_t block_size = 8192;
   static constexpr std::size_t most_classes = 16;
-  // A class of fewer goes into the next larger one.
+  // A class with fewer members joins the next larger one.
   static constexpr std::size_t least_members = 64;
-  // So many in one cell are a crowd, which is split if it has room for so many cells.
+  // A cell with this many boxes is dense; it is split if its own grid has at least `least_cells`.
   static constexpr std::size_t least_crowd = 256;
   static constexpr std::uint64_t least_cells = 64;
   static constexpr Aabb everywhere{
@@ -98,14 +98,14 @@ class GridLevels {
   SerpentineGrid::Axes axes_{0, 1, 2};
   std::array<std::uint8_t, box_magnitudes> level_of_{};
   std::vector<Level> levels_;
-  std::uint64_t cells_ = 0;           // of all levels
+  std::uint64_t cells_ = 0;           // number of cells of all levels
   std::vector<std::uint64_t> items_;  // cell above, id below
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
-  std::vector<Level> crowds_;                  // of a level
-  std::vector<std::uint64_t> before_, crowd_;  // items of the level, and of one crowd
+  std::vector<Level> crowds_;                  // levels of one level's dense cells
+  std::vector<std::uint64_t> before_, crowd_;  // items of the level, and of one dense cell
   RadixSort<std::uint64_t> crowd_sort_;
-  std::vector<std::uint32_t> index_;  // of each 2^shift cells, the first box there or behind
+  std::vector<std::uint32_t> index_;  // the first box in each 2^index_shift cells, or after them
 };
 
 }  // namespace touchstone

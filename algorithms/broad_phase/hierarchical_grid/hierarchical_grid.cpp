@@ -1,16 +1,26 @@
-// Hierarchical grid: a grid for each size class; each box lies in one cell of the grid that suits
-// it, and looks for partners in the cells around it and in those of the coarser grids.
+// Hierarchical grid: a grid for each size class; each box lies in one cell of its class's grid, and
+// is tested against the boxes in the cells around it there and in the coarser grids.
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 7.2; Mirtich, "Impulse-based
 //          Dynamic Simulation of Rigid Body Systems", thesis, Berkeley 1996 (the hash of grids).
-// Departs: no hash and no linked lists: boxes are sorted by cell, so that a few cells side by side
-//          are one run of boxes, and an index over the sorted cells finds it. 16 boxes that lie one
-//          behind the other look for partners together. Cells are as large as the class' largest
-//          box, or larger where bodies are sparse: about 16 boxes then lie in a cube of cells. What
-//          crowds in one cell, as a dense cluster in a wide world does, gets a grid of its own. A
-//          body meets those behind it, so that each pair of cells is visited once.
+// Steps:   1. Form classes of at least 64 boxes by the exponent of the longest side
+//             (box_measures.cpp).
+//          2. Give each class a grid whose cells are at least as long as its boxes; number its
+//             cells in serpentine order (serpentine_grid.h).
+//          3. Radix-sort the boxes by class and cell; give dense cells a grid of their own, and
+//             index the sorted cells (grid_levels.cpp).
+//          4. Cut each grid's boxes into groups of 16 neighbours, and bound each group.
+//          5. For each group, and each grid of its class and above that reaches its bounds, list
+//             the runs of boxes in the cells that could overlap them. Take only boxes after the
+//             group.
+//          6. Test the group against these runs (kernels/boxes/group_scan.h).
+// Departs: there is no hash and there are no linked lists: boxes are sorted by cell, so adjacent
+//          cells are one run of boxes, which an index finds. 16 neighbouring boxes search together.
+//          Cells are as large as the class's largest box, or larger where bodies are sparse: about
+//          16 boxes then lie in a cube of cells. A box is tested against later ones only, so each
+//          pair of cells is visited once.
 // Fails:   long thin boxes in all directions: a cell is as long as they are, on each axis.
-// Cost:    O(n) for keys and sort, O(n l + k) to be expected; l = grids in use, k = pairs in
-//          neighbouring cells. About 65 bytes a body.
+// Cost:    O(n) for keys and sort, O(n l + k) expected; l = grids in use, k = pairs in neighbouring
+//          cells. About 65 bytes a body.
 #include <algorithm>
 
 #include "algorithms/broad_phase.h"
@@ -82,13 +92,14 @@ class HierarchicalGrid final : public BroadPhase {
   std::vector<Scratch> scratch_;
   std::vector<std::uint32_t> ids_;
   GridLevels grids_;
-  AabbSoA boxes_;                         // in their order
-  std::vector<std::size_t> first_group_;  // of each level
+  AabbSoA boxes_;                         // sorted as in the levels
+  std::vector<std::size_t> first_group_;  // number of each level's first group
   std::size_t groups_ = 0;
 };
 
 void HierarchicalGrid::pair_group(std::size_t group, Scratch& scratch, PairBuffer& out) const {
-  // The last that begins there or before: empty ones begin where the next one does.
+  // The group's level is the last that begins at it or before; empty levels begin where the next
+  // does.
   const std::size_t own = static_cast<std::size_t>(std::ranges::upper_bound(first_group_, group) -
                                                    first_group_.begin()) -
                           1;
@@ -103,7 +114,7 @@ void HierarchicalGrid::pair_group(std::size_t group, Scratch& scratch, PairBuffe
   scan_group(boxes_, members, bounds, scratch.partners, scratch.group, out);
 }
 
-// The boxes from `from` on in the cells of a level where boxes that overlap these bounds may be.
+// Lists the boxes from `from` on in the level's cells that may hold boxes that overlap the bounds.
 void HierarchicalGrid::find_partners(const Level& level, const Aabb& bounds, std::size_t from,
                                      Scratch& scratch) const {
   if (from >= level.boxes.last) return;
@@ -119,7 +130,7 @@ void HierarchicalGrid::find_partners(const Level& level, const Aabb& bounds, std
       runs.push_back(run);
     }
   };
-  // More rows than boxes: rather all boxes of these slabs.
+  // If there are more rows than boxes, all boxes of these slabs are one run.
   const std::size_t left = level.boxes.last - std::max(from, level.boxes.first);
   if (window.rows() * window.slabs() * 4 > left) {
     return add({grids_.find(level, level.grid.first_cell_of_slab(window.low[2])),

@@ -10,10 +10,10 @@ SerpentineGrid::SerpentineGrid(const Axes& axes, const Sides& longest, const Sid
     : axes_(axes) {
   Sides extent;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    reach_[axis] = longest[axis] * (1 + 0x1p-16);  // no rounding makes it too short
+    reach_[axis] = longest[axis] * (1 + 0x1p-16);  // the factor exceeds all rounding errors
     extent[axis] = std::max(high[axis] - low[axis], reach_[axis]);
   }
-  // Axes on which the region is thinner than the spacing have one cell, and the others share the
+  // An axis on which the region is thinner than the spacing has one cell; the other axes share the
   // groups.
   std::array<std::size_t, 3> by_extent{0, 1, 2};
   std::ranges::sort(by_extent, {}, [&](std::size_t axis) { return extent[axis]; });
@@ -32,7 +32,7 @@ SerpentineGrid::SerpentineGrid(const Axes& axes, const Sides& longest, const Sid
     double cells = 1;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t axis = axes_[k];
-      // Where nothing has an extent, one cell.
+      // A grid without extent has one cell.
       const double last = side[axis] > 0 ? std::floor(extent[axis] / side[axis]) : 0;
       space_.inverse_side[axis] = side[axis] > 0 ? 1 / side[axis] : 0;
       space_.last[axis] = static_cast<std::uint32_t>(std::min(last, most_cells));

@@ -1,7 +1,7 @@
-// A grid of cells in rows, for boxes by their minimum corners. The rows are numbered there and back
-// as an ox ploughs, and so are the cells of a row: whose boxes are next in the order are near, and
-// a few cells side by side are one run of them. Paper: Ericson, "Real-Time Collision Detection",
-// 2005, section 7.2 (the grid of a size class).
+// Part of hierarchical-grid: a grid in serpentine (boustrophedon) order, in which boxes are entered
+// by their minimum corners. Rows alternate in direction, and so do the cells of a row: consecutive
+// boxes are near each other, and adjacent cells of a row are one run.
+// Paper: Ericson, "Real-Time Collision Detection", 2005, section 7.2 (the grid of a size class).
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ namespace touchstone {
 class SerpentineGrid {
  public:
   using Sides = std::array<double, 3>;
-  // Along rows, across rows, across slabs of rows.
+  // The axes along rows, across rows, and across slabs of rows.
   using Axes = std::array<std::size_t, 3>;
   static constexpr double most_cells = 1 << 27;
 
-  // Cells as large as `longest`, the longest sides of the boxes; or so large that so many groups of
-  // boxes, spread evenly from low to high, have a cube of cells each. Boxes outside are in the
-  // outermost cells.
+  // Makes cells as large as `longest`, the longest sides of the boxes, or so large that each of
+  // `groups` groups of boxes, spread evenly from low to high, has a cube of cells. Boxes outside of
+  // the region are in the outermost cells.
   SerpentineGrid() = default;
   SerpentineGrid(const Axes& axes, const Sides& longest, const Sides& low, const Sides& high,
                  double groups);
@@ -33,7 +33,7 @@ class SerpentineGrid {
     return cell_in(row, place(box.min[axes_[0]], 0));
   }
 
-  // The cells of the boxes that may overlap these bounds: of each row `length` ones.
+  // The cells whose boxes may overlap some bounds: `length` cells of each row.
   struct Window {
     std::array<std::size_t, 3> low, high;
     std::size_t rows() const { return high[1] - low[1] + 1; }
@@ -48,7 +48,7 @@ class SerpentineGrid {
     }
     return window;
   }
-  // The first of the window's cells in a row.
+  // The number of the window's first cell in a row.
   std::uint64_t first_cell(const Window& window, std::size_t row, std::size_t slab) const {
     const std::uint64_t number = row_of(row, slab);
     return number * count_[0] + (number % 2 == 0 ? window.low[0] : count_[0] - 1 - window.high[0]);
@@ -58,7 +58,8 @@ class SerpentineGrid {
   }
 
  private:
-  // Cells of a row are finer than the rows are wide: they cost nothing, since a run has many.
+  // Cells are shorter along a row than the rows are wide: this is free, since a run spans many
+  // cells.
   static constexpr double cells_a_width = 4;
 
   std::size_t place(double x, std::size_t k) const { return space_.cell(x, axes_[k]); }
@@ -70,9 +71,9 @@ class SerpentineGrid {
   }
 
   Axes axes_{0, 1, 2};
-  CellSpace space_;                            // of the boxes' minimum corners
-  Sides reach_{};                              // no box is longer
-  std::array<std::size_t, 3> count_{1, 1, 1};  // of cells; by k of axes_
+  CellSpace space_;                            // cells of the boxes' minimum corners
+  Sides reach_{};                              // no box is longer; metres
+  std::array<std::size_t, 3> count_{1, 1, 1};  // number of cells; indexed as axes_
 };
 
 }  // namespace touchstone

@@ -1,16 +1,26 @@
-// Loose octree: each box lies in one cell, at the level of its size, and reaches beyond it; cells
-// that overlap are paired from the root down, and boxes where no cell has more than sixteen.
+// Loose octree: each box lies in one cell, at the level of its size, and may reach beyond it; cells
+// whose bounds overlap are joined from the root down, and boxes in cells of at most sixteen.
 // Paper:   Ulrich, "Loose Octrees", Game Programming Gems, 2000; Gargantini, "An Effective Way to
 //          Represent Quadtrees", CACM 1982 (linear: sorted codes).
-// Departs: a cell is as loose as its boxes make it: its bounds are those of what lies in it. Cells
-//          have the proportions of the usual box. A cell ends where sixteen boxes are left, few
-//          parts side by side are one, and of cells with a single part only the last is kept. Where
-//          many boxes lie in one finest cell, or are large for the cell where they are, they get an
-//          octree of their own. Each cell is handed a list of those behind it that it overlaps, and
-//          picks from it what its parts overlap, a vector at a time.
+// Steps:   1. Give each box the cell that contains its centre, at the level of its size, and
+//             radix-sort the cells' Morton codes (octree_order.cpp).
+//          2. Divide the sorted range into the root's octants and these in turn, down to leaves of
+//             at most 16 boxes; join small octants, and skip cells with a single part.
+//          3. If many boxes share one key, sort them by an octree of their own.
+//          4. Bound each leaf by its boxes and each cell by its parts, from the bottom up.
+//          5. Descend from the root; pass each cell the list of later cells that overlap it, and
+//             pick from the list, and from these cells' parts, what overlaps each part
+//             (tree_self_join.inl).
+//          6. In a leaf test its boxes against each other and against boxes of the listed leaves
+//             that overlap its bounds, a vector at a time.
+//          7. Each cell of at most 2048 boxes is a task.
+// Departs: the looseness of a cell follows its boxes: its bounds are theirs. Cells have the
+//          proportions of the usual box. A cell with at most sixteen boxes is not divided, small
+//          adjacent parts become one, and of a chain of cells with a single part only the last is
+//          kept. If many boxes lie in one finest cell, or are large for the cell that they share,
+//          they get an octree of their own.
 // Fails:   long thin boxes in all directions: the bounds of all cells overlap.
-// Cost:    O(n) time for keys and sort, O(n log n + k) to be expected for the search; k = pairs
-// that
+// Cost:    O(n) time for keys and sort, O(n log n + k) expected for the search; k = pairs that
 //          overlap. About 60 bytes a body.
 #include <algorithm>
 #include <array>
@@ -64,17 +74,17 @@ class LooseOctree final : public BroadPhase {
 
  private:
   static constexpr std::uint32_t fan = NodeRef::fan;
-  // A cell of no more is the work of one task, with all that is below it.
+  // The subtree of a cell with at most this many boxes is one task.
   static constexpr std::uint32_t boxes_a_task = 2048;
 
-  static constexpr NodeRef no_node{0};  // not a leaf, and below the root
+  static constexpr NodeRef no_node{0};  // an inner node, and below the root
 
-  // With more boxes than a leaf may have: those of a range. Its parts are a block of the tree's.
+  // A range of more boxes than a leaf may have. Its parts are a block of the tree's nodes.
   struct Cell {
     std::uint32_t first, last;
   };
   struct Parts {
-    std::array<std::uint32_t, fan> ends;  // the first one's beginning comes before
+    std::array<std::uint32_t, fan> ends;  // each part begins at the end of the one before
     std::uint32_t count = 0;
   };
   struct Task {
@@ -92,15 +102,15 @@ class LooseOctree final : public BroadPhase {
   std::vector<JoinScratch> scratch_;
   std::vector<std::uint32_t> ids_;
   OctreeOrder order_;
-  AabbSoA boxes_;  // in that order
+  AabbSoA boxes_;  // sorted as in the octree
   std::vector<Cell> cells_;
-  std::vector<NodeRef> refs_;  // of the tree's nodes
+  std::vector<NodeRef> refs_;  // one for each node of the tree
   JoinTree tree_;
   std::vector<Task> tasks_;
   Status status_ = Status::ok;
 };
 
-// Breadth first, so that what is above comes first.
+// Builds the cells breadth first, so that parents precede their parts.
 void LooseOctree::grow(std::span<const Aabb> boxes) {
   cells_.clear();
   refs_.clear();
@@ -147,7 +157,7 @@ void LooseOctree::list_tasks() {
   }
 }
 
-// Into two parts or more, where they are more than a leaf may have.
+// Divides a range into two parts or more if it has more boxes than a leaf may have.
 LooseOctree::Parts LooseOctree::divide(std::span<const Aabb> boxes, std::uint32_t first,
                                        std::uint32_t last) {
   if (last - first <= fan) return divide_evenly(first, last);
@@ -157,7 +167,7 @@ LooseOctree::Parts LooseOctree::divide(std::span<const Aabb> boxes, std::uint32_
   Parts parts;
   const std::uint32_t key = order_.key(first);
   const int depth = OctreeOrder::common_levels(key, order_.key(last - 1));
-  // Those that are too large for a part; of one cell, those of the largest size.
+  // The first part is boxes too large for an octant; in a finest cell, those of the largest size.
   const int own_depth = depth < OctreeOrder::most_levels ? depth : OctreeOrder::depth(key);
   std::uint32_t end = first;
   while (OctreeOrder::depth(order_.key(end)) <= own_depth) ++end;
@@ -167,7 +177,7 @@ LooseOctree::Parts LooseOctree::divide(std::span<const Aabb> boxes, std::uint32_
     return parts;
   }
   const std::uint32_t own_parts = parts.count;
-  std::uint32_t begin = end;  // of the part before
+  std::uint32_t begin = end;  // first box of the part before
   while (end < last) {
     const std::uint32_t octant = OctreeOrder::octant(order_.key(end), depth);
     const std::uint32_t from = end;
@@ -177,7 +187,7 @@ LooseOctree::Parts LooseOctree::divide(std::span<const Aabb> boxes, std::uint32_
       (OctreeOrder::octant(order_.key(middle), depth) == octant ? end : behind) = middle;
     }
     end = behind;
-    // Few: one with the part before.
+    // A small octant joins the part before it.
     if (parts.count > own_parts && end - begin <= fan) {
       --parts.count;
     } else {

@@ -1,6 +1,6 @@
-// Morton codes: the bits of three cell numbers, interleaved.
+// Part of loose-octree: Morton codes, which interleave the bits of three cell numbers.
 // Paper: Morton, "A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing",
-// IBM 1966.
+//        IBM 1966.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ constexpr std::uint64_t spread_bits(std::uint64_t x) {
   x = (x | x << 4) & 0x10c30c30c30c30c3;
   return (x | x << 2) & 0x1249249249249249;
 }
-// The other way round: every third bit of x.
+// The inverse of spread_bits: every third bit of x.
 constexpr std::uint64_t gather_bits(std::uint64_t x) {
   x &= 0x1249249249249249;
   x = (x | x >> 2) & 0x10c30c30c30c30c3;
@@ -26,7 +26,7 @@ constexpr std::uint64_t gather_bits(std::uint64_t x) {
   return (x | x >> 32) & 0x00000000001fffff;
 }
 
-// spread_bits(x + 1) from spread_bits(x).
+// Returns spread_bits(x + 1) for spread_bits(x).
 constexpr std::uint64_t next_spread(std::uint64_t spread) {
   constexpr std::uint64_t others = ~std::uint64_t{0x1249249249249249};
   return ((spread | others) + 1) & ~others;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t block_size = 4096;
 
-// Two zeros between the bits of each number of a cell.
+// spread_bits of each cell number.
 constexpr std::array<std::uint32_t, 1 << OctreeOrder::most_levels> spread = [] {
   std::array<std::uint32_t, 1 << OctreeOrder::most_levels> all{};
   for (std::uint32_t i = 0; i < all.size(); ++i)
@@ -22,7 +22,7 @@ constexpr std::array<std::uint32_t, 1 << OctreeOrder::most_levels> spread = [] {
   return all;
 }();
 
-// The least n with 2^n >= x.
+// Returns the least n >= 0 with 2^n >= x.
 int ceil_log2(double x) {
   if (!(x > 1)) return 0;
   const auto bits = std::bit_cast<std::uint64_t>(x);
@@ -41,7 +41,7 @@ int OctreeOrder::common_levels(std::uint32_t a, std::uint32_t b) {
   return most_levels - (static_cast<int>(std::bit_width(differs)) + 2) / 3;
 }
 
-// Cells have the proportions of the usual box; all of the region is in the root.
+// Cells have the proportions of the usual box; the root contains the whole region.
 OctreeOrder::Cells OctreeOrder::make_cells(const BoxSample& sample, double bodies) {
   const double root = sample.extent();
   Cells cells{.space = {.origin = sample.low}, .levels = 1};
@@ -56,7 +56,7 @@ OctreeOrder::Cells OctreeOrder::make_cells(const BoxSample& sample, double bodie
   while (cells.levels < most_levels && used(cells.levels) < bodies) ++cells.levels;
   cells.space.last.fill((1u << cells.levels) - 1);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Where nothing has an extent, one cell.
+    // An octree without extent has one cell.
     const double length = root * sample.side[axis];
     cells.space.inverse_side[axis] = length > 0 ? std::ldexp(1 / length, cells.levels) : 0;
   }
@@ -93,7 +93,7 @@ void OctreeOrder::sort(Executor& executor, std::span<const Aabb> boxes,
   sort_items(executor, items_, cells.levels, radix_sort_);
 }
 
-// Without the digits of levels that there are not.
+// Sorts by key, without the digits of unused levels.
 void OctreeOrder::sort_items(Executor& executor, std::vector<std::uint64_t>& items, int levels,
                              RadixSort<std::uint64_t>& radix_sort) const {
   const std::uint64_t depth = (1u << depth_bits) - 1;
@@ -116,7 +116,7 @@ bool OctreeOrder::refine(Executor& executor, std::span<const Aabb> boxes, std::s
     }
   }
   if (all.low == all.high) return false;
-  // Flat boxes are not to be told apart by a hair on the axis on which they are flat.
+  // A floor on the length keeps rounding from deciding on an axis on which the boxes are flat.
   const double least = 1e-3 * std::ranges::max(all.side);
   for (double& side : all.side) side = least > 0 ? std::max(side, least) : 1;
   const Cells cells = make_cells(all, 2 * static_cast<double>(last - first));

@@ -1,5 +1,5 @@
-// Bodies in the order of a linear octree: each in the cell that holds its centre, at the level of
-// its size; a cell's own bodies first, then those of its eight parts.
+// Part of loose-octree: bodies in the order of a linear octree. Each lies in the cell that contains
+// its centre, at the level of its size; a cell's own bodies precede those of its octants.
 // Papers: Gargantini, "An Effective Way to Represent Quadtrees", CACM 1982 (sorted codes instead of
 //         nodes); Ulrich, "Loose Octrees", Game Programming Gems, 2000 (the size gives the level).
 #pragma once
@@ -17,36 +17,35 @@
 
 namespace touchstone {
 
-// Keeps its memory.
+// The sorted bodies; the class keeps its memory.
 class OctreeOrder {
  public:
-  // Levels below the root, at most: 3 bits of code each, and some for a body's own depth, which is
-  // this where it is in a finest cell, however many levels there are.
+  // The greatest number of levels below the root: a key has 3 bits for each, and a few for the
+  // body's depth. The depth of a finest cell is this number, however many levels there are.
   static constexpr int most_levels = 9;
 
-  // `ids`: of boxes that are not empty. The octree's root is the region where most of them are:
-  // those outside are in the outermost cells. Has so many levels that a finest cell has a body or
-  // two, where they are spread evenly.
+  // Sorts the bodies. `ids` lists the boxes that are not empty. The root is the region that holds
+  // most of them; boxes outside are in the outermost cells. The number of levels is such that a
+  // finest cell holds one or two bodies if they are spread evenly.
   void sort(Executor& executor, std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
 
-  // Gives those of a range, who have one key, an octree of their own, over just the region where
-  // they are. Where they were not in a finest cell their sizes are left out of account, since it
-  // is these that keep them together: all come into finest cells. False where all have one centre:
-  // then nothing is done.
+  // Subdivides a range of boxes that share a key with an octree of its own over their bounds. If
+  // the key is not at the finest level, box size is ignored, because size is what put them all
+  // there. Returns false, and changes nothing, if all centres coincide.
   bool refine(Executor& executor, std::span<const Aabb> boxes, std::size_t first, std::size_t last);
 
   std::size_t size() const { return items_.size(); }
   std::uint32_t id(std::size_t place) const {
     return static_cast<std::uint32_t>(items_[place] & ((std::uint64_t{1} << id_bits_) - 1));
   }
-  // The Morton code of the cell, in finest cells, above; the cell's depth below.
+  // The key: the Morton code of the cell, in finest cells, above the cell's depth.
   std::uint32_t key(std::size_t place) const {
     return static_cast<std::uint32_t>(items_[place] >> id_bits_);
   }
-  // How many of the levels' digits in `key` two keys, of one octree, have in common.
+  // The number of leading levels in which two keys of one octree agree.
   static int common_levels(std::uint32_t a, std::uint32_t b);
   static int depth(std::uint32_t key) { return static_cast<int>(key & ((1u << depth_bits) - 1)); }
-  // The eighth of the cell at this depth in which the key is.
+  // The octant, of a cell at this depth, that contains the key.
   static std::uint32_t octant(std::uint32_t key, int depth) {
     return key >> (depth_bits + 3 * (most_levels - 1 - depth)) & 7;
   }
@@ -57,7 +56,7 @@ class OctreeOrder {
   static constexpr int depth_bits = 4;
 
   struct Cells {
-    CellSpace space;  // the finest
+    CellSpace space;  // cells of the finest level
     int levels;
   };
   static Cells make_cells(const BoxSample& sample, double bodies);
@@ -68,7 +67,7 @@ class OctreeOrder {
   std::vector<std::uint64_t> items_;  // key above, id below
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
-  std::vector<std::uint64_t> crowd_;  // of a range that is sorted anew
+  std::vector<std::uint64_t> crowd_;  // items of a range that is refined
   RadixSort<std::uint64_t> crowd_sort_;
 };
 

@@ -1,8 +1,9 @@
-// All pairs of boxes below a tree's root: each node is handed a list of those behind it, and picks
-// from it, and from the parts of these, what it overlaps itself. At the level of vector
-// instructions that isa() allows; comparisons only, so what is written is the same at every level.
+// Part of loose-octree: the self-join of a tree, which finds all pairs of boxes below its root.
+// Each node receives a list of later nodes, and picks from it, and from the parts of these, what
+// overlaps it. It runs at the level of vector instructions that isa() allows; it only compares, so
+// every level writes the same pairs.
 // Paper: Brinkhoff, Kriegel, Seeger, "Efficient Processing of Spatial Joins Using R-trees", SIGMOD
-//        1993 (both sides go down together, and only what lies in both bounds goes on).
+//        1993 (both sides descend together, restricted to the intersection of their bounds).
 #pragma once
 
 #include <array>
@@ -19,8 +20,8 @@
 
 namespace touchstone {
 
-// Where what is below a node begins, and how much it is: up to 16 boxes below a leaf, one behind
-// the other; else a block of up to 16 nodes.
+// A reference to what is below a node: up to 16 consecutive boxes of a leaf, or a block of up to 16
+// nodes.
 struct NodeRef {
   static constexpr std::uint32_t fan = 16;
   static constexpr std::uint32_t leaf_bit = 1;
@@ -40,17 +41,17 @@ struct NodeRef {
   std::size_t count() const { return (packed >> 1 & 15) + 1; }
 };
 
-// Blocks of 16 places for nodes; the root's nodes are block 0. Keeps its memory.
+// Nodes in blocks of 16 places; block 0 holds the root's children. The tree keeps its memory.
 struct JoinTree {
-  AabbSoA nodes;                      // bounds; ids: NodeRefs; empty boxes fill a block up
-  std::vector<std::uint32_t> parent;  // of each block: the place of the node whose parts it has
+  AabbSoA nodes;                      // bounds; the ids are NodeRefs; empty boxes fill up a block
+  std::vector<std::uint32_t> parent;  // place of the node whose parts each block holds
 
   std::size_t held_bytes() const {
     return nodes.held_bytes() + parent.capacity() * sizeof(std::uint32_t);
   }
 };
 
-// What a join lists, and what it counts. One a worker.
+// Lists and counters of a join; one for each worker.
 struct JoinScratch {
   static constexpr std::size_t near_at_once = 512;
 
@@ -60,12 +61,11 @@ struct JoinScratch {
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 
-// Which nodes of a block look for partners: all, with what is below them, or the leaves alone.
+// The nodes of a block that look for partners: all, with their subtrees, or the leaves alone.
 enum class JoinPart : std::uint8_t { all, leaves };
 
-// Writes the ids of each pair of boxes that overlap, one of them below one of these nodes, the
-// other in the same leaf or behind it. What is above the block is gone through once more for each
-// call.
+// Writes the ids of each pair of boxes that overlap, one of them below a node of this block, the
+// other in the same leaf or a later one. Each call repeats the search from the root to the block.
 void join_block(const JoinTree& tree, const AabbSoA& boxes, std::size_t block, JoinPart part,
                 JoinScratch& scratch, PairBuffer& out);
 

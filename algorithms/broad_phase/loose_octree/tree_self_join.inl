@@ -1,5 +1,6 @@
-// The loops of tree_join.h. Included by tree_join.cpp once for each level of vector instructions,
-// inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its attribute.
+// Part of loose-octree: the loops of tree_self_join.h. tree_self_join.cpp includes them once for
+// each level of vector instructions, inside that level's namespace: `Lanes` are its vectors,
+// TOUCHSTONE_TARGET its attribute.
 
 inline unsigned first_lanes(std::size_t count) { return count < fan ? (1u << count) - 1 : 0xffffu; }
 
@@ -16,7 +17,7 @@ TOUCHSTONE_TARGET inline unsigned leaves_among(const std::uint32_t* refs) {
   return lanes;
 }
 
-// The bounds of a block; all there is for the root's.
+// The bounds of a block; unlimited for the root's.
 TOUCHSTONE_TARGET inline Row bounds_of_block(const Join& join, std::size_t block) {
   if (block != 0) return load_row(join.nodes, join.tree.parent[block]);
   Row row;
@@ -27,7 +28,7 @@ TOUCHSTONE_TARGET inline Row bounds_of_block(const Join& join, std::size_t block
   return row;
 }
 
-// Appends those of from[j .. j + 15] whose bit is set; there is room for them.
+// Appends the boxes from[j .. j + 15] whose bits are set; the list has room for them.
 TOUCHSTONE_TARGET inline void keep(unsigned lanes, const Columns& from, std::size_t j,
                                    AabbStack& list) {
   const std::size_t end = list.end();
@@ -42,8 +43,8 @@ inline void make_room(std::vector<std::uint32_t>& list, std::size_t size) {
   if (list.size() < size + fan) list.resize(2 * (size + fan));
 }
 
-// Starts a list of the block's nodes, and behind them what they overlap together: of the leaves in
-// `behind`, and of the parts of the other nodes there.
+// Starts a list: the block's nodes, followed by what overlaps the bounds of these, from the leaves
+// in `behind` and from the parts of the other nodes there.
 TOUCHSTONE_TARGET inline IndexRange list_nodes(const Join& join, std::size_t block,
                                                IndexRange behind) {
   JoinScratch& s = join.scratch;
@@ -71,8 +72,8 @@ TOUCHSTONE_TARGET inline IndexRange list_nodes(const Join& join, std::size_t blo
   return {first, s.list.end()};
 }
 
-// The leaves that overlap the bound, into scratch.leaves: of the nodes in `behind`, and of what is
-// below them. How many.
+// Lists in scratch.leaves the leaves that overlap the bound, from `behind` and below it. Returns
+// their number.
 TOUCHSTONE_TARGET inline std::size_t list_leaves(const Join& join, const Row& bound,
                                                  IndexRange behind) {
   JoinScratch& s = join.scratch;
@@ -105,7 +106,7 @@ TOUCHSTONE_TARGET inline std::size_t list_leaves(const Join& join, const Row& bo
   return count;
 }
 
-// Pairs of a leaf's boxes with one another, and with those at these places.
+// Writes the pairs of a leaf's boxes with each other, if `with_own`, and with the boxes at `near`.
 TOUCHSTONE_TARGET inline void pair_boxes(const Columns& boxes, NodeRef leaf,
                                          const std::uint32_t* near, std::size_t count,
                                          bool with_own, PairBuffer& out) {
@@ -155,7 +156,7 @@ TOUCHSTONE_TARGET inline void pair_leaf(const Join& join, std::size_t node, Inde
   s.work.box_tests += static_cast<std::int64_t>(candidates);
 }
 
-// `behind`: of the list, what the block's nodes are to meet beside one another.
+// Joins a block. `behind` is the range of the list that its nodes meet beside each other.
 TOUCHSTONE_TARGET void join(const Join& all, std::size_t block, IndexRange behind, JoinPart part) {
   const IndexRange list = list_nodes(all, block, behind);
   for (std::size_t node = block * fan; node < block * fan + fan; ++node) {
@@ -171,7 +172,7 @@ TOUCHSTONE_TARGET void join(const Join& all, std::size_t block, IndexRange behin
   all.scratch.list.drop(list.first);
 }
 
-// What the nodes of a block are to meet.
+// The range of the list that the nodes of a block meet.
 TOUCHSTONE_TARGET IndexRange list_behind(const Join& all, std::size_t block) {
   if (block == 0) return {0, 0};
   const std::size_t node = all.tree.parent[block];

@@ -1,4 +1,5 @@
-// Listed pairs of boxes, tested one after the other without a branch to guess.
+// Part of verlet-list: overlap tests of listed pairs, one after the other and without a branch to
+// mispredict.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +12,11 @@
 
 namespace touchstone {
 
-// As overlap(), in two comparisons of four floats: both vectors lie within the box.
+// Returns overlap(a, b), in two comparisons of four floats: both vectors lie within the box.
 inline bool overlap_at_once(const Aabb& a, const Aabb& b) {
   using box_lanes::baseline::Lanes;
   static_assert(sizeof(Aabb) == 6 * sizeof(float));
-  const auto min_first = [](const Aabb& box) {  // x, y, z, and what is not looked at
+  const auto min_first = [](const Aabb& box) {  // x, y, z and one that is ignored
     return Lanes::load(reinterpret_cast<const float*>(&box));
   };
   const auto max_first = [](const Aabb& box) {
@@ -26,7 +27,7 @@ inline bool overlap_at_once(const Aabb& a, const Aabb& b) {
   return (Lanes::bits(Lanes::less_equal(test, min_first(b), max_first(a))) & 7u) == 7u;
 }
 
-// Appends those of the candidates whose boxes overlap and for which keep(pair) holds.
+// Appends the candidates whose boxes overlap and for which keep(pair) holds.
 template <class Keep>
 void write_overlapping(std::span<const Aabb> boxes, std::span<const IndexPair> candidates,
                        const Keep& keep, PairBuffer& out) {

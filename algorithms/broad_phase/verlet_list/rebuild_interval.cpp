@@ -7,8 +7,8 @@
 namespace touchstone {
 namespace {
 
-// What things cost a body, against one another: the order and the search of a pyramid, what each
-// pair found there adds, the test of a candidate, and the look whether a box has strayed.
+// Relative costs for each body: sorting and searching a packed R-tree, each pair found there, the
+// test of a candidate, and the check whether a box has escaped from its grown one.
 constexpr double search = 40;
 constexpr double search_pair = 4;
 constexpr double test = 1.5;
@@ -22,14 +22,14 @@ double a_body(std::size_t count, std::size_t bodies) {
 
 double RebuildInterval::choose(const Motion& motion, std::size_t bodies, std::size_t pairs) {
   constexpr std::array<double, 12> choices{2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96};
-  // Even where nothing overlaps yet, grown boxes will.
+  // Even if nothing overlaps yet, grown boxes will.
   const double found = std::max(a_body(pairs, bodies), 0.25);
   double best = 0;
   double least = search + search_pair * found;
   for (const double frames : choices) {
     const double grown = 1 + growth_ * motion.share * frames;
     const double candidates = found * grown * grown * grown;
-    // Memory is to stay in proportion to the output.
+    // This bound keeps the memory in proportion to the output.
     if (candidates > 2.5 * found + 2) break;
     const double lasts = std::max(1.0, frames * lasted_);
     const double cost = (search + search_pair * candidates) / lasts + test * candidates + look;
@@ -48,7 +48,7 @@ void RebuildInterval::made(const Motion& motion, double frames, std::size_t bodi
   candidates_ = a_body(candidates, bodies);
 }
 
-// Half of what was expected, and half of what was seen.
+// Averages each estimate with the value observed.
 void RebuildInterval::ended(int age, std::size_t bodies, std::size_t pairs) {
   const double found = std::max(a_body(pairs, bodies), 0.25);
   if (share_ > 0) {

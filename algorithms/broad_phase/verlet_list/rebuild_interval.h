@@ -1,8 +1,9 @@
-// How many frames a list of candidate pairs is to last.
+// Part of verlet-list: the rebuild interval, which is the number of frames that a list of candidate
+// pairs is made for.
 //
-// A list over boxes grown for f frames costs a search every f frames and its tests every frame, and
-// grows like the cube of what the boxes grow by. All by counts, so that the choice does not depend
-// on the machine's mood.
+// A list over boxes grown for f frames costs a search every f frames and its tests in every frame,
+// and its length grows with the cube of the boxes' growth. All costs are counts, so that the choice
+// does not depend on measured times.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +11,25 @@
 namespace touchstone {
 
 struct Motion {
-  float step = 0;    // metres a frame on an axis, in the mean
-  double share = 0;  // of it in the box's side and itself, in the mean
+  float step = 0;    // mean displacement of a body on an axis, metres a frame
+  double share = 0;  // mean of step / (side + step)
 };
 
 class RebuildInterval {
  public:
-  // Frames for the next list; 0 where none is worth while. `pairs` were found in the last frame.
+  // Returns the number of frames for the next list; 0 if no list pays. `pairs` is the number found
+  // in the last frame.
   double choose(const Motion& motion, std::size_t bodies, std::size_t pairs);
-  // What a list that was made has; when it ended, and the pairs found then.
+  // Records a list that was made, and the age at which it ended with the pairs found then.
   void made(const Motion& motion, double frames, std::size_t bodies, std::size_t candidates);
   void ended(int age, std::size_t bodies, std::size_t pairs);
 
  private:
-  double growth_ = 2;  // of a box's side a frame, in shares of the motion
-  double lasted_ = 1;  // frames that a list lasted, a frame that it was made for
-  double share_ = 0;   // of the last list
-  double frames_ = 0;
-  double candidates_ = 0;  // a body
+  double growth_ = 2;  // growth of a box's side a frame, in units of the share
+  double lasted_ = 1;  // mean ratio of the age at which a list ended and the frames it was made for
+  double share_ = 0;   // share of the last list
+  double frames_ = 0;  // frames that it was made for
+  double candidates_ = 0;  // its pairs, for each body
 };
 
 }  // namespace touchstone

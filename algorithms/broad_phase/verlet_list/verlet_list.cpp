@@ -1,12 +1,22 @@
-// Candidate list: pairs whose slightly grown boxes overlap are listed once, and only they are
-// tested until something has moved too far.
+// Verlet list: list the pairs whose slightly grown boxes overlap, and test only these until a body
+// has moved too far.
 // Paper:   Verlet, "Computer 'Experiments' on Classical Fluids. I", Physical Review 159, 1967
-//          (neighbour lists); the list is made by the Hilbert pyramid (packed_rtree.cpp).
-// Departs: each box grows by what its own motion asks for. How many frames a list is to last is
-//          chosen by counts, so that making and testing it cost least together. The few boxes that
-//          leave their grown ones, or come in, are searched one by one until there are too many.
-//          Where motion is too fast for a list, the pyramid searches.
-// Fails:   motion of a body's size a frame: then it is the Hilbert pyramid, and a little more.
+//          (neighbour lists); the search is the packed R-tree's (kernels/bvh/implicit_rtree.h).
+// Steps:   1. Measure how far bodies move in a frame, from a sample.
+//          2. Choose for how many frames a list is cheapest (rebuild_interval.cpp). If for none,
+//             search the boxes of this frame with the packed R-tree, and end.
+//          3. Grow each box by its motion in that many frames, and list all pairs of grown boxes
+//             that overlap, with the packed R-tree.
+//          4. In each frame find the escaped boxes: those outside of their grown ones, and new
+//             ones. If they are too many, start at step 1.
+//          5. Test the listed pairs of bodies that have not escaped (pair_tests.h).
+//          6. Search the R-tree for each escaped box, and test escaped boxes against each other.
+// Departs: each box grows by an amount that follows its own motion. Counts, not times, decide how
+//          many frames a list lasts, so that making and testing it cost least together. Escaped
+//          boxes are searched one by one while they are few. If motion is too fast for a list, the
+//          packed R-tree searches each frame.
+// Fails:   motion of a body's size a frame: it is then the packed R-tree, at a slightly higher
+//          cost.
 // Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 80
 //          bytes a body and 12 a candidate.
 #include <algorithm>
@@ -64,26 +74,27 @@ class VerletList final : public BroadPhase {
 
   Executor& executor_;
   std::vector<RTreeScratch> scratch_;
-  std::span<const Aabb> boxes_;  // of this frame
+  std::span<const Aabb> boxes_;  // boxes of this frame
   HilbertSort order_;
   ImplicitRTree pyramid_;  // over the grown boxes while there is a list, else over this frame's
 
-  // By body: the grown boxes of the list, or those of an earlier frame to measure motion by.
+  // Grown boxes of the list, or the boxes of an earlier frame to measure motion by; indexed by
+  // body.
   std::vector<Aabb> reference_;
-  int age_ = 0;  // frames since then
+  int age_ = 0;  // frames since `reference_` was written
   bool listed_ = false;
   PairSink candidates_;
   RebuildInterval duration_;
 
-  std::vector<std::uint8_t> strayed_;  // by body
-  std::vector<std::uint32_t> strays_;  // boxes that have left their grown ones, or come in
-  std::size_t searched_ = 0;           // strays, summed over the frames of this list
+  std::vector<std::uint8_t> strayed_;  // 1 for an escaped box; indexed by body
+  std::vector<std::uint32_t> strays_;  // escaped boxes: outside their grown ones, or new
+  std::size_t searched_ = 0;  // number of escaped boxes, summed over the frames of this list
   AabbSoA stray_boxes_;
-  std::vector<std::size_t> counts_;  // of blocks
-  std::size_t pairs_ = 0;            // found last
+  std::vector<std::size_t> counts_;  // one for each block
+  std::size_t pairs_ = 0;            // number found by the last search
 };
 
-// Whether `outer` holds `inner`. An empty box is held by any.
+// Returns true if `outer` contains `inner`. Any box contains an empty one.
 bool holds(const Aabb& outer, const Aabb& inner) {
   bool held = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -92,7 +103,7 @@ bool holds(const Aabb& outer, const Aabb& inner) {
   return held;
 }
 
-// Without a list; the boxes are kept to see how far they move.
+// Orders the boxes and searches without a list; keeps the boxes to measure motion.
 void VerletList::search_anew() {
   order_.make(executor_, boxes_);
   fit(boxes_);
@@ -106,7 +117,7 @@ void VerletList::search_anew() {
   listed_ = false;
 }
 
-// How far a box's centre has come on the axis where that is most (metres, doubled).
+// Returns twice the greatest displacement of the box's centre on an axis (metres).
 float displacement(const Aabb& then, const Aabb& now) {
   float most = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -117,7 +128,7 @@ float displacement(const Aabb& then, const Aabb& now) {
 }
 
 Motion VerletList::measure_motion() {
-  // A sample tells enough.
+  // Every sixteenth body is sample enough.
   constexpr std::size_t stride = 16;
   const std::size_t count = std::min(boxes_.size(), reference_.size());
   Motion motion;
@@ -142,12 +153,12 @@ Motion VerletList::measure_motion() {
   return motion;
 }
 
-// A list that is to last this long; `reference_` is of `age_` frames ago.
+// Makes a list for this many frames; `reference_` holds the boxes of `age_` frames ago.
 void VerletList::make_list(double frames) {
   const Motion motion = measure_motion();
   const auto growth = static_cast<float>(frames);
   constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
-  // Bodies that hardly move may move more: half of what is usual is allowed to all.
+  // Bodies that hardly move may start to: each gets at least half of the mean displacement.
   const float least = motion.step / 2;
   const std::size_t known = std::min(boxes_.size(), reference_.size());
   const float step_of = 0.5f / static_cast<float>(age_);
@@ -192,14 +203,14 @@ void VerletList::search_groups(PairSink& sink) {
   executor_.run(tasks, std::cref(search));
 }
 
-// Adds the boxes that have left their grown ones, and those that came in; false when there are so
-// many that a new list is cheaper.
+// Adds the boxes that have escaped and those that are new; returns false if they are so many that a
+// new list is cheaper.
 bool VerletList::find_strays(const FrameChange& change) {
   if (boxes_.size() > strayed_.size()) {
     strayed_.resize(boxes_.size(), 0);
     reference_.resize(boxes_.size(), Aabb::empty());
   }
-  // Searching for one costs as much as making the list costs for these.
+  // Cost of searching for one escaped box, in units of a body's share of making the list.
   constexpr std::size_t price = 32;
   const std::size_t most = 64 + boxes_.size() / 64;
   const auto stray = [&](std::uint32_t id) {
@@ -249,7 +260,8 @@ void VerletList::update(const FrameChange& change) {
   search_anew();
 }
 
-// Pairs of strays first <= i < last with boxes that have not strayed, and with strays behind them.
+// Writes pairs of the escaped boxes first <= i < last with boxes that have not escaped, and with
+// escaped boxes after them.
 void VerletList::search_strays(std::size_t first, std::size_t last, RTreeScratch& scratch,
                                PairBuffer& out) const {
   for (std::size_t i = first; i < last; ++i) {
