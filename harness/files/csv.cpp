@@ -154,8 +154,18 @@ void CsvReader::Row::fail(const std::string& message) const {
 
 CsvReader::CsvReader(std::filesystem::path file, std::vector<std::string> columns,
                      const std::vector<std::string>& optional)
-    : file_(std::move(file)), columns_(std::move(columns)), required_(columns_.size()) {
-  columns_.insert(columns_.end(), optional.begin(), optional.end());
+    : file_(std::move(file)), columns_(std::move(columns)), optional_(optional) {
+  for (const std::string& name : optional_) {
+    if (std::ranges::find(columns_, name) == columns_.end()) columns_.push_back(name);
+  }
+}
+
+std::vector<std::string_view> CsvReader::required() const {
+  std::vector<std::string_view> names;
+  for (const std::string& name : columns_) {
+    if (std::ranges::find(optional_, name) == optional_.end()) names.push_back(name);
+  }
+  return names;
 }
 
 void CsvReader::read(const std::function<void(const Row&)>& row) const {
@@ -165,20 +175,23 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
   std::size_t width = 0;
   std::vector<std::string> wanted(columns_.size());
   Row current;
+  std::vector<char> absent(columns_.size(), 0);
   current.fields_ = &wanted;
+  current.absent_ = &absent;
   current.reader_ = this;
   const auto read_header = [&](std::int64_t line, std::span<const std::string> header) {
     width = header.size();
     for (const std::string& column : columns_) {
       const auto at = std::ranges::find(header, column);
       if (at == header.end()) {
-        if (place.size() >= required_) {
+        if (std::ranges::find(optional_, column) != optional_.end()) {
+          absent[place.size()] = 1;
           place.push_back(nowhere);
           continue;
         }
         throw InputError(file, line,
                          fmt::format("no column '{}'; expected a header line with the columns {}",
-                                     column, fmt::join(std::span(columns_).first(required_), ",")));
+                                     column, fmt::join(required(), ",")));
       }
       if (std::find(at + 1, header.end(), column) != header.end()) {
         throw InputError(file, line, fmt::format("column '{}' comes twice", column));
@@ -202,7 +215,7 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
   if (width == 0) {
     throw InputError(file, 1,
                      fmt::format("an empty file; expected a header line with the columns {}",
-                                 fmt::join(columns_, ",")));
+                                 fmt::join(required(), ",")));
   }
 }
 
@@ -325,10 +338,10 @@ void CsvWriter::flush() {
   if (flushed_ >= 0) flushed_ = ftello(stream_);
 }
 
-void CsvWriter::close() {
+void CsvWriter::close(Durable durable) {
   flush();
   const bool named = !temporary_.empty();
-  if (named && fsync(fileno(stream_)) != 0) fail();
+  if (named && durable == Durable::against_power_cuts && fsync(fileno(stream_)) != 0) fail();
   std::FILE* const stream = std::exchange(stream_, nullptr);
   if (std::fclose(stream) != 0) fail();
   if (named && std::rename(temporary_.c_str(), file_.c_str()) != 0) fail();

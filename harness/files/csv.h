@@ -25,18 +25,22 @@ class CsvReader {
     double number(std::size_t column) const;
     std::int64_t integer(std::size_t column) const;
     std::int64_t line() const { return line_; }
+    std::string_view name(std::size_t column) const { return reader_->columns_[column]; }
+    // True for an optional column that the header lacks.
+    bool is_absent(std::size_t column) const { return (*absent_)[column] != 0; }
     [[noreturn]] void fail(const std::string& message) const;
 
    private:
     friend class CsvReader;
     const std::vector<std::string>* fields_ = nullptr;
+    const std::vector<char>* absent_ = nullptr;  // by column
     const CsvReader* reader_ = nullptr;
     std::int64_t line_ = 0;
   };
 
-  // `columns` must all be in the header, in any order; others are passed over. Row columns are
-  // numbered in the order of `columns`, then of `optional`: those are empty where the header has
-  // them not.
+  // The columns must be in the header, in any order, except those that `optional` names: they are
+  // empty where the header lacks them. The header may have others. A row's columns are numbered in
+  // the order of `columns`, then of the optional ones that are not among them.
   CsvReader(std::filesystem::path file, std::vector<std::string> columns,
             const std::vector<std::string>& optional = {});
   // Calls row for each line behind the header, in order. A line with another number of fields than
@@ -45,9 +49,11 @@ class CsvReader {
 
  private:
   friend class Row;
+  std::vector<std::string_view> required() const;
+
   std::filesystem::path file_;
-  std::vector<std::string> columns_;  // the optional ones last
-  std::size_t required_;
+  std::vector<std::string> columns_;
+  std::vector<std::string> optional_;
 };
 
 // Appends one field, quoted where it has to be: what goes to a terminal or a pipe as CSV.
@@ -80,10 +86,14 @@ class CsvWriter {
   CsvWriter& field(std::int64_t value);
   CsvWriter& field(int value) { return field(static_cast<std::int64_t>(value)); }
   CsvWriter& field(std::size_t value) { return field(static_cast<std::int64_t>(value)); }
-  void
-  end_row();  // throws std::logic_error when the row has another number of fields than the header
-  void flush();  // so that what was written survives this process
-  void close();
+  // Throws std::logic_error when the row has another number of fields than the header.
+  void end_row();
+  void flush();  // what was written survives this process
+  // Bytes of a file of flushed or appended rows, as the last flush left it.
+  std::int64_t size() const { return flushed_; }
+  // What the renamed file survives: the end of this process, or of the machine too.
+  enum class Durable : std::uint8_t { against_kills, against_power_cuts };
+  void close(Durable durable = Durable::against_power_cuts);
 
  private:
   void discard();

@@ -185,11 +185,4 @@ std::vector<RawRow> read_raw_rows(const std::filesystem::path& file) {
   return rows;
 }
 
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
-  return text;
-}
-
 }  // namespace touchstone

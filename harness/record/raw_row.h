@@ -9,6 +9,7 @@
 #include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/outcome.h"
 #include "harness/files/csv.h"
+#include "harness/record/row.h"
 
 namespace touchstone {
 
@@ -88,8 +89,5 @@ void write(CsvWriter& file, const RawRow& row);
 
 // All rows of a file that `write` wrote; InputError with file and line for any other.
 std::vector<RawRow> read_raw_rows(const std::filesystem::path& file);
-
-// A text of one line, as `words` must be: a row is a line.
-std::string one_line(std::string text);
 
 }  // namespace touchstone

@@ -1,0 +1,252 @@
+#include "harness/record/result_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include "harness/base/clock.h"
+#include "harness/base/error.h"
+#include "harness/record/machine.h"
+
+namespace touchstone {
+namespace {
+
+constexpr const char* finished_key = "finished";
+constexpr const char* units_key = "units";
+constexpr double seconds_for_others = 2;
+
+// The source folder may change beside a program that stays the same.
+constexpr std::array<std::string_view, 2> source_facts = {"commit", "tree"};
+
+std::map<std::string, std::string> read_facts(const std::filesystem::path& file) {
+  std::map<std::string, std::string> facts;
+  CsvReader(file, {"name", "value"}).read([&](const CsvReader::Row& row) {
+    facts.emplace(row.text(0), row.text(1));
+  });
+  return facts;
+}
+
+// The length of the header's line, bytes.
+std::uintmax_t header_size(const RowFile& file) {
+  return fmt::format("{}\n", fmt::join(file.header, ",")).size();
+}
+
+void expect_header(const std::filesystem::path& path, const RowFile& file) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  std::getline(stream, line);
+  const std::string expected = fmt::format("{}", fmt::join(file.header, ","));
+  if (line == expected) return;
+  throw InputError(
+      path.string(), 1,
+      fmt::format("other columns than this program writes; expected {} to resume", expected));
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(ResultFolderPlan plan) : plan_(std::move(plan)) {
+  std::error_code error;
+  if (plan_.start == FolderStart::resume) {
+    if (!std::filesystem::exists(machine(), error)) {
+      throw InputError(
+          machine().string(), 0,
+          fmt::format("is not there; expected the folder of a {} to resume", plan_.work));
+    }
+  } else {
+    std::filesystem::create_directories(plan_.folder, error);
+    if (error) throw InputError(plan_.folder.string(), 0, "cannot be made: " + error.message());
+  }
+  try {
+    lock();
+    remove_leftovers();
+    plan_.start == FolderStart::resume ? take_up() : begin_anew();
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+ResultFolder::~ResultFolder() { ::close(lock_); }
+
+// Workers hold the lock too, and end a moment later than a program that was killed.
+void ResultFolder::lock() {
+  lock_ = ::open(plan_.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) {
+    throw InputError(plan_.folder.string(), 0,
+                     fmt::format("cannot be used: {}", std::strerror(errno)));
+  }
+  const Stopwatch watch;
+  while (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK && errno != EINTR) return;  // a file system without locks
+    if (watch.seconds() > seconds_for_others) {
+      throw InputError(
+          plan_.folder.string(), 0,
+          fmt::format("another {} is at work in it; expected a folder for each", plan_.work));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+// Removes what a kill left of files that were being written whole.
+void ResultFolder::remove_leftovers() const {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(plan_.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = name.starts_with("machine.csv.") || name.starts_with("progress.csv.");
+    if (ours && name.ends_with(".tmp")) std::filesystem::remove(entry.path(), error);
+  }
+}
+
+void ResultFolder::begin_anew() {
+  std::error_code error;
+  if (plan_.start == FolderStart::fresh) {
+    const bool finished =
+        std::filesystem::exists(machine(), error) && read_facts(machine())[finished_key] == "yes";
+    for (const RowFile& file : plan_.files) {
+      if (finished || !std::filesystem::exists(path(file.name), error)) continue;
+      throw InputError(path(file.name).string(), 0,
+                       fmt::format("is of a {} that was not finished; expected --resume to go on "
+                                   "with it, --overwrite to lose it, or another --out",
+                                   plan_.work));
+    }
+  }
+  // machine.csv goes first and comes first: rows never stand beside the facts of other work.
+  std::vector<std::filesystem::path> old = {machine(), progress()};
+  for (const RowFile& file : plan_.files) old.push_back(path(file.name));
+  for (const auto& file : old) {
+    std::filesystem::remove(file, error);
+    if (error) throw InputError(file.string(), 0, "cannot be replaced: " + error.message());
+  }
+  for (const std::string& name : plan_.removed) std::filesystem::remove_all(path(name), error);
+  write_facts(false, {});
+  open();
+  write_progress();
+}
+
+void ResultFolder::compare_identity() {
+  std::map<std::string, std::string> old = read_facts(machine());
+  was_finished_ = old[finished_key] == "yes";
+  old.erase(finished_key);
+  const auto fail = [&](const std::string& message) {
+    throw InputError(machine().string(), 0, message + "; expected the same to resume");
+  };
+  for (auto& [name, value] : plan_.identity) {
+    const auto at = old.find(name);
+    if (at == old.end()) fail(fmt::format("{} was '' and is '{}' now", name, value));
+    const std::string& before = at->second;
+    if (name == command_line_fact) {
+      // Every command that the results come from is noted once.
+      value = before.find(value) == std::string::npos ? before + " && " + value : before;
+    } else if (std::ranges::find(source_facts, name) != source_facts.end()) {
+      value = before;
+    } else if (before != value) {
+      fail(fmt::format("{} was '{}' and is '{}' now", name, before, value));
+    }
+    old.erase(at);
+  }
+  for (const auto& [name, value] : plan_.notes) old.erase(name);
+  if (!old.empty() && !was_finished_) {
+    fail(fmt::format("{} was '{}' and is not known now", old.begin()->first, old.begin()->second));
+  }
+}
+
+void ResultFolder::take_up() {
+  compare_identity();
+  cut_to_progress();
+  open();
+}
+
+void ResultFolder::cut_to_progress() {
+  std::error_code error;
+  std::map<std::string, std::string> found;
+  const bool any = std::filesystem::exists(progress(), error);
+  if (any) found = read_facts(progress());
+  const auto number = [&](const std::string& name) {
+    const std::string& text = found[name];
+    std::int64_t value = -1;
+    const char* const end = text.data() + text.size();
+    const auto [stop, fault] = std::from_chars(text.data(), end, value);
+    if (fault != std::errc{} || stop != end || value < 0) {
+      throw InputError(progress().string(), 0,
+                       fmt::format("{}: found '{}'; expected a number", name, text));
+    }
+    return value;
+  };
+  if (any) units_ = number(units_key);
+  for (const RowFile& file : plan_.files) {
+    // Without progress.csv the work was stopped before its first unit.
+    const std::filesystem::path name = path(file.name);
+    std::uintmax_t there = std::filesystem::file_size(name, error);
+    if (error) there = 0;
+    if (!any && there > header_size(file)) {
+      throw InputError(progress().string(), 0,
+                       fmt::format("is not there, beside rows in {}; expected the folder of a {} "
+                                   "of this program to resume",
+                                   file.name, plan_.work));
+    }
+    const std::uintmax_t size = any ? static_cast<std::uintmax_t>(number(file.name)) : 0;
+    if (there < size) {
+      throw InputError(
+          name.string(), 0,
+          fmt::format("{} bytes; expected at least {}, as progress.csv says", there, size));
+    }
+    if (size > 0) expect_header(name, file);
+    if (there > size) std::filesystem::resize_file(name, size, error);
+    if (there > size && error) {
+      throw InputError(name.string(), 0, "cannot be cut: " + error.message());
+    }
+  }
+}
+
+void ResultFolder::open() {
+  for (const RowFile& file : plan_.files) {
+    writers_.push_back(
+        std::make_unique<CsvWriter>(path(file.name), file.header, CsvWriter::Keep::appended_rows));
+  }
+  for (const auto& writer : writers_) writer->flush();
+}
+
+void ResultFolder::commit(std::int64_t units) {
+  for (const auto& writer : writers_) writer->flush();
+  units_ += units;
+  write_progress();
+}
+
+void ResultFolder::write_progress() const {
+  CsvWriter csv(progress(), {"name", "value"});
+  csv.field(units_key).field(units_).end_row();
+  for (std::size_t i = 0; i < plan_.files.size(); ++i) {
+    csv.field(plan_.files[i].name).field(writers_[i]->size()).end_row();
+  }
+  csv.close(CsvWriter::Durable::against_kills);
+}
+
+void ResultFolder::finish(const Facts& more) {
+  for (const auto& writer : writers_) writer->close();
+  write_facts(true, more);
+}
+
+void ResultFolder::write_facts(bool finished, const Facts& more) const {
+  CsvWriter csv(machine(), {"name", "value"});
+  for (const Facts* facts : {&plan_.identity, &plan_.notes, &more}) {
+    for (const auto& [name, value] : *facts) csv.field(name).field(value).end_row();
+  }
+  csv.field(finished_key).field(finished ? "yes" : "no").end_row();
+  csv.close();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,105 @@
+// A folder of results that one process fills, and that can be gone on with after a stop.
+//
+// The folder holds
+// - row files such as raw.csv, to which rows are appended;
+// - progress.csv (name,value): how many units of work are done, and how long each row file then was.
+//   A unit is what is measured anew when it was interrupted: a round, a job, a cell;
+// - machine.csv (name,value): the identity of the work, facts of the machine, and `finished`.
+// A kill at any moment loses at most the unit at hand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/files/csv.h"
+#include "harness/record/row.h"
+
+namespace touchstone {
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+enum class FolderStart : std::uint8_t {
+  fresh,      // refuses a folder that holds unfinished work
+  overwrite,  // begins anew whatever the folder holds
+  resume,     // goes on with what the folder holds
+};
+
+// FolderStart::resume where `resume` is true, else FolderStart::overwrite.
+inline FolderStart resume_or_overwrite(bool resume) {
+  return resume ? FolderStart::resume : FolderStart::overwrite;
+}
+
+struct RowFile {
+  std::string name;  // in the folder
+  std::vector<std::string> header;
+};
+
+struct ResultFolderPlan {
+  std::filesystem::path folder;
+  std::vector<RowFile> files;
+  // Facts of machine.csv that must be equal to resume. Two kinds may differ: `commit` and `tree` keep
+  // their first value, and the values of `command_line` are joined.
+  Facts identity;
+  Facts notes = {};  // further facts of machine.csv, which may differ
+  FolderStart start = FolderStart::fresh;
+  std::string work = "run";  // for messages: run, check, sweep, ...
+  std::vector<std::string> removed =
+      {};  // further files and folders of earlier work: they go when it begins anew
+};
+
+class ResultFolder {
+ public:
+  // Makes the folder where it begins anew. To resume cuts the row files back to the last whole unit;
+  // read them afterwards with `rows`. InputError where the folder cannot be written, is in use by
+  // another process, holds what must not be lost, or cannot be resumed.
+  explicit ResultFolder(ResultFolderPlan plan);
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+  std::filesystem::path path(const std::string& name) const { return plan_.folder / name; }
+  bool was_finished() const { return was_finished_; }
+  std::int64_t units() const { return units_; }  // done so far
+
+  // The rows of row file `file` (its place in the plan) as they were found.
+  template <class Row, class... Context>
+  std::vector<Row> rows(std::size_t file, const Context&... context) const {
+    return read_rows<Row>(path(plan_.files[file].name), context...);
+  }
+  // Appends a row; it counts from the next `commit` on.
+  template <class Row, class... Context>
+  void write(std::size_t file, const Row& row, const Context&... context) {
+    write_row(writer(file), row, context...);
+  }
+  CsvWriter& writer(std::size_t file) { return *writers_[file]; }
+  // Ends `units` units: what was written since the last call is kept from now on.
+  void commit(std::int64_t units = 1);
+  // Writes machine.csv with `finished` and these further facts.
+  void finish(const Facts& more = {});
+
+ private:
+  std::filesystem::path machine() const { return path("machine.csv"); }
+  std::filesystem::path progress() const { return path("progress.csv"); }
+  void lock();
+  void remove_leftovers() const;
+  void begin_anew();
+  void take_up();
+  void compare_identity();
+  void cut_to_progress();
+  void open();
+  void write_progress() const;
+  void write_facts(bool finished, const Facts& more) const;
+
+  ResultFolderPlan plan_;
+  int lock_ = -1;  // the folder, open
+  bool was_finished_ = false;
+  std::int64_t units_ = 0;
+  std::vector<std::unique_ptr<CsvWriter>> writers_;  // by file
+};
+
+}  // namespace touchstone

@@ -1,0 +1,12 @@
+#include "harness/record/row.h"
+
+namespace touchstone {
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,197 @@
+#include "harness/record/result_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <functional>
+
+#include "tests/harness/input_fault.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct Count {
+  std::int64_t unit = 0, value = 0;
+  bool operator==(const Count&) const = default;
+};
+template <class Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("unit", row.unit, "The unit of work.");
+  visit("value", row.value, "A count.");
+}
+
+constexpr std::size_t first = 0, second = 1;
+
+class ResultFolderTest : public testing::Test {
+ protected:
+  ResultFolderPlan plan(FolderStart start, const std::string& seed = "1") const {
+    return {.folder = folder_.path() / "out",
+            .files = {{"a.csv", header_of<Count>()}, {"b.csv", header_of<Count>()}},
+            .identity = {{"seed", seed}, {"commit", "abc" + seed}, {"command_line", "run " + seed}},
+            .notes = {{"processor", "P" + seed}},
+            .start = start,
+            .removed = {"reproductions"}};
+  }
+  static void write_unit(ResultFolder& folder, bool commit = true) {
+    for (std::int64_t i = 0; i < 3; ++i) folder.write(first, Count{folder.units(), i});
+    folder.write(second, Count{folder.units(), 9});
+    if (commit) folder.commit();
+  }
+  // Runs the action in a process that ends without any clean-up, as after a kill.
+  static int apart(const std::function<void()>& action) {
+    const pid_t child = fork();
+    if (child == 0) {
+      try {
+        action();
+      } catch (const InputError&) {
+        _exit(2);
+      }
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+  }
+  std::string fault(const ResultFolderPlan& wanted) const {
+    return folder_.without_path(input_fault([&] { ResultFolder folder(wanted); }));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ResultFolderTest, GoesOnBehindTheLastWholeUnit) {
+  apart([&] {
+    ResultFolder folder(plan(FolderStart::fresh));
+    write_unit(folder);
+    write_unit(folder);
+    write_unit(folder, false);
+    folder.writer(first).flush();
+    _exit(0);
+  });
+  EXPECT_THAT(folder_.read("out/a.csv"), HasSubstr("2,0"));
+  ResultFolder folder(plan(FolderStart::resume));
+  EXPECT_EQ(folder.units(), 2);
+  EXPECT_FALSE(folder.was_finished());
+  EXPECT_EQ(folder.rows<Count>(first).size(), 6u);
+  EXPECT_THAT(folder.rows<Count>(second), ElementsAre(Count{0, 9}, Count{1, 9}));
+  write_unit(folder);
+  folder.finish({{"result", "good"}});
+  EXPECT_EQ(folder_.read("out/b.csv"), "unit,value\n0,9\n1,9\n2,9\n");
+  EXPECT_THAT(folder_.read("out/machine.csv"), HasSubstr("result,good\nfinished,yes\n"));
+  EXPECT_THAT(folder_.read("out/progress.csv"), HasSubstr("units,3\n"));
+}
+
+TEST_F(ResultFolderTest, HalfALineIsCutOff) {
+  apart([&] {
+    ResultFolder folder(plan(FolderStart::fresh));
+    write_unit(folder);
+    _exit(0);
+  });
+  folder_.write("out/a.csv", folder_.read("out/a.csv") + "1,");
+  EXPECT_EQ(ResultFolder(plan(FolderStart::resume)).rows<Count>(first).size(), 3u);
+}
+
+TEST_F(ResultFolderTest, AKillBeforeTheFirstUnitLosesNothing) {
+  apart([&] {
+    ResultFolder folder(plan(FolderStart::fresh));
+    _exit(0);
+  });
+  std::filesystem::remove(folder_.path() / "out/progress.csv");
+  ResultFolder folder(plan(FolderStart::resume));
+  EXPECT_EQ(folder.units(), 0);
+  EXPECT_EQ(folder_.read("out/a.csv"), "unit,value\n");
+}
+
+TEST_F(ResultFolderTest, UnfinishedWorkIsNotOverwrittenUnasked) {
+  {
+    ResultFolder folder(plan(FolderStart::fresh));
+    write_unit(folder);
+  }
+  folder_.write("out/other", "kept");
+  std::filesystem::create_directories(folder_.path() / "out/reproductions");
+  EXPECT_EQ(fault(plan(FolderStart::fresh)),
+            "out/a.csv: is of a run that was not finished; expected --resume to go on with it, "
+            "--overwrite to lose it, or another --out");
+  EXPECT_THAT(folder_.read("out/a.csv"), HasSubstr("0,2"));
+  ResultFolder(plan(FolderStart::overwrite)).finish();
+  EXPECT_EQ(folder_.read("out/a.csv"), "unit,value\n");
+  EXPECT_EQ(folder_.read("out/other"), "kept");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/reproductions"));
+  EXPECT_EQ(fault(plan(FolderStart::fresh)), "");  // it was finished
+}
+
+TEST_F(ResultFolderTest, OtherWorkIsNotResumed) {
+  EXPECT_EQ(fault(plan(FolderStart::resume)),
+            "out/machine.csv: is not there; expected the folder of a run to resume");
+  { ResultFolder folder(plan(FolderStart::fresh)); }
+  EXPECT_EQ(fault(plan(FolderStart::resume, "2")),
+            "out/machine.csv: seed was '1' and is '2' now; expected the same to resume");
+  ResultFolderPlan more = plan(FolderStart::resume);
+  more.identity.emplace_back("cases", "5");
+  EXPECT_EQ(fault(more),
+            "out/machine.csv: cases was '' and is '5' now; expected the same to resume");
+  ResultFolderPlan less = plan(FolderStart::resume);
+  less.identity.erase(less.identity.begin());
+  EXPECT_EQ(fault(less),
+            "out/machine.csv: seed was '1' and is not known now; expected the same to resume");
+  ResultFolderPlan columns = plan(FolderStart::resume);
+  columns.files[0].header = {"unit", "number"};
+  EXPECT_THAT(fault(columns), HasSubstr("out/a.csv:1: other columns than this program writes"));
+}
+
+TEST_F(ResultFolderTest, TheSourceAndTheCommandMayDiffer) {
+  { ResultFolder folder(plan(FolderStart::fresh)); }
+  ResultFolderPlan again = plan(FolderStart::resume);
+  again.identity = {{"seed", "1"}, {"commit", "xyz"}, {"command_line", "run --resume"}};
+  again.notes = {{"processor", "Q"}};
+  ResultFolder(again).finish();
+  EXPECT_EQ(folder_.read("out/machine.csv"),
+            "name,value\nseed,1\ncommit,abc1\ncommand_line,run 1 && run --resume\nprocessor,Q\n"
+            "finished,yes\n");
+  EXPECT_TRUE(ResultFolder(again).was_finished());
+}
+
+TEST_F(ResultFolderTest, ARowFileThatLostRowsIsRefused) {
+  {
+    ResultFolder folder(plan(FolderStart::fresh));
+    write_unit(folder);
+  }
+  folder_.write("out/b.csv", "unit,value\n");
+  EXPECT_EQ(fault(plan(FolderStart::resume)),
+            "out/b.csv: 11 bytes; expected at least 15, as progress.csv says");
+  std::filesystem::remove(folder_.path() / "out/progress.csv");
+  EXPECT_THAT(fault(plan(FolderStart::resume)),
+              HasSubstr("out/progress.csv: is not there, beside rows in a.csv"));
+}
+
+TEST_F(ResultFolderTest, IsForOneProcess) {
+  ResultFolder folder(plan(FolderStart::fresh));
+  EXPECT_EQ(fault(plan(FolderStart::overwrite)),
+            "out: another run is at work in it; expected a folder for each");
+}
+
+TEST_F(ResultFolderTest, AFullDiskLosesTheUnitAtHandAlone) {
+  const int status = apart([&] {
+    ResultFolder folder(plan(FolderStart::fresh));
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    for (int i = 0; i < 1000; ++i) write_unit(folder);
+  });
+  EXPECT_EQ(status, 2);
+  ResultFolder folder(plan(FolderStart::resume));
+  EXPECT_GT(folder.units(), 40);
+  EXPECT_EQ(static_cast<std::int64_t>(folder.rows<Count>(first).size()), 3 * folder.units());
+  EXPECT_EQ(static_cast<std::int64_t>(folder.rows<Count>(second).size()), folder.units());
+}
+
+}  // namespace
+}  // namespace touchstone
