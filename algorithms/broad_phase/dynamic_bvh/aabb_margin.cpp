@@ -7,7 +7,7 @@
 namespace touchstone {
 namespace {
 
-constexpr float most_margin = 0.1f;  // of a body's longest side
+constexpr float most_margin = 0.1f;  // share of a body's longest side
 constexpr float frames_ahead = 8;
 constexpr std::size_t sample_size = 256;
 
@@ -15,7 +15,7 @@ float longest_side(const Aabb& box) {
   return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
 }
 
-// The most that a body is outside of its box, on any side.
+// Returns the greatest distance by which `inner` protrudes from `outer`, on any side.
 float excess(const Aabb& outer, const Aabb& inner) {
   float most = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -24,12 +24,12 @@ float excess(const Aabb& outer, const Aabb& inner) {
   return most;
 }
 
-// A few of them, evenly.
+// Values of a few bodies, taken evenly.
 struct Sample {
   std::array<float, sample_size> values{};
   std::size_t count = 0;
 
-  // The value that this share of them does not exceed; there is at least one.
+  // Returns the value that this share of them does not exceed; there is at least one.
   float quantile(std::size_t tenths) {
     const auto begin = values.begin();
     const auto at = begin + static_cast<std::ptrdiff_t>((count - 1) * tenths / 10);
@@ -73,7 +73,7 @@ std::size_t AabbMargin::measure(std::span<const Aabb> boxes, std::span<const std
   sample(moved, [&](std::uint32_t id) {
     const Aabb then = before.box_at(before.place_of(id));
     const float way = std::max(excess(then, boxes[id]), excess(boxes[id], then));
-    // Written so that a NaN is fast.
+    // The comparison counts a NaN as fast.
     if (way <= 0.25f * most_margin * longest_side(boxes[id])) {
       slow.values[slow.count++] = way;
     } else {
@@ -88,7 +88,7 @@ void AabbMargin::adapt(std::size_t frames) {
   margin_ *= std::clamp(frames_ahead / static_cast<float>(frames + 1), 0.5f, 2.0f);
 }
 
-// What they are outside by is no more than their way.
+// The distance by which a leaver protrudes is at most the distance that it moved.
 void AabbMargin::widen(std::span<const Aabb> boxes, std::size_t moved,
                        std::span<const std::uint32_t> leavers, const Bvh16& tree) {
   if (leavers.empty() || 4 * leavers.size() < moved) return;

@@ -1,8 +1,8 @@
-// How much larger than a body the box is that stands for it, so that it can move a few frames
-// before anything has to be changed.
+// Part of dynamic-bvh: the AABB margin, by which a fat box exceeds its body's box, so that a body
+// can move for a few frames before anything changes.
 // Papers:  Catto, "Dynamic Bounding Volume Hierarchies", GDC 2019 (a margin); Presson's btDbvt in
 //          Bullet, 2008 (a few frames of motion ahead).
-// Departs: one margin for all, but at most a tenth of a body's longest side.
+// Departs: one margin serves all bodies, but it is at most a tenth of a body's longest side.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,20 @@ namespace touchstone {
 
 class AabbMargin {
  public:
-  // The box with the margin on all sides.
+  // Returns the box with the margin on all sides.
   Aabb around(const Aabb& box) const;
-  // False where a body has left its fat box.
+  // Returns true while the body's box is inside its fat box.
   static bool holds(const Aabb& fat, const Aabb& box);
 
-  // Sets the margin to several frames of what nine in ten of those that moved did, of those that a
-  // margin can serve; how many it cannot, since they would leave it within four frames. The tree is
-  // of the boxes before. From a sample.
+  // Sets the margin to several frames of motion of nine in ten of the moved bodies that a margin
+  // can serve. Returns the number of moved bodies that it cannot serve, because they would leave it
+  // within four frames. `before` holds the boxes of the last frame. Both numbers are estimates from
+  // a sample.
   std::size_t measure(std::span<const Aabb> boxes, std::span<const std::uint32_t> moved,
                       const Bvh16& before);
-  // After a margin has lasted this many frames for nearly all.
+  // Adapts the margin after it has lasted this many frames for nearly all bodies.
   void adapt(std::size_t frames);
-  // Widens it where many of those that moved have left their fat boxes, which are in the tree.
+  // Widens the margin if many of the moved bodies have left their fat boxes, which are in the tree.
   void widen(std::span<const Aabb> boxes, std::size_t moved, std::span<const std::uint32_t> leavers,
              const Bvh16& tree);
 

@@ -141,7 +141,7 @@ double Bvh16::spread() const {
 // --- searches ---
 
 void Bvh16::make_room(Bvh16Scratch& scratch) const {
-  // A vector's width more, since whole vectors are written.
+  // Whole vectors are written, so there is room for one more.
   const std::size_t room = node_capacity_ + fan;
   if (scratch.nodes.size() < room) scratch.nodes.resize(room);
   if (scratch.children.size() < room) scratch.children.resize(room);
@@ -164,7 +164,7 @@ void Bvh16::find_partners(std::size_t leaf, Bvh16Scratch& scratch, BroadPhaseWor
       work.box_tests += static_cast<std::int64_t>(std::min(first + fan, begins_[height]) - first);
     }
     const std::size_t count = down(columns, bounds, nodes.data(), nodes.size(), next);
-    // Nodes of one height are in the order of the leaves: those before the leaf's own are left out.
+    // The nodes of one height are sorted like the leaves; those before the leaf's own are dropped.
     const std::size_t from =
         begins_[height - 1] + (leaf >> (4 * (height - 1))) + (height == 1 ? 1 : 0);
     std::size_t before = 0;
@@ -199,7 +199,7 @@ std::span<const std::uint32_t> Bvh16::find(const Aabb& box, Bvh16Scratch& scratc
   return {scratch.found.data(), down(columns, box, nodes, count, scratch.found.data())};
 }
 
-// The child whose surface grows least.
+// Returns the child whose surface grows least.
 std::size_t Bvh16::best_child(std::size_t node, const Aabb& box) const {
   std::array<double, fan> growths, surfaces;
   const std::size_t first = node * fan;
@@ -209,7 +209,7 @@ std::size_t Bvh16::best_child(std::size_t node, const Aabb& box) const {
   for (std::size_t i = 0; i < fan; ++i) {
     if (boxes_.ids()[first + i] == nobody) continue;
     if (best == nobody) best = first + i;
-    // Empty ones are those that all bodies have left: they are taken where there is nothing else.
+    // An empty child, which all bodies have left, is the last resort.
     const bool is_empty = boxes_.min(0)[first + i] > boxes_.max(0)[first + i];
     if (!is_empty && growths[i] < least) {
       least = growths[i];
@@ -219,7 +219,7 @@ std::size_t Bvh16::best_child(std::size_t node, const Aabb& box) const {
   return boxes_.ids()[best];
 }
 
-// Of the children, together.
+// The sum of the children's surfaces.
 double Bvh16::cost(std::size_t node) const {
   std::array<double, fan> growths, surfaces;
   const std::size_t first = node * fan;

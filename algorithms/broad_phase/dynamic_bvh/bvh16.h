@@ -1,14 +1,14 @@
-// A tree of boxes with up to 16 children a node, whose bounds lie side by side and are tested at
-// once; all leaves are equally deep. Loaded in bulk, then changed body by body; parts that have
-// become bad by that are built anew.
-// Papers:  Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", SIGMOD 1984;
-//          Kamel, Faloutsos, "On Packing R-trees", CIKM 1993 (the bulk); Bittner, Hapala, Havran,
-//          "Incremental BVH Construction for Ray Tracing", Computers & Graphics 47, 2015 (the
-//          surface that is added decides where a box goes); Catto, "Dynamic Bounding Volume
-//          Hierarchies", GDC 2019 (subtrees that have grown are built anew by medians).
-// Departs: a node that is full is split at the median along the longest axis. Nodes are not merged
-//          one by one: a subtree is rebuilt as a whole when the surfaces of its children have grown
-//          by half since it was built, or when its children are less than half full.
+// Part of dynamic-bvh: a BVH with up to 16 children a node, whose bounds are adjacent and tested
+// together; all leaves have the same depth. It is loaded in bulk and then changed body by body;
+// subtrees that this makes bad are rebuilt.
+// Papers:  Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", SIGMOD 1984; Kamel,
+//          Faloutsos, "On Packing R-trees", CIKM 1993 (the bulk load); Bittner, Hapala, Havran,
+//          "Incremental BVH Construction for Ray Tracing", Computers & Graphics 47, 2015 (a box
+//          goes where it adds the least surface); Catto, "Dynamic Bounding Volume Hierarchies", GDC
+//          2019 (subtrees that have grown are rebuilt by medians).
+// Departs: a full node is split at the median along the longest axis. Nodes are not merged one by
+//          one: a subtree is rebuilt as a whole when the surfaces of its children have grown by
+//          half since it was built, or when its children are less than half full.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace touchstone {
 
-// Lists that a search fills. One a worker.
+// Lists that a search fills; one for each worker.
 struct Bvh16Scratch {
   std::vector<std::uint32_t> nodes, children, found;
   std::vector<IndexRange> partners;
@@ -33,10 +33,11 @@ struct Bvh16Scratch {
 class Bvh16 {
  public:
   static constexpr std::size_t fan = 16;
-  static constexpr std::uint32_t nobody = 0xffffffff;  // the id at a place that is free
+  static constexpr std::uint32_t nobody = 0xffffffff;  // the id at a free place
 
-  // Bodies get places 0, 1 ... in the order in which they are to be loaded, and have ids below
-  // `id_count`. The caller sets each place, in any order, then calls `load`.
+  // Starts a load. Bodies get places 0, 1 ... in the order of loading, and have ids below
+  // `id_count`. The caller sets each place, in any order, and then calls `load`, with
+  // `is_to_change` if changes follow.
   void start(std::size_t bodies, std::size_t id_count);
   void set(std::size_t place, const Aabb& box, std::uint32_t id) {
     boxes_.set(place, box, id);
@@ -45,41 +46,42 @@ class Bvh16 {
   void load(Executor& executor, bool is_to_change);
   std::size_t loaded() const { return bodies_; }
 
-  // The boxes of the bodies, and of nodes; a leaf's are 16 places one behind the other.
+  // The boxes of the bodies and of the nodes; those of a leaf are at 16 consecutive places.
   const AabbSoA& boxes() const { return boxes_; }
   std::uint32_t place_of(std::uint32_t id) const { return place_of_[id]; }
   Aabb box_at(std::size_t place) const;
   std::size_t nodes() const { return node_count_; }
   bool is_leaf(std::size_t node) const { return height_of_[node] == 0; }
 
-  // Until the first change after a load: leaves are numbered as loaded, the last may not be full.
+  // Valid until the first change after a load: leaves are numbered as loaded; the last may not be
+  // full.
   std::size_t leaves() const { return leaves_; }
   IndexRange places_of(std::size_t leaf) const;
   Aabb bounds_of_leaf(std::size_t leaf) const;
-  // Puts the places of the leaves behind this one that overlap its bounds into scratch.partners.
+  // Lists in scratch.partners the places of later leaves that overlap this leaf's bounds.
   void find_partners(std::size_t leaf, Bvh16Scratch& scratch, BroadPhaseWork& work) const;
-  // Sum over the leaves of the sums of their bounds' sides (metres): what a better order would make
-  // smaller.
+  // The sum of the sides of the leaves' bounds (metres); a better order makes it smaller.
   double spread() const;
 
-  // Changes: of a tree that was loaded for it.
+  // Changes of a tree that was loaded with `is_to_change`.
   void insert(std::uint32_t id, const Aabb& box);
   void remove(std::uint32_t id);
-  // Gives a body another box, in another leaf if its own would grow much.
+  // Gives a body another box, and moves it to another leaf if its own would grow much.
   void move(std::uint32_t id, const Aabb& box);
   void make_room_for_ids(std::size_t id_count) { place_of_.resize(id_count); }
-  // Builds those subtrees anew that the changes since the last call have made bad; how many.
+  // Rebuilds the subtrees that the changes since the last call have made bad; returns their number.
   std::size_t rebuild_worn();
 
-  // The ids of the bodies whose boxes overlap this one; valid until the scratch is used again.
+  // Returns the ids of the bodies whose boxes overlap this one; valid until the next use of the
+  // scratch.
   std::span<const std::uint32_t> find(const Aabb& box, Bvh16Scratch& scratch) const;
-  // To be called after the last change before a search.
+  // Makes room in a scratch; call it after the last change and before a search.
   void make_room(Bvh16Scratch& scratch) const;
 
   std::size_t held_bytes() const;
 
  private:
-  // 2^32 bodies in nodes that are half full have eleven.
+  // A tree of 2^32 bodies in nodes that are half full has eleven heights.
   static constexpr std::size_t most_heights = 12;
   static constexpr double most_growth = 1.5;
 
@@ -107,19 +109,19 @@ class Bvh16 {
   void fill(std::size_t node, std::span<Entry> bodies);
   std::size_t fill_places(std::size_t place, std::size_t count, std::span<Entry> bodies);
 
-  AabbSoA boxes_;                         // 16 places a node; their ids are bodies' or nodes'
-  std::vector<std::uint32_t> place_of_;   // of each body
-  std::vector<std::uint32_t> parent_of_;  // of each node: its place there
-  std::vector<std::uint8_t> height_of_;   // of each node: 0 for a leaf
-  std::vector<double> cost_of_;           // of each inner node, when it was built
-  std::vector<std::uint8_t> is_marked_;   // of each node: its children have changed
+  AabbSoA boxes_;                         // 16 places a node; the ids are bodies' or nodes'
+  std::vector<std::uint32_t> place_of_;   // place of each body
+  std::vector<std::uint32_t> parent_of_;  // place of each node in its parent
+  std::vector<std::uint8_t> height_of_;   // height of each node; 0 for a leaf
+  std::vector<double> cost_of_;           // cost of each inner node when it was built
+  std::vector<std::uint8_t> is_marked_;   // 1 for a node whose children have changed
   std::vector<std::uint32_t> marked_, free_nodes_;
-  std::vector<Entry> entries_;  // of a subtree that is rebuilt
-  std::size_t bodies_ = 0;      // that were loaded
+  std::vector<Entry> entries_;  // bodies of a subtree during a rebuild
+  std::size_t bodies_ = 0;      // number of bodies loaded
   std::size_t leaves_ = 0;
   std::size_t node_count_ = 0, node_capacity_ = 0;
   std::size_t root_ = 0;
-  std::array<std::size_t, most_heights + 1> begins_{};  // of the nodes of each height, as loaded
+  std::array<std::size_t, most_heights + 1> begins_{};  // first node of each height, as loaded
 };
 
 }  // namespace touchstone

@@ -1,5 +1,6 @@
-// The loops of wide_tree.h. Included by wide_tree.cpp once for each level of vector instructions,
-// inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its attribute.
+// Part of dynamic-bvh: the loops of bvh16.h. bvh16.cpp includes them once for each level of vector
+// instructions, inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its
+// attribute.
 
 TOUCHSTONE_TARGET inline Row row_of(const Aabb& box) {
   Row row;
@@ -10,7 +11,7 @@ TOUCHSTONE_TARGET inline Row row_of(const Aabb& box) {
   return row;
 }
 
-// The ids of the children of these nodes that overlap the box; how many.
+// Writes the ids of these nodes' children that overlap the box, and returns their number.
 TOUCHSTONE_TARGET std::size_t descend(const Columns& boxes, const Aabb& box,
                                       const std::uint32_t* nodes, std::size_t count,
                                       std::uint32_t* children) {
@@ -27,7 +28,7 @@ TOUCHSTONE_TARGET std::size_t descend(const Columns& boxes, const Aabb& box,
   return found;
 }
 
-// Of the 16 boxes at these places.
+// The bounds of the 16 boxes from this place on.
 TOUCHSTONE_TARGET Aabb bounds16(const Columns& boxes, std::size_t first) {
   Aabb bounds{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -37,8 +38,8 @@ TOUCHSTONE_TARGET Aabb bounds16(const Columns& boxes, std::size_t first) {
   return bounds;
 }
 
-// How much the surface of each of 16 boxes grows when it takes in another one, and each's surface.
-// The compiler makes vectors of it.
+// The surfaces of 16 boxes, and their growth when each is united with another box. The compiler
+// vectorises this.
 TOUCHSTONE_TARGET void surfaces16(const Columns& boxes, std::size_t first, const Aabb& other,
                                   double* growths, double* surfaces) {
   for (std::size_t i = 0; i < Bvh16::fan; ++i) {

@@ -1,5 +1,5 @@
-// What changes a tree of boxes after it was loaded: bodies that come, go and move, and the subtrees
-// that this makes bad. See wide_tree.h.
+// Part of dynamic-bvh: changes of a loaded Bvh16: bodies that come, go and move, and the rebuild of
+// subtrees that this makes bad. See bvh16.h.
 #include <algorithm>
 #include <limits>
 
@@ -10,17 +10,17 @@
 namespace touchstone {
 namespace {
 
-// Bodies for each leaf of a subtree that is built anew: some places are left for those to come.
+// Bodies for each leaf of a rebuilt subtree; the other places are left for bodies to come.
 constexpr std::size_t leaf_fill = 14;
 
-// Twice the centre; in double, in which the sum does not overflow. Empty children, of which it
-// would not be a number, go first.
+// Twice the centre, in double, in which the sum does not overflow. An empty child, whose centre
+// would be NaN, is first in every order.
 double middle(const Aabb& box, std::size_t axis) {
   return box.is_empty() ? -std::numeric_limits<double>::infinity()
                         : double{box.min[axis]} + box.max[axis];
 }
 
-// On which the middles of the entries' boxes lie farthest apart.
+// The axis on which the centres of the entries' boxes have the greatest spread.
 template <class Entries>
 std::size_t longest_axis(const Entries& entries) {
   std::size_t longest = 0;
@@ -41,7 +41,7 @@ std::size_t longest_axis(const Entries& entries) {
   return longest;
 }
 
-// In ascending order along an axis; there is one order, whatever boxes are equal.
+// The ascending order along an axis; ids decide between equal centres, so the order is unique.
 auto along(std::size_t axis) {
   return [axis](const auto& a, const auto& b) {
     const double at = middle(a.box, axis);
@@ -76,13 +76,13 @@ void Bvh16::drop_node(std::size_t node) {
   free_nodes_.push_back(static_cast<std::uint32_t>(node));
 }
 
-// Children of inner nodes know their parent, bodies their place.
+// Writes an entry and its back link: a child node stores its place, and so does a body.
 void Bvh16::put(std::size_t place, const Aabb& box, std::uint32_t child) {
   boxes_.set(place, box, child);
   (is_leaf(place / fan) ? place_of_ : parent_of_)[child] = static_cast<std::uint32_t>(place);
 }
 
-// Up to where nothing changes.
+// Updates the bounds upwards, as far as they change.
 void Bvh16::fit_above(std::size_t node) {
   while (node != root_) {
     const Aabb bounds = bounds_of_node(node);
@@ -175,7 +175,7 @@ std::size_t Bvh16::count_children(std::size_t node) const {
   return fan - static_cast<std::size_t>(std::count(first, first + fan, nobody));
 }
 
-// Of an inner node.
+// True if an inner node needs a rebuild.
 bool Bvh16::is_worn(std::size_t node) const {
   if (!(cost(node) <= most_growth * cost_of_[node])) return true;
   std::size_t children = 0;
@@ -189,13 +189,13 @@ bool Bvh16::is_worn(std::size_t node) const {
   return children > 2 && 2 * grandchildren < children * fan;
 }
 
-// From above: what is in a subtree that is built anew need not be looked at.
+// Rebuilds from the top: a rebuild includes all nodes below it.
 std::size_t Bvh16::rebuild_worn() {
   std::ranges::sort(marked_, [&](std::uint32_t a, std::uint32_t b) {
     return height_of_[a] > height_of_[b] || (height_of_[a] == height_of_[b] && a < b);
   });
   std::size_t rebuilt = 0;
-  const std::size_t count = marked_.size();  // those that a rebuilding marks are left for later
+  const std::size_t count = marked_.size();  // nodes that a rebuild marks wait for the next call
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t node = marked_[i];
     if (is_marked_[node] == 0) continue;
@@ -215,7 +215,7 @@ void Bvh16::rebuild(std::size_t node) {
   fit_above(node);
 }
 
-// Lists the bodies of a node and gives back all nodes below it.
+// Lists the bodies of a node and frees all nodes below it.
 void Bvh16::take_out(std::size_t node) {
   for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
     const std::uint32_t child = boxes_.ids()[place];
@@ -230,8 +230,8 @@ void Bvh16::take_out(std::size_t node) {
   }
 }
 
-// All subtrees of one height have room for 16 times what those of the height below have; so many
-// children that each is left some of it.
+// A subtree has room for 16 times as many bodies as one of the height below. The number of children
+// is such that each has some room left.
 void Bvh16::fill(std::size_t node, std::span<Entry> bodies) {
   if (is_leaf(node)) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -246,7 +246,7 @@ void Bvh16::fill(std::size_t node, std::span<Entry> bodies) {
   cost_of_[node] = cost(node);
 }
 
-// The bodies go into `count` new nodes at the places from this one on; the next place.
+// Splits the bodies into `count` new nodes at consecutive places; returns the place after them.
 std::size_t Bvh16::fill_places(std::size_t place, std::size_t count, std::span<Entry> bodies) {
   if (count == 1) {
     const std::size_t child = new_node(height_of_[place / fan] - std::size_t{1});

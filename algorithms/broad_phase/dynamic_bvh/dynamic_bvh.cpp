@@ -1,18 +1,30 @@
-// Dynamic BVH: a tree of boxes, those of bodies that move a little larger than these, and the pairs
-// of those that overlap; a body that stays in its fat box changes neither, and only others look
-// anew.
-// Paper:   Catto, "Dynamic Bounding Volume Hierarchies", GDC 2019 (only what moved asks; subtrees
-//          that have grown are rebuilt); Presson's btDbvt in Bullet, 2008 (fat boxes, pairs that
-//          persist); Rouwe, Jolt's QuadTree, 2021 (wide nodes).
-// Departs: nodes have 16 children, see kernels/wide_tree.h. The margin follows what bodies move a
-//          frame, and is at most a tenth of their size; who has not moved yet has none. Only when
-//          many leave their boxes at once is the whole tree loaded anew, along a Hilbert curve.
-//          Where bodies are too fast for a margin, or crowded, that is done each frame without one,
-//          and pairs are not kept but looked for.
-// Fails:   a body that overlaps most others and moves: its pairs are all made anew.
-// Cost:    O(n + k) to be expected where most move; O(m log n) and copying the k pairs where m do.
-//          O(n + k) memory; k = pairs of fat boxes. About 45 bytes a body, 20 more where many move,
-//          and 17 a pair.
+// Dynamic BVH: a BVH over AABBs; moving bodies get enlarged ("fat") boxes. The tree and the list of
+// overlapping fat pairs persist between frames; only bodies that leave their fat box are reinserted
+// and queried again.
+// Paper:   Catto, "Dynamic Bounding Volume Hierarchies", GDC 2019 (only moved bodies query;
+//          subtrees that have grown are rebuilt); Presson's btDbvt in Bullet, 2008 (fat boxes,
+//          pairs that persist); Rouwe, Jolt's QuadTree, 2021 (wide nodes).
+// Steps:   1. Load all boxes into a tree of 16 children a node along a Hilbert curve, and join the
+//             tree with itself for all pairs (hilbert_rtree.cpp).
+//          2. If a margin can serve all but a sixteenth of the bodies, load fat boxes and keep
+//             their pairs (aabb_margin.cpp, pair_cache.cpp); otherwise repeat step 1 in each frame.
+//          3. In an update list the leavers: moved bodies outside of their fat boxes.
+//          4. If more than a sixteenth of the bodies leave, come or go, adapt the margin and start
+//             at step 2.
+//          5. Give leavers new fat boxes in the tree, insert and remove bodies, and rebuild
+//             subtrees that this made bad (bvh16_changes.cpp).
+//          6. Remove the leavers' pairs, query the tree for their new ones, and add these.
+//          7. Test the kept pairs of moved bodies on the tight boxes, and write the pairs that
+//             overlap.
+// Departs: nodes have 16 children, see bvh16.h. The margin follows what bodies move in a frame, and
+//          is at most a tenth of their size; a body that has not moved yet has none. The whole tree
+//          is loaded anew, along a Hilbert curve, only when many bodies leave their boxes at once.
+//          If bodies are too fast for a margin, or crowded, each frame loads the tree without one
+//          and searches all pairs.
+// Fails:   a body that overlaps most others and moves: all of its pairs are made anew.
+// Cost:    O(n + k) expected if most bodies move; O(m log n) and copying the k pairs if m do. O(n +
+//          k) memory; k = pairs of fat boxes. About 45 bytes a body, 20 more if many move, and 17 a
+//          pair.
 #include <algorithm>
 
 #include "algorithms/broad_phase.h"
@@ -42,19 +54,19 @@ class DynamicBvh final : public BroadPhase {
  private:
   static constexpr std::size_t bodies_a_task = 64;
   static constexpr std::size_t nodes_a_task = 256;
-  // Of the bodies: if more leave their boxes than this part, all is made anew.
+  // If more than this fraction of the bodies (1 / few) leave their boxes, all is made anew.
   static constexpr std::size_t few = 16;
-  // If more move than this part, all bodies and pairs are gone through in their order.
+  // If more than this fraction moves, all bodies and pairs are visited in their order.
   static constexpr std::size_t scattered = 5;
-  static constexpr std::size_t least_frames = 3;  // that a load is to last
+  static constexpr std::size_t least_frames = 3;  // least age of a load that pays for its margin
   static constexpr std::size_t most_pairs_a_body = 64;
   static constexpr std::size_t crowd_wait = 32;  // frames
-  // Of a body's state.
+  // Bits of a body's state.
   static constexpr std::uint8_t is_leaver = 1;
   static constexpr std::uint8_t is_mover = 2;
 
-  // How pairs are had: looked for in a tree as it was loaded; the same, to be kept from then on;
-  // or from those that were kept.
+  // The source of a frame's pairs: a search of the tree as loaded; such a search, whose pairs are
+  // then kept; or the kept pairs.
   enum class Pairs : std::uint8_t { searched, wanted, kept };
 
   Aabb fat_box_of(std::uint32_t id) const {
@@ -73,17 +85,18 @@ class DynamicBvh final : public BroadPhase {
   void look_anew();
 
   Executor& executor_;
-  std::span<const Aabb> boxes_;  // of the frame
+  std::span<const Aabb> boxes_;  // boxes of this frame
   HilbertRTree bulk_;
   AabbMargin margin_;
   Pairs how_ = Pairs::searched;
   PairCache pairs_;
-  std::size_t count_ = 0;               // of bodies
-  std::size_t frames_ = 0;              // since the tree was loaded
-  std::size_t wait_ = 0;                // frames in which pairs are not to be kept
-  std::vector<std::uint8_t> state_;     // of each body
-  std::vector<std::uint32_t> leavers_;  // that have left their boxes, or are new, in this frame
-  PairSink found_;                      // by them
+  std::size_t count_ = 0;               // number of bodies
+  std::size_t frames_ = 0;              // frames since the tree was loaded
+  std::size_t wait_ = 0;                // frames for which pairs are not kept
+  std::vector<std::uint8_t> state_;     // indexed by body
+  std::vector<std::uint32_t> leavers_;  // bodies that have left their boxes, or are new, in this
+                                        // frame
+  PairSink found_;                      // their pairs
 };
 
 // --- all bodies ---
@@ -122,7 +135,7 @@ void DynamicBvh::update(const FrameChange& change) {
   boxes_ = change.boxes;
   const std::size_t churn = change.inserted.size() + change.removed.size();
   if (change.moved.empty() && churn == 0) {
-    // The tree is as it was loaded; whoever keeps pairs has them.
+    // The tree is as it was loaded; kept pairs are still there.
     if (how_ == Pairs::searched && wait_ == 0) make_anew(change);
     return;
   }
@@ -140,7 +153,7 @@ void DynamicBvh::update(const FrameChange& change) {
   look_anew();
 }
 
-// Those that moved and are no longer in their fat boxes; false where they are many.
+// Lists the moved bodies that have left their fat boxes; returns false if they are many.
 bool DynamicBvh::list_leavers(std::span<const std::uint32_t> moved) {
   leavers_.clear();
   if (moved.size() <= count_ / scattered) {
@@ -157,8 +170,8 @@ bool DynamicBvh::list_leavers(std::span<const std::uint32_t> moved) {
   return leavers_.size() <= count_ / few;
 }
 
-// All in the order of the tree, which is kinder to memory. An empty box, of a body that goes, is
-// within any; and new bodies are not there yet.
+// Marks leavers in the order of the tree, which uses the cache better. The empty box of a removed
+// body is inside any box, and new bodies are not in the tree yet.
 void DynamicBvh::mark_leavers() {
   const Bvh16& tree = bulk_.tree();
   const auto mark = [&](std::size_t, std::size_t first, std::size_t last) {
@@ -191,7 +204,7 @@ void DynamicBvh::change_tree(const FrameChange& change) {
   count_ -= change.removed.size();
 }
 
-// The new pairs of those that have left their boxes; two of them meet once.
+// Finds the new pairs of the leavers; a pair of two leavers counts once.
 void DynamicBvh::look_anew() {
   const std::size_t tasks = block_count(leavers_.size(), bodies_a_task);
   found_.start(tasks);
@@ -221,7 +234,7 @@ Status DynamicBvh::find_pairs(PairSink& sink) {
   return Status::ok;
 }
 
-// Of the sink, in which pairs of fat boxes are; but in a crowd they are looked for each time.
+// Keeps the sink's pairs, which are of fat boxes; in a crowd there are too many to keep.
 void DynamicBvh::keep_pairs(PairSink& sink) {
   const std::size_t count = sink.size();
   if (count > most_pairs_a_body * count_ || count > PairCache::most / 2) {
@@ -233,7 +246,7 @@ void DynamicBvh::keep_pairs(PairSink& sink) {
   how_ = Pairs::kept;
 }
 
-// Pairs of which only the fat boxes overlap.
+// Removes the pairs whose tight boxes do not overlap.
 void DynamicBvh::drop_apart(PairSink& sink) const {
   const auto task = [&](std::size_t i, int) {
     PairBuffer& chunk = sink.chunk(i);

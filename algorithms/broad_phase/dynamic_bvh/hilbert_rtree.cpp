@@ -19,11 +19,11 @@ void HilbertRTree::sort_if_needed(std::span<const Aabb> boxes) {
   is_sorted_ = true;
 }
 
-// False where another order is to be had and would be better.
+// Returns false if the leaves have grown so much that a new order would be better.
 bool HilbertRTree::is_good() {
   const double spread = tree_.spread();
   if (is_new_) spread_at_sort_ = spread;
-  // Written so that a NaN, of bounds that overflow, makes a new order.
+  // A NaN, from bounds that overflow, compares false and so causes a new order.
   return is_new_ || spread <= 1.25 * spread_at_sort_;
 }
 

@@ -1,8 +1,10 @@
-// A tree of boxes that is loaded in bulk along a Hilbert curve, and all of its pairs.
+// Part of dynamic-bvh: a Hilbert-packed R-tree, which is a Bvh16 loaded in bulk along a Hilbert
+// curve, and the search of all of its pairs.
 // Papers:  Kamel, Faloutsos, "On Packing R-trees", CIKM 1993; Brinkhoff, Kriegel, Seeger,
-//          "Efficient Processing of Spatial Joins Using R-trees", SIGMOD 1993 (a tree with itself).
-// Departs: the order of the last load is used again as long as the leaves have not grown by a
-//          quarter; leaves, not bodies, go down the tree.
+//          "Efficient Processing of Spatial Joins Using R-trees", SIGMOD 1993 (the join of a tree
+//          with itself).
+// Departs: the order of the last load is used again while the leaves have not grown by a quarter;
+//          leaves, not bodies, descend the tree.
 #pragma once
 
 #include <cstddef>
@@ -26,18 +28,18 @@ struct HilbertRTreeScratch {
   GroupScratch group;
 };
 
-// Keeps its memory, until it is told to forget the order.
+// The tree keeps its memory, except for the order after forget_order().
 class HilbertRTree {
  public:
   explicit HilbertRTree(Executor& executor)
       : executor_(executor), scratch_(static_cast<std::size_t>(executor.width())) {}
 
-  // Other bodies are there than at the last load: a new order is to be made.
+  // Requires a new order: the bodies differ from those of the last load.
   void change_bodies() { is_sorted_ = false; }
-  // Gives back the memory of the order, where the next load is far off.
+  // Releases the memory of the order if the next load is far off.
   void forget_order();
 
-  // Loads all boxes that are not empty, each as box_of(id). `is_to_change`: see Bvh16::load.
+  // Loads all boxes that are not empty, each as box_of(id). Bvh16::load explains `is_to_change`.
   template <class BoxOf>
   void load(std::span<const Aabb> boxes, bool is_to_change, const BoxOf& box_of) {
     sort_if_needed(boxes);
@@ -50,16 +52,16 @@ class HilbertRTree {
   }
   Bvh16& tree() { return tree_; }
   const Bvh16& tree() const { return tree_; }
-  // To be called after the last change of the tree before searches in it.
+  // Returns a worker's scratch; call it after the last change of the tree and before a search.
   Bvh16Scratch& scratch(int worker) {
     Bvh16Scratch& scratch = scratch_[static_cast<std::size_t>(worker)].tree;
     tree_.make_room(scratch);
     return scratch;
   }
 
-  // All pairs of boxes that overlap, of a tree that was not changed since it was loaded.
+  // Writes all pairs of boxes that overlap, of a tree that has not changed since it was loaded.
   void find_pairs(PairSink& sink);
-  // What that takes.
+  // The work of that search.
   BroadPhaseWork work() const;
 
   std::size_t held_bytes() const;
@@ -89,8 +91,8 @@ class HilbertRTree {
   Executor& executor_;
   std::vector<HilbertRTreeScratch> scratch_;
   HilbertSort order_;
-  bool is_sorted_ = false, is_new_ = false;  // the order; by the last load
-  double spread_at_sort_ = 0;                // of the tree's leaves
+  bool is_sorted_ = false, is_new_ = false;  // the order is valid; the last load made it
+  double spread_at_sort_ = 0;                // spread of the tree's leaves
   Bvh16 tree_;
 };
 

@@ -23,7 +23,7 @@ auto copy_pairs_of_level() {
   }
 }
 
-// Without a branch: the outcome cannot be guessed.
+// The test has no branch, since its outcome is unpredictable.
 bool meet(const Aabb& a, const Aabb& b) {
   bool test = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -120,10 +120,10 @@ void PairCache::make_links() {
   for (std::size_t p = 0; p < count_; ++p) link(p);
 }
 
-// The lists of all of them are followed side by side, so that they wait for memory together.
+// Follows the lists of all bodies side by side, so that their cache misses overlap.
 void PairCache::list_pairs_of(std::span<const std::uint32_t> ids) {
   make_links();
-  if (open_.size() < ids.size() + 1) open_.resize(ids.size() + 1);  // one more is written to
+  if (open_.size() < ids.size() + 1) open_.resize(ids.size() + 1);  // one more entry is written
   listed_.clear();
   std::size_t count = 0;
   const auto keep = [&](std::uint32_t at) {
@@ -160,7 +160,7 @@ void PairCache::add(IndexPair pair, std::span<const Aabb> boxes) {
   link(count_++);
 }
 
-// In their order, without those that are gone.
+// Removes the pairs that are gone and keeps the order of the others.
 void PairCache::pack() {
   std::size_t to = 0;
   for (std::size_t p = 0; p < count_; ++p) {
@@ -169,7 +169,7 @@ void PairCache::pack() {
     pairs_[to] = pairs_[p];
     set_bit(to++, bit);
   }
-  // What is behind them has no bits: that of the last word, too.
+  // Clears the bits after the last pair, those of its own word too.
   const std::size_t words = block_count(to, word_bits);
   if (to % word_bits != 0) overlaps_[words - 1] &= (std::uint64_t{1} << to % word_bits) - 1;
   std::fill(overlaps_.begin() + static_cast<std::ptrdiff_t>(words), overlaps_.end(), 0);
@@ -192,7 +192,7 @@ void PairCache::write(Executor& executor, PairSink& sink) const {
                    for (const std::uint64_t word : bits) {
                      count += static_cast<std::size_t>(std::popcount(word));
                    }
-                   out.reserve(count + 8);  // which may be written to, and are not kept
+                   out.reserve(count + 8);  // the copy writes up to eight more
                    copy_pairs_of_level()(&pairs_[first], bits.data(), words, out.end());
                    out.advance(count);
                  });

@@ -1,10 +1,11 @@
-// Pairs of bodies that are kept from frame to frame because they may overlap, each body's linked
-// through them, and for each pair a bit that says whether it does.
+// Part of dynamic-bvh: the pair cache, which holds the pairs of bodies whose fat boxes overlap from
+// frame to frame, links the pairs of each body, and has a bit for each pair whose tight boxes
+// overlap.
 // Paper:   Presson's btDbvt in Bullet, 2008 (pairs of fat boxes persist); Knuth, "The Art of
 //          Computer Programming", vol. 1, section 2.2.4 (circular and linked allocation of lists
 //          that share their nodes).
-// Departs: pairs of a body that leaves are only blotted out: they are taken out of the lists, and
-//          all is packed, when there is no room for new ones.
+// Departs: pairs of a leaver are only marked as gone. When there is no room for new pairs, the
+//          cache is packed and the lists are linked again.
 #pragma once
 
 #include <cstddef>
@@ -18,27 +19,28 @@
 
 namespace touchstone {
 
-// The order of the pairs depends on nothing but the order of the calls.
+// The order of the pairs depends only on the order of the calls.
 class PairCache {
  public:
   static constexpr std::size_t most = std::size_t{1} << 30;  // links are of 32 bits
 
   std::size_t size() const { return count_ - gone_; }
 
-  // Takes all pairs of the sink, each there once, none more than `most`; ids are below `id_count`.
+  // Replaces all pairs by the sink's, which are distinct and at most `most`; ids are below
+  // `id_count`.
   void refill(Executor& executor, const PairSink& sink, std::size_t id_count);
   void make_room_for_ids(std::size_t id_count);
 
-  // Whether the boxes overlap now: of all pairs, and of those of some bodies.
+  // Tests whether the boxes overlap now: for all pairs, or for the pairs of some bodies.
   void test(Executor& executor, std::span<const Aabb> boxes);
   void test(std::span<const std::uint32_t> ids, std::span<const Aabb> boxes);
 
-  // All pairs of these bodies.
+  // Removes all pairs of these bodies.
   void remove(std::span<const std::uint32_t> ids);
-  // A pair that is not there.
+  // Adds a pair that is not in the cache.
   void add(IndexPair pair, std::span<const Aabb> boxes);
 
-  // The pairs that overlapped when they were last tested.
+  // Writes the pairs that overlapped when they were last tested.
   void write(Executor& executor, PairSink& sink) const;
 
   std::size_t held_bytes() const;
@@ -56,17 +58,17 @@ class PairCache {
   void set_bit(std::size_t pair, bool value);
   void pack();
 
-  // Of these, count_ are in use; those that are gone have two equal ids, and no bit. There are
-  // whole words of them.
+  // Pairs, of which count_ are in use. A pair that is gone has two equal ids and no bit. There are
+  // whole words of bits.
   std::vector<IndexPair> pairs_;
   std::vector<std::uint64_t> overlaps_;
   std::size_t count_ = 0, gone_ = 0;
-  // The pairs of a body, linked: 2 p for its being the first of pair p, 2 p + 1 for the second.
-  // Made when they are first needed.
+  // The list of a body's pairs: link 2 p means that it is the first body of pair p, and 2 p + 1
+  // that it is the second. The links are made when they are first needed.
   bool are_linked_ = false;
-  std::vector<std::uint32_t> first_of_;  // of each body
+  std::vector<std::uint32_t> first_of_;  // first link of each body
   std::vector<std::uint32_t> next_;
-  std::vector<std::uint32_t> open_, listed_;  // of list_pairs_of
+  std::vector<std::uint32_t> open_, listed_;  // scratch of list_pairs_of
 };
 
 }  // namespace touchstone

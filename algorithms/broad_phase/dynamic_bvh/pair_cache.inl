@@ -1,7 +1,9 @@
-// The loop of kept_pairs.h. Included by kept_pairs.cpp once for each level of vector instructions,
-// inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its attribute.
+// Part of dynamic-bvh: the loop of pair_cache.h. pair_cache.cpp includes it once for each level of
+// vector instructions, inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET
+// its attribute.
 
-// Copies the pairs whose bits are set, 64 a word; where they end. Up to eight more are written to.
+// Copies the pairs whose bits are set, 64 a word, and returns their end. It writes up to eight
+// more.
 TOUCHSTONE_TARGET IndexPair* copy_pairs(const IndexPair* pairs, const std::uint64_t* words,
                                         std::size_t count, IndexPair* to) {
   for (std::size_t word = 0; word < count; ++word, pairs += 64) {

@@ -1,4 +1,4 @@
-// The surface of a box, as trees of boxes weigh it.
+// Part of dynamic-bvh: the surface area of a box, by which BVHs are built.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 
 namespace touchstone {
 
-// A half of the surface, and a little of the lengths, for boxes that are a point or a line. In
-// double, in which no product of floats overflows.
+// Half of the surface area (square metres), plus a little of the lengths, so that boxes that are
+// points or lines compare. No product of floats overflows a double.
 inline double surface(double x, double y, double z) {
   return x * y + y * z + z * x + 1e-6 * (x * x + y * y + z * z);
 }
-// Of a box that is not empty.
+// The surface of a box, which must not be empty.
 inline double surface(const Aabb& box) {
   return surface(double{box.max[0]} - box.min[0], double{box.max[1]} - box.min[1],
                  double{box.max[2]} - box.min[2]);

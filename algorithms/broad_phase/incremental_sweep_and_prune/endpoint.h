@@ -1,4 +1,5 @@
-// The ends of boxes on an axis, as numbers that can be sorted.
+// Part of incremental-sweep-and-prune: the end points of boxes on an axis, as integers that sort
+// like them.
 // Paper: Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992.
 #pragma once
 
@@ -12,8 +13,8 @@
 
 namespace touchstone {
 
-// A key above, then whether it is a maximum, then the body: closed boxes that touch overlap because
-// minima come first. Bodies are below 2^31.
+// An end point: its key, then a bit that is set for a maximum, then the body's id. At equal keys
+// minima come first, because closed boxes that touch overlap. Ids are below 2^31.
 using Endpoint = std::uint64_t;
 
 inline Endpoint endpoint(float x, bool is_max, std::uint32_t id) {
@@ -23,7 +24,7 @@ inline bool is_max(Endpoint point) { return (point >> 31 & 1) != 0; }
 inline std::uint32_t body_of(Endpoint point) {
   return static_cast<std::uint32_t>(point) & 0x7fffffff;
 }
-// Without a branch: which of the two cannot be guessed.
+// The choice between the two ends has no branch, since it is unpredictable.
 inline Endpoint endpoint(const Aabb& box, std::size_t axis, bool max, std::uint32_t id) {
   const auto low = std::bit_cast<std::uint32_t>(box.min[axis]);
   const auto high = std::bit_cast<std::uint32_t>(box.max[axis]);

@@ -60,7 +60,7 @@ void EndpointList::put_in(std::span<const Aabb> boxes, std::span<const std::uint
     fresh_.push_back(endpoint(boxes[id], axis_, true, id));
   }
   std::ranges::sort(fresh_);
-  // From the back, in the place of the old ones.
+  // The merge runs from the back, within the array of the old end points.
   std::size_t old = points_.size();
   points_.resize(old + fresh_.size());
   for (std::size_t to = points_.size(), more = fresh_.size(); more > 0;) {

@@ -1,10 +1,11 @@
-// The end points of boxes on one of three axes, kept sorted from frame to frame, and the pairs that
-// come or go because end points pass each other.
+// Part of incremental-sweep-and-prune: the end points of boxes on one of three axes, kept sorted
+// from frame to frame, and the pairs that begin or cease to overlap because end points pass each
+// other.
 // Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992.
-// Departs: each axis lists its own changes as if those before it had been repaired, and those
-//          behind it had not, so that the three can be repaired at the same time; carried out in
-//          the order of the axes, they add up to the frame's. Where most end points stay, those
-//          that do not are found by their bodies, and the others are not looked at.
+// Departs: each axis lists its own changes as if the axes before it were updated and those after it
+//          were not, so that the three can be updated concurrently; applied in the order of the
+//          axes, the changes add up to the frame's. If most end points stay, the others are found
+//          by their bodies, and those that stay are not visited.
 #pragma once
 
 #include <array>
@@ -24,6 +25,7 @@ namespace touchstone {
 
 class EndpointList {
  public:
+  // A pair that begins (`comes`) or ceases to overlap.
   struct Change {
     IndexPair pair;
     bool comes;
@@ -37,21 +39,21 @@ class EndpointList {
 
   std::span<const Endpoint> points() const { return points_; }
   Overlaps count_overlaps() const;
-  // How many end points lie between two places.
+  // The number of end points between two coordinates.
   std::size_t count_between(float from, float to) const;
 
-  // Of these bodies, afresh.
+  // Sorts the end points of these bodies from scratch.
   void sort(Executor& executor, std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
             RadixSort<Endpoint>& radix_sort);
-  // Bodies that are marked, by id.
+  // Removes the bodies that are marked; `mark` is indexed by id.
   void take_out(std::span<const std::uint8_t> mark);
-  // Bodies that are not there; of those whose boxes are empty nothing is put in.
+  // Merges in bodies that are not in the list, except those with empty boxes.
   void put_in(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
 
-  // Brings the end points up to date and lists what pairs come and go by it. False where more than
-  // `most_passes` pass each other: they are then of no use.
+  // Updates the end points and lists the pairs that come and go by it. Returns false if more than
+  // `most_passes` pass each other; the list is then invalid.
   bool repair(const EndpointMotion& motion, std::size_t most_passes);
-  // A pair may be listed more than once, but never for another change than the axis makes.
+  // The changes. A pair may be listed more than once, but each time for the axis's change of it.
   std::span<const Change> changes() const { return changes_; }
 
   std::size_t held_bytes() const;
@@ -64,7 +66,7 @@ class EndpointList {
   };
   using Shadow = std::array<float, 4>;
 
-  // Where on an axis' part of a shadow another axis' part begins.
+  // The index in this axis's shadows at which another axis's part begins.
   std::size_t part_of(std::size_t other) const {
     return other == (axis_ == 0 ? std::size_t{1} : std::size_t{0}) ? 0 : 2;
   }
@@ -78,7 +80,7 @@ class EndpointList {
     const std::size_t j = axis_ == 2 ? 1 : 2;
     shadows_[id] = {box.min[i], -box.max[i], box.min[j], -box.max[j]};
   }
-  // The place of an end point in the sorted ones.
+  // The place of an end point in the sorted array.
   std::uint32_t& place(Endpoint point) {
     return places_[2 * body_of(point) + (is_max(point) ? 1 : 0)];
   }
@@ -93,13 +95,13 @@ class EndpointList {
   void look_at_passes(std::size_t listed, const EndpointMotion& motion);
 
   std::size_t axis_;
-  std::vector<Endpoint> points_, fresh_;  // the sorted ones; those that are to go to their places
-  // By id: where the box lies on the two other axes, minima and maxima with the sign turned, as
-  // they are when this axis is repaired: those before it already are.
+  std::vector<Endpoint> points_, fresh_;  // the sorted ones; scratch for those to be inserted
+  // For each id the extents of the box on the two other axes: minima, and negated maxima. Axes
+  // before this one have this frame's values and those after it the last frame's.
   std::vector<Shadow> shadows_;
-  std::vector<std::uint32_t> places_;             // of minimum and maximum, by id
-  bool is_shadowed_ = false, is_placed_ = false;  // whether these are up to date
-  std::array<Pass, 1024> passes_;                 // that are yet to be looked at
+  std::vector<std::uint32_t> places_;  // places of the minimum and the maximum of each id
+  bool is_shadowed_ = false, is_placed_ = false;  // true while shadows_ and places_ are valid
+  std::array<Pass, 1024> passes_;                 // not yet tested
   std::vector<Change> changes_;
 };
 

@@ -1,4 +1,5 @@
-// How sorted end points are brought up to date. See sorted_axis.h.
+// Part of incremental-sweep-and-prune: the insertion-sort update of an EndpointList. See
+// endpoint_list.h.
 #include <algorithm>
 
 #include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_list.h"
@@ -17,7 +18,7 @@ bool EndpointList::repair(const EndpointMotion& motion, std::size_t most_passes)
   make_shadows(motion.before());
   cast_shadows(motion, 0, axis_);
   changes_.clear();
-  // Measured: to go through all end points takes as long as to find those of a third of the bodies.
+  // Measured: a pass over all end points takes as long as finding those of a third of the bodies.
   const std::size_t changed = motion.on(axis_).size();
   const bool are_few = 6 * changed <= points_.size();
   if (changed > 0 &&
@@ -28,7 +29,7 @@ bool EndpointList::repair(const EndpointMotion& motion, std::size_t most_passes)
   return true;
 }
 
-// Of these axes.
+// Updates the shadows of the axes first <= axis < last.
 void EndpointList::cast_shadows(const EndpointMotion& motion, std::size_t first, std::size_t last) {
   if (last - first == 2 && motion.is_common()) {
     for (const std::uint32_t id : motion.on(first)) set_shadows(id, motion.now()[id]);
@@ -39,7 +40,7 @@ void EndpointList::cast_shadows(const EndpointMotion& motion, std::size_t first,
   }
 }
 
-// Insertion sort; false when that takes too many passes.
+// Insertion sort of all end points; returns false if it takes too many passes.
 bool EndpointList::repair_all(const EndpointMotion& motion, std::size_t most_passes) {
   is_placed_ = false;
   const std::span<Endpoint> points = points_;
@@ -56,14 +57,14 @@ bool EndpointList::repair_all(const EndpointMotion& motion, std::size_t most_pas
   return true;
 }
 
-// The same, where most end points stay where they are. Those that stay between their neighbours, as
-// most do, are told without a branch; the others then move one by one, among others in order.
+// Updates only the end points that changed. Those that stay between their neighbours, as most do,
+// are detected without a branch; the others then move one by one through the sorted ones.
 bool EndpointList::repair_few(const EndpointMotion& motion, std::size_t most_passes) {
   make_places(motion.now().size());
   const std::span<Endpoint> points = points_;
   const std::size_t axis = axis_;
   const std::span<const std::uint32_t> changed = motion.on(axis);
-  fresh_.resize(2 * changed.size() + 1);  // one more is written to
+  fresh_.resize(2 * changed.size() + 1);  // one more entry is written
   std::size_t count = 0;
   for (const std::uint32_t id : changed) {
     for (const bool max : {false, true}) {
@@ -93,7 +94,7 @@ bool EndpointList::repair_few(const EndpointMotion& motion, std::size_t most_pas
 }
 
 // Moves the end point at a place to where it belongs, and lists those of the other kind that it
-// passes; how many it passes in all.
+// passes. Returns the number of all that it passes.
 template <std::ptrdiff_t way, bool with_places>
 std::size_t EndpointList::move(std::span<Endpoint> points, std::size_t at, std::size_t& listed,
                                const EndpointMotion& motion) {
@@ -107,7 +108,7 @@ std::size_t EndpointList::move(std::span<Endpoint> points, std::size_t at, std::
     const Endpoint other = points[to] = points[to + way];
     if constexpr (with_places) place(other) = static_cast<std::uint32_t>(to);
     to += way;
-    // No branch: whether it is a minimum or a maximum cannot be guessed.
+    // There is no branch: minimum or maximum is unpredictable.
     passes_[listed] = way == down ? Pass{point, other} : Pass{other, point};
     listed += (other ^ point) >> 31 & 1;
     if (listed == passes_.size()) {
@@ -120,9 +121,10 @@ std::size_t EndpointList::move(std::span<Endpoint> points, std::size_t at, std::
   return way == down ? at - to : to - at;
 }
 
-// Of the end points that have passed each other. A pair comes, or goes, where the boxes overlap on
-// this axis after the frame, or before it, but not both; and overlap on the axes that are repaired
-// before this one after the frame, and on the others before it.
+// Tests the boxes of end points that have passed each other. A pair comes if its boxes overlap on
+// this axis after the frame and not before it; it goes in the opposite case. Either counts only if
+// the boxes overlap on the axes updated before this one after the frame, and on the others before
+// it.
 void EndpointList::look_at_passes(std::size_t listed, const EndpointMotion& motion) {
   using Lanes = box_lanes::baseline::Lanes;
   for (const Pass& pass : std::span(passes_).first(listed)) {

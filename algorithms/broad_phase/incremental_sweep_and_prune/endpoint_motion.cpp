@@ -12,11 +12,12 @@ void EndpointMotion::start(std::span<const Aabb> before, std::span<const Aabb> n
   if (moved.size() <= before.size() / 8 * 5) tell_apart(moved);
 }
 
-// Each goes into one list or more; without a branch, which could not be guessed.
+// Puts each body into the lists of the axes on which it changed; without a branch, since that is
+// unpredictable.
 void EndpointMotion::tell_apart(std::span<const std::uint32_t> moved) {
   std::array<std::uint32_t*, 3> ends;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // One more is written to.
+    // One more entry is written.
     if (lists_[axis].size() <= moved.size()) lists_[axis].resize(moved.size() + 1);
     ends[axis] = lists_[axis].data();
   }

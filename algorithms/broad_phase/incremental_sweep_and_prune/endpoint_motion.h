@@ -1,4 +1,5 @@
-// Which bodies have moved, axis by axis: a car on a street moves on one of three.
+// Part of incremental-sweep-and-prune: the bodies that have moved between two frames, axis by axis;
+// a car on a street moves along one of three.
 #pragma once
 
 #include <array>
@@ -11,19 +12,19 @@
 
 namespace touchstone {
 
-// Of some bodies between two frames. Keeps its memory, and no more than views of the boxes.
+// The moved bodies of a frame. The class keeps its memory and views of the boxes.
 class EndpointMotion {
  public:
-  // The lists of these bodies; they and the boxes are to stay as they are while this is used.
+  // Lists these bodies; the spans must stay valid and unchanged while this object is in use.
   void start(std::span<const Aabb> before, std::span<const Aabb> now,
              std::span<const std::uint32_t> moved);
 
-  std::span<const Aabb> before() const { return before_; }  // of all bodies, by id
+  std::span<const Aabb> before() const { return before_; }  // boxes of all bodies, by id
   std::span<const Aabb> now() const { return now_; }
-  // Those whose extents on the axis are others than before. Where nearly all bodies move, all that
-  // do: it is then not worth while to tell them apart.
+  // The bodies whose extents on the axis have changed; if nearly all bodies move, all moved bodies,
+  // because sorting them by axis does not pay then.
   std::span<const std::uint32_t> on(std::size_t axis) const { return changed_[axis]; }
-  // Whether the lists of all axes are the same.
+  // True if the axes share one list.
   bool is_common() const { return changed_[0].data() == changed_[2].data(); }
 
   std::size_t held_bytes() const;

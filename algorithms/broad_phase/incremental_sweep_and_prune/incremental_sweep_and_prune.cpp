@@ -1,18 +1,28 @@
-// Incremental sweep and prune: the boxes' end points are kept sorted on three axes from frame to
-// frame, and a set of pairs that changes only where a minimum and a maximum pass each other.
+// Incremental sweep and prune: keep the boxes' end points sorted on three axes from frame to frame,
+// and a set of pairs that changes only when a minimum and a maximum pass each other.
 // Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992;
 //          Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE", I3D 1995.
-// Departs: the three axes are repaired at the same time, and each looks only at those that moved
-//          along it, see kernels/sorted_axis.h. Bodies that come, go or move far are taken out of
-//          the end points and merged in again, in one pass, and meet all boxes a vector at a time.
-//          When the end points pass each other more often than a sweep of the best axis would take,
-//          they are sorted afresh, and the set is made by that sweep; for some frames then, twice
-//          as many each time, no more than that is tried, with that one axis.
-// Fails:   dense or fast scenes in which all move: an end point passes others in proportion to
-//          n^(2/3) times its way, and in flat or stacked scenes to n. The sweep that is then made
-//          goes like n^(5/3), and n^2 where most boxes overlap on every axis.
+// Steps:   1. Radix-sort the end points on three axes, and sweep the axis with the fewest overlaps
+//             for all pairs (endpoint_list.cpp, kernels/boxes/aabb_scan.h).
+//          2. In an update take bodies that come, go or move far out of the end points and the
+//             pairs.
+//          3. Update the end points of the other moved bodies on each axis by insertion sort, and
+//             test the boxes of each minimum and maximum that pass each other
+//             (endpoint_list_update.cpp).
+//          4. Insert the pairs that came and erase those that went, axis by axis (pair_set.h).
+//          5. Merge the bodies of step 2 back in, and test each against all boxes.
+//          6. If too many end points pass each other, start at step 1; then sort and sweep only one
+//             axis for 1, 3, 7 or 15 frames, more with each failure.
+//          7. Copy the pairs out.
+// Departs: the three axes are updated concurrently, each for the bodies that moved along it, see
+//          endpoint_list.h. Bodies that come, go or move far are merged into the end points in one
+//          pass, and tested against all boxes a vector at a time. When the end points pass each
+//          other more often than a sweep of the best axis would cost, they are sorted from scratch.
+// Fails:   dense or fast scenes in which all bodies move: an end point passes others in proportion
+//          to n^(2/3) times its displacement, and in flat or stacked scenes to n. The sweep that is
+//          then made grows like n^(5/3), and n^2 where most boxes overlap on every axis.
 // Cost:    O(m + s) a frame, for m bodies that move and s end points that pass each other; O(n + k)
-//          where bodies come or go; O(n + k) memory, k = pairs, which are copied out.
+//          if bodies come or go; O(n + k) memory, k = pairs, which are copied out.
 #include <algorithm>
 #include <array>
 
@@ -47,7 +57,7 @@ class IncrementalSweepAndPrune final : public BroadPhase {
 
   Status find_pairs(PairSink& sink) override;
 
-  // What a sweep of the end points as they stand takes; of pairs that have been kept, too.
+  // The work of a sweep of the end points as they are, even if the pairs were kept.
   BroadPhaseWork work() const override {
     const EndpointList::Overlaps best =
         axes_[are_all_sorted_ ? best_axis() : axis_].count_overlaps();
@@ -77,21 +87,22 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   void put_jumpers_in(std::span<const Aabb> boxes);
 
   Executor& executor_;
-  std::vector<AabbStack> lists_;  // one a worker
+  std::vector<AabbStack> lists_;  // one for each worker
   std::vector<std::uint32_t> ids_;
-  std::vector<Aabb> before_;  // the boxes that the end points are of
+  std::vector<Aabb> before_;  // boxes of the last frame, to which the end points belong
   std::array<EndpointList, 3> axes_{EndpointList(0), EndpointList(1), EndpointList(2)};
   RadixSort<Endpoint> radix_sort_;
-  AabbSoA arrays_;  // by minimum on the best axis, for a sweep; by id, for bodies that come
+  AabbSoA arrays_;  // sorted by the minima on the best axis for a sweep; by id for inserted bodies
   std::size_t axis_ = 0;
-  bool swept_ = false;           // the pairs are yet to be found, by a sweep
-  bool are_all_sorted_ = false;  // all axes, and not only the one for a sweep
+  bool swept_ = false;           // true while the pairs are yet to be found by a sweep
+  bool are_all_sorted_ = false;  // true if all axes are sorted, false if only the one of the sweep
+                                 // is
   PairSink found_;
   PairSet set_;
-  EndpointMotion motion_;  // of the walkers
+  EndpointMotion motion_;  // motion of the walkers
   std::vector<std::uint32_t> jumpers_, walkers_;
-  std::vector<std::uint8_t> mark_;  // by id: it is a jumper
-  std::size_t most_passes_ = 0;     // on an axis, in a frame
+  std::vector<std::uint8_t> mark_;  // 1 for a jumper; indexed by id
+  std::size_t most_passes_ = 0;     // limit for each axis and frame
   std::size_t skipped_ = 0, wait_ = 0;
 };
 
@@ -100,13 +111,13 @@ void IncrementalSweepAndPrune::rebuild(std::span<const Aabb> boxes) {
   are_all_sorted_ = true;
   for (EndpointList& axis : axes_) axis.sort(executor_, boxes, ids_, radix_sort_);
   axis_ = best_axis();
-  // Measured: all three axes are repaired as fast as the sweep is made when each takes a pass for
-  // every hundred of the sweep's candidates, or so.
+  // Measured: updating all three axes takes as long as the sweep if each has about one pass for
+  // every hundred of the sweep's candidates.
   const auto candidates = static_cast<std::size_t>(axes_[axis_].count_overlaps().candidates);
   most_passes_ = 2 * ids_.size() + candidates / 96 + 256;
 }
 
-// Where the next frame is to be swept, too, the other axes can wait.
+// Sorts one axis only; the others can wait while the next frames are swept too.
 void IncrementalSweepAndPrune::resort_axis(std::span<const Aabb> boxes) {
   take_boxes(boxes);
   are_all_sorted_ = false;
@@ -115,12 +126,12 @@ void IncrementalSweepAndPrune::resort_axis(std::span<const Aabb> boxes) {
 
 void IncrementalSweepAndPrune::take_boxes(std::span<const Aabb> boxes) {
   before_.assign(boxes.begin(), boxes.end());
-  mark_.assign(boxes.size(), 0);  // some are left where a repair was given up
+  mark_.assign(boxes.size(), 0);  // clears marks left by an abandoned update
   list_bodies(executor_, boxes, ids_);
   swept_ = true;
 }
 
-// On which the fewest boxes overlap.
+// The axis on which the fewest boxes overlap.
 std::size_t IncrementalSweepAndPrune::best_axis() const {
   std::size_t best = 0;
   std::int64_t fewest = axes_[0].count_overlaps().candidates;
@@ -172,8 +183,7 @@ void IncrementalSweepAndPrune::keep(const PairSink& sink) {
   swept_ = false;
 }
 
-// Brings the end points and the set up to date, or gives up, where it takes too long: they are then
-// of no use.
+// Updates the end points and the set. Returns false if that takes too long; both are then invalid.
 bool IncrementalSweepAndPrune::repair(const FrameChange& change) {
   if (skipped_ < wait_ && change.moved.size() > before_.size() / 16) {
     ++skipped_;
@@ -193,7 +203,7 @@ bool IncrementalSweepAndPrune::repair(const FrameChange& change) {
   };
   executor_.run(3, std::cref(axis_task));
   if (!repaired[0] || !repaired[1] || !repaired[2]) {
-    // Mostly the next frame will be like this one.
+    // The next frame will probably be like this one.
     wait_ = std::min(2 * wait_ + 1, std::size_t{15});
     skipped_ = 0;
     return false;
@@ -209,7 +219,7 @@ bool IncrementalSweepAndPrune::repair(const FrameChange& change) {
   return true;
 }
 
-// Bodies that come, go or move far are jumpers, the others that move are walkers.
+// Splits the changed bodies into jumpers, which come, go or move far, and walkers.
 void IncrementalSweepAndPrune::classify(const FrameChange& change) {
   jumpers_.assign(change.removed.begin(), change.removed.end());
   jumpers_.insert(jumpers_.end(), change.inserted.begin(), change.inserted.end());
@@ -219,13 +229,13 @@ void IncrementalSweepAndPrune::classify(const FrameChange& change) {
       (is_far(change.boxes[id], id) ? jumpers_ : walkers_).push_back(id);
     }
   } else {
-    // Those that move far are told by the passes that they take.
+    // The limit on passes detects bodies that move far.
     walkers_.assign(change.moved.begin(), change.moved.end());
   }
   motion_.start(before_, change.boxes, walkers_);
 }
 
-// True when its minima pass many others.
+// True if the body's minima pass many others.
 bool IncrementalSweepAndPrune::is_far(const Aabb& now, std::uint32_t id) const {
   const Aabb& then = before_[id];
   if (overlap(then, now)) return false;
@@ -263,7 +273,7 @@ void IncrementalSweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
     list.append(boxes[id], arrays_, {0, boxes.size()});
     for (std::size_t at = first; at < list.end(); ++at) {
       const std::uint32_t other = list.ids()[at];
-      // Of two jumpers, the one with the smaller id.
+      // A pair of two jumpers is found by the one with the smaller id.
       if (other != id && (mark_[other] == 0 || other > id)) found_.chunk(i).push(id, other);
     }
     list.drop(first);

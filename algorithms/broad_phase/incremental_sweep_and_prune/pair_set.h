@@ -1,7 +1,7 @@
-// A set of pairs that is kept from frame to frame: a dense array, which is what is copied out, and
-// an open-addressing table of places in it.
+// Part of incremental-sweep-and-prune: a set of pairs that persists from frame to frame: a dense
+// array, which is the output, and an open-addressing hash table of places in it.
 // Paper: Knuth, "The Art of Computer Programming", vol. 3, section 6.4, Algorithms L and R (linear
-// probing, and deletion without marks).
+//        probing, and deletion without marks).
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace touchstone {
 
-// The order of the pairs depends on nothing but the order of the calls. Keeps its memory.
+// The order of the pairs depends only on the order of the calls. The set keeps its memory.
 class PairSet {
  public:
   std::span<const IndexPair> pairs() const { return pairs_; }
-  // The array, to be filled with pairs of which none comes twice; the table is made when it is
+  // Returns the array, for the caller to fill with distinct pairs; the table is made when it is
   // first needed.
   std::span<IndexPair> refill(std::size_t count) {
     indexed_ = false;
@@ -27,7 +27,7 @@ class PairSet {
     return pairs_;
   }
 
-  // Does nothing where the pair is there.
+  // Inserts a pair unless it is there.
   void insert(IndexPair pair) {
     index();
     std::size_t slot = find(pair);
@@ -41,7 +41,7 @@ class PairSet {
     pairs_.push_back(pair);
   }
 
-  // Does nothing where the pair is not there. The last pair takes its place.
+  // Erases a pair if it is there; the last pair takes its place.
   void erase(IndexPair pair) {
     index();
     const std::size_t slot = find(pair);
@@ -73,14 +73,14 @@ class PairSet {
     const std::uint64_t mixed = (key ^ key >> 29) * 0x9e3779b97f4a7c15;  // 2^64 / golden ratio
     return static_cast<std::size_t>(mixed >> shift_);
   }
-  // Where the pair is, or would be.
+  // Returns the slot of the pair, or the free slot where it would be.
   std::size_t find(IndexPair pair) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = home(pair);
     while (slots_[slot] != none && pairs_[slots_[slot]] != pair) slot = (slot + 1) & mask;
     return slot;
   }
-  // Moves those up that could not lie nearer to their homes because of the slot.
+  // Moves up the entries that this slot kept away from their homes.
   void close(std::size_t slot) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t next = slot;;) {
@@ -109,7 +109,7 @@ class PairSet {
   }
 
   std::vector<IndexPair> pairs_;
-  std::vector<std::uint32_t> slots_;  // places of pairs; a power of two of them
+  std::vector<std::uint32_t> slots_;  // places of pairs; the size is a power of two
   int shift_ = 0;
   bool indexed_ = false;
 };
