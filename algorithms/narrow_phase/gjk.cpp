@@ -1,29 +1,39 @@
-// GJK: walk on the difference A - B towards the origin, one support point at a time; EPA for depth.
+// GJK: moves a simplex on the difference A - B towards the origin, one support point at a time; EPA
+// finds the depth.
 // Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; sub-distance of
 //          Montanari, Petrinic, Barbieri, ACM TOG 36(3), 2017; depth: van den Bergen, GDC 2001.
-// Departs: stops by the duality gap: the simplex bounds the distance from above, each support plane
-//          from below; relative to the size, or by NarrowPhaseSettings::duality_gap the absolute
-//          gap of the squared distance that Montaut et al. stop by. Round shapes are cores with a
-//          radius, so that shallow overlaps of theirs need no EPA. Where the origin is on the
-//          simplex, EPA decides: a verdict is `ok` only where a bound proves it beyond rounding.
-//          Never answers `touching`. The query is in gjk_query.h, its loop in gjk_approach.h, with
-//          a quick walk before it (simplex_walk.h), whose verdict is enough between polytopes.
-//          Where the origin is too near the face that the walk came through to be inside for sure,
-//          a corner behind that face is looked for. Hulls of more than 192 vertices find their
-//          support points by a table of directions (direction_cells.h) instead of climbing.
-//          With a PairMemory it starts warm (kernels/warm_start.h): from the last tetrahedron, the
-//          last separating plane, or the last simplex; EPA does not. The others start cold.
-// Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a part of
-//          the pair's size. Depth of smooth, nearly round bodies far inside each other: EPA's cap
-//          comes first, not_converged with bounds.
-//          gjk-nesterov looks along a direction with momentum (Montaut, Le Lidec, Petrik, Sivic,
-//          Carpentier, "Collision detection accelerated: an optimization perspective", RSS 2022,
-//          algorithm 3; its normalised form where a core has corners) until that brings nothing
-//          new, and is plain GJK from there on. gjk-switched does so only where it pays: between
-//          bodies without corners that are less than about their size apart.
+// Steps:   1. A half-space takes one support point (kernels/minkowski/halfspace).
+//          2. Pairs whose bounding balls are apart are separated (not for distance).
+//          3. With a memory, try the last tetrahedron, separating plane or simplex
+//             (kernels/gjk/warm_start).
+//          4. Iterate fast with plain products (kernels/gjk/gjk_iteration); between polytopes its
+//             verdict is enough.
+//          5. Continue in the distance loop, where each simplex bounds the distance from above and
+//             each support plane from below, until the bounds decide (kernels/gjk/gjk_distance).
+//          6. If the origin is in the cores' difference, EPA finds the depth or proves the verdict
+//             (kernels/epa/expanding_polytope).
+//          7. Subtract the radii and write the outcome; a verdict is `ok` only if a bound proves it
+//             beyond rounding (kernels/gjk/gjk_query).
+// Departs: stops by the duality gap of the distance, relative to the size, or by the absolute gap
+//          of the squared distance that Montaut et al. use (NarrowPhaseSettings::duality_gap).
+//          Round shapes are cores with a radius, so that their shallow overlaps need no EPA. If the
+//          origin is too near the face that the search came through, a point behind that face is
+//          tried. Hulls of more than 192 vertices find support points by a cube map
+//          (kernels/minkowski/support_cube_map) instead of hill climbing. gjk-nesterov searches
+//          along a direction with momentum (Montaut, Le Lidec, Petrik, Sivic, Carpentier,
+//          "Collision detection accelerated: an optimization perspective", RSS 2022, algorithm 3;
+//          its normalised form if a core has corners) until that makes no progress, and continues
+//          as plain GJK. gjk-switched does so only between bodies without corners that are less
+//          than about their size apart.
+// Answers: never `touching`.
+// Warm:    gjk starts from a PairMemory, except EPA; the others start cold.
+// Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, relative to
+//          the pair's size. The depth of smooth, nearly round bodies far inside each other reaches
+//          EPA's cap first: not_converged with bounds.
 // Cost:    O(1) space; a few support calls for each digit on smooth shapes, finite on polytopes.
-//          Caps: 128 iterations of GJK, 256 of EPA. Tolerance, as a part of the size: 1e-10
-//          (double) or 1e-5 (float); polytopes go on until nothing is left but rounding.
+//          Caps: 128 iterations of GJK, 256 of EPA. Tolerance relative to the size: 1e-10 (double)
+//          or 1e-5 (float); polytopes continue until only rounding is left.
+//
 #include <algorithm>
 #include <cstring>
 #include <type_traits>

@@ -1,19 +1,26 @@
 // Separating axis test over face normals only: the gap along each face normal of both bodies.
 // Paper:   Gottschalk, Lin, Manocha, "OBBTree: A Hierarchical Structure for Rapid Interference
 //          Detection", SIGGRAPH 1996; section 5.2 reports on leaving out the axes of edge pairs.
-// Departs: any two convex polytopes. Flat hulls, segments and points have the sides of a prism or
-//          box of no thickness. Stops at the first axis that separates.
-// Answers: "separated" is proven. "Overlapping" says that no face normal separates: bodies that
-//          only an axis across an edge of each keeps apart are called overlapping as well. The
-//          depth is the least overlap along a face normal. Where the bodies do overlap it is an
-//          upper bound of the penetration depth, and exact unless an edge pair is shallower; moving
-//          b by it along the normal always separates the bodies. So the lower bound of the signed
-//          distance is certified, and there is no upper one. The witness points are the closest
-//          points of the two supporting features as seen along the normal; where an edge pair is
-//          shallower these need not lie on one line along it.
-// Fails:   says not_converged where the greatest gap is below its rounding error, degenerate for a
-//          solid hull that came without faces and that no axis tried separates, and capacity for
-//          one of more than 16,384 vertices.
+// Steps:   1. `bind` makes a polytope of each shape: faces, edges, vertices (kernels/sat/polytope).
+//          2. Pairs whose bounding balls are far apart are separated (kernels/sat/polytope_query).
+//          3. For each face normal of a and b, measure the gap to the other body's support vertex;
+//             stop at an axis that separates (kernels/sat/separating_axis).
+//          4. If a body has no faces, test the line of the centres.
+//          5. Report the greatest gap: positive is separated, negative is minus the depth, with the
+//             closest points of the supporting features (kernels/sat/common_point).
+// Departs: takes any two convex polytopes. Flat hulls, segments and points have the faces of a
+//          prism or box without thickness. Stops at the first axis that separates.
+// Answers: `separated` is proven. `overlapping` means that no face normal separates; bodies that
+//          only an axis across an edge of each separates are called overlapping too. The depth is
+//          the least overlap along a face normal. If the bodies overlap it is an upper bound on the
+//          penetration depth, and exact unless an edge pair is shallower; moving b by it along the
+//          normal always separates the bodies. So the lower bound of the signed distance is
+//          certified, and there is no upper one. Witness points are the closest points of the two
+//          supporting features seen along the normal; if an edge pair is shallower they need not
+//          lie on one line along it.
+// Fails:   reports not_converged if the greatest gap is below its rounding error, degenerate for a
+//          solid hull without faces that no tested axis separates, and capacity for one of more
+//          than 16,384 vertices.
 // Cost:    O(Fa Vb + Fb Va) time; no memory.
 #include "algorithms/kernels/sat/polytope_query.h"
 #include "algorithms/kernels/sat/separating_axis.h"
@@ -38,7 +45,7 @@ class SatFaces final : public NarrowPhase {
     int tested = 0;
     Axis<Scalar> best;
     if (!pair.far_apart()) best = pair.face_axis(tested);
-    // Without faces to go by there is this one axis that needs none.
+    // A hull without faces is tested along this one axis, which needs none.
     if (!pair.far_apart() && !pair.complete() && !pair.separates(best)) {
       best = pair.centre_axis();
       ++tested;

@@ -1,20 +1,27 @@
-// Certified: GJK in doubles where a bound on its rounding proves the answer, integers elsewhere.
+// Certified: GJK in doubles if a bound on its rounding proves the answer, integers otherwise.
 // Paper:   Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 //          predicates", Discrete & Computational Geometry 18, 1997 (a filter before exact
 //          arithmetic); Gilbert, Johnson, Keerthi, 1988, as in gjk.cpp.
-// Departs: the filter is for whole queries. Verdicts: balls that are apart; a support plane further
-//          than the radii, or points of the difference around the origin or nearer to it than the
-//          radii, by more than SupportPair::proven_rounding; else a direction or a simplex of GJK's
-//          careful loop, in long double (proven_gap.h). Distances and depths: the interval that
-//          these prove, if it is at most 4e-15 of the size or 2 units in the last place wide. What
-//          is left is the oracle's: always the depth of cores that share a point.
-//          Outcome::support_calls is -1 where the oracle answered, and counted where the filter
-//          did.
-// Fails:   unknown / not_converged where the oracle's enclosure of curved cores holds zero, and
-//          not_converged with bounds where that of a depth is wider than 1e-9 of the size. Never
-//          wrong. Tolerance and iteration cap are not heeded: they would only make it slower.
-// Cost:    GJK's at gaps that are not rounding; the oracle's 10 to 100 us, or some ms for distances
-//          of curved cores that GJK does not settle and all their depths.
+// Steps:   1. Half-space: bound the height of the lowest point over the plane, in doubles and then
+//             in long double (proven_height).
+//          2. Pairs whose bounding balls are apart are separated (not for distance).
+//          3. intersect: run GJK's fast iteration; accept a support plane, a tetrahedron around the
+//             origin or a point within the radii that holds by more than
+//             SupportPair::proven_rounding.
+//          4. Otherwise run GJK's distance loop; it may prove the verdict in the same ways.
+//          5. From the last direction and simplex, compute an interval of the signed distance in
+//             long double with all rounding bounded (proven_gap, proven_support).
+//          6. Accept the interval if it decides and, for a distance or depth, is at most 4e-15 of
+//             the size or 2 units in the last place wide.
+//          7. Otherwise ask the oracle, in integers.
+// Departs: the filter covers whole queries instead of predicates. The depth of cores that share a
+//          point always comes from the oracle. Outcome::support_calls is -1 if the oracle answered,
+//          and a count otherwise.
+// Fails:   unknown / not_converged if the oracle's enclosure of curved cores contains zero, and
+//          not_converged with bounds if that of a depth is wider than 1e-9 of the size. Never
+//          wrong. Tolerance and iteration cap are ignored: they would only make it slower.
+// Cost:    GJK's at gaps beyond rounding. The oracle takes 10 to 100 us, or some ms for distances
+//          of curved cores that GJK does not settle and for all their depths.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -34,11 +41,11 @@ namespace {
 using Pair = SupportPair<double>;
 
 constexpr int most_iterations = 128;
-constexpr double widest = 4e-15;  // of the size: an interval that is good enough
+constexpr double widest = 4e-15;  // relative to the size: the widest accepted interval
 
-constexpr double least_digits = 1e-9;  // of the size: an enclosure that is wider is no number
+constexpr double least_digits = 1e-9;  // relative to the size: a wider enclosure is not a number
 
-// A shape as each stage wants it.
+// A shape prepared for each stage.
 struct Prepared {
   explicit Prepared(const Shape& s) : proven(s), solid(s) {}
 
@@ -59,15 +66,15 @@ bool is_asked(Task task, Answer answer) {
          (task == Task::penetration && answer == Answer::overlapping);
 }
 
-// Writes the answer, and where the task asks for it the interval. False where the bounds leave the
-// answer open, or the interval too wide.
+// Writes the answer, and the interval if the task asks for it. Returns false if the bounds do not
+// decide, or if the interval is too wide.
 bool write(const ProvenGap& gap, double size, Task task, Outcome& outcome) {
   const Answer answer = gap.lower > 0   ? Answer::separated
                         : gap.upper < 0 ? Answer::overlapping
                                         : Answer::unknown;
   if (answer == Answer::unknown) return false;
   if (is_asked(task, answer)) {
-    // The nearer end: the other may be infinite.
+    // The nearer end is used, since the other may be infinite.
     const double magnitude = std::min(std::abs(gap.lower), std::abs(gap.upper));
     const double enough =
         std::max(widest * size, 2 * std::numeric_limits<double>::epsilon() * magnitude);
@@ -108,7 +115,7 @@ class Certified final : public NarrowPhase {
       outcome.support_calls = -1;
       oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, batch.task,
                      outcome);
-      // Of round cores deep in each other the enclosure may be wide: a bound, and not a depth.
+      // The enclosure of round cores deep in each other may be wide: a bound instead of a depth.
       const double size = std::max(a.shape.size(), b.shape.size());
       const bool curved = a.shape.solid.is_curved() || b.shape.solid.is_curved();
       if (batch.task == Task::penetration && curved &&
@@ -151,13 +158,13 @@ bool Certified::filter(const PlacedBody& a, const PlacedBody& b, Task task, Outc
   return decided;
 }
 
-// A point of the difference is nearer to the origin than the radii, for sure.
+// Returns true if a point of the difference is certainly nearer to the origin than the radii.
 bool is_within_radius(const Pair& pair, const Simplex<double>& simplex) {
   return pair.radius() > Pair::proven_rounding &&
          off_core(simplex) + Pair::proven_rounding < pair.radius();
 }
 
-// The verdict of GJK's quick walk.
+// Tries the verdict of GJK's fast iteration.
 bool Certified::walk_decides(Pair& pair, Outcome& outcome) const {
   Walk<double> found = walk(pair, {.only_apart = true, .most_iterations = most_iterations}, 0.0);
   outcome.iterations = found.iterations;
@@ -173,7 +180,7 @@ bool Certified::walk_decides(Pair& pair, Outcome& outcome) const {
          say(Answer::overlapping, outcome);
 }
 
-// GJK's careful loop, and what its end proves.
+// Runs GJK's distance loop and tests what its end proves.
 bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b, Task task,
                                  Outcome& outcome) {
   const ApproachGoal<double> goal{
@@ -210,7 +217,7 @@ bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBo
   return true;
 }
 
-// Body b is a half-space.
+// Solves a pair whose body b is a half-space.
 bool Certified::on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome) {
   outcome.support_calls = 1;
   if (task == Task::intersect &&

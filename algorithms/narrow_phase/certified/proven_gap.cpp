@@ -1,3 +1,4 @@
+// Part of certified: the bounds of proven_gap.h, in long double.
 #include "algorithms/narrow_phase/certified/proven_gap.h"
 
 #include <cmath>
@@ -5,8 +6,9 @@
 namespace touchstone {
 namespace {
 
-// The point of a body's core, relative to the body's translation and world axes, that a support
-// point in doubles stands for. It is in the core up to 8 units of the core's reach.
+// Maps a support point in doubles to the point of the body's core that it stands for, relative to
+// the body's translation, in world axes. That point is in the core up to 8 units of the core's
+// reach.
 class CorePoint {
  public:
   CorePoint(const ProvenShape& body, const WideMatrix& matrix,
@@ -21,7 +23,7 @@ class CorePoint {
     }
   }
 
-  // `point`: from the core's centre, metres, world axes.
+  // `point` is relative to the core's centre: metres, world axes.
   Wide3 operator()(const Vec3d& point) const {
     const Shape& shape = *body_.shape;
     if (shape.kind == ShapeKind::sphere) return Wide3::Zero();
@@ -97,10 +99,10 @@ ProvenGap GapProver::between(const ProvenShape& a, const Pose& pose_a, const Pro
                                     AllThatMayBe(values_, furthest_a_));
     const auto of_b = support<Wide>(b, matrix_b.transpose() * -n, size_b.transpose() * n_size,
                                     AllThatMayBe(values_, furthest_b_));
-    // The offset's product is off by 4 units, the supports by 16, the sums add 2.
+    // The offset's product is off by 4 units, the supports by 16; the sums add 2.
     const Wide along = n.dot(offset) - of_a.value - of_b.value;
     const Wide terms = n_size.dot(offset.cwiseAbs()) + of_a.terms + of_b.terms;
-    // The norm, the quotient and the radii: 8 units of each.
+    // The norm, the quotient and the radii are each off by at most 8 units.
     const Wide apart = (along - 20 * wide_unit * terms) / std::sqrt(n.dot(n));
     const Wide lower = apart - radii - 8 * wide_unit * (std::abs(apart) + radii);
     if (lower > gap.lower) gap.lower = round_down(lower);
@@ -119,14 +121,14 @@ ProvenGap GapProver::between(const ProvenShape& a, const Pose& pose_a, const Pro
     sum += weight * ((q - p) + offset);
     weights += weight;
   }
-  // Of each weighted term: 8 units for the point, 3 in the product, 3 in the differences, 5 in the
-  // sum; the quotient by the weights and the norm are good to 8 of the whole.
+  // Errors of each weighted term: 8 units for the point, 3 in the product, 3 in the differences, 5
+  // in the sum. The quotient by the weights and the norm are accurate to 8 units of the whole.
   const Wide reach = (size_a * wide(a.reach) + size_b * wide(b.reach) + offset.cwiseAbs()).sum();
   const Wide length = sum.norm() / weights;
   const Wide near = length + 32 * wide_unit * reach;
   const Wide upper = near - radii + 8 * wide_unit * (near + radii);
   if (upper < std::numeric_limits<Wide>::infinity()) gap.upper = round_up(upper);
-  // Far from each other the connection is a better normal than a double's.
+  // For bodies far apart the connection is a better normal than one in doubles.
   const double fine = 2 * std::numeric_limits<double>::epsilon() * static_cast<double>(length);
   if (gap.upper - gap.lower > fine && length > Wide{1e-3} * reach) prove_lower(sum);
   return gap;

@@ -1,3 +1,4 @@
+// Part of certified: the bounds of proven_height.h, for double and long double.
 #include "algorithms/narrow_phase/certified/proven_height.h"
 
 #include <algorithm>
@@ -6,13 +7,13 @@
 namespace touchstone {
 namespace {
 
-// A plane over which a body lies, and what is known of the body's height over it.
+// A plane, and bounds on a body's height over it.
 template <class Real>
 struct Height {
   Real lower = -std::numeric_limits<Real>::infinity();
   Real upper = std::numeric_limits<Real>::infinity();
   Vec3<Real> normal = Vec3<Real>::Zero();  // outward
-  Real length = 0;                         // that m had
+  Real length = 0;                         // of the plane's normal before it was normalised
   Real doubt = 0;
 };
 
@@ -21,8 +22,8 @@ Height<Real> height_over(const ProvenShape& a, const Pose& pose_a, const ProvenS
                          const Pose& pose_b, const HullSupport& hull_support) {
   constexpr Real ulp = std::numeric_limits<Real>::epsilon() / 2;
   Height<Real> result;
-  // The moved half-space is m . (x - t) <= offset |det M| with m = +-cof(M) n: what maps planes to
-  // planes is the inverse transpose.
+  // The transformed half-space is m . (x - t) <= offset |det M| with m = +-cof(M) n, since planes
+  // map by the inverse transpose.
   const Mat3<Real> matrix = pose_b.rotation.cast<Real>(), size = matrix.cwiseAbs();
   const Mat3<Real> cofactors = cofactor_matrix(matrix);
   Mat3<Real> cofactor_terms;
@@ -51,7 +52,7 @@ Height<Real> height_over(const ProvenShape& a, const Pose& pose_a, const ProvenS
   const Real terms =
       m_terms.dot(offset.cwiseAbs()) + lowest.terms + std::abs(plane) * determinant_terms;
   // The support is off by 32 units of its terms, the product with the offset by 9, the plane's by
-  // 6, their sum by 2 more; the length by as much as m is.
+  // 6, their sum by 2 more, and the length by as much as m.
   const Real length = std::sqrt(m.dot(m));
   const Real of_length = 8 * ulp * m_terms.sum() / length;
   if (!(of_length < Real(0x1p-20))) return result;
@@ -79,8 +80,8 @@ ProvenGap HeightProver::closely(const ProvenShape& a, const Pose& pose_a, const 
 ProvenGap HeightProver::roughly(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
                                 const Pose& pose_b) {
   const auto height = height_over<double>(a, pose_a, b, pose_b, BestByScan());
-  // Below 2^100 (the matrices, the plane's normal) and 2^200 (lengths) nothing overflows, and what
-  // vanishes on the way comes to less than 2^-500.
+  // With matrices and the plane's normal below 2^100 and lengths below 2^200 nothing overflows, and
+  // all underflow amounts to less than 2^-500.
   const double factors =
       std::max({pose_a.rotation.cwiseAbs().maxCoeff(), pose_b.rotation.cwiseAbs().maxCoeff(),
                 b.shape->normal.cwiseAbs().maxCoeff()});

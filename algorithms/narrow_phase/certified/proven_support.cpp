@@ -1,3 +1,4 @@
+// Part of certified: the core's extents and the vertices that may support a hull.
 #include "algorithms/narrow_phase/certified/proven_support.h"
 
 namespace touchstone {
@@ -33,14 +34,15 @@ void find_furthest(const std::vector<Vec3d>& vertices, const Vec3d& g, const Vec
     values[i] = g.x() * v.x() + g.y() * v.y() + g.z() * v.z();
     most = std::max(most, values[i]);
   }
-  // Each is off by four half units of epsilon of the terms (g's own rounding, products, sums), two
-  // are compared, and half as much is for the bound's own rounding. Then what vanishes.
+  // Each value is off by four half units of epsilon of the terms (g's own rounding, products,
+  // sums); two values are compared, and half as much covers the bound's own rounding. The last two
+  // terms cover underflow.
   const double doubt = 6 * std::numeric_limits<double>::epsilon() * g.cwiseAbs().dot(reach) +
                        std::numeric_limits<double>::min() +
                        std::numeric_limits<double>::denorm_min() * reach.sum();
   furthest.clear();
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    // So written that NaN counts.
+    // This form of the comparison keeps NaN.
     if (!(values[i] < most - doubt)) furthest.push_back(static_cast<std::uint32_t>(i));
   }
 }

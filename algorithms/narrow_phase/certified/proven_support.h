@@ -1,8 +1,9 @@
-// Supports of cores from the shapes' own numbers, with what their rounding is bounded by.
+// Part of certified: supports of cores from the shapes' own numbers, with bounds on their rounding.
+// Includes core and kernels.
 //
-// In long double or double; sums carry what all their terms come to where nothing cancels, and are
-// off by a few units (halves of epsilon) of that.
-// Paper: Wilkinson, "Rounding Errors in Algebraic Processes", 1963.
+// Computed in long double or double. A sum carries the total magnitude of its terms, and is off by
+// a few units (half epsilons) of that.
+// Paper:   Wilkinson, "Rounding Errors in Algebraic Processes", 1963.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 
 namespace touchstone {
 
-// A shape, and the box around its core that the bounds are relative to. The shape stays alive.
+// A shape and the box around its core to which the bounds are relative. The shape must outlive this
+// object.
 struct ProvenShape {
   explicit ProvenShape(const Shape& s);
 
@@ -24,7 +26,7 @@ struct ProvenShape {
   Vec3d reach;  // the greatest magnitude of each body coordinate in the core, metres
 };
 
-// What is proven: lower <= signed distance <= upper (metres). Infinite where nothing is.
+// A proven interval: lower <= signed distance <= upper (metres). Infinite if nothing is proven.
 struct ProvenGap {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -34,28 +36,29 @@ using Wide = long double;
 using Wide3 = Vec3<Wide>;
 using WideMatrix = Mat3<Wide>;
 
-// Half a unit in the last place of 1. Products of a dozen doubles neither overflow nor vanish where
+// Half a unit in the last place of 1. Products of a dozen doubles neither overflow nor underflow if
 // the exponents are those of x87 or wider.
 inline constexpr Wide wide_unit = std::numeric_limits<Wide>::epsilon() / 2;
 inline constexpr bool is_wide = std::numeric_limits<Wide>::max_exponent >= 16384;
 
 inline Wide3 wide(const Vec3d& x) { return x.cast<Wide>(); }
 
-// Doubles on both sides of a number.
+// The nearest double below or above a number.
 double round_down(Wide x);
 double round_up(Wide x);
 
-// A number, and what all its terms come to where nothing cancels: it is off by a few units of that.
+// A number and the total magnitude of its terms; the number is off by a few units of that.
 template <class Real>
 struct Sum {
   Real value = 0, terms = 0;
 };
 
-// The vertices that are furthest along g up to the rounding of doubles, and some that are not.
+// Lists the vertices that may be furthest along g given the rounding of doubles. It may list
+// others.
 void find_furthest(const std::vector<Vec3d>& vertices, const Vec3d& g, const Vec3d& reach,
                    std::vector<double>& values, std::vector<std::uint32_t>& furthest);
 
-// The vertices of a hull that `Real` looks at for its support along g.
+// Finds a hull's support along g in long double: tests all vertices that may be furthest.
 class AllThatMayBe {
  public:
   AllThatMayBe(std::vector<double>& values, std::vector<std::uint32_t>& furthest)
@@ -72,20 +75,22 @@ class AllThatMayBe {
   std::vector<double>& values_;
   std::vector<std::uint32_t>& furthest_;
 };
-// The best by its coordinates from the centre. Both that and any better one are off by 4 units of
-// terms that are at most twice those of the reach, since the centre is in the hull's box.
+// Finds a hull's support along g in double: the best vertex by coordinates from the centre. That
+// vertex and any better one are off by 4 units of terms that are at most twice those of the reach,
+// since the centre is in the hull's box.
 struct BestByScan {
   double operator()(const ProvenShape& body, const Vec3d& g) const {
     const std::uint32_t best = body.support.furthest(g);
-    // The last block is filled up with the first vertex.
+    // The last block is padded with the first vertex.
     const std::vector<Vec3d>& vertices = body.shape->hull->vertices;
     return g.dot(vertices[best < vertices.size() ? best : 0]);
   }
 };
 
-// The support of a core along g, body coordinates; `terms` is for |g| and the core's reach. With g
-// off by 8 units of `g_terms`, at most 6 roundings on the way and 16 units of a hull's scan, it is
-// off by 32 units of `terms`; by 16 with g off by 3 and a hull's vertices compared in Real.
+// The support of a core along g, in body coordinates. `terms` results from |g| and the core's
+// reach. If g is off by 8 units of `g_terms`, with at most 6 roundings on the way and 16 units from
+// a hull's scan, the value is off by 32 units of `terms`. It is off by 16 if g is off by 3 and a
+// hull's vertices are compared in Real.
 template <class Real, class HullSupport>
 Sum<Real> support(const ProvenShape& body, const Vec3<Real>& g, const Vec3<Real>& g_terms,
                   const HullSupport& hull_support) {

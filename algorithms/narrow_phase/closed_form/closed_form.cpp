@@ -2,19 +2,27 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
 //          (segments), 5.2.3 (half-space); Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996
 //          (boxes).
-// Departs: a capsule is a segment with a radius, a sphere a point with one. Where two cores meet or
-//          nearly so, the normal is made orthogonal to the segments that they meet inside of, so
-//          that the depth stays exact. The box is turned by its matrix as it stands: a point is
-//          brought into it by the inverse. Pairs of boxes, spheres and capsules go through vector
-//          lanes, one pair a lane (box_pair_lanes.h, round_pair_lanes.h); what these leave open is
-//          asked again one by one.
-// Answers: sphere or capsule with sphere or capsule, sphere with box, anything bounded with a
-//          half-space: all tasks. Box with box: intersect and penetration; 15 axes know no
+// Steps:   1. Solve batches of box pairs, and of spheres and capsules with each other or with a
+//             box, in vector lanes, one pair per lane (kernels/batch/box_pair_lanes,
+//             round_pair_lanes).
+//          2. Solve the pairs that the lanes leave open, and all other batches, one by one.
+//          3. Half-space: one support point of the other body (kernels/minkowski/halfspace).
+//          4. Box and box: the greatest gap along 15 axes (kernels/sat/box_box).
+//          5. Sphere or capsule: reduce it to a point or segment with a radius, and find the
+//             closest points of the two segments, or of the point and the box; a point inside a box
+//             leaves through the nearest face.
+//          6. Subtract the radii from the signed gap of the cores, and compare it with its rounding
+//             error.
+// Departs: if two cores meet, or nearly so, the normal is made orthogonal to the segments in whose
+//          interior they meet, so that the depth stays exact. A box keeps its matrix as given: the
+//          inverse takes a point into its frame.
+// Answers: sphere or capsule with sphere or capsule, sphere with box, any bounded shape with a
+//          half-space: all tasks. Box with box: intersect and penetration, since 15 axes give no
 //          distance.
-// Fails:   says not_converged where the sign of the distance is below its rounding error, and
-//          degenerate of a sphere near a box that its matrix skews, where the two bounds that it
-//          has do not tell, or are apart by more than 1e-10 of the size.
-// Cost:    O(1); for a hull over a half-space one support call.
+// Fails:   reports not_converged if the distance is below its rounding error, and degenerate for a
+//          sphere near a box that its matrix skews, if its two bounds do not decide or differ by
+//          more than 1e-10 of the size.
+// Cost:    O(1); one support call for a hull over a half-space.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,9 +39,9 @@
 namespace touchstone {
 namespace {
 
-// The cores of two bodies (what is left of them without their radius), seen from the centre of body
-// a in the pair's unit. The gap is signed; on_b - on_a is gap * normal. It is between the bounds,
-// which are apart by more than rounding where a box is turned by no rotation.
+// The relation of two cores (the bodies without their radii), relative to the centre of body a in
+// the pair's unit. The gap is signed; on_b - on_a is gap * normal. It lies between the bounds,
+// which differ by more than rounding only if a box's matrix is not a rotation.
 template <class Scalar>
 struct CoreGap {
   Scalar gap, lower, upper;
@@ -49,16 +57,16 @@ Vec3<Scalar> part_across(const Vec3<Scalar>& v, const Vec3<Scalar>& along) {
   return v - v.dot(along) / along.squaredNorm() * along;
 }
 
-// Whether rounding leaves the directions of two segments apart.
+// Returns true if the directions of two segments differ by more than rounding.
 template <class Scalar>
 bool are_crossed(const Vec3<Scalar>& p, const Vec3<Scalar>& q) {
   return p.cross(q).norm() > rounding<Scalar> * p.norm() * q.norm();
 }
 
-// A unit vector across both segments, or as many of them as have a direction.
+// Returns a unit vector orthogonal to both segments, or to those that have a direction.
 template <class Scalar>
 Vec3<Scalar> across(const Vec3<Scalar>& p, const Vec3<Scalar>& q) {
-  // Almost parallel ones leave an error along them.
+  // The cross product of almost parallel vectors has an error along them.
   if (are_crossed(p, q)) return part_across<Scalar>(p.cross(q), p).normalized();
   const Vec3<Scalar>& longer = p.squaredNorm() < q.squaredNorm() ? q : p;
   return longer.squaredNorm() > 0 ? longer.unitOrthogonal() : Vec3<Scalar>::UnitX();
@@ -68,7 +76,8 @@ template <class Scalar>
 CoreGap<Scalar> segment_gap(const Segment<Scalar>& a, const Segment<Scalar>& b) {
   const SegmentPoints<Scalar> closest = closest_points(a, b);
   const Vec3<Scalar> between = closest.second - closest.first;
-  // What rounding tilted it by, along segments that it must be across.
+  // The normal must be orthogonal to segments whose interior the points are in; rounding may tilt
+  // it.
   const auto inside = [](Scalar s, const Segment<Scalar>& segment) {
     return s > 0 && s < 1 && segment.along.squaredNorm() > 0;
   };
@@ -84,13 +93,13 @@ CoreGap<Scalar> segment_gap(const Segment<Scalar>& a, const Segment<Scalar>& b) 
   }
   const Scalar length = normal.norm();
   normal = length > rounding<Scalar> ? Vec3<Scalar>(normal / length) : across(a.along, b.along);
-  // Points that meet may lie on either side of a direction that they do not give.
+  // If the points coincide, the direction's sign is arbitrary.
   if (normal.dot(between) < 0) normal = -normal;
   const Scalar gap = normal.dot(between);
   return {gap, gap, gap, normal, closest.first, closest.second};
 }
 
-// A point, which is body a's centre, and a box of these half extents about `centre`.
+// The gap between a point, body a's centre, and a box with these half extents around `centre`.
 template <class Scalar>
 CoreGap<Scalar> point_box_gap(const Vec3<Scalar>& centre, const Mat3<Scalar>& matrix,
                               const Vec3<Scalar>& half) {
@@ -105,13 +114,14 @@ CoreGap<Scalar> point_box_gap(const Vec3<Scalar>& centre, const Mat3<Scalar>& ma
   const Scalar distance = outward.norm();
   if (distance > 0) {
     const Vec3<Scalar> normal = -outward / distance;
-    // Not the closest one where the matrix skews the box, but a point of it; and a side.
+    // If the matrix skews the box, `closest` is not the closest point, but it is in the box: its
+    // distance bounds from above, the plane through it from below.
     const Scalar upper = std::max(distance, (centre + matrix * closest).norm());
     const Scalar lower = normal.dot(centre) - (matrix.transpose() * normal).cwiseAbs().dot(half);
     return {distance, std::min(distance, lower), upper,
             normal,   Vec3<Scalar>::Zero(),      distance * normal};
   }
-  // Inside: the way out through the nearest face.
+  // The point is inside: the shortest way out is through the nearest face.
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
   const Vec3<Scalar> none = Vec3<Scalar>::Zero();
   CoreGap<Scalar> best{-infinity, -infinity, -infinity, none, none, none};
@@ -178,7 +188,7 @@ class ClosedForm final : public NarrowPhase {
     outcome.iterations = 0;
   }
 
-  // Metres, the greatest of its measures in the world.
+  // The greatest dimension of the shape in the world, metres.
   static double size(const Shape& shape, const Pose& pose) {
     const Mat3d& matrix = pose.rotation;
     switch (shape.kind) {
@@ -189,7 +199,7 @@ class ClosedForm final : public NarrowPhase {
     }
   }
 
-  // Body a is a sphere or capsule, b too or a box.
+  // Body a is a sphere or capsule; body b is one of these or a box.
   static void solve_round(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                           Task task, Outcome& outcome) {
     const Vec3d offset = pose_b.translation - pose_a.translation;
@@ -212,7 +222,7 @@ class ClosedForm final : public NarrowPhase {
 
     const Scalar lower = cores.lower - radius_a - radius_b;
     const Scalar upper = cores.upper - radius_a - radius_b;
-    // Where the bounds are far apart the answer is all that can be given.
+    // If the bounds are far apart, only the answer is reported.
     const bool skewed = upper - lower > std::max(rounding<Scalar>, Scalar(1e-10));
     const bool apart = lower > rounding<Scalar>, common = upper < -rounding<Scalar>;
     outcome.answer = apart ? Answer::separated : common ? Answer::overlapping : Answer::unknown;
@@ -245,7 +255,7 @@ class ClosedForm final : public NarrowPhase {
   std::vector<SupportShape<Scalar>> support_shapes_;
   BoxPairLanes<Scalar> box_lanes_;
   RoundPairLanes<Scalar> round_lanes_;
-  std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave
+  std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
 };
 
 bool takes(ShapeKind a, ShapeKind b, Task task) {

@@ -1,3 +1,5 @@
+// Part of closed-form: error bounds, and the selection of the instruction level for
+// round_pair_lanes.inl.
 #include "algorithms/narrow_phase/closed_form/round_pair_lanes.h"
 
 #include <algorithm>
@@ -13,14 +15,14 @@ namespace {
 
 using real_lanes::Quad;
 
-// Forward bounds on what rounding does to a distance, as parts of the size of the pair: the sum of
-// the radii, of the coordinates of the half segments or half extents, and of those of the offset. u
-// is half an epsilon. Between cores that are segments no point is off by more than 8 u of that, and
-// neither is what their difference has along a unit vector.
+// Forward bounds on the rounding error of a distance, relative to the size of the pair: the sum of
+// the radii, of the coordinates of the half segments or half extents, and of the offset's
+// coordinates. u is half an epsilon. Between cores that are segments no point is off by more than 8
+// u of that, and neither is the component of their difference along a unit vector.
 //
-// A box is turned by the transpose of its matrix where that is orthonormal: box_pair_lanes.cpp
-// says that a coordinate then is off by less than 23 u in float and 40 u in double; lengths change
-// by half of the spectral norm of the skew, 14 u and 29 u.
+// A box is rotated by the transpose of its matrix if that is orthonormal. A coordinate is then off
+// by less than 23 u in float and 40 u in double (see box_pair_lanes.cpp); lengths change by half of
+// the spectral norm of the skew, 14 u and 29 u.
 template <class Scalar>
 struct DistanceError {
   static constexpr Scalar cores = 32 * unit_roundoff<Scalar>;

@@ -1,10 +1,11 @@
-// Spheres and capsules, with each other or with a box, one pair a lane of vectors.
-// Paper: Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
-// (segments).
+// Part of closed-form: spheres and capsules with each other, or spheres with a box, one pair per
+// lane of vectors. Includes core and kernels.
+// Paper:   Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
+//          (segments).
 //
-// Lanes are for sizes within 1e-10 to 1e12 metres and for boxes whose matrices are orthonormal up
-// to rounding. Those, and all that the lanes leave open, are handed back for a test that takes its
-// time.
+// The lanes solve pairs with sizes within 1e-10 to 1e12 metres and boxes whose matrices are
+// orthonormal up to rounding. They return all others, and those that they leave open, for a serial
+// test.
 #pragma once
 
 #include <cstddef>
@@ -21,20 +22,20 @@ namespace touchstone {
 template <class Scalar>
 class RoundPairLanes {
  public:
-  // What is no sphere, capsule or box is left out.
+  // Ignores shapes that are not spheres, capsules or boxes.
   void bind(std::span<const Shape> shapes);
 
   static bool takes(ShapeKind kind_a, ShapeKind kind_b) {
     return kind_a <= ShapeKind::capsule && kind_b <= ShapeKind::box &&
            !(kind_a == ShapeKind::capsule && kind_b == ShapeKind::box);
   }
-  // Of kinds that it takes. Answers into outcomes, all but the pairs whose places are written to
-  // `left`, which has room for all of them; how many those are.
+  // Solves pairs of kinds that it takes. Writes outcomes, except for the pairs whose places it
+  // writes to `left`, which must have room for all. Returns the number of those.
   std::size_t solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs, Task task,
                     std::span<Outcome> outcomes, std::uint32_t* left) const;
 
  private:
-  // Four a shape, metres: of a box the half extents, else radius and half length.
+  // Four numbers per shape, metres: the half extents of a box, else radius and half length.
   std::vector<Scalar> sizes_;
 };
 

@@ -1,11 +1,11 @@
-// The loops of round_pair_lanes.h. Included by round_pair_lanes.cpp once for each level of vector
-// instructions, inside that level's namespace.
+// Part of closed-form: the loops of round_pair_lanes.h. round_pair_lanes.cpp includes this file
+// once for each level of vector instructions, inside that level's namespace.
 #include "algorithms/kernels/batch/pair_lanes.inl"
 #include "algorithms/kernels/simd/lane_vectors.inl"
 
-// What the cores of two bodies are to each other; metres, world axes, as seen from the centre of
-// a. The distance, signed where a point is in a box, is between `lower` and `upper` up to `error`;
-// `gap` is what it is along the normal.
+// The relation of two bodies' cores: metres, world axes, relative to the centre of a. The distance,
+// negative if a point is in a box, is between `lower` and `upper` up to `error`; `gap` is the
+// distance along the normal.
 template <class Scalar>
 struct Cores {
   using Real = typename RealLanes<Scalar>::Real;
@@ -13,7 +13,7 @@ struct Cores {
   Real gap, lower, upper, error;
   Vectors<Scalar> normal;  // unit vector from a to b
   Vectors<Scalar> on_a, on_b;
-  unsigned usable;  // lanes that may be answered at all
+  unsigned usable;  // lanes that may be answered at all, as bits
 };
 
 template <class Scalar>
@@ -23,7 +23,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real sum_of_size
   return Lanes::abs(v.x) + Lanes::abs(v.y) + Lanes::abs(v.z);
 }
 
-// number / square within -1 to 1, and zero where the square is nothing.
+// number / square clamped to -1..1; zero if the square is zero.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real parameter(
     typename RealLanes<Scalar>::Real number, typename RealLanes<Scalar>::Real square) {
@@ -34,7 +34,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real parameter(
   return Lanes::min(Lanes::max(ratio, -one), one);
 }
 
-// Removes from v what it has along a segment, in the lanes where its parameter is inside.
+// Removes v's component along a segment in the lanes whose parameter is inside the segment.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> part_across(
     const Vectors<Scalar>& v, const Vectors<Scalar>& along, typename RealLanes<Scalar>::Real square,
@@ -46,9 +46,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> part_across(
   return moved<Scalar>(v, -Lanes::select(inside, part, zero), along);
 }
 
-// Segments about their centres, of which those of spheres are points. Any points of them bound the
-// distance from above, and any direction from below; the closest points need not be proven, where
-// the two agree.
+// Segments around their centres; a sphere's is a point. Any points of the segments bound the
+// distance from above, and any direction bounds it from below, so the closest points need no proof
+// if the two bounds agree.
 template <class Scalar, bool long_a, bool long_b>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar>& table,
                                                           std::size_t begin, Cores<Scalar>& cores) {
@@ -88,7 +88,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
   cores.usable = sized_lanes<Scalar>(size);
   cores.error = DistanceError<Scalar>::cores * size;
 
-  // Parameters of the closest points, -1 to 1.
+  // Parameters of the closest points, from -1 to 1.
   const Real square_a = dot<Scalar>(half_a, half_a), square_b = dot<Scalar>(half_b, half_b);
   Real s = zero, t = zero;
   if constexpr (long_a && long_b) {
@@ -114,7 +114,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
   cores.on_a = moved<Scalar>({zero, zero, zero}, s, half_a);
   cores.on_b = moved<Scalar>(offset, t, half_b);
   const Vectors<Scalar> between = difference<Scalar>(cores.on_b, cores.on_a);
-  // What rounding has tilted it by, along segments that it must be across.
+  // The normal must be orthogonal to segments whose interior the points are in; rounding may tilt
+  // it.
   Vectors<Scalar> straight = between;
   if constexpr (long_a) straight = part_across<Scalar>(straight, half_a, square_a, s);
   if constexpr (long_b) straight = part_across<Scalar>(straight, half_b, square_b, t);
@@ -126,7 +127,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
                 Lanes::abs(dot<Scalar>(cores.normal, half_b));
 }
 
-// A point, which is the centre of a, and a box.
+// The relation of a point, the centre of a, and a box.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& table,
                                                      std::size_t begin, Cores<Scalar>& cores) {
@@ -160,7 +161,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
   cores.error = DistanceError<Scalar>::box * size;
   cores.usable = sized_lanes<Scalar>(size) & orthonormal_lanes<Scalar>(edges);
 
-  // The centre of a along the edges of the box, how far outside of it, and how deep inside.
+  // Components of a's centre along the box's edges: the part outside the box, and the way out if
+  // inside.
   Real outside[3], inward[3];
   Real least = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
   for (int k = 0; k < 3; ++k) {
@@ -168,7 +170,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
     const Real beyond = Lanes::abs(at) - half[k];
     const Real sign = Lanes::select(Lanes::less(at, zero), -one, one);
     outside[k] = sign * Lanes::max(beyond, zero);
-    // The way out through the nearest face; the first of those that are as near.
+    // The way out leads through the nearest face, the first of several.
     const auto nearer = Lanes::less(least, beyond);
     least = Lanes::max(beyond, least);
     for (int other = 0; other < k; ++other) {
@@ -211,7 +213,7 @@ TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task ta
         cores.usable & Lanes::bits(Lanes::less(cores.upper - radii, -cores.error));
     unsigned& asked = task == Task::distance ? apart : overlapping;
     if (task != Task::intersect && asked != 0) {
-      // Where the bounds are no closer than this, the normal is not the shortest way.
+      // If the bounds are farther apart than this, the normal is not the shortest way.
       asked &= Lanes::bits(Lanes::less(cores.upper - cores.lower, cores.error));
       const Vectors<Scalar>& normal = cores.normal;
       write_numbers<Scalar>(

@@ -1,16 +1,22 @@
-// GJK compiled once for each two kinds of shapes: the same walk as gjk's, whose support calls do
-// not ask at run time what they are for.
+// GJK compiled once for each pair of shape kinds: the iteration of gjk, with support calls that
+// need no switch at run time.
 // Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988.
-// Departs: as gjk, from whose walk and loop it is compiled, with the cores as template parameters:
-//          its outcomes have the bits of gjk's. The batch's two kinds are looked up once, and name
-//          the loop. Templates end there: what is done once for a query, and the expansion behind
-//          it (EPA), whose support calls switch, are gjk's own code; how a hull is searched depends
-//          on the hull. Half-spaces are not walked between. It always starts cold.
-// Answers: touching is never said; as gjk.
-// Fails:   as gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, as a
-//          part of the pair's size; depth of smooth bodies far inside each other by EPA's cap.
-// Cost:    as gjk, without the switch; 28 copies of the walk for each scalar and each level of
-//          vector instructions, in the program and in the time to compile it.
+// Steps:   1. `bind` makes a support shape of each shape; `solve` prefetches the shapes of later
+//             pairs.
+//          2. Solve batches with a half-space by one support point (kernels/minkowski/halfspace).
+//          3. For the batch's two kinds, select the compiled loops from a table (specialised_gjk).
+//          4. Pairs whose bounding balls are apart are separated (not for distance).
+//          5. Iterate with the selected loops (kernels/gjk/gjk_iteration, gjk_distance).
+//          6. If the cores meet, find the depth with EPA (kernels/gjk/gjk_query).
+// Departs: the loops are gjk's, compiled with the two cores as template parameters, so outcomes
+//          have the bits of gjk's. Code that runs once per query and EPA are gjk's own, with the
+//          switch. The search in a hull depends on the hull. It always starts cold.
+// Answers: like gjk; never `touching`.
+// Fails:   like gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching,
+//          relative to the pair's size; the depth of smooth bodies far inside each other by EPA's
+//          cap.
+// Cost:    like gjk, without the switch; 28 copies of the iteration for each scalar and each level
+//          of vector instructions, in the program and in the time to compile it.
 #include <algorithm>
 
 #include "algorithms/kernels/batch/shape_prefetch.h"
@@ -64,7 +70,7 @@ class GjkTemplated final : public NarrowPhase {
   }
 
  private:
-  // Half-spaces come last, so b is one.
+  // Half-spaces are ordered last, so b is one.
   void solve_with_halfspaces(const PairBatch& batch, std::span<Outcome> outcomes) const {
     const auto solve =
         batch.kind_a == ShapeKind::halfspace ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;

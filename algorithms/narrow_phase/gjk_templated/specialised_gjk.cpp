@@ -1,3 +1,4 @@
+// Part of gjk-templated: collects the table from the files that compile its parts.
 #include "algorithms/narrow_phase/gjk_templated/specialised_gjk.h"
 
 #include "algorithms/narrow_phase/gjk_templated/specialised_parts.h"

@@ -1,9 +1,9 @@
-// GJK's loop and its quick walk compiled for two cores that are known: no support call asks which
-// they are.
+// Part of gjk-templated: GJK's loops compiled for two given cores, so that no support call switches
+// on them. Includes kernels/gjk.
 //
-// There is one for each two of the seven bounded cores, whose support maps are seven different
-// pieces of code: point (sphere), segment (capsule), box, cylinder, cone, ellipsoid, hull. How a
-// hull is searched is a matter of that hull, and still asked. They start cold.
+// There is one version for each pair of the seven bounded cores, whose support maps are different
+// code: point (sphere), segment (capsule), box, cylinder, cone, ellipsoid, hull. The search in a
+// hull depends on that hull and is still selected at run time. All versions start cold.
 #pragma once
 
 #include <array>
@@ -14,9 +14,8 @@ namespace touchstone {
 
 inline constexpr std::size_t known_cores = static_cast<std::size_t>(SupportCore::halfspace);
 
-// What `approach` of gjk_approach.h and `walk` of simplex_walk.h find, to the last bit, by a's core
-// and b's, of which a's comes first in the order of SupportCore, or is the same. Those of others
-// are for any cores.
+// table[a][b] for a <= b in the order of SupportCore: versions specialised for the two core types,
+// with results bit for bit equal to the generic ones. Entries with a > b are generic.
 template <class Scalar>
 using CoreTable = std::array<std::array<CoreWalks<Scalar>, known_cores>, known_cores>;
 

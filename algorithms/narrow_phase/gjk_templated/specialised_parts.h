@@ -1,5 +1,5 @@
-// The parts of the table of gjk_known_cores.h: seven pairs of cores each, named after the first of
-// the two. Each is compiled in a file of its own, so that they are compiled side by side.
+// Part of gjk-templated: the parts of the table of specialised_gjk.h, seven pairs of cores each,
+// named after the first of the two. Each has a file of its own, so that they compile in parallel.
 #pragma once
 
 #include "algorithms/narrow_phase/gjk_templated/specialised_gjk.h"

@@ -1,3 +1,4 @@
+// Part of gjk-templated: compiles the loops for segments and hulls.
 #include "algorithms/narrow_phase/gjk_templated/specialised_gjk.inl"
 #include "algorithms/narrow_phase/gjk_templated/specialised_parts.h"
 

@@ -1,3 +1,4 @@
+// Part of sat: stores and tests the axis of cached_axis.h.
 #include "algorithms/narrow_phase/sat/cached_axis.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ std::array<float, 3> seen_by(const PlacedPolytope<Scalar>& body, const Vec3<Scal
   return {own.x(), own.y(), own.z()};
 }
 
-// Unit length, or zero where there is no direction in it.
+// Returns a unit vector, or zero if the numbers hold no direction.
 template <class Scalar>
 Vec3<Scalar> in_world(const PlacedPolytope<Scalar>& body, const std::array<float, 3>& own) {
   const Vec3<Scalar> normal =

@@ -1,10 +1,11 @@
-// The axis that separated two polytopes in the frame before, to be tried first.
+// Part of sat: the axis that separated two polytopes in the previous frame; it is tested first.
+// Includes kernels/sat.
 //
-// It is kept as each body sees it: where it is a face's normal, it goes on being that as the body
-// turns. Any axis along which there is a gap proves the bodies apart, so a wrong one costs its test
-// and nothing else.
-// Paper: Gregorius, "The Separating Axis Test between Convex Polyhedra", GDC 2013 (the axis of the
-// frame before).
+// The axis is stored in the coordinates of each body, so that a face normal stays a face normal as
+// the body rotates. Any axis with a gap proves that the bodies are apart, so a wrong axis costs
+// only its test.
+// Paper:   Gregorius, "The Separating Axis Test between Convex Polyhedra", GDC 2013 (the axis of
+//          the previous frame).
 #pragma once
 
 #include <array>
@@ -17,12 +18,13 @@ namespace touchstone {
 struct CachedAxis {
   enum class Seen : std::uint32_t { not_at_all, by_a, by_b };
 
-  Seen seen = Seen::not_at_all;  // whose view held the last time it was tried; zero: nothing known
+  Seen seen = Seen::not_at_all;         // the body whose coordinates separated last; zero: no axis
   std::array<float, 3> of_a{}, of_b{};  // body coordinates, from a to b
 
   template <class Scalar>
   void keep(const PolytopePair<Scalar>& pair, const Vec3<Scalar>& normal);
-  // True where an axis separates, which is then `axis`. `tested` is raised by the number of axes.
+  // Returns true and sets `axis` if a stored axis separates. Adds the number of tested axes to
+  // `tested`.
   template <class Scalar>
   bool separates(const PolytopePair<Scalar>& pair, bool boxes, Axis<Scalar>& axis, int& tested);
 };

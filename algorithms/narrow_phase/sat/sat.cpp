@@ -1,21 +1,30 @@
 // Separating axis test, complete: face normals of both bodies, and cross products of their edges.
 // Paper:   Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996; Gregorius, "The Separating Axis Test
-//          between Convex Polyhedra", GDC 2013 (an edge pair counts only where its arcs cross on
-//          the Gauss map).
-// Departs: edges and normals have unit length in the arc test, and what rounding leaves open is
-//          kept: such an axis is measured over all vertices, which is right for any axis. Axes of
-//          almost parallel edges are made orthogonal to one edge again; what is then left of the
-//          error moves the gap by no more than rounding, as the facet of the Minkowski difference
-//          that belongs to them is as narrow as the axis is uncertain. Flat hulls, segments and
-//          points have the normals and edges of a prism or box of no thickness. Two boxes take the
-//          closed form of their 15 axes. With a PairMemory the axis that separated the pair last
-//          is tried first (kernels/kept_axis.h).
-// Answers: the depth is exact up to rounding, and so are both bounds.
-// Fails:   says not_converged where the greatest gap is below its rounding error (1e-14 of the size
-//          in double, 1e-5 in float), and degenerate for a solid hull that came without faces and
-//          that no axis tried separates, and for matrices that are far from rotations. Capacity
-//          for a hull of more than 16,384 vertices that the line of their centres does not
-//          separate, and for two of some thousand each that no face normal does.
+//          between Convex Polyhedra", GDC 2013 (an edge pair counts only if its arcs cross on the
+//          Gauss map).
+// Steps:   1. Pairs whose bounding balls are far apart are separated (kernels/sat/polytope_query).
+//          2. With a memory, test the axis that separated the pair last (cached_axis).
+//          3. Two boxes take the closed form of their 15 axes (kernels/sat/box_box).
+//          4. Test the line of the centres, then the gap along each face normal of both bodies
+//             (kernels/sat/separating_axis).
+//          5. For each edge of a, list the edges of b whose arcs may cross its arc on the Gauss map
+//             (kernels/sat/gauss_arcs), and test the crossing by signs.
+//          6. Measure the gap along the cross product of each crossing pair. Stop at any axis that
+//             separates.
+//          7. Report the greatest gap: positive is separated, negative is the depth, with witness
+//             points of the supporting features (kernels/sat/common_point).
+// Departs: edges and normals have unit length in the arc test, and pairs that rounding leaves open
+//          are kept: their axis is measured over all vertices, which is valid for any axis. Axes of
+//          almost parallel edges are made orthogonal to one edge again. The error that remains
+//          moves the gap by no more than rounding, because the facet of the Minkowski difference is
+//          as narrow as the axis is uncertain. Flat hulls, segments and points have the normals and
+//          edges of a prism or box without thickness.
+// Answers: the depth and both bounds are exact up to rounding.
+// Fails:   reports not_converged if the greatest gap is below its rounding error (1e-14 of the size
+//          in double, 1e-5 in float); degenerate for a solid hull without faces that no tested axis
+//          separates, and for matrices far from rotations; capacity for a hull of more than 16,384
+//          vertices that the line of centres does not separate, and for two hulls of some thousand
+//          vertices each that no face normal separates.
 // Cost:    O(Fa Vb + Fb Va + Ea (Fb + Eb)) time, O(F + E) memory.
 #include <cmath>
 #include <cstring>
@@ -59,15 +68,15 @@ class Sat final : public NarrowPhase {
   using Edge = typename Polytope<Scalar>::Edge;
 
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
-  // Unit vectors with a few roundings each: a product below this may have either sign.
+  // Unit vectors have a few roundings each: a product below this may have either sign.
   static constexpr Scalar uncertain = 16 * epsilon;
-  // Sine of the angle of two edges under which their axis is looked after.
+  // Sine of the angle between two edges below which their axis is corrected.
   static constexpr Scalar almost_parallel = Scalar{0.5};
   static constexpr std::size_t most_edge_pairs = std::size_t{1} << 27;
-  // Under which the axis is noise.
+  // Sine below which the axis is noise.
   static constexpr Scalar parallel = 1024 * epsilon;
 
-  // The one of the greatest gap, or one that separates.
+  // Returns the axis with the greatest gap, or one that separates.
   Axis<Scalar> best_axis(const PolytopePair<Scalar>& pair, bool boxes) {
     if (boxes) return box_axis(pair, tested_);
     Axis<Scalar> best = pair.centre_axis();
@@ -80,7 +89,7 @@ class Sat final : public NarrowPhase {
     return best;
   }
 
-  // The same, where that of the frame before may still separate.
+  // Tests the axis of the previous frame first.
   Axis<Scalar> best_axis(const PolytopePair<Scalar>& pair, bool boxes, PairMemory& memory) {
     static_assert(sizeof(CachedAxis) <= sizeof memory.bytes);
     CachedAxis kept;
@@ -95,18 +104,18 @@ class Sat final : public NarrowPhase {
     return best;
   }
 
-  // Looking at all pairs of edges would take half a second.
+  // A test of all pairs of edges would take half a second.
   static bool too_many_edges(const PolytopePair<Scalar>& pair) {
     return pair.a().shape->edges.size() * pair.b().shape->edges.size() > most_edge_pairs;
   }
 
   static int sign(Scalar x) { return x > uncertain ? 1 : x < -uncertain ? -1 : 0; }
 
-  // Raises `best` to the greatest gap over the edge pairs; ends where one separates.
+  // Raises `best` to the greatest gap over the edge pairs; stops if one separates.
   void test_edges(const PolytopePair<Scalar>& pair, Axis<Scalar>& best) {
     const PlacedPolytope<Scalar>&a = pair.a(), &b = pair.b();
-    // Normals go by the cofactors and edges by the matrix, so that edges of a go with stored
-    // normals of b, and normals of a with stored edges of b, by these.
+    // Normals transform by cofactors and edges by the matrix. These products take edges of a to the
+    // stored normals of b, and normals of a to the stored edges of b.
     const Mat3<Scalar> to_normals = a.orientation * (b.normals.transpose() * a.matrix);
     const Mat3<Scalar> to_edges = b.orientation * (b.matrix.transpose() * a.normals);
     for (const Edge& of_a : a.shape->edges) {
@@ -119,15 +128,15 @@ class Sat final : public NarrowPhase {
           crossing_);
       for (const std::uint32_t k : crossing_) {
         const Edge& of_b = b.shape->edges[k];
-        // An arc of b crosses the great circle of a's arc where its ends are on either side.
+        // An arc of b crosses the great circle of a's arc if its ends are on opposite sides.
         const int b_left = sign(b.shape->faces[of_b.left].normal.dot(along)),
                   b_right = sign(b.shape->faces[of_b.right].normal.dot(along));
         if (b_left * b_right > 0) continue;
         const int a_left = sign(left.dot(of_b.direction)),
                   a_right = sign(right.dot(of_b.direction));
         if (a_left * a_right > 0) continue;
-        // The circles meet in two opposite points, and the arcs of a and of -b must do so in the
-        // same.
+        // The circles meet in two opposite points. The arcs of a and of -b must pass through the
+        // same one.
         const int side_b = b_left != 0 ? b_left : -b_right;
         const int side_a = a_left != 0 ? a_left : -a_right;
         if (side_a * side_b < 0) continue;
@@ -138,8 +147,8 @@ class Sat final : public NarrowPhase {
     }
   }
 
-  // `side`: 1 where the outward axis is a's direction x b's, -1 where it is against that, 0 where
-  // that is not known. `crossing`: the arcs certainly cross, so the edges support the bodies there.
+  // `side`: 1 if the outward axis is a's direction x b's, -1 if it is opposite, 0 if unknown.
+  // `crossing`: the arcs certainly cross, so the edges support the bodies there.
   void test_edge_pair(const PolytopePair<Scalar>& pair, const Edge& of_a, const Edge& of_b,
                       int side, bool crossing, Axis<Scalar>& best) {
     const PlacedPolytope<Scalar>&a = pair.a(), &b = pair.b();
@@ -148,8 +157,8 @@ class Sat final : public NarrowPhase {
     Vec3<Scalar> normal = along_a.cross(along_b);
     const Scalar sine = normal.norm();
     if (sine < parallel) {
-      // The facet is too narrow to matter, unless the facets beside it stand almost on edge: then
-      // the middle of the arc stands in for it.
+      // The facet is too narrow to matter unless the facets beside it are almost perpendicular to
+      // it; then the middle of the arc replaces the axis.
       const Vec3<Scalar> middle =
           a.normals * (a.shape->faces[of_a.left].normal + a.shape->faces[of_a.right].normal);
       const Scalar length = middle.norm();
@@ -175,9 +184,9 @@ class Sat final : public NarrowPhase {
   }
 
   PolytopeShapes<Scalar> shapes_;
-  std::vector<std::uint32_t> crossing_;  // edges of b whose arcs may cross that of one of a
+  std::vector<std::uint32_t> crossing_;  // edges of b whose arcs may cross the arc of an edge of a
   int tested_ = 0;
-  bool gave_up_ = false;  // pairs of edges are left that were not looked at
+  bool gave_up_ = false;  // some pairs of edges were not tested
 };
 
 }  // namespace
