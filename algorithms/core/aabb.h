@@ -1,4 +1,4 @@
-// Axis-aligned bounding boxes: what every broad phase is given.
+// Axis-aligned bounding boxes: the input of every broad phase. Everything may include this.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 namespace touchstone {
 
 // Closed box [min, max] in world coordinates (metres). Boxes that touch overlap.
-// Floats, rounded outward once when the scene is made; every broad phase and every peer is given
-// these same bits, so their pair sets can be compared as sets.
+// Coordinates are floats, rounded outward once when the scene is made. Every broad phase and every
+// peer gets these bits, so their pair sets can be compared as sets.
 struct Aabb {
   std::array<float, 3> min;
   std::array<float, 3> max;
 
-  // The box of no body: it overlaps nothing, and its slot is to be skipped.
+  // The empty box of a slot without a body. It overlaps nothing, and algorithms skip its slot.
   static constexpr Aabb empty() {
     constexpr float inf = std::numeric_limits<float>::infinity();
     return {{inf, inf, inf}, {-inf, -inf, -inf}};
@@ -32,7 +32,7 @@ constexpr bool overlap(const Aabb& a, const Aabb& b) {
          a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
 }
 
-// The greatest float <= x, the least float >= x. Infinite where x is beyond the float's range.
+// The greatest float <= x, and the least float >= x; infinite if x is beyond the float's range.
 inline float round_down(double x) {
   const float f = static_cast<float>(x);
   return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())

@@ -12,8 +12,8 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 // at most half an ulp of a partial sum, and each partial sum is at most the sum of magnitudes.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 
-// The length of a vector without overflow. Not std::hypot, whose last bit differs between
-// platforms.
+// The length of a vector, without overflow. std::hypot is not used, because its last bit differs
+// between platforms.
 double length(const Vec3d& v) {
   const double greatest = v.cwiseAbs().maxCoeff();
   if (!(greatest > 0)) return 0;
@@ -65,8 +65,8 @@ Aabb halfspace_box(const Shape& shape, const Pose& pose) {
   Aabb box{{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}};
   for (int axis = 0; axis < 3; ++axis) {
     if (normal[(axis + 1) % 3] != 0 || normal[(axis + 2) % 3] != 0) continue;
-    // Points x = R p + t with n . p <= offset; R maps n to a multiple of this axis. With R
-    // orthonormal that is (x - t) . (R n) <= offset.
+    // The points are x = R p + t with n . p <= offset, and R maps n to a multiple of this axis.
+    // With R orthonormal that is (x - t) . (R n) <= offset.
     const double face = shape.offset / normal[axis];
     const double slack = rounding * (std::abs(face) + std::abs(pose.translation[axis]));
     const double at = pose.translation[axis] + face;

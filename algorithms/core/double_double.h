@@ -1,4 +1,5 @@
-// Numbers of twice double's precision, for the few places where rounding would decide.
+// Numbers of twice double's precision, where rounding of doubles would decide. Used by convex
+// hulls.
 #pragma once
 
 #include <cmath>
@@ -9,8 +10,8 @@ namespace touchstone {
 
 // The unevaluated sum high + low, with |low| at most half a unit in the last place of high: about
 // 106 bits. Dekker, "A floating-point technique for extending the available precision", 1971;
-// Knuth, TAOCP 2, 4.2.2. Same bits on every platform, as it uses +, - and std::fma only. Overflow
-// and underflow are not caught: scale first.
+// Knuth, TAOCP 2, 4.2.2. Every platform gives the same bits, since only +, - and std::fma are used.
+// Overflow and underflow are not detected: scale first.
 struct DoubleDouble {
   double high = 0, low = 0;
 
@@ -42,7 +43,7 @@ struct DoubleDouble {
 struct DoubleDouble3 {
   DoubleDouble x, y, z;
 
-  // a - b, exactly.
+  // Returns a - b, exactly.
   static DoubleDouble3 difference(const Vec3d& a, const Vec3d& b) {
     return {DoubleDouble::sum(a.x(), -b.x()), DoubleDouble::sum(a.y(), -b.y()),
             DoubleDouble::sum(a.z(), -b.z())};

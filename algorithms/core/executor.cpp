@@ -14,9 +14,9 @@
 #include <vector>
 
 #if defined(TOUCHSTONE_THREAD_SANITIZER)
-// Debian's libtbb is not instrumented, and half of oneTBB is in headers: so this file is not
-// instrumented either (the build sees to it), and ThreadSanitizer knows nothing of the fork and the
-// join. These two tell it, once, for every algorithm.
+// Debian's libtbb is not instrumented, and half of oneTBB is in headers. So the build does not
+// instrument this file either, and ThreadSanitizer does not see the fork and the join. These two
+// functions announce them, once, for every algorithm.
 extern "C" {
 void __tsan_acquire(void* address);
 void __tsan_release(void* address);
@@ -32,8 +32,8 @@ namespace touchstone {
 
 namespace {
 
-// The processors that this process may use; empty where the system does not tell. As they were
-// before the first pin: a pinned thread has one left, and so would those that it starts.
+// The processors that this process may use; empty if the system does not report them. The list is
+// read before the first pin, because a pinned thread, and those that it starts, have one left.
 const std::vector<int>& allowed_processors() {
   static const std::vector<int> processors = [] {
     std::vector<int> allowed;
@@ -50,7 +50,7 @@ const std::vector<int>& allowed_processors() {
   return processors;
 }
 
-// Puts each thread that enters the arena on the processor of its place there.
+// Pins each thread that enters the arena to the processor of its place there.
 class Pins final : public oneapi::tbb::task_scheduler_observer {
  public:
   explicit Pins(oneapi::tbb::task_arena& arena) : task_scheduler_observer(arena) { observe(true); }

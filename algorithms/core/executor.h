@@ -1,4 +1,4 @@
-// The threads that an algorithm may use. Algorithms are handed one and never start threads.
+// The threads that an algorithm may use. Algorithms receive an executor and never start threads.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace touchstone {
 
-// Whether each thread is kept on a processor of its own, of those that the process may use. Left to
-// itself the system may let two threads take turns on one for milliseconds, which is what would be
-// measured then.
+// The pinning of each thread to a processor of its own, among those that the process may use.
+// Without it the system may let two threads share one processor for milliseconds, which would
+// distort measurements.
 enum class Pinning : std::uint8_t {
   none,
-  one_a_thread,  // where there are enough processors; the caller's thread too, and for good
+  one_a_thread,  // if there are enough processors; pins the caller's thread too, and for good
 };
 
-// A oneTBB arena of a fixed width.
+// An oneTBB arena of a fixed width.
 class Executor {
  public:
-  // `width` >= 1 threads, the caller's among them.
+  // Makes an arena of `width` >= 1 threads, including the caller's.
   explicit Executor(int width, Pinning pinning = Pinning::none);
   ~Executor();
   Executor(const Executor&) = delete;
@@ -27,16 +27,16 @@ class Executor {
 
   int width() const { return width_; }
 
-  // Calls body(task, worker) for each task in [0, tasks) and returns when all are done; worker is
-  // in [0, width), and no two calls with the same worker run at once. The first exception of a body
-  // is rethrown. Tasks run in any order: for results that do not depend on the width, cut the work
-  // by its size and not by the width, and let each task write where only it writes.
+  // Calls body(task, worker) for each task in [0, tasks) and returns when all are done. `worker` is
+  // in [0, width), and two calls with the same worker never run at once. The first exception of a
+  // body is rethrown. Tasks run in any order. For results that do not depend on the width, cut the
+  // work by its size and not by the width, and let each task write only to its own places.
   void run(std::size_t tasks, const std::function<void(std::size_t task, int worker)>& body);
 
  private:
   struct Arena;
   int width_;
-  std::unique_ptr<Arena> arena_;  // null at width 1: everything then runs in the caller
+  std::unique_ptr<Arena> arena_;  // null at width 1: the caller then runs all tasks
 };
 
 }  // namespace touchstone

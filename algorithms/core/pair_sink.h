@@ -1,4 +1,4 @@
-// Where a broad phase writes the pairs that it finds.
+// The output of a broad phase: the pairs that it finds.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,15 @@
 
 namespace touchstone {
 
-// Two boxes by their index, a < b.
+// Two boxes by their indices, a < b.
 struct IndexPair {
   std::uint32_t a, b;
-  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a
-  // pointer's
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 for a pointer
   friend constexpr auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 
-// A growing array of pairs that a vector kernel can write into: `reserve` once, write through
-// `end`, `advance` by what was written. Keeps its memory when cleared.
+// A growing array of pairs that a vector kernel can write into: call `reserve`, write through
+// `end`, then `advance` by the number written. clear() keeps the memory.
 class PairBuffer {
  public:
   std::size_t size() const { return size_; }
@@ -27,14 +26,14 @@ class PairBuffer {
   std::span<const IndexPair> pairs() const { return {data_.get(), size_}; }
   void clear() { size_ = 0; }
 
-  // Room for `more` pairs behind the last one.
+  // Makes room for `more` pairs behind the last one.
   void reserve(std::size_t more) {
     if (capacity_ - size_ < more) grow(more);
   }
   IndexPair* end() { return data_.get() + size_; }
   void advance(std::size_t written) { size_ += written; }
 
-  // Puts the smaller index first.
+  // Appends a pair, the smaller index first.
   void push(std::uint32_t i, std::uint32_t j) {
     reserve(1);
     data_[size_++] = i < j ? IndexPair{i, j} : IndexPair{j, i};
@@ -54,11 +53,12 @@ class PairBuffer {
   std::size_t capacity_ = 0;
 };
 
-// The pairs of one frame, in chunks, so that the tasks of a broad phase can write side by side. The
-// order is that of the chunks; cut the work by its size, and it is the same at every width.
+// The pairs of one frame, in chunks, so that the tasks of a broad phase can write concurrently. The
+// pairs are in the order of the chunks: if the work is cut by its size, that order is the same at
+// every width.
 class PairSink {
  public:
-  // Makes `count` empty chunks; they keep the memory of earlier frames.
+  // Makes `count` empty chunks, which keep the memory of earlier frames.
   void start(std::size_t count) {
     if (chunks_.size() < count) chunks_.resize(count);
     used_ = count;
@@ -77,7 +77,7 @@ class PairSink {
     for (const PairBuffer& chunk : chunks_) bytes += chunk.capacity() * sizeof(IndexPair);
     return bytes;
   }
-  // All pairs in one array, in order.
+  // Returns all pairs in one array, in order.
   std::vector<IndexPair> gather() const {
     std::vector<IndexPair> all;
     all.reserve(size());

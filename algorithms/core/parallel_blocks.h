@@ -1,4 +1,4 @@
-// A loop cut into blocks of a fixed size for an executor.
+// A parallel loop, cut into blocks of a fixed size for an executor.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ inline constexpr std::size_t block_count(std::size_t count, std::size_t block_si
   return (count + block_size - 1) / block_size;
 }
 
-// Calls body(block, first, last) for each block [first, last) of [0, count). The cut depends on
-// nothing but `block_size`, so what each block computes is the same at every width.
+// Calls body(block, first, last) for each block [first, last) of [0, count). The cut depends only
+// on `block_size`, so each block computes the same at every width.
 template <class Body>
 void for_each_block(Executor& executor, std::size_t count, std::size_t block_size,
                     const Body& body) {
@@ -22,7 +22,7 @@ void for_each_block(Executor& executor, std::size_t count, std::size_t block_siz
     const std::size_t first = block * block_size;
     body(block, first, std::min(first + block_size, count));
   };
-  // By reference, so that std::function does not allocate.
+  // std::cref, so that std::function does not allocate.
   executor.run(block_count(count, block_size), std::cref(task));
 }
 

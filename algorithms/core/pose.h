@@ -1,13 +1,12 @@
-// Where a body stands.
+// The pose of a body: its rotation and translation.
 #pragma once
 
 #include "algorithms/core/vec.h"
 
 namespace touchstone {
 
-// Maps body coordinates to the world's (metres): x -> rotation * x + translation.
-// The rotation is used as it stands; nothing re-orthonormalises it, so the exact problem is the one
-// that these bits state.
+// Maps body coordinates to world coordinates (metres): x -> rotation * x + translation. The
+// rotation is used as given; nothing makes it orthonormal, so these bits state the exact problem.
 struct Pose {
   Mat3d rotation = Mat3d::Identity();
   Vec3d translation = Vec3d::Zero();

@@ -28,7 +28,7 @@ inline constexpr std::array<ShapeKind, 8> all_shape_kinds = {
 
 std::string_view to_string(ShapeKind kind);
 
-// The convex hull of a set of points, in body coordinates (metres). One point, a segment and a flat
+// The convex hull of a set of points, in body coordinates (metres). A point, a segment and a flat
 // set are hulls too.
 struct Hull {
   // The boundary as polygons; empty unless dimension == 3. Coplanar facets are merged.
@@ -36,7 +36,8 @@ struct Hull {
     std::vector<std::uint32_t> loop;  // vertex indices, anticlockwise seen from outside
     Vec3d normal;                     // outward, unit length up to rounding
   };
-  // Each undirected edge once, with the two faces beside it: `left` has tail -> head in its loop.
+  // Each undirected edge, listed once, with the two faces beside it: `left` has tail -> head in its
+  // loop.
   struct Edge {
     std::uint32_t tail, head;
     std::uint32_t left, right;
@@ -46,11 +47,11 @@ struct Hull {
   int dimension = 3;            // 0 point, 1 segment, 2 flat, 3 solid
   std::vector<Face> faces;
   std::vector<Edge> edges;
-  std::vector<std::vector<std::uint32_t>> neighbours;  // of each vertex along edges; for climbing
+  std::vector<std::vector<std::uint32_t>> neighbours;  // indexed by vertex; for climbing
 };
 
-// A convex shape in body coordinates. Only the fields of its kind mean anything. Capsule, cylinder
-// and cone lie along z; another axis is a matter of the body's pose.
+// A convex shape in body coordinates. Only the fields of its kind have a meaning. Capsule, cylinder
+// and cone lie along z; the body's pose gives them another axis.
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
   double radius = 0;                   // sphere, capsule, cylinder, cone: metres, >= 0
