@@ -3,13 +3,14 @@
 //
 // Beside its struct each row type has a function (found by argument-dependent lookup)
 //
-//   template <class Row, class Visit>
+//   template <row_of<Sample> Row, class Visit>
 //   void columns(Row& row, Visit visit) {
 //     visit("seconds", row.seconds, "Time of the whole window, seconds.");
 //   }
 //
 // Rows that hold places in lists take the lists as a further argument:
 //
+//   template <row_of<Answer> Row, class Visit>
 //   void columns(Row& row, Visit visit, const Subjects& subjects) {
 //     visit("algorithm", place_in(row.entry, subjects.size(), name_of), "The narrow phase.");
 //   }
@@ -39,6 +40,10 @@
 #include "harness/files/csv.h"
 
 namespace touchstone {
+
+// True for a row type and its const twin: one list of columns serves reading and writing.
+template <class Row, class Type>
+concept row_of = std::same_as<std::remove_const_t<Row>, Type>;
 
 // A field that names one of a list: `name_of(i)` is the name of place i, for i below `count`.
 template <class Index, class NameOf>

@@ -22,7 +22,7 @@ struct Count {
   std::int64_t unit = 0, value = 0;
   bool operator==(const Count&) const = default;
 };
-template <class Row, class Visit>
+template <row_of<Count> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("unit", row.unit, "The unit of work.");
   visit("value", row.value, "A count.");

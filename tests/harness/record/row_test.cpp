@@ -36,7 +36,7 @@ struct Basket {
   std::string note = "none";
 };
 
-template <class Row, class Visit>
+template <row_of<Basket> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("owner", row.owner, "The basket's owner.");
   visit("number", row.number, "Its place in the list.");
@@ -157,7 +157,7 @@ struct Sale {
   std::uint32_t owner = 0;
   double price = 0;
 };
-template <class Row, class Visit>
+template <row_of<Sale> Row, class Visit>
 void columns(Row& row, Visit visit, const Owners& owners) {
   const auto name = [&](std::size_t i) { return owners.names[i]; };
   visit("owner", place_in(row.owner, owners.names.size(), name), "The seller.");
