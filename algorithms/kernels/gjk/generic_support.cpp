@@ -1,4 +1,5 @@
-// GJK's loop for whatever cores two bodies have: each support call asks them which.
+// GJK's distance loop for any two cores: each support call selects the core's code at run time.
+// Used by gjk, gjk-lanes and certified.
 #include "algorithms/kernels/gjk/gjk_distance.inl"
 
 namespace touchstone {

@@ -1,13 +1,23 @@
-// GJK's loop: how near the difference of two cores comes to the origin, from both sides.
+// GJK's distance loop: bounds the distance of two cores from both sides. Used by gjk, gjk-lanes,
+// gjk-templated, certified and clipped-faces.
 //
-// Each simplex bounds the distance from above, each support plane from below. The quick walk of
-// simplex_walk.h comes first; this one makes its end good with the care of simplex.h, or goes on
-// from there. Where the frame before left something (warm_start.h), it is looked at first, and the
-// walk begins there: one support call ends a query for which nothing has changed.
-// Paper: Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
-// objects in three-dimensional space", IEEE J. Robotics and Automation 4(2), 1988; with momentum:
-// Montaut, Le Lidec, Petrik, Sivic, Carpentier, "Collision detection accelerated: an optimization
-// perspective", RSS 2022, algorithm 3.
+// Each simplex bounds the distance from above, each support plane from below.
+// Paper:   Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
+//          objects in three-dimensional space", IEEE J. Robotics and Automation 4(2), 1988; with
+//          momentum: Montaut, Le Lidec, Petrik, Sivic, Carpentier, "Collision detection
+//          accelerated: an optimization perspective", RSS 2022, algorithm 3.
+// Steps:   1. If the previous frame left a simplex or a direction, test it first (warm_start); one
+//             support call ends a query for which nothing has changed.
+//          2. Run the fast iteration (gjk_iteration). If it decides, stop; otherwise continue from
+//             its simplex.
+//          3. Find the support point towards the origin; its plane raises the lower bound.
+//          4. If the bounds decide the task, or the point is already in the simplex, stop.
+//          5. Add the point and reduce the simplex to the feature nearest to the origin
+//             (minkowski/simplex); its distance lowers the upper bound.
+//          6. If the origin is inside the simplex or on it up to rounding, end with `contact`.
+//          7. Choose the next direction: towards the origin, or with momentum (nesterov_direction).
+//             Repeat from step 3 until the bounds decide, the distance stalls or the cap is
+//             reached.
 #pragma once
 
 #include <limits>
@@ -19,20 +29,21 @@
 
 namespace touchstone {
 
-// Where to look for the next support point. `where_it_pays`: with momentum only between bodies
-// without corners and edges that are less than about their size apart; published counts of
-// iterations halve there, and triple where bodies are far from each other.
+// Choice of the next search direction. `where_it_pays` uses momentum only between bodies without
+// corners and edges that are less than about their size apart. In published counts the iterations
+// halve there, and triple if bodies are far from each other.
 enum class Momentum : std::uint8_t { none, nesterov, where_it_pays };
 
 template <class Scalar>
 struct ApproachGoal {
   Task task = Task::intersect;
   Scalar tolerance = 0;                    // of the distance, in the pair's unit
-  std::optional<double> duality_gap = {};  // square metres; instead of the tolerance
+  std::optional<double> duality_gap = {};  // square metres; replaces the tolerance
   int most_iterations = 0;
   Momentum momentum = Momentum::none;
 
-  // Whether a lower bound is too far below the nearest point's distance to stop, both of the cores.
+  // Returns true if the lower bound is too far below the nearest point's distance to stop. Both are
+  // for the cores.
   bool is_open(const SupportPair<Scalar>& pair, Scalar nearest, Scalar lower) const {
     const Scalar difference = nearest - lower;
     if (!duality_gap) return difference > tolerance;
@@ -42,13 +53,13 @@ struct ApproachGoal {
   }
 };
 
-// What GJK knows of the distance between the cores, in the pair's unit.
+// Bounds on the distance between the cores, in the pair's unit.
 template <class Scalar>
 struct Approach {
   enum class End {
-    decided,    // as far as the task needs
+    decided,    // the bounds suffice for the task
     contact,    // the origin is inside the simplex, or on it up to rounding
-    no_better,  // rounding
+    no_better,  // rounding prevents progress
     cap,
   };
   End end = End::cap;
@@ -56,12 +67,12 @@ struct Approach {
   NearestPoint<Scalar> nearest;
   Scalar lower = 0;
   Scalar upper = std::numeric_limits<Scalar>::infinity();
-  Vec3<Scalar> direction = Vec3<Scalar>::Zero();  // unit length, of the last plane; zero: none
-  bool as_before = false;  // what the frame before left was all that was needed
+  Vec3<Scalar> direction = Vec3<Scalar>::Zero();  // unit normal of the last plane; zero: none
+  bool as_before = false;                         // the previous frame's result sufficed
   int iterations = 0;
 };
 
-// `start`: what is known from the frame before; null: nothing.
+// `start`: result of the previous frame, or null.
 template <class Scalar>
 Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
                           const WarmStart* start = nullptr);
@@ -75,14 +86,14 @@ extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal
 extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
                                           const WarmStart*);
 
-// The code that walks between two cores: for any, as long as nothing else is put in.
+// The functions that iterate between two cores; by default those for any cores.
 template <class Scalar>
 struct CoreWalks {
   ApproachFunction<Scalar> approach = touchstone::approach<Scalar>;
   WalkFunction<Scalar> walk = touchstone::walk<Scalar>;
 };
 
-// How far the nearest point, as the simplex's weights have it, is from the origin.
+// Distance of the simplex's nearest point from the origin, computed from its weights.
 template <class Scalar>
 Scalar off_core(const Simplex<Scalar>& simplex) {
   Vec3<Scalar> sum = Vec3<Scalar>::Zero();

@@ -1,5 +1,6 @@
-// The loop of gjk_approach.h for one way to find the cores' support points, `Cores`. Included by
-// the files that compile it for some; local to each, so that what is called once is inlined there.
+// The loop of gjk_distance.h for one choice of support functions, `Cores`. Included by
+// generic_support.cpp and gjk-templated. Everything is local to the including file, so that
+// functions with one caller are inlined.
 #include "algorithms/kernels/gjk/gjk_distance.h"
 
 #include <algorithm>
@@ -11,7 +12,8 @@
 namespace touchstone {
 namespace {
 
-// What the nearest point of the simplex says; true where the cores share a point, up to rounding.
+// Sets the end from the simplex's nearest point. Returns true if the cores share a point, up to
+// rounding.
 template <class Scalar>
 bool is_contact(Approach<Scalar>& found) {
   using End = typename Approach<Scalar>::End;
@@ -29,10 +31,10 @@ void take_inside(Approach<Scalar>& found) {
   found.upper = 0;
   found.end = Approach<Scalar>::End::contact;
   found.nearest.inside = true;
-  found.nearest.distance = 2 * SupportPair<Scalar>::rounding;  // at least
+  found.nearest.distance = 2 * SupportPair<Scalar>::rounding;  // a lower bound
 }
 
-// Whether the plane of this normal, from a to b, is all that was needed.
+// Returns true if the plane with this normal, from a to b, suffices.
 template <class Scalar>
 bool plane_decides(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
                    const Vec3<Scalar>& normal, Approach<Scalar>& found) {
@@ -47,7 +49,8 @@ bool plane_decides(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
   return true;
 }
 
-// Whether what the frame before left is all that was needed; if not, `begin` is where to walk from.
+// Returns true if the result of the previous frame suffices; otherwise sets `begin`, the start of
+// the iteration.
 template <class Scalar>
 bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const WarmStart& start,
             WalkStart<Scalar>& begin, Approach<Scalar>& found) {
@@ -70,7 +73,7 @@ bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const W
   }
   found.nearest = reduce_to_nearest(found.simplex);
   if (is_contact(found)) return true;
-  // Nearer than the radius: only a depth is still to be found.
+  // A simplex nearer than the radius proves the overlap; only a depth remains to be found.
   if (goal.task != Task::penetration && found.upper - pair.radius() < -rounding) {
     found.end = Approach<Scalar>::End::decided;
     return true;
@@ -82,7 +85,7 @@ bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const W
   return false;
 }
 
-// Whether the quick walk is all that was needed; if not, how far it came.
+// Returns true if the fast iteration suffices; otherwise `found` has its simplex.
 template <class Cores, class Scalar>
 bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
                 const WalkStart<Scalar>& begin, bool numbered, Approach<Scalar>& found) {
@@ -123,7 +126,7 @@ Approach<Scalar> approach_by(SupportPair<Scalar>& pair, const ApproachGoal<Scala
   using End = typename Approach<Scalar>::End;
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const Task task = goal.task;
-  // Steps that do not come nearer may still turn the plane; but not for ever.
+  // A step that comes no nearer may still turn the plane, but only this many times.
   constexpr int patience = 8;
   const Scalar radius = pair.radius();
   Approach<Scalar> found;
@@ -162,7 +165,7 @@ Approach<Scalar> approach_by(SupportPair<Scalar>& pair, const ApproachGoal<Scala
     const bool of_normal = task == Task::penetration && !accelerated;
     found.lower = of_normal ? lower : std::max(found.lower, lower);
     const bool apart = found.lower - radius > rounding;
-    // Comparisons are written so that NaN ends the loop.
+    // The comparisons end the loop for NaN.
     const bool open = goal.is_open(pair, found.nearest.distance, found.lower) || simplex.size == 0;
     switch (task) {
       case Task::intersect:
@@ -179,11 +182,12 @@ Approach<Scalar> approach_by(SupportPair<Scalar>& pair, const ApproachGoal<Scala
     for (int i = 0; i < simplex.size; ++i) {
       known = known || simplex.points[i].difference == point.difference;
     }
-    // The paper's stop: the support point is no nearer to the origin along the nearest point.
+    // The paper's termination: the support point makes no progress along the nearest point's
+    // direction.
     const bool spent =
         accelerated && simplex.size > 0 &&
         !goal.is_open(pair, found.nearest.distance, found.nearest.direction.dot(point.difference));
-    // A shallow overlap of round shapes: the bound is to hold along the normal that is reported.
+    // In a shallow overlap of round shapes the bound must hold along the reported normal.
     const bool oblique = accelerated && task == Task::penetration && !apart && !open;
     if (accelerated && (found.end != End::decided || oblique) && (known || spent || oblique)) {
       accelerated = false;

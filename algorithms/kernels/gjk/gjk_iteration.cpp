@@ -1,3 +1,4 @@
+// GJK's fast iteration for any cores, and its test that a tetrahedron contains the origin.
 #include "algorithms/kernels/gjk/gjk_iteration.h"
 
 #include <algorithm>
@@ -7,12 +8,13 @@
 #include "algorithms/kernels/gjk/gjk_iteration_levels.inl"
 
 namespace touchstone {
-// The determinants of its corners by threes, each with the origin, keep their signs. Corners p, q,
-// s, no longer than m, that are off by r = 107 u (proven_rounding says why; u is half of epsilon)
-// change theirs by no more than r (|p x q| + |q x s| + |s x p|) + 3 r^2 m + r^3, which is less than
-// 3 r m^2 + 3 r^2 m + r^3, and it is off by 50 u m^3 of its own rounding; none exceeds m^3. So
-// 512 u m^2 (1 + m) is enough. Where the origin is near a face it is far too much: there the
-// products themselves are taken, which are off by 16 u m^2 of their own rounding, all three.
+// The determinants of the corners by threes, each with the origin, keep their signs. Let corners p,
+// q, s be no longer than m and off by r = 107 u (see proven_rounding; u is half of epsilon). Their
+// determinant changes by no more than r (|p x q| + |q x s| + |s x p|) + 3 r^2 m + r^3, which is
+// less than 3 r m^2 + 3 r^2 m + r^3. It is off by 50 u m^3 of its own rounding; no determinant
+// exceeds m^3. So 512 u m^2 (1 + m) suffices. If the origin is near a face that bound is far too
+// large. Then the products themselves are taken, which are off by 16 u m^2 of their own rounding,
+// all three.
 template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex) {
   constexpr Scalar u = std::numeric_limits<Scalar>::epsilon() / 2;
@@ -23,12 +25,12 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   const auto determinant = [&](int i, int j, int k) {
     return w(i).dot((w(j) - w(i)).cross(w(k) - w(i)));
   };
-  // Of the faces opposite each corner.
+  // Determinants of the faces opposite each corner.
   const std::array<Scalar, 4> parts = {determinant(1, 2, 3), -determinant(0, 2, 3),
                                        determinant(0, 1, 3), -determinant(0, 1, 2)};
   const auto [least, most] = std::ranges::minmax(parts);
-  // Longer ones are of bodies beyond the range of the pair's unit, whose rounding is not bounded
-  // so.
+  // Longer vectors belong to bodies beyond the range of the pair's unit, for which this bound on
+  // the rounding does not hold.
   constexpr Scalar longest_in_range = 16;
   if (!(longest <= longest_in_range) || !(least > 0 || most < 0)) return false;
   const Scalar quickly = 512 * u * greatest * (1 + longest);
@@ -38,7 +40,7 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   const Scalar a12 = area(1, 2), a13 = area(1, 3), a23 = area(2, 3);
   const std::array<Scalar, 4> areas = {a12 + a23 + a13, a02 + a23 + a03, a01 + a13 + a03,
                                        a01 + a12 + a02};
-  constexpr Scalar r = 112 * u;  // with what is lost of these sums
+  constexpr Scalar r = 112 * u;  // includes what is lost in these sums
   const Scalar rest =
       r * (16 * u * greatest + 3 * r * longest + r * r) + 64 * u * greatest * longest;
   for (int i = 0; i < 4; ++i) {

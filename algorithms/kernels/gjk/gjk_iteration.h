@@ -1,5 +1,16 @@
-// GJK's walk with plain products: quick, good to most digits, and no proof of anything but what its
-// support planes prove. What it finds is made good, or gone on from, with the care of simplex.h.
+// GJK's fast iteration with plain products. It is accurate to most digits; only its support planes
+// and tetrahedra are proofs. The distance loop (gjk_distance) and minkowski/simplex refine its
+// result. Used by the GJK family, certified and mpr-refined (is_surely_inside).
+// Steps:   1. Start at the difference of the centres, or at a given simplex.
+//          2. Find the support point towards the origin, in vectors of four numbers.
+//          3. If its plane is further from the origin than the radii, or the bounds meet to the
+//             tolerance, stop.
+//          4. If the point is already in the simplex, stop.
+//          5. Add the point and reduce the simplex to the nearest feature that contains it.
+//          6. If a tetrahedron remains, test that it contains the origin beyond rounding. If that
+//             is open, try the tetrahedra with a support point behind the face that the search came
+//             through, and stop.
+//          7. Stop if the distance did not fall; otherwise repeat from step 2.
 #pragma once
 
 #include "algorithms/kernels/minkowski/simplex.h"
@@ -8,37 +19,37 @@ namespace touchstone {
 
 enum class WalkEnd : std::uint8_t {
   apart,     // a support plane is further from the origin than the radius: proven
-  near,      // the simplex is as near as the tolerance asks for
-  inside,    // the origin is in the tetrahedron: proven
-  doubtful,  // rounding, or the cap
+  near,      // the simplex's distance is within the tolerance
+  inside,    // the tetrahedron contains the origin: proven
+  doubtful,  // rounding or the cap ended the iteration
 };
 
 template <class Scalar>
 struct Walk {
   WalkEnd end = WalkEnd::doubtful;
   Simplex<Scalar> simplex;  // weights are not set
-  Scalar lower = 0;  // of the distance between the cores, by the last plane, in the pair's unit
+  Scalar lower = 0;         // lower bound on the cores' distance, in the pair's unit
   Vec3<Scalar> way = Vec3<Scalar>::Zero();  // that plane's normal, away from the origin; any length
   int iterations = 0;
-  bool moved = false;  // the simplex is not the one that it began with
+  bool moved = false;  // the simplex differs from the initial one
 };
 
-// Where a walk begins: at the difference of the centres, as a rule.
+// The start of an iteration: usually the difference of the centres.
 template <class Scalar>
 struct WalkStart {
   explicit WalkStart(const Vec3<Scalar>& towards) : way(towards) {}
 
-  Vec3<Scalar> way;         // from the origin towards the difference, to the simplex' nearest point
-  Simplex<Scalar> simplex;  // may be empty; else only corners of the nearest point's feature
+  Vec3<Scalar> way;         // from the origin to the simplex's nearest point, any length
+  Simplex<Scalar> simplex;  // may be empty; otherwise only corners of the nearest point's feature
 };
 
 struct WalkGoal {
-  bool only_apart = false;  // a plane that separates the bodies is enough
+  bool only_apart = false;  // stop at a plane that separates the bodies
   int most_iterations = 0;
-  bool numbered = false;  // the simplex is wanted with the numbers of its corners
+  bool numbered = false;  // the simplex must hold the indices of its corners
 };
 
-// `tolerance` is of the distance, in the pair's unit.
+// `tolerance` applies to the distance, in the pair's unit.
 template <class Scalar>
 Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
                   const WalkStart<Scalar>& start);
@@ -51,12 +62,13 @@ template <class Scalar>
 using WalkFunction = Walk<Scalar> (*)(SupportPair<Scalar>&, const WalkGoal&, Scalar,
                                       const WalkStart<Scalar>&);
 
-// Whether the origin is inside a tetrahedron whatever rounding did to its corners.
+// Returns true if a tetrahedron contains the origin whatever rounding did to its corners.
 template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex);
-// An origin that is too near the face of a tetrahedron's first three corners for it to be surely
-// inside is well inside one of the three around the axis from its last corner to one beyond that
-// face: then the simplex becomes that one, and this is true.
+// If rounding leaves open whether the origin is inside because it is close to face 012, tries the
+// three tetrahedra that share the edge from vertex 3 to `behind` (a support point beyond that
+// face). Replaces `simplex` by the one that contains the origin and returns true; otherwise returns
+// false.
 template <class Scalar>
 bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind);
 

@@ -1,6 +1,6 @@
-// The walk of simplex_walk.h, on vectors of four numbers of which three are used. Included by
-// simplex_walk.cpp once for each level of vector instructions, inside that level's namespace; the
-// same at every level.
+// The iteration of gjk_iteration.h, on vectors of four numbers of which three are used.
+// gjk_iteration_levels.inl includes this file once for each level of vector instructions, inside
+// that level's namespace. Results are equal at every level.
 
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<Scalar> quad(const Vec3<Scalar>& v) {
@@ -22,8 +22,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector cross(const Vector& a, const Vector& 
   return turn(a * turn(b) - turn(a) * b);
 }
 
-// The support map of a PosedShape for boxes, and for hulls that are scanned; what else there is,
-// is left to that.
+// The support map of a PosedShape, with its own code for boxes and for hulls that are scanned.
+// Other cores use the PosedShape.
 template <class Scalar>
 class QuadShape {
  public:
@@ -37,7 +37,7 @@ class QuadShape {
     }
   }
 
-  // `corner` becomes its number, where the core has corners.
+  // Sets `corner` to the corner's index, if the core has corners.
   template <class Which>
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector support(const Vector& direction,
                                                      std::uint32_t& corner) {
@@ -79,15 +79,15 @@ class QuadShape {
   Vector columns_[3], rows_[3];
 };
 
-// A vector along the way from the origin to a feature's nearest point, of any length, and the
-// corners of the feature as bits.
+// A vector from the origin towards a feature's nearest point, of any length, and the corners of the
+// feature as bits.
 template <class Scalar>
 struct Way {
   Quad<Scalar> vector;
   unsigned corners;
 };
 
-// Features that the newest corner is on, as a step of the walk cannot end on others: w[0] of all.
+// The features that contain the newest corner w[0]; a step cannot end on others.
 template <class Scalar>
 class QuickSimplex {
  public:
@@ -106,7 +106,7 @@ class QuickSimplex {
     return on_triangle(a, ab, ac, cross(ab, ac), 1, 2);
   }
 
-  // All corners where the origin is inside.
+  // Returns all corners if the origin is inside.
   TOUCHSTONE_TARGET static Way<Scalar> tetrahedron(const Vector& a, const Vector& b,
                                                    const Vector& c, const Vector& d) {
     const Vector ab = b - a, ac = c - a, ad = d - a;
@@ -127,7 +127,7 @@ class QuickSimplex {
                               : face == 1 ? on_triangle(a, ac, ad, acd, 2, 3)
                                           : on_triangle(a, ad, ab, adb, 3, 1);
       if (faces == 1u << face) return way;
-      const Scalar reach = dot(way.vector, a);  // all of the feature is as far along it
+      const Scalar reach = dot(way.vector, a);  // constant over the feature
       const Scalar squared = reach * reach / dot(way.vector, way.vector);
       if (!(squared < least)) continue;
       least = squared;
@@ -137,7 +137,7 @@ class QuickSimplex {
   }
 
  private:
-  // `along` is how far the origin is along the edge from the newest corner, times its length.
+  // `along` is the origin's coordinate along the edge from the newest corner, times its length.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE static Way<Scalar> on_edge(const Vector& a,
                                                                  const Vector& edge, Scalar along,
                                                                  int b) {
@@ -151,7 +151,7 @@ class QuickSimplex {
     if (!beyond_ab && !beyond_ac) {
       return {dot(normal, a) < 0 ? -normal : normal, 1u | 1u << b | 1u << c};
     }
-    // Where it is beyond both sides it is along one of them at most.
+    // If the origin is beyond both edges, it projects on at most one of them.
     const Scalar along_ab = -dot(ab, a), along_ac = -dot(ac, a);
     if (beyond_ab && along_ab > 0) return on_edge(a, ab, along_ab, b);
     if (beyond_ac && along_ac > 0) return on_edge(a, ac, along_ac, c);
@@ -159,8 +159,8 @@ class QuickSimplex {
   }
 };
 
-// Points of the difference, and of the two cores; the newest is the last one. `numbered`: with the
-// numbers of their corners.
+// Points of the difference and of the two cores; the newest is last. `numbered`: with the indices
+// of their corners.
 template <class Scalar, bool numbered>
 struct QuadSimplex {
   using Vector = Quad<Scalar>;
@@ -180,8 +180,9 @@ struct QuadSimplex {
     return held;
   }
 
-  // The way to it; only the feature's corners stay. Inlined, the walk's registers do not suffice;
-  // and so it is one piece of code for all cores that a walk is compiled for.
+  // Returns the vector to the nearest point and keeps only its feature's corners. The function is
+  // not inlined, because the iteration's registers would not suffice; so all cores for which an
+  // iteration is compiled share this code.
   __attribute__((noinline)) TOUCHSTONE_TARGET Vector reduce() {
     const int newest = size - 1;
     const auto w = [&](int i)
@@ -225,15 +226,16 @@ struct QuadSimplex {
   }
 };
 
-// `found` is as it is made: where GCC 12 sets its corners in wide registers here, it leaves them in
-// a state that slows all that comes after.
+// `found` is passed in because GCC 12, if it sets its corners in wide registers here, leaves them
+// in a state that slows all later code.
 template <bool numbered, class WhichA, class WhichB, class Scalar>
 TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
                                const WalkStart<Scalar>& start, Walk<Scalar>& found) {
   using Vector = Quad<Scalar>;
-  // Shorter ones have lost their digits, or are about to. (Squares of lengths.)
+  // The square of the least length; shorter vectors have lost their digits, or nearly so.
   constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
-  // A point that is there already is as far along the way as the rest, but for rounding.
+  // A point that is already in the simplex is as far along the direction as the others, up to
+  // rounding.
   constexpr Scalar as_far = 1024 * std::numeric_limits<Scalar>::epsilon();
   const Scalar apart = pair.radius() + SupportPair<Scalar>::rounding;
   QuadShape<Scalar> a(pair.a()), b(pair.b());
@@ -270,7 +272,8 @@ TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, 
     if (simplex.size == 4) {
       simplex.write(found.simplex);
       if (!is_surely_inside(found.simplex)) {
-        // Too near the face that it came through: a corner behind that tells, which has no number.
+        // The origin is too near the face that the search came through. A corner behind it decides;
+        // it has no index.
         if (numbered || found.iterations == goal.most_iterations) return;
         ++found.iterations;
         const auto behind = pair.template support<WhichA, WhichB>(vec<Scalar>(before));
@@ -283,7 +286,7 @@ TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, 
     length = std::sqrt(squared);
     const Scalar last = nearest;
     nearest = dot(way, simplex.points[0].difference) / length;
-    // So written that NaN ends the walk.
+    // This form of the comparisons ends the iteration for NaN.
     if (!(squared > shortest) || !(nearest < last)) break;
   }
   simplex.write(found.simplex);

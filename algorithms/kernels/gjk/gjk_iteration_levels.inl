@@ -1,5 +1,5 @@
-// The walk of simplex_walk.h at the level of vector instructions in use, compiled for the two cores
-// that it is told, or for any. Included by the files that compile it for some; local to each.
+// Selects the active level of vector instructions for the iteration of gjk_iteration.h, compiled
+// for two given cores or for any. Included by gjk_iteration.cpp and gjk-templated; local to each.
 #include <cmath>
 #include <limits>
 

@@ -1,3 +1,4 @@
+// One GJK query: the iteration, the distance loop, and EPA if the cores meet.
 #include "algorithms/kernels/gjk/gjk_query.h"
 
 #include <algorithm>
@@ -5,8 +6,8 @@
 namespace touchstone {
 namespace {
 
-// Writes a distance between the bodies, all in the pair's unit: `distance` and its bounds signed;
-// `normal` from a to b; `a` and `b` witness points of the cores.
+// Writes a distance between the bodies. All lengths are in the pair's unit: `distance` and its
+// bounds are signed; `normal` is from a to b; `a` and `b` are witness points of the cores.
 template <class Scalar>
 void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scalar upper,
            const Vec3<Scalar>& normal, const Vec3<Scalar>& a, const Vec3<Scalar>& b,
@@ -38,8 +39,8 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
   solve_pair(pair, task, start, outcome);
 }
 
-// The verdict alone, of cores with corners and no radius: mostly the quick walk's. What it leaves
-// open is walked again, with what is left of the cap.
+// Finds the verdict for cores with corners and no radius, mostly by the fast iteration. If that
+// leaves it open, the distance loop starts again with the rest of the cap.
 template <class Scalar>
 bool GjkQuery<Scalar>::walk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const {
   if (!pair.is_polytope() || pair.radius() > 0) return false;
@@ -105,11 +106,11 @@ void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStar
   outcome.support_calls = pair.support_calls();
 }
 
-// The cores share a point, up to rounding.
+// Solves a pair whose cores share a point, up to rounding.
 template <class Scalar>
 void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found,
                                      Task task, Outcome& outcome) {
-  constexpr Scalar open = 4 * rounding;  // what may be called a contact, and is none
+  constexpr Scalar open = 4 * rounding;  // a reported contact may have a gap up to this
   const Scalar radius = pair.radius();
   const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
   const bool on_core = !found.nearest.inside && off_core(found.simplex) <= 4 * rounding;
@@ -137,7 +138,7 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<S
   if (inside && (known || task != Task::penetration)) outcome.status = Status::ok;
   if (!inside && depth.end == ExpansionEnd::flat) outcome.status = Status::degenerate;
   if (task == Task::intersect || (inside && task == Task::distance)) return;
-  // Where the origin may be outside of the polytope, its faces bound nothing from the other side.
+  // If the origin may be outside the polytope, its faces give no bound from the other side.
   const Scalar least = inside ? radius + depth.lower : std::min(radius + depth.lower, -open);
   write(pair, -(radius + depth.upper), -(radius + depth.upper), -least, depth.normal, depth.a,
         depth.b, outcome);

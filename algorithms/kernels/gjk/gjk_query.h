@@ -1,6 +1,6 @@
-// A query of two bodies by GJK, and by EPA where their cores meet: the loop of gjk_approach.h, and
-// what its end says.
-// Papers: those of gjk_approach.h and expanding_polytope.h.
+// A query of two bodies by GJK, and by EPA if their cores meet. Used by gjk, gjk-templated and
+// gjk-lanes.
+// Paper:   see gjk_distance.h and expanding_polytope.h.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 namespace touchstone {
 
 struct GjkQuerySettings {
-  std::optional<double> tolerance = {};    // as NarrowPhaseSettings have it
-  std::optional<double> duality_gap = {};  // so too
+  std::optional<double> tolerance = {};    // as in NarrowPhaseSettings
+  std::optional<double> duality_gap = {};  // as in NarrowPhaseSettings
   int gjk_cap = 128, epa_cap = 256;        // iterations
   Momentum momentum = Momentum::none;
 };
@@ -25,16 +25,16 @@ class GjkQuery {
   explicit GjkQuery(const GjkQuerySettings& settings)
       : settings_(settings), polytope_(settings.epa_cap) {}
 
-  // Of bounded bodies. A verdict is `ok` only where a bound proves it beyond rounding. Bodies whose
-  // balls are apart are not walked between, but for their distance. Begins where `start` says,
-  // unless it is null, and leaves there what was found.
+  // Solves a pair of bounded bodies. A verdict is `ok` only if a bound proves it beyond rounding.
+  // If the bounding balls are apart, no iteration is made except for a distance. Starts from
+  // `start` unless it is null, and stores the result there.
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
              const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
 
-  // From now on walks by these, which are for the cores that are to come.
+  // Sets the functions for the next queries; they must fit the cores of those queries.
   void walk_by(const CoreWalks<Scalar>& walks) { walks_ = walks; }
 
-  // Of a distance between the bodies, in the pair's unit.
+  // Tolerance of a distance between the bodies, in the pair's unit.
   Scalar tolerance(bool polytopes) const {
     const double smooth = sizeof(Scalar) == 8 ? 1e-10 : 1e-5;
     const double own = polytopes ? 0 : smooth;

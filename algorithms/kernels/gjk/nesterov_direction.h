@@ -1,4 +1,5 @@
-// Where Nesterov-accelerated GJK looks for its next support point.
+// The search direction of Nesterov-accelerated GJK. Used by gjk_distance.inl for gjk-nesterov and
+// gjk-switched.
 // Paper: Montaut, Le Lidec, Petrik, Sivic, Carpentier, "Collision detection accelerated: an
 // optimization perspective", RSS 2022, algorithm 3.
 #pragma once
@@ -7,16 +8,16 @@
 
 namespace touchstone {
 
-// Points towards the origin, as the direction of a support call does.
+// Directions point towards the origin, like the direction of a support call.
 template <class Scalar>
 class NesterovDirection {
  public:
-  // `start` is the point of the difference that the search starts at. A normalised direction keeps
-  // a corner, whose support point stays where it is, from pulling.
+  // `start` is the point of the difference at which the search starts. Normalising keeps a corner,
+  // whose support point stays in place, from dominating the average.
   NesterovDirection(bool normalised, const Vec3<Scalar>& start)
       : normalised_(normalised), direction_(start) {}
 
-  // `nearest` is the simplex's nearest point to the origin, `support` the newest support point.
+  // `nearest` is the simplex's point nearest to the origin, `support` the newest support point.
   Vec3<Scalar> next(const Vec3<Scalar>& nearest, const Vec3<Scalar>& support) {
     const Scalar k = static_cast<Scalar>(step_++);
     const Scalar weight = (normalised_ ? k + 2 : k + 1) / (k + 3);

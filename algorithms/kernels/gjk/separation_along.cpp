@@ -1,3 +1,4 @@
+// Selects the instruction level for the gap in separation_along.inl.
 #include "algorithms/kernels/gjk/separation_along.h"
 
 #include <cmath>

@@ -1,14 +1,14 @@
-// How far two bodies' cores are apart along a direction: what a plane between them proves, without
-// the points that support it.
+// The gap between two bodies' cores along a direction: the bound that a plane proves, without its
+// support points. Used by gjk_distance.inl for warm starts.
 #pragma once
 
 #include "algorithms/kernels/minkowski/support.h"
 
 namespace touchstone {
 
-// The least direction . y over the core of b, less the greatest direction . x over that of a, for a
-// unit vector, in the pair's unit: where positive, a lower bound of the cores' distance. As exact
-// as the planes of support points are. Counted as a support call.
+// Returns the least direction . y over the core of b minus the greatest direction . x over that of
+// a, for a unit vector, in the pair's unit. If positive it is a lower bound on the cores' distance,
+// as exact as the planes of support points. Counts as a support call.
 template <class Scalar>
 Scalar gap_along(SupportPair<Scalar>& pair, const Vec3<Scalar>& direction);
 

@@ -1,7 +1,7 @@
-// The gap of plane_gap.h. Included by plane_gap.cpp once for each level of vector instructions,
-// inside that level's namespace; the same at every level.
+// The gap of separation_along.h. separation_along.cpp includes this file once for each level of
+// vector instructions, inside that level's namespace. Results are equal at every level.
 
-// The greatest direction . x over the core, from its centre.
+// The greatest direction . x over the core, relative to its centre.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Scalar reach_at(PosedShape<Scalar>& turned, Scalar x, Scalar y,
                                                     Scalar z) {

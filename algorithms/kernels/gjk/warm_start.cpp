@@ -1,3 +1,4 @@
+// Stores a simplex by corner indices, and places it at the bodies' new poses.
 #include "algorithms/kernels/gjk/warm_start.h"
 
 #include <cmath>

@@ -1,12 +1,12 @@
-// What GJK keeps of a pair of bodies from one frame to the next, and what it makes of it.
+// The memory of GJK for a pair of bodies, from one frame to the next. Used by gjk.
 //
-// Corners are kept by their numbers, so that the points made of them are where the bodies are now:
-// whatever the numbers, they are points of the difference, and what is found from them is as right
-// as from any other start. The same for a direction: any plane that has the difference on its far
-// side proves that the bodies are apart.
-// Paper: van den Bergen, "A fast and robust GJK implementation for collision detection of convex
-// objects", J. Graphics Tools 4(2), 1999 (the last separating axis, and the last simplex, are where
-// the next frame begins).
+// Corners are stored by their indices, so that their points follow the bodies. Whatever the
+// indices, these are points of the difference, and a result from them is as right as from any other
+// start. The same holds for a direction: any plane with the difference on its far side proves that
+// the bodies are apart.
+// Paper:   van den Bergen, "A fast and robust GJK implementation for collision detection of convex
+//          objects", J. Graphics Tools 4(2), 1999 (the next frame begins at the last separating
+//          axis or simplex).
 #pragma once
 
 #include <array>
@@ -16,18 +16,18 @@
 
 namespace touchstone {
 
-// The same for both scalars; all zeros: nothing is known.
+// One layout serves both scalars. All zeros mean that nothing is known.
 struct WarmStart {
-  std::uint32_t size = 0;  // corners of the last simplex; 0: not known, or round cores
-  // Four, where the origin was inside.
+  std::uint32_t size = 0;  // corners of the last simplex; 0: unknown, or round cores
+  // Four corners if the origin was inside.
   std::array<CornerPair, 4> corners;
-  std::array<float, 3> direction{};  // from a to b, world axes, unit length; zero: not known
+  std::array<float, 3> direction{};  // from a to b, world axes, unit length; zero: unknown
 
   template <class Scalar>
   void keep(const Simplex<Scalar>& simplex, const Vec3<Scalar>& unit_direction);
 
-  // Puts the simplex where its corners are now; of size 0 where there is none, or it is not one of
-  // these cores.
+  // Places the simplex at its corners' current positions. Its size is 0 if there is none or if the
+  // indices do not belong to these cores.
   template <class Scalar>
   void place(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex) const;
   // Unit length, or zero.

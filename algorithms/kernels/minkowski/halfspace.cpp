@@ -1,3 +1,4 @@
+// Signed distance of a half-space and a body, or of two half-spaces.
 #include "algorithms/kernels/minkowski/halfspace.h"
 
 #include <algorithm>
@@ -7,14 +8,15 @@
 namespace touchstone {
 namespace {
 
-// Far from the world's origin a plane's place is a small difference of large numbers.
+// Far from the world's origin a plane's position is a small difference of large numbers, so it is
+// computed in long double.
 using Wide = long double;
 using Wide3 = Eigen::Matrix<Wide, 3, 1>;
 
 Wide3 wide(const Vec3d& x) { return x.cast<Wide>(); }
 
-// The points y of the moved half-space are those with normal . (y - t) <= height. What maps planes
-// is the inverse transpose of the matrix: the matrix of its cofactors, over the determinant.
+// The transformed half-space: points y with normal . (y - t) <= height. Planes map by the inverse
+// transpose of the matrix: the matrix of its cofactors divided by the determinant.
 struct WorldPlane {
   Wide3 normal;  // unit
   Wide height;
@@ -33,11 +35,11 @@ WorldPlane world_plane(const SupportShape<Scalar>& halfspace, const Pose& pose) 
   return {normal / length, halfspace.offset * (determinant / length)};
 }
 
-// What is left of lengths that cancel.
+// Relative rounding of lengths that cancel.
 constexpr Wide wide_rounding = 64 * std::numeric_limits<Wide>::epsilon();
 
-// Writes what the task asks for. Lengths in metres; `normal` from a to b; `on_a` is the witness
-// point on a.
+// Writes the results that the task asks for. Lengths are in metres; `normal` is from a to b; `on_a`
+// is the witness point on a.
 void answer(Task task, double distance, double rounding, const Vec3d& normal, const Vec3d& on_a,
             Outcome& outcome) {
   const bool apart = distance > rounding;
@@ -102,7 +104,7 @@ void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
     outcome.status = task == Task::penetration ? Status::degenerate : Status::ok;
     return;
   }
-  // Heights of the two planes along a's normal, over the origin of body a.
+  // Heights of the two planes along a's normal, relative to the origin of body a.
   const Wide place_b = normal_a.dot(wide(pose_b.translation) - wide(pose_a.translation));
   const Wide height_b = place_b - own_height_b;
   const double size =

@@ -1,3 +1,4 @@
+// Selects the instruction level for the hull scan.
 #include "algorithms/kernels/minkowski/hull_scan.h"
 
 namespace touchstone::hull_scan {

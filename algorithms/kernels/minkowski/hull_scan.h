@@ -1,5 +1,5 @@
-// The vertex of a hull that lies furthest in a direction, by looking at all of them: for each level
-// of vector instructions, to be inlined where it is used.
+// The vertex of a hull that is furthest in a direction, found by testing all vertices. Used by
+// every narrow phase with hulls, and inlined into loops at each level of vector instructions.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace touchstone::hull_scan {
 
-// Sixteen vertices; copies of the first fill up the last block.
+// Sixteen vertices. Copies of the first vertex pad the last block.
 template <class Scalar>
 struct VertexBlock {
   static constexpr std::size_t size = 16;
@@ -25,7 +25,7 @@ struct VertexBlock {
   Vec3<Scalar> vertex(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-// `vertex(k)` for k < count, which is at least 1.
+// Makes blocks of `vertex(k)` for k < count, with count >= 1.
 template <class Scalar, class Vertex>
 std::vector<VertexBlock<Scalar>> blocks_of(std::size_t count, const Vertex& vertex) {
   constexpr std::size_t size = VertexBlock<Scalar>::size;
@@ -45,15 +45,16 @@ struct Found {
   std::uint32_t index;
 };
 
-inline constexpr std::size_t most_blocks = 16;  // that are looked at together
+inline constexpr std::size_t most_blocks = 16;  // blocks that are tested together
 
-// At each level `furthest_at(blocks, x, y, z)` is the index of the vertex with the greatest d.v;
-// of several the first: the same at every level. NaN is nobody's greatest: then it is vertex 0.
+// At each level, `furthest_at(blocks, x, y, z)` returns the index of the vertex with the greatest
+// d.v, and the first if there are several. The result is equal at every level. NaN never compares
+// as greatest: if all are NaN the index is 0.
 #define TOUCHSTONE_LANES real_lanes
 #define TOUCHSTONE_LOOPS "algorithms/kernels/minkowski/hull_scan.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-// At the level in use: the vertex, and the value.
+// The vertex and the value, computed at the active level.
 template <class Scalar>
 std::uint32_t furthest(std::span<const VertexBlock<Scalar>> blocks, const Vec3<Scalar>& direction);
 template <class Scalar>

@@ -1,8 +1,8 @@
-// The loops of hull_scan.h. Included by it once for each level of vector instructions, inside that
-// level's namespace.
+// The loops of hull_scan.h, which includes this file once for each level of vector instructions,
+// inside that level's namespace.
 
-// The best of at most `most_blocks`. First the greatest value, then where it is: no lane carries an
-// index along.
+// Returns the best of at most `most_blocks` blocks: first the greatest value, then its place, so
+// that no lane carries an index along.
 template <class Scalar>
 TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks, std::size_t count,
                                                Scalar x, Scalar y, Scalar z) {

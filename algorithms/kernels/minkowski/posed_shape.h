@@ -1,4 +1,5 @@
-// The support map of a shape that is turned as its body is.
+// The support map of a shape at the orientation of its body. Used through support.h by every narrow
+// phase with support maps.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +10,14 @@
 
 namespace touchstone {
 
-// Which core a shape has: as it says itself, at run time, ...
+// The core of a shape, read at run time.
 struct AnyCore {
   template <class Scalar>
   static SupportCore of(const SupportShape<Scalar>& shape) {
     return shape.core;
   }
 };
-// ... or this one, known when the code is compiled.
+// The core of a shape, known at compile time.
 template <SupportCore core>
 struct KnownCore {
   template <class Scalar>
@@ -25,36 +26,37 @@ struct KnownCore {
   }
 };
 
-// The corners of a core by numbers: a point has 0, a segment and a box have a bit for each axis,
-// set where the corner is on the negative side, a hull has its vertices'. Round cores have none.
+// Indices of the corners of a core: a point has 0; a segment and a box have a bit for each axis,
+// set if the corner is on the negative side; a hull has its vertices' indices. Round cores have no
+// corners.
 inline constexpr std::uint32_t no_corner = ~std::uint32_t{0};
 
-// Of the two cores of a point of their difference.
+// The corners of the two cores whose difference is a point.
 struct CornerPair {
   std::uint32_t a = no_corner, b = no_corner;
 };
 
-// A shape turned as its body is, about its centre, in the units of a query.
+// A shape at the orientation of its body, around its centre, in the unit of a query.
 template <class Scalar>
 class PosedShape {
  public:
-  // `unit` is the power of two, in metres, that the result is divided by.
+  // `unit` is the power of two, in metres, by which results are divided.
   PosedShape(const SupportShape<Scalar>& shape, const Mat3d& rotation, double unit)
       : shape_(&shape),
         matrix_((rotation * (shape.unit / unit)).template cast<Scalar>()),
         radius_(static_cast<Scalar>(shape.radius / unit)) {}
 
-  // The point of the core that lies furthest in the direction, relative to the centre. The
-  // direction need not have unit length, but its square must neither overflow nor vanish.
-  // `Which` says which core it is.
+  // Returns the point of the core that is furthest in the direction, relative to the centre. The
+  // direction need not have unit length, but its square must neither overflow nor underflow.
+  // `Which` gives the core.
   template <class Which = AnyCore>
   Vec3<Scalar> support(const Vec3<Scalar>& direction);
 
-  // Whether the core has a corner of that number.
+  // Returns true if the core has a corner with that index.
   bool has_corner(std::uint32_t number) const { return number < corners(); }
-  // That corner, relative to the centre.
+  // The corner with that index, relative to the centre.
   Vec3<Scalar> corner(std::uint32_t number) const;
-  // Of a hull, the number of the last support.
+  // For a hull: the index of the last support vertex.
   std::uint32_t last_corner() const {
     return shape_->cells.empty() ? vertex_ : shape_->cells.number(vertex_);
   }
@@ -66,8 +68,8 @@ class PosedShape {
  private:
   using Core = typename SupportShape<Scalar>::Core;
 
-  // The point of the disc of this radius, normal to z, furthest along (dx, dy); its centre where
-  // the direction is along z.
+  // The point of the disc with this radius, normal to z, that is furthest along (dx, dy); its
+  // centre if the direction is along z.
   static Vec3<Scalar> disc_support(Scalar radius, const Vec3<Scalar>& d, Scalar z) {
     const Scalar square = d.x() * d.x() + d.y() * d.y();
     if (!(square > least_square)) {
@@ -89,14 +91,14 @@ class PosedShape {
     }
   }
 
-  // Squares below this have lost digits: their root would put points outside of the core.
+  // Squares below this have lost digits: their root would place points outside the core.
   static constexpr Scalar least_square =
       std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
 
   const SupportShape<Scalar>* shape_;
   Mat3<Scalar> matrix_;
   Scalar radius_;
-  std::uint32_t vertex_ = 0;  // hull: the last support, by its place in the cells where it has them
+  std::uint32_t vertex_ = 0;  // hull: the last support; with a cube map its place there
 };
 
 template <class Scalar>
@@ -113,7 +115,7 @@ inline Vec3<Scalar> PosedShape<Scalar>::support(const Vec3<Scalar>& direction) {
                                     std::copysign(e.z(), d.z())};
     case Core::cylinder: return matrix_ * disc_support(e.x(), d, std::copysign(e.z(), d.z()));
     case Core::cone: {
-      // The tip is further than the rim of the base where 2 h dz > r |(dx, dy)|.
+      // The tip is further than the rim of the base if 2 h dz > r |(dx, dy)|.
       const bool tip = 2 * e.z() * d.z() > e.x() * std::sqrt(d.x() * d.x() + d.y() * d.y());
       return tip ? Vec3<Scalar>(e.z() * matrix_.col(2)) : matrix_ * disc_support(e.x(), d, -e.z());
     }

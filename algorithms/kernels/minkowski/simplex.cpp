@@ -1,3 +1,4 @@
+// The nearest feature of a simplex by signed volumes.
 #include "algorithms/kernels/minkowski/simplex.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ class Search {
   }
 
   void segment(int i, int j) {
-    // From the nearer end: fewer digits are lost.
+    // The computation starts at the nearer end, which loses fewer digits.
     if (point(i).squaredNorm() > point(j).squaredNorm()) std::swap(i, j);
     const Vec3<Scalar> edge = point(j) - point(i);
     const Scalar along = -point(i).dot(edge);
@@ -51,7 +52,7 @@ class Search {
       // Without this a direction from nearly coincident points would not be normal to the edge.
       direction = nearest / length;
       direction -= direction.dot(edge) / whole * edge;
-      // Mostly along the edge: then what was nearest is nothing but rounding.
+      // If the direction is mostly along the edge, the nearest point is only rounding.
       const Scalar across = direction.norm();
       direction = across > Scalar{0.5} ? Vec3<Scalar>(direction / across) : Vec3<Scalar>::Zero();
     }
@@ -74,14 +75,14 @@ class Search {
       best_ = {distance, plane.normal / (height < 0 ? -length : length), 3, v, w};
       return;
     }
-    // The nearest point is on a side that the projection lies beyond. (So written that NaN takes
-    // every side.)
+    // The nearest point is on a side that the projection is beyond. This form of the comparison
+    // tries every side for NaN.
     for (int side = 0; side < 3; ++side) {
       if (!(w[side] > 0)) segment(v[(side + 1) % 3], v[(side + 2) % 3]);
     }
   }
 
-  // True where the origin is inside; `depth` is then its least distance from a face.
+  // Returns true if the origin is inside; `depth` is then its least distance from a face.
   bool tetrahedron(Scalar& depth) {
     static constexpr std::array<std::array<int, 4>, 4> faces = {
         {{1, 2, 3, 0}, {0, 2, 3, 1}, {0, 1, 3, 2}, {0, 1, 2, 3}}};
@@ -141,10 +142,10 @@ TrianglePlane<Scalar> triangle_plane(const std::array<Vec3<Scalar>, 3>& corners)
   plane.edge_2 = corners[(plane.base + 2) % 3] - corners[plane.base];
   plane.longest = corners[(plane.base + 2) % 3] - corners[(plane.base + 1) % 3];
   plane.normal = plane.edge_1.cross(plane.edge_2);
-  // The product's rounding may point along a needle, where it would tilt the plane the most.
+  // The product's rounding may point along a needle, where it would tilt the plane most.
   const Scalar length = opposite[plane.base];
   if (length > 0) plane.normal -= plane.normal.dot(plane.longest) / length * plane.longest;
-  // The least height stands on the longest edge.
+  // The least height is the one over the longest edge.
   constexpr Scalar limit = flat_height<Scalar> * flat_height<Scalar>;
   plane.flat = !(plane.normal.squaredNorm() > limit * length);
   return plane;
@@ -159,7 +160,7 @@ std::array<Scalar, 3> project_origin(const TrianglePlane<Scalar>& plane,
   const Scalar last = plane.normal.dot(base.cross(plane.edge_1)) / area;
   std::array<Scalar, 3> weights;
   weights[plane.base] = 1 - next - last;
-  // What these leave along the longest edge, its ends make up for.
+  // The ends of the longest edge take up the component that these weights leave along it.
   const Vec3<Scalar> left = base + next * plane.edge_1 + last * plane.edge_2;
   const Scalar shift = left.dot(plane.longest) / plane.longest.squaredNorm();
   weights[(plane.base + 1) % 3] = next + shift;

@@ -1,3 +1,4 @@
+// The placement of a pair of bodies in its own unit, and the test of its bounding balls.
 #include "algorithms/kernels/minkowski/support.h"
 
 #include <algorithm>
@@ -7,9 +8,9 @@ namespace touchstone {
 
 namespace {
 
-// A sum that remembers what its rounding drops, as if it had twice the digits. Paper: Ogita, Rump,
-// Oishi, "Accurate sum and dot product", SIAM J. Scientific Computing 26(6), 2005. (Factors beyond
-// 2^996 make it NaN.)
+// A sum that also adds up its rounding errors, as if it had twice the digits. Source: Ogita, Rump,
+// Oishi, "Accurate sum and dot product", SIAM J. Scientific Computing 26(6), 2005. Factors beyond
+// 2^996 make it NaN.
 class CarefulSum {
  public:
   void add(double x) {
@@ -52,8 +53,8 @@ CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
                 (pose_b.translation - pose_a.translation),
             0};
   }
-  // Where the vertices of a hull lie far from its origin, its rotated centre must be known to more
-  // digits than a double has. Sixteen roundings of the terms' sum, squared, are left: 2^-98 of it.
+  // If the vertices of a hull are far from its origin, its rotated centre needs more digits than a
+  // double has. The remaining error is sixteen roundings of the terms' sum, squared: 2^-98 of it.
   CentreOffset offset;
   double terms = 0;
   for (int row = 0; row < 3; ++row) {
@@ -76,9 +77,10 @@ CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
 template <class Scalar>
 bool balls_are_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b) {
-  // A matrix makes no vector longer than by its Frobenius norm. Rounding: a dozen units in the last
-  // place of the norms, the sizes and the squares, and of the offset as much of the greater of
-  // itself and the reach. Overflow makes this false; squares that are about to vanish are no use.
+  // A matrix lengthens a vector by at most its Frobenius norm. Rounding is a dozen units in the
+  // last place of the norms, the sizes and the squares; for the offset it is as much of the greater
+  // of itself and the reach. Overflow makes the result false; squares that nearly underflow are not
+  // used.
   constexpr double beyond_rounding = 1 + 1e-12;
   constexpr double least_square = 1e-280;
   const double stretch_a = pose_a.rotation.squaredNorm();
@@ -97,7 +99,7 @@ SupportPair<Scalar>::SupportPair(const SupportShape<Scalar>& a, const Pose& pose
                                  const SupportShape<Scalar>& b, const Pose& pose_b)
     : SupportPair(centre_offset(a, pose_a, b, pose_b), a, pose_a, b, pose_b) {}
 
-// The doubt of the offset is to be less than a rounding of the unit.
+// The doubt of the offset must be less than a rounding of the unit.
 template <class Scalar>
 SupportPair<Scalar>::SupportPair(const CentreOffset& offset, const SupportShape<Scalar>& a,
                                  const Pose& pose_a, const SupportShape<Scalar>& b,

@@ -1,13 +1,14 @@
-// Support maps of convex shapes, and pairs of bodies as their Minkowski difference.
+// Support maps of convex shapes, and pairs of bodies as their Minkowski difference. Used by every
+// narrow phase with support maps.
 //
-// A shape is a core (a point, a segment, or the shape itself) and a ball of some radius around it:
-// the exact body is {M v + t : v in the core} + Ball(radius), with M used as it stands. A pair is
-// looked at from the centre of body a, in units of about its own size, so no threshold depends on
-// the scale or on the distance from the world's origin.
-// Papers: Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
-// objects in three-dimensional space", 1988 (support maps, core and radius); van den Bergen, "A
-// fast and robust GJK implementation for collision detection of convex objects", 1999 (the curved
-// ones).
+// A shape is a core (a point, a segment, or the shape itself) with a ball of some radius around it.
+// The exact body is {M v + t : v in the core} + Ball(radius), with M as it is stored. A pair is
+// described relative to the centre of body a, in units of about its own size, so that no threshold
+// depends on the scale or on the distance from the world's origin.
+// Paper:   Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex
+//          objects in three-dimensional space", 1988 (support maps, core and radius); van den
+//          Bergen, "A fast and robust GJK implementation for collision detection of convex
+//          objects", 1999 (the curved ones).
 #pragma once
 
 #include <limits>
@@ -17,9 +18,9 @@
 
 namespace touchstone {
 
-// From the centre of a to the centre of b: metres, world axes. Each component is off by a few units
-// in the last place of the greatest of them and of the sizes of the turned bodies, and by `doubt`,
-// which is not zero only where a hull is far from its own origin.
+// The vector from the centre of a to the centre of b: metres, world axes. Each component is off by
+// a few units in the last place of the greatest of the components and the sizes of the rotated
+// bodies, and by `doubt`, which is nonzero only if a hull is far from its own origin.
 struct CentreOffset {
   Vec3d vector;
   double doubt;
@@ -29,13 +30,13 @@ template <class Scalar>
 CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
                            const SupportShape<Scalar>& b, const Pose& pose_b);
 
-// Whether balls around the two bodies are apart, beyond rounding.
+// Returns true if balls around the two bodies are apart by more than rounding.
 template <class Scalar>
 bool balls_are_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b);
 
-// A point of the difference A - B of the cores, and the points of the bodies' cores that made it.
-// In the units and the frame of the pair.
+// A point of the difference A - B of the cores, and the points of the bodies' cores that it is made
+// of, in the unit and the frame of the pair.
 template <class Scalar>
 struct DifferencePoint {
   Vec3<Scalar> difference, a, b;
@@ -45,15 +46,15 @@ struct DifferencePoint {
 template <class Scalar>
 class SupportPair {
  public:
-  // Coordinates of the pair's cores, and `centre_b`, are at most about 2. What rounding does to
-  // a point of the difference stays below this (length, in the pair's unit) in all that was ever
-  // tried; what can be proven is `proven_rounding`.
+  // Coordinates of the pair's cores, and `centre_b`, are at most about 2. The rounding error of a
+  // point of the difference (a length in the pair's unit) was below this in all tests; the proven
+  // bound is `proven_rounding`.
   static constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
 
-  // The proof, for poses of any matrix as it stands. Let u be half of epsilon, M a core's matrix,
-  // v a point of the core, both as stored; (..)_i a component, |..| taken of each. As unit_ is
-  // above the offset and the reach of both bodies, (|M| |v|)_i <= sqrt(3), and summed with the
-  // components of a unit vector n it is at most 3. A support point w = p - q, for any direction n:
+  // The proof, for poses with any matrix. Let u be half of epsilon, M a core's matrix and v a point
+  // of the core, both as stored; (..)_i is a component, |..| applies to each. Because unit_ is above
+  // the offset and the reach of both bodies, (|M| |v|)_i <= sqrt(3), and its sum with the components
+  // of a unit vector n is at most 3. For a support point w = p - q and any direction n:
   //                                              each component      along n
   //   stored v (hulls: centre subtracted)         sqrt(3) u           3 u   a body
   //   ... or computed v of a curved core           6 sqrt(3) u        in `furthest`
@@ -65,19 +66,20 @@ class SupportPair {
   //   the product n . w, of |w| <= 8                                 23 u
   //   the length of n and the division by it                         31 u
   //   both radii and their sum                                        4 u
-  // As only hulls have a centre off their origin (otherwise the offset is good to u), no pair of
-  // kinds comes to more than 107 u for the length by which w is off a point of the difference, and
-  // to more than 248 u for its plane as a bound of the difference. What underflows is 2^-1074 of
-  // the unit or less. Sums of weighted points, of weights >= 0, and their length: 90 u more than w.
+  // Only hulls have a centre off their origin; otherwise the offset is accurate to u. So no pair of
+  // kinds exceeds 107 u for the length by which w is off a point of the difference, and 248 u for
+  // its plane as a bound of the difference. Underflow is at most 2^-1074 of the unit. Sums of
+  // weighted points, with weights >= 0, and their length are off by 90 u more than w.
   static constexpr Scalar proven_rounding = 128 * std::numeric_limits<Scalar>::epsilon();
 
-  // What the proof asks for: lengths that are below the unit. (`power_of_two_above` ends there.)
+  // The condition of the proof: lengths are below the unit. (`power_of_two_above` ends there.)
   bool is_in_range() const { return unit_ < 0x1p959; }
 
   SupportPair(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
               const Pose& pose_b);
 
-  // The point of the difference of the cores, A - B, that lies furthest in the direction. Counted.
+  // Returns the point of the difference of the cores, A - B, that is furthest in the direction, and
+  // counts the call.
   template <class WhichA = AnyCore, class WhichB = AnyCore>
   DifferencePoint<Scalar> support(const Vec3<Scalar>& direction) {
     ++support_calls_;
@@ -88,19 +90,20 @@ class SupportPair {
     return point;
   }
 
-  // For those that find support points themselves, as vectors: see simplex_walk.inl.
+  // Access for code that finds support points itself in vectors: see gjk_iteration.inl.
   PosedShape<Scalar>& a() { return a_; }
   PosedShape<Scalar>& b() { return b_; }
   void count_support() { ++support_calls_; }
 
-  // Inside body b; body a's is the origin. So the difference has -centre_b() inside.
+  // A point inside body b. Body a's centre is the origin, so -centre_b() is inside the difference.
   const Vec3<Scalar>& centre_b() const { return centre_b_; }
   Scalar radius_a() const { return a_.radius(); }
   Scalar radius_b() const { return b_.radius(); }
   Scalar radius() const { return a_.radius() + b_.radius(); }
-  bool is_polytope() const { return is_polytope_; }  // both cores are
-  bool is_smooth() const { return is_smooth_; }  // neither has a corner or an edge, one is no point
-  double unit() const { return unit_; }          // metres, a power of two
+  bool is_polytope() const { return is_polytope_; }  // both cores are polytopes
+  // Neither core has a corner or an edge; at most one is a point.
+  bool is_smooth() const { return is_smooth_; }
+  double unit() const { return unit_; }  // metres, a power of two
   // A support call is one point of the difference.
   int support_calls() const { return support_calls_; }
 

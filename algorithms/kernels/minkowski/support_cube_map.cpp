@@ -1,3 +1,5 @@
+// Builds the cube map: divides each face of the cube and keeps the vertices that may be furthest
+// there.
 #include "algorithms/kernels/minkowski/support_cube_map.h"
 
 #include <algorithm>
@@ -8,8 +10,8 @@
 namespace touchstone {
 namespace {
 
-// Some vertices, by coordinate, with their places: ascending. Copies of the last fill them up to a
-// multiple of eight, as many as the widest vectors have.
+// Some vertices by coordinate, with their places, ascending. Copies of the last vertex pad them to
+// a multiple of eight, the lanes of the widest vectors.
 struct Vertices {
   std::vector<double> x, y, z;
   std::vector<std::uint32_t> places;
@@ -35,7 +37,7 @@ struct Vertices {
   }
 };
 
-// Of five vertices, how far they lie in the directions of a cell's four corners.
+// Heights of five vertices in the directions of a cell's four corners.
 using Bars = std::array<std::array<double, 4>, 5>;
 
 #define TOUCHSTONE_LANES real_lanes
@@ -44,21 +46,23 @@ using Bars = std::array<std::array<double, 4>, 5>;
 
 }  // namespace
 
-// One vertex beats another in all directions of a cell where it does so, by more than rounding, in
-// the directions of the cell's corners: all others are sums of these with positive weights. So a
-// vertex that is beaten there need not be looked at, for whoever beats it is, or is beaten too.
+// A vertex dominates another in all directions of a cell if it is further, by more than rounding,
+// in the directions of the cell's corners, since all others are sums of these with positive
+// weights. A vertex dominated at all four corners of a cell can be skipped: its dominator, or one
+// that dominates that, is kept.
 template <class Scalar>
 struct SupportCubeMap<Scalar>::Builder {
   SupportCubeMap& to;
-  double margin = 0;  // more than rounding, of directions whose greatest number is 1
-  double leeway = 0;  // how far beyond a cell the direction may be, as rounding finds it there
+  double margin = 0;  // more than rounding, for directions whose greatest component is 1
+  double leeway = 0;  // how far outside a cell a direction may be that rounding assigns to it
   std::size_t most_listed = 0;
 
-  // Those that may be the furthest somewhere in a part of a face, for each depth of the division.
+  // The vertices that may be furthest somewhere in a part of a face, for each depth of the
+  // division.
   std::vector<Vertices> parts;
   std::array<std::vector<double>, 4> along;
 
-  // Halves them across their longest side, at multiples of a block.
+  // Halves the vertices across their longest side, at multiples of a block.
   static void sort_by_place(std::span<std::uint32_t> numbers, std::span<const Vec3d> vertices) {
     if (numbers.size() <= block_size) return;
     Vec3d low = vertices[numbers[0]], high = low;
@@ -127,7 +131,7 @@ struct SupportCubeMap<Scalar>::Builder {
     for (std::vector<double>& numbers : along) numbers.resize(parts[0].x.size());
   }
 
-  // Whether the lists have room for it.
+  // Returns true if the lists have room for this many cells.
   bool divide(unsigned bits) {
     to.bits_ = bits;
     const auto side = static_cast<Scalar>(1u << bits);
@@ -144,7 +148,7 @@ struct SupportCubeMap<Scalar>::Builder {
     return true;
   }
 
-  // The square (u, v) of those at this depth.
+  // Divides the square (u, v) at this depth.
   bool divide(std::size_t face, unsigned depth, std::size_t u, std::size_t v) {
     const Vertices& part = sift(face, depth, u, v);
     if (depth == to.bits_) return write(part, to.cells_[(((face << depth) + v) << depth) + u]);
@@ -225,7 +229,8 @@ template <class Scalar>
 SupportCubeMap<Scalar>::SupportCubeMap(std::span<const Vec3<Scalar>> vertices) {
   Builder builder{.to = *this, .parts = {}, .along = {}};
   builder.place(vertices);
-  // About as many cells as vertices; fewer where many vertices are the furthest in many of them.
+  // There are about as many cells as vertices, and fewer if many vertices are furthest in many of
+  // the cells.
   unsigned bits = 0;
   while (std::size_t{12} << 2 * bits < vertices.size()) ++bits;
   builder.most_listed = 2 * vertices.size();

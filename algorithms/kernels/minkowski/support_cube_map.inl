@@ -1,5 +1,5 @@
-// The loops of direction_cells.h. Included by direction_cells.cpp once for each level of vector
-// instructions, inside that level's namespace.
+// The loops of support_cube_map.h. support_cube_map.cpp includes this file once for each level of
+// vector instructions, inside that level's namespace.
 
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real load(const Scalar* from) {
@@ -8,7 +8,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real load(const 
   return v;
 }
 
-// The best of `count` blocks. First the greatest value, then where it is.
+// Returns the best of `count` blocks: first the greatest value, then its place.
 template <class Scalar, std::size_t count>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename SupportCubeMap<Scalar>::Found best_of(
     const typename SupportCubeMap<Scalar>::Block* blocks, const std::uint16_t* chosen, Scalar x,
@@ -59,8 +59,8 @@ TOUCHSTONE_TARGET typename SupportCubeMap<Scalar>::Found furthest_at(
   return best;
 }
 
-// Writes to `along` how far each vertex lies in each of four directions, and returns which of them
-// lie furthest in these and in the middle of them.
+// Writes the height of each vertex in each of four directions to `along`. Returns the heights of
+// the vertices that are furthest in these and in their mean direction.
 TOUCHSTONE_TARGET inline Bars measure_at(const Vertices& vertices,
                                          const std::array<Vec3d, 4>& corners,
                                          std::array<std::vector<double>, 4>& along) {
@@ -107,7 +107,7 @@ TOUCHSTONE_TARGET inline Bars measure_at(const Vertices& vertices,
   return bars;
 }
 
-// Keeps the vertices that reach one of the four numbers of every bar.
+// Keeps the vertices that reach one of the four heights of every bar.
 TOUCHSTONE_TARGET inline void sift_at(const Vertices& from, const Bars& bars,
                                       const std::array<std::vector<double>, 4>& along,
                                       Vertices& to) {

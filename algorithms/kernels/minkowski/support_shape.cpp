@@ -1,3 +1,4 @@
+// Prepares shapes for support maps: centre, unit and vertices.
 #include "algorithms/kernels/minkowski/support_shape.h"
 
 #include <algorithm>
@@ -8,10 +9,10 @@
 namespace touchstone {
 namespace {
 
-// Where a hull has more vertices than this, a table of directions beats looking at all of them.
+// For more vertices than this the cube map is faster than a scan.
 constexpr std::size_t most_vertices_to_scan = 192;
 
-// How far the body's origin is inside the faces (metres); none where there are no faces.
+// The depth of the body's origin inside the faces (metres); zero if there are no faces.
 double origin_depth(const Hull& hull) {
   double depth = hull.faces.empty() ? 0 : std::numeric_limits<double>::infinity();
   for (const Hull::Face& face : hull.faces) {
@@ -23,11 +24,13 @@ double origin_depth(const Hull& hull) {
 template <class Scalar>
 void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
   const std::vector<Vec3d>& vertices = hull.vertices;
-  // The mean is taken relative to the first vertex: exact enough wherever the hull lies.
+  // The mean is computed relative to the first vertex, so that it is exact enough wherever the hull
+  // is.
   Vec3d mean = Vec3d::Zero();
   for (const Vec3d& vertex : vertices) mean += vertex - vertices[0];
   shape.centre = vertices[0] + mean / static_cast<double>(vertices.size());
-  // Where the body's origin is well inside it is as good, and the pose says where it is.
+  // A body's origin well inside the hull is as good a centre, and the pose gives its position
+  // exactly.
   if (origin_depth(hull) > 0.125 * (vertices[0] - shape.centre).stableNorm()) {
     shape.centre = Vec3d::Zero();
   }
@@ -57,7 +60,7 @@ void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
 }  // namespace
 
 double power_of_two_above(double length) {
-  // The exponent field, read from the bits: the numbers need no more care than that.
+  // The exponent field, read from the bits: the callers need no more precision.
   const auto field = static_cast<int>(std::bit_cast<std::uint64_t>(length) >> 52 & 0x7ff);
   if (field == 0) return 1;
   const int exponent = std::clamp(field + 1, 64, 1982);

@@ -1,4 +1,5 @@
-// A shape as the ball around a core: what a support map of it needs, made once for each scene.
+// A shape as a core with a ball around it, prepared for support maps once per scene. Used by every
+// narrow phase with support maps.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +23,8 @@ enum class SupportCore : std::uint8_t {
   halfspace
 };
 
-// A shape made ready for one scalar type, once for each scene. The core is stored relative to
-// `centre` and divided by the power of two `unit`, so that its coordinates are at most 1.
+// The prepared shape for one scalar type. The core is stored relative to `centre` and divided by
+// the power of two `unit`, so that its coordinates are at most 1.
 template <class Scalar>
 struct SupportShape {
   using Core = SupportCore;
@@ -32,18 +33,18 @@ struct SupportShape {
 
   Core core = Core::point;
   double unit = 1;             // metres
-  double size = 0;             // metres: no point of the core is further from the centre
-  double radius = 0;           // metres: of the ball around the core
+  double size = 0;             // metres: the core's greatest distance from the centre
+  double radius = 0;           // metres: radius of the ball around the core
   bool is_centred = true;      // the centre is the body's origin
   bool is_near_origin = true;  // no component of the centre exceeds the size
   Vec3d centre =
-      Vec3d::Zero();  // body coordinates: inside the shape (relatively, where it is flat)
+      Vec3d::Zero();  // body coordinates: inside the shape (its relative interior if it is flat)
   // Box: half extents; ellipsoid: semi-axes; segment, cylinder, cone: radius, radius, half length.
   Vec3<Scalar> extents = Vec3<Scalar>::Zero();
-  // Hull: its vertices, to look at all of them; or, where they are many, `cells` of them.
+  // Hull: its vertices for a scan, or, if there are many, their cube map `cells`.
   std::vector<hull_scan::VertexBlock<Scalar>> vertices;
   SupportCubeMap<Scalar> cells;
-  // The same once more, each in a place of its own: for those that want one and not all.
+  // The vertices once more, one after the other, for access to a single one.
   struct alignas(4 * sizeof(Scalar)) Corner {
     Scalar x, y, z;
   };
@@ -52,11 +53,11 @@ struct SupportShape {
   Vec3d normal = Vec3d::UnitZ();
   double offset = 0;
 
-  // About how far the turned body reaches from its centre (metres): within a factor of two.
+  // Extent of the rotated body from its centre (metres), within a factor of two.
   double reach(const Mat3d& rotation) const {
     return size * rotation.cwiseAbs().maxCoeff() + radius;
   }
-  // Hull: the vertex furthest in the direction.
+  // Hull: the index of the vertex that is furthest in the direction.
   std::uint32_t furthest(const Vec3<Scalar>& direction) const {
     if (!cells.empty()) return cells.number(cells.furthest(direction).place);
     return hull_scan::furthest(std::span<const hull_scan::VertexBlock<Scalar>>(vertices),
@@ -66,7 +67,7 @@ struct SupportShape {
     const Corner& corner = corners[i];
     return {corner.x, corner.y, corner.z};
   }
-  // The same, of a hull without cells; quicker where all were just looked at.
+  // Like `vertex`, for a hull without a cube map; faster directly after a scan.
   Vec3<Scalar> scanned_vertex(std::uint32_t i) const {
     constexpr std::uint32_t lanes = hull_scan::VertexBlock<Scalar>::size;
     return vertices[i / lanes].vertex(i % lanes);
@@ -78,8 +79,8 @@ struct SupportShape {
 template <class Scalar>
 std::vector<SupportShape<Scalar>> make_support_shapes(std::span<const Shape> shapes);
 
-// The least power of two above a length, so that length / result is in [1/2, 1); 1 for zero. Held
-// to where the result and its inverse are normal numbers.
+// The least power of two above a length, so that length / result is in [1/2, 1); 1 for zero.
+// Clamped so that the result and its inverse are normal numbers.
 double power_of_two_above(double length);
 
 }  // namespace touchstone
