@@ -39,7 +39,7 @@ template <class Scalar>
 struct WalkStart {
   explicit WalkStart(const Vec3<Scalar>& towards) : way(towards) {}
 
-  Vec3<Scalar> way;         // from the origin to the simplex's nearest point, any length
+  Vec3<Scalar> way;  // from the origin to the simplex's nearest point, or towards the difference
   Simplex<Scalar> simplex;  // may be empty; otherwise only corners of the nearest point's feature
 };
 

@@ -1,3 +1,4 @@
+// The 15 axes of two boxes, from products of their matrices.
 #include "algorithms/kernels/sat/box_box.h"
 
 #include <cmath>
@@ -6,8 +7,8 @@
 namespace touchstone {
 namespace {
 
-// The best face normal of `from`, outward, with `offset` from its centre to that of the other box,
-// and products(i, j) of its normals with the other's edges.
+// Returns the best outward face normal of `from`. `offset` is the vector from its centre to that of
+// the other box, and products(i, j) are the products of its normals with the other's edges.
 template <class Scalar>
 Axis<Scalar> best_face(const PlacedPolytope<Scalar>& from, const Vec3<Scalar>& half,
                        const Vec3<Scalar>& half_other, const Mat3<Scalar>& products,
@@ -49,10 +50,10 @@ Axis<Scalar> box_axis(const PolytopePair<Scalar>& pair, int& tested) {
       const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       Vec3<Scalar> normal = a.matrix.col(i).cross(b.matrix.col(j));
       const Scalar sine = normal.norm();
-      // The facet is too narrow to matter; the faces beside it are square to each other.
+      // The facet is too narrow to matter: the faces beside it are perpendicular to each other.
       if (sine < 64 * std::numeric_limits<Scalar>::epsilon()) continue;
       ++tested;
-      // |a_k . (a_i x b_j)| is the product of the third normal of a with b_j, and so for b.
+      // |a_k . (a_i x b_j)| is the product of the third normal of a with b_j, and likewise for b.
       const Scalar between = normal.dot(offset);
       const Scalar reach =
           half_a[i1] * std::abs(normals_a(i2, j)) + half_a[i2] * std::abs(normals_a(i1, j)) +

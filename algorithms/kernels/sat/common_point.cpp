@@ -1,3 +1,4 @@
+// The witness points of a separating-axis test, from the supporting features seen along the axis.
 #include "algorithms/kernels/sat/common_point.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-// A vertex, and how it is seen along the normal: two coordinates, and zero.
+// A vertex and its projection along the normal: two coordinates, and zero.
 template <class Scalar>
 struct Corner {
   Vec3<Scalar> point, seen;
@@ -21,8 +22,8 @@ Scalar turn(const Vec3<Scalar>& p, const Vec3<Scalar>& q, const Vec3<Scalar>& r)
   return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
 }
 
-// The feature that supports the body in a direction, as a convex polygon seen along the normal,
-// anticlockwise; one or two corners are possible.
+// Returns the feature that supports the body in a direction, as a convex polygon projected along
+// the normal, anticlockwise. It may have one or two corners.
 template <class Scalar>
 std::vector<Corner<Scalar>> feature(const PlacedPolytope<Scalar>& body,
                                     const Vec3<Scalar>& direction, const Vec3<Scalar>& u,
@@ -50,7 +51,7 @@ std::vector<Corner<Scalar>> feature(const PlacedPolytope<Scalar>& body,
       }
       polygon.push_back(*at);
     }
-    polygon.pop_back();  // the other chain begins with it
+    polygon.pop_back();  // it is the first point of the other chain
   };
   add_chain(corners.begin(), corners.end());
   add_chain(corners.rbegin(), corners.rend());

@@ -1,3 +1,4 @@
+// Selects the instruction level for the arc test in gauss_arcs.inl.
 #include "algorithms/kernels/sat/gauss_arcs.h"
 
 #include <bit>
@@ -10,8 +11,8 @@
 namespace touchstone {
 namespace {
 
-// Products of vectors that are off by a few roundings each, and whose matrices stretch by less than
-// 4: those below may have either sign.
+// Products of vectors with a few roundings each, under matrices that stretch by less than 4: a
+// product below this may have either sign.
 constexpr float uncertain = 256 * std::numeric_limits<float>::epsilon();
 
 #define TOUCHSTONE_LANES real_lanes

@@ -1,7 +1,7 @@
-// The loop of gauss_arcs.h. Included by gauss_arcs.cpp once for each level of vector instructions,
-// inside that level's namespace.
+// The loop of gauss_arcs.h. gauss_arcs.cpp includes this file once for each level of vector
+// instructions, inside that level's namespace.
 
-// Which of the block's arcs may cross.
+// Returns the block's arcs that may cross, as bits.
 TOUCHSTONE_TARGET inline unsigned crossing_of(const GaussBlock& block, const GaussArc& arc) {
   using Lanes = RealLanes<float>;
   using Real = Lanes::Real;
@@ -18,12 +18,12 @@ TOUCHSTONE_TARGET inline unsigned crossing_of(const GaussBlock& block, const Gau
     };
     const Real b_left = product(3, arc.direction), b_right = product(6, arc.direction);
     const Real a_left = product(0, arc.left), a_right = product(0, arc.right);
-    // Both ends of one arc on one side of the other's circle.
+    // Both ends of one arc are on one side of the other's circle.
     const unsigned same_side = Lanes::bits(Lanes::less(most, Lanes::min(b_left, b_right))) |
                                Lanes::bits(Lanes::less(Lanes::max(b_left, b_right), least)) |
                                Lanes::bits(Lanes::less(most, Lanes::min(a_left, a_right))) |
                                Lanes::bits(Lanes::less(Lanes::max(a_left, a_right), least));
-    // The circles meet in two points, and the arcs are at opposite ones.
+    // The circles meet in two points, and the arcs pass through opposite ones.
     const unsigned opposite =
         (Lanes::bits(Lanes::less(most, a_left)) & Lanes::bits(Lanes::less(b_left, least))) |
         (Lanes::bits(Lanes::less(a_left, least)) & Lanes::bits(Lanes::less(most, b_left)));

@@ -1,3 +1,4 @@
+// The hull of coplanar points by Andrew's monotone chain, in long double.
 #include "algorithms/kernels/sat/planar_hull.h"
 
 #include <algorithm>
@@ -8,8 +9,8 @@ namespace {
 
 using Vec = Vec3<long double>;
 
-// The boundary as indices, anticlockwise about `normal`: Andrew's monotone chain in the coordinate
-// plane that the normal is most nearly across.
+// Returns the boundary as indices, anticlockwise about `normal`, by Andrew's monotone chain in the
+// coordinate plane that is most nearly perpendicular to the normal.
 std::vector<std::uint32_t> boundary_loop(std::span<const Vec> points, const Vec& normal) {
   Eigen::Index drop = 0;
   normal.cwiseAbs().maxCoeff(&drop);
@@ -35,7 +36,7 @@ std::vector<std::uint32_t> boundary_loop(std::span<const Vec> points, const Vec&
       }
       loop.push_back(*at);
     }
-    loop.pop_back();  // the other chain begins with it
+    loop.pop_back();  // it is the first point of the other chain
   };
   add_chain(order.begin(), order.end());
   add_chain(order.rbegin(), order.rend());

@@ -1,3 +1,4 @@
+// Makes polytopes from boxes and hulls, with normals and edges computed in long double.
 #include "algorithms/kernels/sat/polytope.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 using Wide = long double;
 using Vec = Vec3<Wide>;
 
-// Gathers faces and edges in long double, relative to `centre`.
+// Collects faces and edges in long double, relative to `centre`.
 struct Builder {
   struct Edge {
     Vec direction, point;
@@ -35,7 +36,7 @@ struct Builder {
     if (length > 0) edges.push_back({along / length, tail, left, right});
   }
 
-  // The box about `middle` along the columns of `frame`.
+  // Adds the box around `middle` along the columns of `frame`.
   void add_box(const Vec& middle, const Mat3<Wide>& frame, const Vec& half) {
     for (int axis = 0; axis < 3; ++axis) {
       add_face(-frame.col(axis));
@@ -89,8 +90,8 @@ void build_flat(Builder& out) {
   }
 }
 
-// Twice the area vector of the loop (Newell), so that each vertex counts; the hull's own normal
-// where that vanishes.
+// Twice the area vector of the loop (Newell), so that each vertex counts, or the hull's own normal
+// if the area is zero.
 Vec face_normal(const std::vector<Vec>& vertices, const Hull::Face& face) {
   Vec area = Vec::Zero();
   const Vec& first = vertices[face.loop[0]];
@@ -111,8 +112,8 @@ void build_solid(Builder& out, const Hull& hull) {
   }
 }
 
-// The greatest normal . v over vertices, for many normals: doubles find where it can be, and only
-// there long doubles are asked.
+// The greatest normal . v over vertices, for many normals. Doubles find the blocks that can hold
+// it, and only there long doubles are used.
 class Offsets {
  public:
   explicit Offsets(const std::vector<Vec>& vertices)
@@ -123,11 +124,11 @@ class Offsets {
     for (const Vec& v : vertices) reach_ = std::max(reach_, static_cast<double>(v.norm()));
   }
 
-  // Of a unit vector.
+  // `normal` must be a unit vector.
   Wide along(const Vec& normal) const {
     const Vec3<double> n = normal.cast<double>();
     const std::span<const Block> all(blocks_);
-    // Either value is off by less than four roundings of what a unit vector makes of the reach.
+    // Each value is off by less than four roundings of the product of a unit vector and the reach.
     const double slack = 8 * std::numeric_limits<double>::epsilon() * reach_;
     const double least = hull_scan::greatest(all, n) - slack;
     Wide offset = normal.dot(vertices_[0]);
@@ -199,7 +200,7 @@ Polytope<Scalar> make_polytope(const Shape& shape) {
       high = high.cwiseMax(v);
     }
     const Vec3d middle = low + (high - low) / 2;
-    // Nearer its origin a body gains nothing from another centre, and a query would pay for it.
+    // A body near its origin gains nothing from another centre, and each query would pay for it.
     if (middle.stableNorm() > (high - low).stableNorm()) centre = middle;
     double reach = 0;
     for (const Vec3d& v : hull.vertices) reach = std::max(reach, (v - centre).stableNorm());

@@ -1,4 +1,5 @@
-// A box or hull made ready for separating-axis tests: vertices, face normals and edges in one form.
+// A box or hull prepared for separating-axis tests: vertices, face normals and edges. Used by sat,
+// sat-faces, closed-form and clipped-faces.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +14,24 @@
 
 namespace touchstone {
 
-// Point k of the body, in body coordinates (metres), is centre + scale * (x[k], y[k], z[k]), where
-// scale is a power of two, so that the stored numbers are about 1 for every size of body, and
+// Point k of the body, in body coordinates (metres), is centre + scale * (x[k], y[k], z[k]). The
+// scale is a power of two, so that the stored numbers are about 1 for every size of body. The
 // centre is zero unless the body lies far from its own origin.
 //
-// The normals and edge directions were computed in long double, from the vertices before they were
-// rounded to Scalar: faces that are slivers, and coordinates rounded to float, do not tilt them.
+// Normals and edge directions are computed in long double, from the vertices before they are
+// rounded to Scalar, so that faces that are slivers, and coordinates rounded to float, do not tilt
+// them.
 //
-// Bodies without volume are solids of zero thickness, which gives each edge two or four arcs of
-// normals of 90 degrees instead of one that cannot be told from its complement:
-// a flat hull is a prism (both sides of its plane, and its sides), a segment or point a box.
+// Bodies without volume are solids of zero thickness: a flat hull is a prism (both sides of its
+// plane, and its sides), a segment or point a box. Each edge then has two or four arcs of normals
+// of 90 degrees, instead of one that cannot be distinguished from its complement.
 template <class Scalar>
 struct Polytope {
   struct Face {
     Vec3<Scalar> normal;  // outward, unit length
     Scalar offset;        // greatest normal . v over the stored vertices
   };
-  // The outward normals at the edge are the arc from left's normal to right's, and the direction is
+  // The outward normals at the edge form the arc from left's normal to right's. Its direction is
   // that of left's normal x right's normal.
   struct Edge {
     Vec3<Scalar> direction;  // unit length
@@ -39,18 +41,17 @@ struct Polytope {
 
   Vec3d centre = Vec3d::Zero();
   double scale = 1;
-  Scalar reach = 0;       // >= |v| of each stored vertex v
-  std::size_t count = 0;  // vertices; behind them the first is repeated up to a whole block
+  Scalar reach = 0;       // upper bound on |v| of the stored vertices
+  std::size_t count = 0;  // number of vertices; copies of the first pad the last block
   std::vector<hull_scan::VertexBlock<Scalar>> vertices;
   std::vector<Face> faces;
   std::vector<Edge> edges;
   GaussArcs arcs;  // of the edges, in their order
-  // Faces and edges are left out where a hull has more: a test along all of them would take
+  // A hull with more vertices gets no faces and edges, since a test along all of them would take
   // seconds.
   static constexpr std::size_t most_vertices = 16384;
 
-  // False where a solid came without faces, or is too large: then the axes do not prove that bodies
-  // overlap.
+  // False if a solid has no faces or is too large: then the axes do not prove an overlap.
   bool complete = true;
   bool too_large = false;
 
@@ -65,7 +66,7 @@ struct Polytope {
   }
 };
 
-// Of a box or a hull.
+// The shape must be a box or a hull.
 template <class Scalar>
 Polytope<Scalar> make_polytope(const Shape& shape);
 

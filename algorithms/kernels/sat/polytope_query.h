@@ -1,5 +1,5 @@
-// What the separating axis tests share: boxes and hulls made ready, against each other or against a
-// half-space, which has no axis but its own.
+// The loop over a batch that the separating axis tests share: prepared boxes and hulls, against
+// each other or against a half-space, which has only its own axis. Used by sat and sat-faces.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace touchstone {
 
-// Whether the pair is of flat-sided bodies, of which b may be a half-space: a contract's
-// `supports`.
+// Returns true if both bodies are boxes or hulls, or b is a half-space. It is the `supports` of
+// both contracts' entries.
 inline bool are_flat_sided(ShapeKind a, ShapeKind b, Task) {
   const auto bounded = [](ShapeKind kind) {
     return kind == ShapeKind::box || kind == ShapeKind::hull;
@@ -33,8 +33,9 @@ class PolytopeShapes {
     support_shapes_ = make_support_shapes<Scalar>(shapes);
   }
 
-  // For a batch of the narrow phase's contract: answers pairs with a half-space, and calls
-  // solve_pair(const PolytopePair<Scalar>&, i) for each of the others, i its place in the batch.
+  // Solves a batch of the narrow phase's contract: answers pairs with a half-space, and calls
+  // solve_pair(const PolytopePair<Scalar>&, i) for each other pair, where i is its place in the
+  // batch.
   template <class Batch, class SolvePair>
   void solve(const Batch& batch, std::span<Outcome> outcomes, const SolvePair& solve_pair) const {
     for (std::size_t i = 0; i < batch.size(); ++i) {

@@ -1,8 +1,8 @@
-// The closest points of two segments.
-// Paper: Ericson, "Real-Time Collision Detection", 2005, section 5.1.9. Departs: the crossing of
-// the two lines comes from cross products, which keep their digits where the lines are almost
-// parallel, and is refined from there; the ends are candidates beside it, so that no case depends
-// on a threshold.
+// The closest points of two segments. Used by closed-form and common_point.
+// Paper:   Ericson, "Real-Time Collision Detection", 2005, section 5.1.9.
+// Departs: the closest points of the two lines come from cross products, which keep their digits if
+//          the lines are almost parallel, and are refined from there. The ends are candidates too,
+//          so that no case depends on a threshold.
 #pragma once
 
 #include <algorithm>
@@ -50,15 +50,15 @@ SegmentPoints<Scalar> closest_points(const Segment<Scalar>& p, const Segment<Sca
   if (!(square > 0)) return best;
   Scalar s = 0, t = 0;
   for (int step = 0; step < 3; ++step) {
-    // How far the lines' closest points are from where s and t now stand.
+    // The parameters' distances from the lines' closest points.
     const Vec3<Scalar> between = q.at(t) - p.at(s);
     const Scalar ds = between.cross(q.along).dot(across) / square;
     const Scalar dt = between.cross(p.along).dot(across) / square;
     s = std::clamp(s + ds, Scalar{0}, Scalar{1});
     t = std::clamp(t + dt, Scalar{0}, Scalar{1});
   }
-  // Of almost parallel lines s and t are uncertain, but a point of one has its nearest on the
-  // other.
+  // For almost parallel lines s and t are uncertain, but each point of one has a well-defined
+  // nearest point on the other.
   offer(points(s, q.nearest(p.at(s))));
   offer(points(p.nearest(q.at(t)), t));
   return best;

@@ -1,3 +1,4 @@
+// Gaps along the centre line and face normals, their error bound, and the report of the best axis.
 #include "algorithms/kernels/sat/separating_axis.h"
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 namespace touchstone {
 namespace {
 
-// From the centre of a to the centre of b (metres, world axes). A body far from its own origin has
-// a centre other than zero, and that is moved with more digits than a double has.
+// The vector from the centre of a to the centre of b (metres, world axes). A body far from its own
+// origin has a nonzero centre, which needs more digits than a double has.
 template <class Scalar>
 Vec3d centre_offset(const Polytope<Scalar>& a, const Pose& pose_a, const Polytope<Scalar>& b,
                     const Pose& pose_b) {
@@ -39,7 +40,8 @@ PlacedPolytope<Scalar> place(const Polytope<Scalar>& shape, const Mat3d& rotatio
   return placed;
 }
 
-// The best of the face normals of `from`, outward; `offset` leads from its origin to that of `to`.
+// Returns the best outward face normal of `from`. `offset` is the vector from its origin to that of
+// `to`.
 template <class Scalar>
 Axis<Scalar> best_face(const PlacedPolytope<Scalar>& from, const PlacedPolytope<Scalar>& to,
                        const Vec3<Scalar>& offset, Scalar enough, int& tested) {
@@ -61,12 +63,12 @@ Axis<Scalar> best_face(const PlacedPolytope<Scalar>& from, const PlacedPolytope<
 template <class Scalar>
 PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a,
                                    const Polytope<Scalar>& b, const Pose& pose_b) {
-  // Frobenius norms bound what the matrices do to lengths.
+  // Frobenius norms bound the factor by which the matrices stretch lengths.
   const double stretch_a = pose_a.rotation.norm(), stretch_b = pose_b.rotation.norm();
   const double reach_a = static_cast<double>(a.reach) * a.scale * stretch_a;
   const double reach_b = static_cast<double>(b.reach) * b.scale * stretch_b;
   const Vec3d offset = centre_offset(a, pose_a, b, pose_b);
-  // The squares of what is shorter than this vanish, and the norm is no bound.
+  // The squares of shorter lengths underflow, and the norm is then no bound.
   constexpr double shortest = 1e-140;
   far_apart_ = offset.cwiseAbs().maxCoeff() > 1.001 * (reach_a + reach_b) && stretch_a > shortest &&
                stretch_b > shortest;
@@ -75,16 +77,16 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
   a_ = place(a, pose_a.rotation, unit_);
   b_ = place(b, pose_b.rotation, unit_);
   b_.origin = (offset / unit_).template cast<Scalar>();
-  // Rounding: of the stored numbers, of the matrices, of normals and axes (a turn of the axis moves
-  // the gap by as much times the reach), and of the products. Each is a few roundings of at most
-  // half an epsilon of what goes into it.
+  // The bound covers rounding of the stored numbers, the matrices, normals and axes (a rotation of
+  // the axis moves the gap by its angle times the reach), and of the products. Each is a few
+  // roundings of at most half an epsilon of its operands.
   const auto size = static_cast<Scalar>((reach_a + reach_b) / (unit_ * std::sqrt(3.0)));
-  // What centre_offset loses where the bodies lie far from their own origins.
+  // The error of centre_offset if the bodies lie far from their own origins.
   const double lost = 4 * static_cast<double>(std::numeric_limits<long double>::epsilon()) *
                       (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
   error_ = 8 * std::numeric_limits<Scalar>::epsilon() * (size + b_.origin.norm()) +
            static_cast<Scalar>(lost / unit_);
-  // What is bounded above holds for matrices that are about rotations or reflections.
+  // The error bound holds for matrices close to rotations or reflections.
   const auto usable = [](const PlacedPolytope<Scalar>& body) {
     return body.determinant > Scalar{0.5} && body.determinant < Scalar{2} &&
            body.matrix.cwiseAbs().maxCoeff() < Scalar{1.5};
