@@ -5,7 +5,7 @@
 
 namespace touchstone {
 
-// Wall-clock time since it was made, from a clock that never goes back.
+// Wall-clock time since construction, from a clock that never goes backward.
 class Stopwatch {
  public:
   using Clock = std::chrono::steady_clock;
@@ -13,8 +13,8 @@ class Stopwatch {
   double seconds() const { return std::chrono::duration<double>(now_() - start_).count(); }
   void restart() { start_ = now_(); }
 
-  // Tests of what is made of times put a clock of their own in its place, for their process and
-  // what it forks.
+  // Replaces the clock in this process and its children. Tests of code that depends on times use
+  // it.
   static void use(Clock::time_point (*now)()) { now_ = now; }
 
  private:

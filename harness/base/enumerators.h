@@ -1,4 +1,4 @@
-// The values of an enumeration, from the compiler: no list of them is kept by hand.
+// The values of an enumeration, derived by the compiler, so that no list is kept by hand.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-// True where `value` has a name in its enumeration. The compiler writes other values as a cast,
+// True if `value` has a name in its enumeration. The compiler prints other values as a cast,
 // "(touchstone::Phase)7".
 template <auto value>
 constexpr bool is_enumerator() {
@@ -30,7 +30,7 @@ constexpr std::size_t count_enumerators() {
   }
 }
 
-// All values of an enumeration whose values are 0, 1, 2, ... in their order.
+// All values of an enumeration whose values are 0, 1, 2, ... in order.
 template <class Enum>
 requires std::is_enum_v<Enum>
 inline constexpr auto enumerators = [] {

@@ -1,4 +1,4 @@
-// Wrong requests and wrong input, told to the user with their place.
+// Faults of requests and input, reported to the user with their place.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace touchstone {
 
-// The request or an input file is wrong. main() prints the message and exits with status 2; nothing
-// has been written by then. Readers check all of a file before anything is made of it.
+// A fault of the request or of an input file. main() prints the message and exits with status 2;
+// nothing has been written by then, because readers check a whole file before anything uses it.
 class InputError : public std::runtime_error {
  public:
-  // "what was found; what was expected", for a fault of the command line.
+  // A fault of the command line: "the value found; the value expected".
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  // The same for a place in a file: "FILE:LINE: message", or "FILE: message" where line is 0.
+  // A fault at a place in a file: "FILE:LINE: message", or "FILE: message" if line is 0.
   InputError(const std::string& file, std::int64_t line, const std::string& message)
       : std::runtime_error(file + ":" + (line > 0 ? std::to_string(line) + ":" : "") + " " +
                            message) {}

@@ -1,4 +1,4 @@
-// The fingerprint of a set of pairs.
+// The fingerprint of a set of pairs, and the hash that it uses.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ constexpr std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// The sum modulo 2^64 of mix(a * 2^32 + b): the same for every order of the pairs.
+// The sum modulo 2^64 of mix(a * 2^32 + b). It does not depend on the order of the pairs.
 inline std::uint64_t pair_hash(std::span<const IndexPair> pairs) {
   std::uint64_t sum = 0;
   for (const IndexPair& p : pairs) sum += mix((std::uint64_t{p.a} << 32) + p.b);

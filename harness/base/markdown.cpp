@@ -1,3 +1,4 @@
+// Writes Markdown tables and whole text files.
 #include "harness/base/markdown.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Tables in Markdown.
+// Tables in Markdown, and text files.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,16 @@
 
 namespace touchstone::stats {
 
-// One row; what would end a cell is made harmless.
+// One row; characters that would end a cell are escaped.
 std::string markdown_row(const std::vector<std::string>& cells);
 
-// The header and the rule below it; the first `words` columns are to the left, the others to the
-// right.
+// The header and the rule below it. The first `words` columns are aligned left, the others right.
 std::string markdown_header(const std::vector<std::string>& names, std::size_t words = 1);
 
-// A number to four digits, "-" for NaN.
+// A number with four digits, or "-" for NaN.
 std::string cell(double value);
 
-// InputError where the file cannot be written whole.
+// Throws InputError if the file cannot be written whole.
 void write_text(const std::filesystem::path& file, const std::string& content);
 
 }  // namespace touchstone::stats

@@ -1,4 +1,5 @@
-// Products written out, so that they round the same on every platform and with every Eigen.
+// Vector products in plain arithmetic, so that they round equally on every platform and with every
+// Eigen.
 #pragma once
 
 #include <array>
@@ -14,17 +15,17 @@ inline Vec3d outer(const Vec3d& u, const Vec3d& v) {
   return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
           u.x() * v.y() - u.y() * v.x()};
 }
-// Of length 1 up to rounding; x where v is zero. No square overflows or vanishes.
+// A vector of length 1 up to rounding; the x axis if v is zero. No square overflows or underflows.
 inline Vec3d unit(const Vec3d& v) {
   const double greatest = v.cwiseAbs().maxCoeff();
   if (!(greatest > 0)) return Vec3d::UnitX();
   const Vec3d scaled = v / greatest;
   return scaled / length(scaled);
 }
-// A unit vector at right angles to the unit vector n, nearest to `wish` (not along n).
+// The unit vector perpendicular to the unit vector n that is nearest to `wish` (not along n).
 inline Vec3d beside(const Vec3d& n, const Vec3d& wish) { return unit(outer(outer(n, wish), n)); }
 
-// The same in twice the precision.
+// The same products in double-double precision.
 inline DoubleDouble3 exactly(const Vec3d& v) { return {{v.x(), 0}, {v.y(), 0}, {v.z(), 0}}; }
 inline DoubleDouble3 scaled(const DoubleDouble3& v, const DoubleDouble& factor) {
   return {v.x * factor, v.y * factor, v.z * factor};
@@ -36,7 +37,7 @@ inline DoubleDouble3 times(const Mat3d& m, const DoubleDouble3& v) {
   };
   return {row(0), row(1), row(2)};
 }
-// A unit vector's direction with length 1 to about 1e-31.
+// The direction of v with length 1 to about 1e-31.
 inline DoubleDouble3 true_unit(const Vec3d& v) {
   const Vec3d n = unit(v);
   const DoubleDouble3 wide = exactly(n);

@@ -1,3 +1,4 @@
+// Draws the progress of a long job on standard error.
 #include "harness/base/progress.h"
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// How far a long job is.
+// The progress of a long job.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace touchstone {
 
-// A bar that is drawn over itself on a terminal (standard error), a line a step otherwise.
+// A bar that is redrawn on a terminal (standard error), or one line per step elsewhere.
 class Progress {
  public:
-  // `steps` > 0 in all.
+  // `steps` > 0 is the total number of steps.
   explicit Progress(std::size_t steps);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Step `label` begins.
+  // Starts the step `label`.
   void start(const std::string& label);
-  // How much of the present step is done, 0 to 1: moves the bar, prints no line.
+  // Sets the finished fraction of the current step, 0 to 1. Moves the bar and prints no line.
   void part(double fraction);
 
  private:

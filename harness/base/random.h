@@ -1,4 +1,4 @@
-// Random numbers that are the same on every platform.
+// Random numbers that are equal on every platform.
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@
 
 namespace touchstone {
 
-// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014),
-// with distributions of plain arithmetic: those of the standard library differ between its makers.
+// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014)
+// with distributions in plain arithmetic, because those of the standard library differ between
+// vendors.
 class Random {
  public:
-  // Streams of one seed are independent of each other.
+  // Streams of one seed are independent.
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
       : state_(mix(seed) ^ mix(mix(stream))) {}
 
@@ -23,10 +24,10 @@ class Random {
     state_ += 0x9e3779b97f4a7c15;
     return value;
   }
-  // [0, 1), a multiple of 2^-53.
+  // A multiple of 2^-53 in [0, 1).
   double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * unit(); }
-  // [0, n), n > 0, every value equally often.
+  // An integer in [0, n), n > 0; all values are equally likely.
   std::uint64_t below(std::uint64_t n) {
     const std::uint64_t limit = ~std::uint64_t{0} - ~std::uint64_t{0} % n;
     for (;;) {
@@ -34,7 +35,7 @@ class Random {
       if (value < limit) return value % n;
     }
   }
-  // Evenly over the magnitudes of [low, high], 0 < low <= high: an octave, then a place in it.
+  // A number in [low, high], 0 < low <= high, even over magnitudes: an octave, then a place in it.
   double magnitude(double low, double high) {
     int first = 0, last = 0;
     std::frexp(low, &first);
@@ -46,9 +47,9 @@ class Random {
       if (low == high) return low;
     }
   }
-  // From the normal distribution of mean 0 and deviation 1, exactly, by comparing uniform numbers
-  // (Karney, "Sampling exactly from the normal distribution", ACM TOMS 42(1), 2016, algorithm N):
-  // logarithms are not the same everywhere.
+  // A number from the normal distribution of mean 0 and deviation 1, exactly, by comparison of
+  // uniform numbers (Karney, "Sampling exactly from the normal distribution", ACM TOMS 42(1), 2016,
+  // algorithm N). Logarithms differ between platforms.
   double normal() {
     for (;;) {
       int k = 0;
@@ -56,19 +57,19 @@ class Random {
       bool kept = true;  // with probability exp(-k (k - 1) / 2)
       for (int i = 0; kept && i < k * (k - 1); ++i) kept = exponential_coin(0.5);
       const double x = unit();
-      // exp(-x (2 k + x) / 2), in k + 1 parts whose exponents are at most 1
+      // The exponential exp(-x (2 k + x) / 2), in k + 1 factors whose exponents are at most 1.
       for (int i = 0; kept && i <= k; ++i) kept = exponential_coin(x * (2 * k + x) / (2 * k + 2));
       if (kept) return below(2) == 0 ? k + x : -(k + x);
     }
   }
-  // Evenly in the unit ball.
+  // A point in the unit ball, evenly distributed.
   Vec3d in_ball() {
     for (;;) {
       const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
       if (x * x + y * y + z * z <= 1) return {x, y, z};
     }
   }
-  // Evenly on the unit sphere, up to rounding.
+  // A point on the unit sphere, evenly distributed up to rounding.
   Vec3d on_sphere() {
     for (;;) {
       const Vec3d v = in_ball();
@@ -76,7 +77,7 @@ class Random {
       if (norm > 0.01) return {v.x() / norm, v.y() / norm, v.z() / norm};
     }
   }
-  // Evenly over all rotations.
+  // A rotation, evenly distributed over all rotations.
   Mat3d rotation() {
     for (;;) {
       const double w = uniform(-1, 1), x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
@@ -86,7 +87,8 @@ class Random {
   }
 
  private:
-  // True with probability exp(-t), 0 <= t <= 1 (von Neumann 1951): the length of a falling run.
+  // Returns true with probability exp(-t), 0 <= t <= 1 (von Neumann 1951), by the length of a
+  // falling run.
   bool exponential_coin(double t) {
     bool even = true;
     for (double last = t;; even = !even) {

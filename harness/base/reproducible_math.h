@@ -1,8 +1,7 @@
 // Arithmetic that gives the same bits on every platform, for seeded scenes.
 //
-// Only + - * / and square root are rounded the same everywhere (IEEE 754); the functions of libm
-// are not, and a matrix product of Eigen may be fused or reordered where the vector unit is
-// another.
+// Only + - * / and the square root round equally everywhere (IEEE 754). The functions of libm do
+// not, and a matrix product of Eigen may be fused or reordered on another vector unit.
 #pragma once
 
 #include <array>
@@ -16,14 +15,14 @@ struct SinCos {
   double sin, cos;
 };
 
-// Sine and cosine of an angle in turns (1 = 360 degrees), right to about an ulp of the angle; exact
-// at multiples of a quarter.
+// Sine and cosine of an angle in turns (1 = 360 degrees), correct to about an ulp of the angle and
+// exact at multiples of a quarter.
 inline SinCos sin_cos_turns(double turns) {
   turns -= std::floor(turns);
   const int quarter = static_cast<int>(std::floor(4 * turns + 0.5));  // 0 to 4
   const double x = 6.283185307179586476925 * (turns - 0.25 * quarter);
   const double xx = x * x;
-  // Taylor's series on [-pi/4, pi/4], from the smallest term; the next one is below half an ulp.
+  // Taylor's series on [-pi/4, pi/4], from the smallest term; the next term is below half an ulp.
   double s = 0, c = 0;
   for (int n = 16; n > 0; n -= 2) {
     s = (1 - s) * xx / (n * (n + 1));
@@ -39,7 +38,7 @@ inline SinCos sin_cos_turns(double turns) {
   }
 }
 
-// x > 0.
+// The cube root of x > 0.
 inline double cube_root(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);  // [0.5, 1)
@@ -75,7 +74,7 @@ inline Mat3d product(const Mat3d& a, const Mat3d& b) {
   return c;
 }
 
-// The rotation of a quaternion (w, x, y, z) of any length but zero. Exact for quarter turns.
+// The rotation of a nonzero quaternion (w, x, y, z) of any length. Exact for quarter turns.
 inline Mat3d rotation_of(const std::array<double, 4>& q) {
   const double w = q[0], x = q[1], y = q[2], z = q[3];
   const double s = 2 / (w * w + x * x + y * y + z * z);
@@ -86,7 +85,8 @@ inline Mat3d rotation_of(const std::array<double, 4>& q) {
   return r;
 }
 
-// The rotation by angular velocity w (radians a second) over a time (seconds): the exponential map.
+// The rotation by angular velocity w (radians per second) over a time (seconds): the exponential
+// map.
 inline Mat3d rotation_over(const Vec3d& w, double time) {
   const double rate = length(w);
   if (!(rate > 0)) return Mat3d::Identity();

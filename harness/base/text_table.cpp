@@ -1,3 +1,4 @@
+// Lays out a text table and splits it if it is wider than the page.
 #include "harness/base/text_table.h"
 
 #include <fmt/core.h>
@@ -9,7 +10,7 @@
 namespace touchstone {
 namespace {
 
-// Characters of UTF-8, as fmt counts them when it fills a field.
+// The number of UTF-8 characters, as fmt counts them when it pads a field.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & '\xc0') != '\x80'; }));

@@ -6,8 +6,8 @@
 
 namespace touchstone {
 
-// The first column is to the left, the others to the right. A table that is wider than the page is
-// cut into several, each with the first column again.
+// A table with the first column aligned left and the others right. A table wider than the page is
+// split into several, each with the first column again.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header) : rows_{std::move(header)} {}
@@ -18,7 +18,7 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// The terminal's width where standard output is one, else 120.
+// The terminal's width if standard output is a terminal, else 120 characters.
 std::size_t page_width();
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// A depth-buffered canvas with four samples per pixel, written as PNG.
 #include "harness/draw/canvas.h"
 
 #include <png.h>
@@ -14,7 +15,7 @@
 namespace touchstone {
 namespace {
 
-constexpr int samples = 2;  // a pixel, each way
+constexpr int samples = 2;  // per pixel and direction
 constexpr double margin = 0.04;
 constexpr double outline_light = 0.45;
 constexpr Colour background{250, 250, 248};
@@ -72,7 +73,7 @@ void Canvas::polygon(std::span<const Vec3d> corners, Colour colour) {
   }
   const double length = normal.stableNorm();
   if (!(length > 0)) return;
-  // The sun stands above the eye and to its left; what it does not reach still has the sky's light.
+  // The sun is above the viewer, to the left; surfaces that it does not reach have the sky's light.
   const Vec3d sun = (-0.5 * view_.right + 0.9 * Vec3d::UnitZ() + 0.7 * view_.towards).normalized();
   const double light = 0.55 + 0.55 * std::max(0.0, normal.dot(sun) / length);
   const Vec3d first = project(corners[0]);

@@ -1,3 +1,4 @@
+// Draws bodies as polytopes, half-spaces as squares.
 #include "harness/draw/scene_picture.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ void draw_hull(Canvas& canvas, const Hull& hull, const Pose& pose, Colour colour
     canvas.polygon(loop, colour);
   }
   if (!hull.faces.empty()) return;
-  // Flat or less: no faces are kept, so every triangle of its points is drawn; they are few.
+  // Flat hulls have no faces, so every triangle of their few points is drawn.
   loop.clear();
   for (const Vec3d& vertex : hull.vertices) loop.push_back(pose(vertex));
   for (const Vec3d& point : loop) canvas.dot(point, colour);
@@ -58,7 +59,7 @@ void draw_hull(Canvas& canvas, const Hull& hull, const Pose& pose, Colour colour
   }
 }
 
-// The square of a half-space's face about the other bodies.
+// Draws the part of a half-space's face around the other bodies.
 void draw_halfspace(Canvas& canvas, const Shape& shape, const Pose& pose, const Vec3d& centre,
                     double reach, Colour colour) {
   const double length = shape.normal.stableNorm();

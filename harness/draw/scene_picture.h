@@ -1,4 +1,4 @@
-// Draws a frame of a scene.
+// Draws a frame of a scene. Used by the command `draw`.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace touchstone {
 
-// What is known of a body after both phases.
+// The state of a body after both phases.
 enum class BodyState : std::uint8_t {
   apart,        // its box overlaps no other: certainly apart
   possible,     // the broad phase reports it in a pair; the narrow phase finds it apart from all
   overlapping,  // the narrow phase finds it in contact
 };
 
-// Bodies by their state: apart red, possible green, overlapping blue. Curved shapes are drawn as
-// polytopes; a half-space as its face, cut to the region of the other bodies. For a recording,
-// which has no bodies, `poses` is empty and the boxes are drawn.
+// Colours bodies by their state: apart red, possible green, overlapping blue. Curved shapes are
+// drawn as polytopes, a half-space as its face near the other bodies. A recording has no bodies:
+// `poses` is empty and the boxes are drawn.
 void draw_scene(Canvas& canvas, const Scene& scene, std::span<const Pose> poses,
                 std::span<const Aabb> boxes, std::span<const BodyState> states);
 

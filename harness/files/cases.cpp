@@ -1,3 +1,4 @@
+// Reads and writes cases; bodies are in shape_json.
 #include "harness/files/cases.h"
 
 #include "harness/files/shape_json.h"

@@ -1,4 +1,4 @@
-// Cases: pairs of bodies as JSON, one object a line.
+// Cases: pairs of bodies as JSON, one object per line.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +16,15 @@ struct Case {
   Pose pose_a, pose_b;
 };
 
-// Reads a file of cases. Throws InputError naming file, line, key and what was expected: malformed
-// JSON, an unknown shape, a missing or extra-long array, NaN or infinite numbers, a negative size,
-// a zero normal or quaternion, an empty hull. Unknown keys are ignored. Capsules, cylinders and
-// cones along x or y are turned into ones along z by permuting the columns of the rotation, which
-// is exact.
+// Reads a file of cases. Throws InputError with file, line, key and the expected value for:
+// malformed JSON, an unknown shape, an array of the wrong length, NaN or infinite numbers, a
+// negative size, a zero normal or quaternion, an empty hull. Ignores unknown keys. Capsules,
+// cylinders and cones along x or y become ones along z by a permutation of the rotation's columns,
+// which is exact.
 std::vector<Case> read_cases(const std::filesystem::path& file);
 
-// One line, without the line break, that read_cases turns into the same bits (as far as the case is
-// in the format: rotations are written as matrices).
+// One line, without the line break, that read_cases turns into the same bits. Rotations are written
+// as matrices.
 std::string to_json(const Case& c);
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// Reads and writes certificates; bodies are in shape_json.
 #include "harness/files/certificates.h"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ long double read_hexadecimal(const JsonNode& node) {
   return x;
 }
 
-// Of an array of as many items.
+// Reads an array of exactly `size` items.
 template <std::size_t size, class Read>
 auto read_items(const JsonNode& node, std::string_view what, const Read& read) {
   if (!node.value().is_array() || node.size() != size) {
@@ -66,7 +67,7 @@ auto read_items(const JsonNode& node, std::string_view what, const Read& read) {
   return items;
 }
 
-// Of an array of any number of items.
+// Reads an array of any number of items.
 template <class Read>
 auto read_list(const JsonNode& node, std::string_view what, const Read& read) {
   node.as_array(what);

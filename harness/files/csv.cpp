@@ -1,3 +1,4 @@
+// Reads CSV through libcsv, and writes CSV files that are whole or absent.
 #include "harness/files/csv.h"
 
 #include <csv.h>
@@ -26,7 +27,7 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-// The whole of `text` as a number, or the reason why it is none.
+// Parses the whole of `text` as a number, or throws the reason why it is none.
 template <class Number>
 Number parse(const CsvReader::Row& row, std::string_view name, std::string_view text,
              std::string_view expected) {
@@ -42,11 +43,11 @@ Number parse(const CsvReader::Row& row, std::string_view name, std::string_view 
   return value;
 }
 
-// Fields of one row, as libcsv hands them out; the strings keep their memory from row to row.
+// Fields of one row, as libcsv delivers them. The strings keep their memory between rows.
 struct Fields {
   std::vector<std::string> text;
   std::size_t count = 0;
-  int rows = 0;  // ends of rows in the line that was fed last
+  int rows = 0;  // ends of rows in the last line that was parsed
 
   static void on_field(void* bytes, std::size_t size, void* self) noexcept {
     Fields& fields = *static_cast<Fields*>(self);
@@ -60,7 +61,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// getline's buffer.
+// The buffer of getline.
 struct Line {
   char* data = nullptr;
   std::size_t capacity = 0;
@@ -77,8 +78,8 @@ struct Parser {
   Parser& operator=(const Parser&) = delete;
 };
 
-// Calls `row` with the line that it starts on and its fields, for the header and each row. Lines
-// are fed one by one, so that the callbacks of libcsv, which is C, never throw.
+// Calls `row` for the header and each row, with the line that it starts on and its fields. Lines
+// are parsed one by one, so that the callbacks of libcsv, a C library, never throw.
 void for_each_row(const std::string& file,
                   const std::function<void(std::int64_t, std::span<const std::string>)>& row) {
   const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rbe"));
@@ -87,7 +88,7 @@ void for_each_row(const std::string& file,
   Fields fields;
   Line line;
   std::int64_t number = 0;
-  std::int64_t start = 0;  // of the row that is open; 0: none is
+  std::int64_t start = 0;  // first line of the open row; 0: no row is open
   const auto end_of_row = [&] {
     if (fields.rows > 1) {
       throw InputError(file, number, "a carriage return inside the line; expected LF or CRLF ends");
@@ -171,7 +172,7 @@ std::vector<std::string_view> CsvReader::required() const {
 void CsvReader::read(const std::function<void(const Row&)>& row) const {
   const std::string file = file_.string();
   constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> place;  // of each of our columns in the file
+  std::vector<std::size_t> place;  // index of each of our columns in the file
   std::size_t width = 0;
   std::vector<std::string> wanted(columns_.size());
   Row current;
@@ -246,14 +247,14 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
   if (std::filesystem::is_directory(file_, ignored)) write_failed(file_, EISDIR);
   int descriptor = -1;
   if (is_device(file_)) {
-    // A device or a pipe is written as it is: renaming a file over it would replace it.
+    // A device or a pipe is written directly, since renaming a file over it would replace it.
     descriptor = open(file_.c_str(), O_WRONLY | O_CLOEXEC);
   } else if (keep != Keep::whole_file) {
     const int before = keep == Keep::flushed_rows ? O_TRUNC : 0;
     descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | before, 0666);
     flushed_ = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
   } else {
-    // Through a symbolic link, the file that it names is replaced, and not the link.
+    // Behind a symbolic link, the target is replaced instead of the link.
     if (std::filesystem::is_symlink(file_, ignored)) {
       const std::filesystem::path target = std::filesystem::canonical(file_, ignored);
       if (!ignored) file_ = target;
@@ -277,7 +278,7 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
     discard();
     write_failed(file_, reason);
   }
-  // So that rows leave the process when they are flushed, and not in the middle of one before.
+  // With this buffer rows leave the process when they are flushed, and not in the middle of a row.
   if (flushed_ >= 0) std::setvbuf(stream_, nullptr, _IOFBF, std::size_t{1} << 20);
   if (flushed_ > 0) return;
   for (const std::string& name : header) field(name);
@@ -288,7 +289,7 @@ CsvWriter::~CsvWriter() { discard(); }
 
 void CsvWriter::discard() {
   if (stream_ != nullptr && flushed_ >= 0) {
-    __fpurge(stream_);  // what is in the buffer is not to follow
+    __fpurge(stream_);  // discards the buffer
     if (ftruncate(fileno(stream_), flushed_) != 0) std::perror(file_.c_str());
   }
   if (stream_ != nullptr) std::fclose(stream_);

@@ -1,3 +1,4 @@
+// Parses files of JSON objects line by line.
 #include "harness/files/json_line.h"
 
 #include <cerrno>
@@ -12,7 +13,7 @@ Json parse_line(const std::string& file, std::int64_t number, std::string_view t
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
-    // The library counts its own lines; its text begins with a name in brackets.
+    // The library counts its own lines; its message begins with a name in brackets.
     std::string message = error.what();
     if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
     if (message.starts_with("parse error at line 1, ")) message.erase(0, 23);

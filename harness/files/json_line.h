@@ -1,4 +1,4 @@
-// Files of JSON objects, one a line, and what is told of a value in them that is wrong.
+// Files of JSON objects, one per line, with error messages that give the place of a wrong value.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,12 +19,12 @@ namespace touchstone {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
-// A value in a line of the file, and the way to it, which is written out only where it is wrong.
+// A value in a line of the file, with its path, which is built only for an error message.
 class JsonNode {
  public:
   JsonNode(const std::string& file, std::int64_t line, const Json& value)
       : file_(file), line_(line), value_(value) {}
-  JsonNode(const JsonNode&) = delete;  // children know the place of their parent
+  JsonNode(const JsonNode&) = delete;  // children point to their parent
   JsonNode& operator=(const JsonNode&) = delete;
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -37,7 +37,7 @@ class JsonNode {
   std::size_t size() const { return value_.size(); }
   bool has(const char* key) const { return value_.contains(key); }
 
-  // A member that has to be there; `expected` says what it is.
+  // A required member; `expected` describes it.
   JsonNode at(const char* key, std::string_view expected) const {
     const auto member = value_.find(key);
     if (member == value_.end()) fail(fmt::format("no \"{}\"; expected {}", key, expected));
@@ -80,7 +80,7 @@ class JsonNode {
     return Vec3d(numbers<3>(read).data());
   }
 
-  // The value for a message: as it is written where it is short.
+  // The value for a message: as written if it is short.
   std::string found() const {
     if (value_.is_array()) return fmt::format("an array of {}", value_.size());
     if (value_.is_object()) return "an object";
@@ -112,8 +112,9 @@ class JsonNode {
   std::size_t index_ = 0;
 };
 
-// Calls `each` for every line that is not blank, in order. Throws InputError where the file cannot
-// be read, is a directory or has no such line, and where a line is no JSON; `what` names the lines.
+// Calls `each` for every line that is not blank, in order. Throws InputError if the file cannot be
+// read, is a directory or has no such line, and if a line is not JSON. `what` names the objects in
+// messages.
 void for_each_json_line(const std::filesystem::path& file, std::string_view what,
                         const std::function<void(const JsonNode&)>& each);
 

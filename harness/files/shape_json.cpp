@@ -1,3 +1,4 @@
+// Shapes and poses to and from JSON.
 #include "harness/files/shape_json.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ std::shared_ptr<const Hull> read_hull(const JsonNode& vertices) {
   return make_hull(std::move(points));
 }
 
-// The greatest part is scaled to 1 first, so that no square overflows or vanishes.
+// The greatest component is scaled to 1 first, so that no square overflows or underflows.
 Mat3d read_quaternion(const JsonNode& node) {
   const std::array<double, 4> wxyz = node.numbers<4>();
   double greatest = 0;
@@ -116,7 +117,7 @@ void read_body(const JsonNode& body, Shape& shape, Pose& pose) {
   pose = read_pose(body);
   if (shape.kind == ShapeKind::capsule || shape.kind == ShapeKind::cylinder ||
       shape.kind == ShapeKind::cone) {
-    // The axis becomes z, and the other two follow it in turn.
+    // The axis becomes z, and the other two follow in cyclic order.
     const int axis = read_axis(node);
     const Mat3d given = pose.rotation;
     for (int column = 0; column < 3; ++column) {

@@ -7,11 +7,11 @@
 
 namespace touchstone {
 
-// Throws InputError, as read_cases says. An axis other than z is turned into z by permuting the
-// columns of the rotation.
+// Throws InputError as described at read_cases. An axis other than z becomes z by a permutation of
+// the rotation's columns.
 void read_body(const JsonNode& body, Shape& shape, Pose& pose);
 
-// The axis that a capsule, cylinder or cone lies along: 0, 1 or 2; z where it does not say.
+// The axis of a capsule, cylinder or cone: 0, 1 or 2; z if the key is missing.
 int read_axis(const JsonNode& shape);
 
 OrderedJson body_to_json(const Shape& shape, const Pose& pose);

@@ -1,3 +1,4 @@
+// Strict reads of a TOML table, with messages that give file, line and key.
 #include "harness/files/toml_table.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ std::int64_t line_of(const toml::node& node) {
   return static_cast<std::int64_t>(node.source().begin.line);
 }
 
-// What was found, as it may stand in a message.
+// The value found, as a message shows it.
 std::string show(const toml::node& node) {
   if (const auto* value = node.as_string()) return '"' + value->get() + '"';
   if (const auto* value = node.as_integer()) return std::to_string(value->get());
@@ -228,7 +229,7 @@ std::vector<std::string> TomlTable::keys() {
 }
 
 void TomlTable::finish() const {
-  // The first in the file, as a reader would meet it.
+  // The first unknown key in the file, as a reader would find it.
   const toml::key* unknown = nullptr;
   for (const auto& [key, value] : *table_) {
     if (known_.contains(key.str())) continue;

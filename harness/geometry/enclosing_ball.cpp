@@ -1,3 +1,4 @@
+// The least enclosing ball, by exchange of supporting points.
 #include "harness/geometry/enclosing_ball.h"
 
 #include <Eigen/LU>
@@ -7,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-// The least ball with all of the points on it, where they are affinely independent.
+// The least ball with all of the points on its surface; empty if they are affinely dependent.
 std::optional<Ball> ball_through(const std::vector<Vec3d>& p) {
   const auto n = static_cast<Eigen::Index>(p.size()) - 1;
   if (n == 0) return Ball{p[0], 0};
@@ -21,7 +22,7 @@ std::optional<Ball> ball_through(const std::vector<Vec3d>& p) {
   return Ball{p[0] + to_centre, to_centre.norm()};
 }
 
-// Of at most five points; `needed` becomes those that are on the ball.
+// The least ball around at most five points. `needed` receives the points on its surface.
 Ball least_ball_of_few(const std::vector<Vec3d>& p, std::vector<Vec3d>& needed) {
   std::optional<Ball> best;
   for (unsigned set = 1; set < 1u << p.size(); ++set) {
@@ -57,7 +58,7 @@ Ball least_ball(std::span<const Vec3d> points) {
     std::vector<Vec3d> few = support, needed;
     few.push_back(*farthest);
     const Ball next = least_ball_of_few(few, needed);
-    if (!(next.radius > ball.radius)) return ball;  // as good as rounding allows
+    if (!(next.radius > ball.radius)) return ball;  // rounding permits no better
     ball = next;
     support = needed;
   }

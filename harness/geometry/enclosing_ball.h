@@ -1,4 +1,4 @@
-// The least ball around points.
+// The least ball around points. Used by harness/proxies.
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@ namespace touchstone {
 
 struct Ball {
   Vec3d centre = Vec3d::Zero();
-  double radius = 0;  // metres; good to rounding, neither up nor down
+  double radius = 0;  // metres; correct to rounding in either direction
 };
 
-// At least one point. Method: the least ball of a few points grows by the point farthest outside
-// it and drops those that it does not need (the simplex-like exchange of Gaertner, "Fast and robust
-// smallest enclosing balls", ESA 1999), with the small problem solved over all subsets.
+// Requires at least one point. Method: the least ball of a few points grows by the point farthest
+// outside it and drops those that it does not need (the simplex-like exchange of Gaertner, "Fast
+// and robust smallest enclosing balls", ESA 1999). The small problem is solved over all subsets.
 Ball least_ball(std::span<const Vec3d> points);
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// Seidel's linear programme in few variables.
 #include "harness/geometry/greatest_copy.h"
 
 #include <array>
@@ -9,15 +10,15 @@
 namespace touchstone {
 namespace {
 
-// a . x <= b
+// The constraint a . x <= b.
 template <std::size_t D>
 struct Row {
   std::array<double, D> a{};
   double b = 0;
 };
 
-// The point of {rows, |x| <= bound} that is greatest along c, or nothing where there is none.
-// Rows are of about unit length, in an order that is as good as random.
+// Finds the point of {rows, |x| <= bound} that is greatest along c. Returns false if there is none.
+// Rows have about unit length and must be in random order.
 template <std::size_t D>
 bool maximise(std::span<const Row<D>> rows, const std::array<double, D>& c, double bound,
               std::array<double, D>& x) {
@@ -48,7 +49,7 @@ bool maximise(std::span<const Row<D>> rows, const std::array<double, D>& c, doub
       }
       if (at <= tight.b + tolerance * bound) continue;
       if (!(std::abs(tight.a[k]) > tolerance)) return false;
-      // On the row's plane x[k] follows from the others.
+      // The row's plane gives x[k] from the other coordinates.
       const auto without = [&](const std::array<double, D>& a, double b) {
         const double factor = a[k] / tight.a[k];
         Row<D - 1> row;

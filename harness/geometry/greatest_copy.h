@@ -1,4 +1,5 @@
-// The greatest copy of a convex body inside a polytope: a linear programme in four variables.
+// The greatest copy of a convex body inside a polytope: a linear programme in four variables. Used
+// by harness/proxies.
 #pragma once
 
 #include <functional>
@@ -10,18 +11,20 @@ namespace touchstone {
 
 struct Copy {
   Vec3d centre = Vec3d::Zero();
-  double scale = 0;  // negative where there is none
+  double scale = 0;  // negative if there is no copy
 };
 
-// The greatest scale, and a centre, so that centre + scale * K is in every plane's half-space (unit
-// normals), within `bound` of `start`. `support` gives that of K, about its centre. Good to
-// rounding (relative to the bound). Method: Seidel, "Small-dimensional linear programming and
-// convex hulls made easy", Discrete & Computational Geometry 6, 1991.
+// Returns the greatest scale, and a centre, for which centre + scale * K is in every plane's
+// half-space (unit normals), within `bound` of `start`. `support` is the support function of K
+// around its centre. The result is correct to rounding (relative to the bound). Method: Seidel,
+// "Small-dimensional linear programming and convex hulls made easy", Discrete & Computational
+// Geometry 6, 1991.
 Copy greatest_copy(std::span<const Plane> planes,
                    const std::function<double(const Vec3d&)>& support, const Vec3d& start,
                    double bound);
 
-// The least t for which some (x, y) with x, y >= 0, x + y <= 1 has a[i] . (x, y, 1) <= t for all i.
+// The least t such that some (x, y) with x, y >= 0 and x + y <= 1 has a[i] . (x, y, 1) <= t for all
+// i.
 double least_maximum(std::span<const Vec3d> a);
 
 }  // namespace touchstone

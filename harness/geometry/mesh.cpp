@@ -1,3 +1,4 @@
+// Selects the mesh reader and reads tokens and numbers for all of them.
 #include "harness/geometry/mesh.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-// What a message quotes of a token that may be long or binary.
+// A token as a message quotes it: shortened, with unprintable characters replaced.
 std::string shown(std::string_view token) {
   std::string text = token.empty() ? "nothing" : "'";
   for (char c : token.substr(0, 40)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';

@@ -1,4 +1,4 @@
-// Triangle meshes from files.
+// Triangle meshes, read from files.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ namespace touchstone {
 
 struct Mesh {
   std::vector<Vec3d> vertices;                          // in the file's units
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // polygons are cut into fans
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // polygons are split into fans
 };
 
-// Reads OBJ, OFF, STL (text or binary) or PLY (text or binary, either byte order), told by the
-// file's ending. Throws InputError with file and line (or byte offset, for binary) and what was
-// expected; an index out of range, a number that is none, NaN, infinity, a file that ends early and
-// a mesh without vertices are errors. Normals, colours, texture and material are passed over.
+// Reads OBJ, OFF, STL (text or binary) or PLY (text or binary, either byte order), selected by the
+// file's extension. Throws InputError with file and line (or byte offset, for binary) and the
+// expected content. Errors are: an index out of range, a malformed number, NaN, infinity, a file
+// that ends early, and a mesh without vertices. Normals, colours, texture and material are ignored.
 Mesh read_mesh(const std::filesystem::path& file);
 
 }  // namespace touchstone

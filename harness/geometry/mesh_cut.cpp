@@ -1,3 +1,4 @@
+// Splits each triangle at the plane and closes both sides.
 #include "harness/geometry/mesh_cut.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace touchstone {
 namespace {
 
-// One side of a cut, closed.
+// One side of a cut, which is closed at the end.
 class Side {
  public:
   explicit Side(const Mesh& mesh) { half_.vertices = mesh.vertices; }
@@ -26,7 +27,7 @@ class Side {
   }
   void add_rim(std::uint32_t from, std::uint32_t to) { rim_.push_back({from, to}); }
 
-  // Closes each loop of the rim by triangles to its middle.
+  // Closes each loop of the rim by triangles to its centre.
   std::vector<Mesh> closed() {
     std::map<std::uint32_t, std::uint32_t> parent;
     const auto root = [&](std::uint32_t v) {

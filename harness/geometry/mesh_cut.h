@@ -1,4 +1,4 @@
-// A closed mesh cut by a plane into closed meshes.
+// Cuts a closed mesh by a plane into closed meshes. Used by harness/proxies.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace touchstone {
 
-// The connected pieces on both sides of the plane, moved by a few millionths of the mesh's size if
-// need be so that it keeps clear of all vertices; none where it cuts nothing.
+// Returns the connected pieces on both sides of the plane, or none if the plane does not cut the
+// mesh. The plane is moved by a few millionths of the mesh's size if it would touch a vertex.
 //
-// A point is put on each edge that crosses the plane, once for both sides, and each side is closed
-// by triangles from each loop of its rim to the loop's middle. So the winding numbers of the pieces
-// sum to that of the mesh with those points in it, wherever they were rounded to: by less than 8
+// Each edge that crosses the plane gets one point, shared by both sides. Each side is closed by
+// triangles from each loop of its rim to the loop's centre. So the winding numbers of the pieces
+// sum to that of the mesh with those points in it, wherever they are rounded to: by less than 8
 // units in the last place of the greatest coordinate. Triangles that close a rim which is not
-// convex may reach over it, and cancel; volumes are true.
+// convex may extend over it, and cancel; volumes are exact.
 std::vector<Mesh> cut(const Mesh& mesh, Plane plane);
 
 }  // namespace touchstone

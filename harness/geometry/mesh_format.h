@@ -1,4 +1,4 @@
-// What the mesh readers share: numbers, tokens and places of errors.
+// Functions shared by the mesh readers: tokens, numbers and places of errors. Used by mesh_*.cpp.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,30 @@
 
 namespace touchstone {
 
-// One reader a format. `text` is the whole file, `file` its name for errors. What comes out has
-// finite vertices and indices in range; read_mesh refuses it when it has no vertex.
+// The readers, one per format. `text` is the whole file, `file` its name for errors. The result has
+// finite vertices and indices in range; read_mesh rejects it if it has no vertex.
 Mesh read_obj(const std::string& file, std::string_view text);
 Mesh read_off(const std::string& file, std::string_view text);
 Mesh read_stl(const std::string& file, std::string_view text);
 Mesh read_ply(const std::string& file, std::string_view text);
 
-// Goes through a text line by line (LF or CRLF), and through a line token by token.
+// Reads a text line by line (LF or CRLF), and a line token by token.
 class TextCursor {
  public:
   TextCursor(const std::string& file, std::string_view text) : file_(file), rest_(text) {}
 
-  // To the next line; false behind the last one.
+  // Advances to the next line; false after the last one.
   bool next_line();
-  // To the next line that has a token before a '#'.
+  // Advances to the next line that has a token before a '#'.
   bool next_filled_line();
-  // The next token of this line, without its blanks; empty at the line's end.
+  // The next token of this line without its blanks; empty at the line's end.
   std::string_view token();
-  // The next token, on this line or a later one; fails at the end of the file.
+  // The next token, on this line or a later one. Fails at the end of the file.
   std::string_view token_across_lines(std::string_view expected);
   std::string_view rest_of_line() const { return line_; }
   std::string_view rest_of_file() const { return rest_; }
 
-  // The next token of this line as a finite number. One too small for a double is 0.
+  // The next token of this line as a finite number. A number too small for a double is 0.
   double number() { return to_number(token()); }
   Vec3d point();
   std::int64_t integer() { return to_integer(token()); }
@@ -52,7 +52,7 @@ class TextCursor {
   std::int64_t line_number_ = 0;
 };
 
-// Cuts a polygon into triangles around its first corner.
+// Splits a polygon into triangles around its first corner.
 void add_fan(Mesh& mesh, std::span<const std::uint32_t> polygon);
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// Centre of mass and connected parts.
 #include "harness/geometry/mesh_mass.h"
 
 #include <algorithm>
@@ -27,7 +28,8 @@ Vec3d centre_of_mass(const Mesh& mesh) {
     high = high.cwiseMax(p);
     mean += (p - v.front()) / static_cast<double>(v.size());
   }
-  // Relative to the first vertex: tetrahedra between it and the triangles, and the triangles.
+  // Moments are relative to the first vertex: tetrahedra between it and the triangles, and the
+  // triangles.
   double volume = 0, area = 0, size = 0;
   Vec3d volume_moment = Vec3d::Zero(), area_moment = Vec3d::Zero();
   for (const auto& [i, j, k] : mesh.triangles) {
@@ -63,7 +65,8 @@ std::vector<Mesh> connected_parts(const Mesh& mesh) {
       const std::uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
       const auto [other, is_new] = by_edge.insert({{std::min(a, b), std::max(a, b)}, t});
       if (is_new) continue;
-      // The earlier one stays the root, so that parts come in the order of their first triangles.
+      // The earlier triangle stays the root, so that parts are in the order of their first
+      // triangles.
       const std::size_t a_root = root(t), b_root = root(other->second);
       parent[std::max(a_root, b_root)] = std::min(a_root, b_root);
     }

@@ -1,4 +1,4 @@
-// Wavefront OBJ: the v and f lines; everything else is passed over.
+// Reads Wavefront OBJ: the v and f lines; other lines are ignored.
 #include "harness/geometry/mesh_format.h"
 
 namespace touchstone {
@@ -15,7 +15,7 @@ Mesh read_obj(const std::string& file, std::string_view text) {
     } else if (keyword == "f") {
       polygon.clear();
       for (std::string_view token = cursor.token(); !token.empty(); token = cursor.token()) {
-        if (token == "\\") {  // the line goes on on the next
+        if (token == "\\") {  // the line continues on the next
           if (!cursor.next_filled_line()) cursor.fail("the file ends early; expected a face");
           continue;
         }

@@ -1,5 +1,5 @@
-// Geomview's OFF: text, with any of the prefixes that add normals, colours or texture coordinates,
-// which are passed over. A line for each vertex and each face.
+// Reads Geomview's OFF as text, one line per vertex and face. The prefixes that add normals,
+// colours or texture coordinates are accepted, and their data ignored.
 #include "harness/geometry/mesh_format.h"
 
 namespace touchstone {

@@ -1,6 +1,6 @@
-// PLY (Turk, "The PLY Polygon File Format", 1994): text or binary in either byte order. Elements
-// other than vertex and face, and properties other than x, y, z and the list of vertex indices, are
-// passed over.
+// Reads PLY (Turk, "The PLY Polygon File Format", 1994) as text or binary in either byte order.
+// Elements other than vertex and face, and properties other than x, y, z and the list of vertex
+// indices, are ignored.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -17,7 +17,7 @@ enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 struct Property {
   std::string name;
   Type type = Type::float32;
-  std::optional<Type> count_type;  // of a list
+  std::optional<Type> count_type;  // set for a list
 };
 
 struct Element {
@@ -101,7 +101,7 @@ double value_of(std::uint64_t bits) {
   }
 }
 
-// The numbers behind the header, one after the other.
+// The numbers after the header, in order.
 class Body {
  public:
   Body(std::string file, Encoding encoding, TextCursor cursor, std::string_view bytes)
@@ -125,7 +125,7 @@ class Body {
     }
     return 0;
   }
-  // As a count or an index: a whole number from 0.
+  // The next number as a count or an index: a whole number >= 0.
   std::int64_t next_whole(Type type) {
     const double value = next(type);
     if (!(value >= 0 && value <= 0xffffffffp0 && value == std::floor(value))) {
@@ -178,7 +178,7 @@ void read_vertices(Body& body, const Element& element, Mesh& mesh) {
   }
 }
 
-// Faces, and elements to pass over.
+// Reads faces, and elements to be ignored.
 void read_others(Body& body, const Element& element, Mesh& mesh) {
   if (element.properties.empty()) return;
   std::vector<std::uint32_t> polygon;

@@ -1,3 +1,4 @@
+// Splits a mesh into closed and open parts, and measures winding numbers and distances.
 #include "harness/geometry/mesh_solid.h"
 
 #include <algorithm>
@@ -81,7 +82,8 @@ double winding_number(const std::vector<Triangle>& surface, const Vec3d& x) {
   return sum / (2 * std::numbers::pi);
 }
 
-// By the regions of the triangle's plane (Ericson, "Real-Time Collision Detection", 5.1.5).
+// The region of the triangle's plane that contains x decides (Ericson, "Real-Time Collision
+// Detection", 5.1.5).
 Vec3d nearest_point(const Triangle& t, const Vec3d& x) {
   const Vec3d ab = t.b - t.a, ac = t.c - t.a, ax = x - t.a;
   const double d1 = ab.dot(ax), d2 = ac.dot(ax);
@@ -129,7 +131,8 @@ std::vector<SurfacePoint> spread_points(const std::vector<Triangle>& surface, st
   std::vector<SurfacePoint> points;
   double area = 0;
   for (const Triangle& t : surface) area += t.normal().norm();
-  // Evenly along the areas one after another, and by two of the plastic number's powers within.
+  // Points are spread evenly over the areas one after another, and by two powers of the plastic
+  // number within a triangle.
   double before = 0;
   std::size_t made = 0;
   for (const Triangle& t : surface) {

@@ -1,4 +1,4 @@
-// The solid that a mesh stands for.
+// The solid that a mesh represents. Used by harness/proxies.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace touchstone {
 
-// Triangles that hang together by edges are a part; where every edge is used as often in one
-// direction as in the other the part is closed, and its solid is where its winding number is not
-// zero. Of the parts that are not closed as the file has them, vertices at one place are made one;
-// those that still are not enclose nothing of their own, so that their convex hull is their solid.
-// The solid of the mesh is the union.
+// A part is a set of triangles connected by edges. It is closed if every edge is used as often in
+// one direction as in the other; its solid is the set of points with a nonzero winding number. In
+// the parts that are not closed as given, vertices at the same place are merged. Parts that are
+// still open enclose nothing, so their convex hull is their solid. The solid of the mesh is the
+// union.
 struct MeshPiece {
   Mesh mesh;
   bool closed = false;
@@ -21,18 +21,19 @@ std::vector<MeshPiece> pieces_of(const Mesh& mesh);
 
 std::vector<Triangle> triangles_of(const Mesh& mesh);
 
-// How often the surface winds about x (Van Oosterom and Strackee, "The solid angle of a plane
-// triangle", IEEE Trans. Biomed. Eng. 30, 1983); near to a whole number unless x is on it.
+// How often the surface winds around x (Van Oosterom and Strackee, "The solid angle of a plane
+// triangle", IEEE Trans. Biomed. Eng. 30, 1983). It is close to a whole number unless x is on the
+// surface.
 double winding_number(const std::vector<Triangle>& surface, const Vec3d& x);
 
-// The point of the triangle that is nearest to x, to rounding.
+// The point of the triangle that is nearest to x, up to rounding.
 Vec3d nearest_point(const Triangle& triangle, const Vec3d& x);
 
-// A surface that is asked for distances often.
+// A surface prepared for many distance queries.
 class Surface {
  public:
   explicit Surface(std::vector<Triangle> triangles);
-  // Metres, to rounding.
+  // The distance in metres, up to rounding.
   double distance(const Vec3d& x) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
@@ -46,8 +47,8 @@ class Surface {
 struct SurfacePoint {
   Vec3d at, normal;
 };
-// The corners of every triangle, and `count` points spread evenly over the area, the same each
-// time.
+// The corners of every triangle, and `count` points spread evenly over the area. The result is
+// deterministic.
 std::vector<SurfacePoint> spread_points(const std::vector<Triangle>& surface, std::size_t count);
 
 }  // namespace touchstone

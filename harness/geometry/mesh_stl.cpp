@@ -1,4 +1,4 @@
-// STL, text or binary. Corners with the same coordinates become one vertex.
+// Reads STL as text or binary. Corners with equal coordinates become one vertex.
 #include <bit>
 #include <cctype>
 #include <cmath>
@@ -77,7 +77,7 @@ Mesh read_text(const std::string& file, std::string_view text) {
   Welder weld;
   TextCursor cursor(file, text);
   std::vector<std::uint32_t> loop;
-  bool open = false;  // within solid ... endsolid
+  bool open = false;  // between solid and endsolid
   while (cursor.next_line()) {
     const std::string keyword = lower(cursor.token());
     if (keyword.empty()) continue;
@@ -106,7 +106,7 @@ Mesh read_text(const std::string& file, std::string_view text) {
 }  // namespace
 
 Mesh read_stl(const std::string& file, std::string_view text) {
-  // Binary files may start with "solid" too, but then their size fits their count.
+  // A binary file may start with "solid" too, but its size agrees with its count.
   const bool fits = text.size() >= header_size && text.size() == size_in_header(text);
   const bool is_text =
       !fits && lower(TextCursor(file, text).token_across_lines("solid")) == "solid";

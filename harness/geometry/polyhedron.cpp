@@ -1,3 +1,4 @@
+// Clips convex polyhedra by planes and splits faces into triangles.
 #include "harness/geometry/polyhedron.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace touchstone {
 namespace {
 
-// In the order of their angles about their mean, seen from the normal's tip.
+// Sorts points by their angle around their mean, seen from the normal's tip.
 void sort_around(std::vector<Vec3d>& points, const Vec3d& normal) {
   Vec3d mean = Vec3d::Zero();
   for (const Vec3d& p : points) mean += p / static_cast<double>(points.size());
@@ -33,7 +34,8 @@ void remove_equal(std::vector<Vec3d>& points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-// The corner whose fan's thinnest triangle is the least thin: planes of slivers are all rounding.
+// The corner whose fan has the widest narrowest triangle, since planes of slivers are only
+// rounding.
 std::size_t best_apex(const std::vector<Vec3d>& p) {
   const std::size_t n = p.size();
   std::size_t best = 0;
@@ -92,7 +94,8 @@ void Polyhedron::clip(const Plane& plane) {
       if (height[i] == 0) rim.push_back(polygon[i]);
       if ((height[i] > 0) == (height[j] > 0)) continue;
       cut = true;
-      // From the inside out, so that both faces of an edge find the same bits.
+      // The intersection is computed from the inside outward, so that both faces of an edge get the
+      // same bits.
       const auto [in, out] = height[i] > 0 ? std::pair(j, i) : std::pair(i, j);
       const double t = height[in] / (height[in] - height[out]);
       left.push_back(polygon[in] + t * (polygon[out] - polygon[in]));
@@ -160,7 +163,7 @@ std::vector<Triangle> triangles_of(const Hull& hull) {
   if (hull.dimension < 2 || corners.size() < 3) {
     return {{corners.front(), corners.back(), corners.back()}};
   }
-  // The normal of the widest triangle with the first edge that is long.
+  // The normal is that of the largest triangle with a common first corner.
   Vec3d normal = Vec3d::Zero();
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     const Vec3d n = (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);

@@ -1,4 +1,4 @@
-// Convex polyhedra as lists of polygons, cut by planes.
+// Convex polyhedra as lists of polygons, clipped by planes. Used by harness/proxies.
 #pragma once
 
 #include <span>
@@ -9,38 +9,39 @@
 namespace touchstone {
 
 struct Plane {
-  Vec3d normal = Vec3d::UnitX();  // any length but 0
+  Vec3d normal = Vec3d::UnitX();  // any nonzero length
   double offset = 0;              // inside: normal . x <= offset
 };
 
-// Good to rounding only: what must be certain is proven about what comes out (certainty.h).
+// Results are correct to rounding; certain claims about them are proven in
+// harness/proxies/certainty.h.
 class Polyhedron {
  public:
   static Polyhedron box(const Vec3d& low, const Vec3d& high);
-  // Of a solid hull with faces.
+  // The hull must be solid and have faces.
   static Polyhedron of(const Hull& hull);
 
-  // Leaves what is on the plane's inner side.
+  // Keeps the part on the plane's inner side.
   void clip(const Plane& plane);
   bool empty() const { return faces_.empty(); }
   double volume() const;
-  // Each corner once, equal to `tolerance` (metres).
+  // Each corner once; corners within `tolerance` (metres) are equal.
   std::vector<Vec3d> corners(double tolerance) const;
 
  private:
   std::vector<std::vector<Vec3d>> faces_;  // anticlockwise from outside
 };
 
-// The polyhedron with these planes that lies in the box.
+// The polyhedron with these planes inside the box.
 Polyhedron intersection(const Vec3d& low, const Vec3d& high, std::span<const Plane> planes);
 
-// Triangles of the boundary, anticlockwise from outside; of a flat hull of its one side, of a
-// segment or a point a degenerate one.
+// Triangles of the boundary, anticlockwise from outside. A flat hull gives one side, a segment or a
+// point one degenerate triangle.
 struct Triangle {
   Vec3d a, b, c;
-  Vec3d normal() const { return (b - a).cross(c - a); }  // twice the area long
+  Vec3d normal() const { return (b - a).cross(c - a); }  // length: twice the area
 };
 std::vector<Triangle> triangles_of(const Hull& hull);
-double volume_of(std::span<const Triangle> triangles);  // metres cubed, of a closed surface
+double volume_of(std::span<const Triangle> triangles);  // metres cubed, for a closed surface
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// The signed permutations of determinant 1, their products and names.
 #include "harness/geometry/signed_permutation.h"
 
 #include <vector>

@@ -1,4 +1,5 @@
-// The 24 rotations that are exact in binary numbers: signed permutations of the axes.
+// The 24 rotations that are exact in binary numbers: signed permutations of the axes. Used by
+// check's metamorphic tests.
 #pragma once
 
 #include <array>
@@ -14,11 +15,11 @@ struct SignedPermutation {
   std::array<double, 3> sign = {1, 1, 1};  // times this
 
   Vec3d operator()(const Vec3d& v) const { return {image(v, 0), image(v, 1), image(v, 2)}; }
-  // Exact, and never makes a negative zero.
+  // Exact, and never gives a negative zero.
   Mat3d operator()(const Mat3d& m) const;
   Mat3d matrix() const { return (*this)(Mat3d(Mat3d::Identity())); }
   SignedPermutation inverse() const;
-  // Such as "+y-x+z": the axes that x, y and z take their values from.
+  // A name such as "+y-x+z": the axes that supply x, y and z.
   std::string name() const;
 
  private:
@@ -28,7 +29,7 @@ struct SignedPermutation {
   }
 };
 
-// All of determinant 1; the identity comes first.
+// All permutations of determinant 1; the identity is first.
 std::span<const SignedPermutation> signed_permutations();
 
 }  // namespace touchstone

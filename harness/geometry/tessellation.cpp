@@ -1,3 +1,4 @@
+// Surface points of each shape, in arithmetic that rounds equally everywhere.
 #include "harness/geometry/tessellation.h"
 
 #include <array>
@@ -13,11 +14,12 @@
 namespace touchstone {
 namespace {
 
-// All of this is +, *, / and square roots, which round the same everywhere: sines do not.
+// The functions below use only +, *, / and square roots, which round equally everywhere; sines do
+// not.
 
 Vec3d on_unit_sphere(const Vec3d& v) { return v / length(v); }
 
-// Vertices of the icosahedron whose triangles were split in four `level` times, on the unit sphere.
+// Vertices on the unit sphere of an icosahedron whose triangles are split in four `level` times.
 std::vector<Vec3d> icosphere(int level) {
   const double golden = (1 + std::sqrt(5.0)) / 2;
   std::vector<Vec3d> vertices;
@@ -59,7 +61,7 @@ std::vector<Vec3d> icosphere(int level) {
 }
 
 // 8 * 2^level points on the unit circle in the x-y plane, anticlockwise from +x. A quarter's angle
-// is halved level + 1 times: the direction of the sum of two unit vectors bisects their angle.
+// is halved level + 1 times: the sum of two unit vectors bisects their angle.
 std::vector<Vec3d> circle(int level) {
   std::vector<Vec3d> quarter = {Vec3d::UnitX(), Vec3d::UnitY()};
   for (int l = 0; l <= level; ++l) {
