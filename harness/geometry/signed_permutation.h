@@ -1,5 +1,5 @@
 // The 24 rotations that are exact in binary numbers: signed permutations of the axes. Used by
-// check's metamorphic tests.
+// harness/check.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// Reads and writes Broadmark's .aabbs files.
 #include "harness/scene/aabbs.h"
 
 #include <fmt/format.h>
@@ -17,9 +18,9 @@
 namespace touchstone {
 namespace {
 
-// The file: two texts of 128 bytes, each ended by a zero; the number of boxes N and of steps K; two
-// unused words; the world's box; K + 1 arrays of N boxes, the first being the state at the start. A
-// box is min x, y, z and an unused float, then max likewise.
+// The file has two texts of 128 bytes, each ended by a zero; the number of boxes N and of steps K;
+// two unused words; the world's box; K + 1 arrays of N boxes, the first with the initial state. A
+// box is min x, y, z and an unused float, then max in the same way.
 constexpr std::size_t text_size = 128;
 constexpr std::size_t count_at = 2 * text_size;
 constexpr std::size_t steps_at = count_at + 4;
@@ -54,7 +55,7 @@ void store_box(const Aabb& box, char* to) {
   }
 }
 
-// What is wrong with a box; empty when nothing is.
+// Describes the fault of a box; empty if it has none.
 std::string fault(const Aabb& box) {
   for (std::size_t i = 0; i < 3; ++i) {
     const char axis = "xyz"[i];
@@ -101,7 +102,7 @@ BoxRecording read_aabbs(const std::filesystem::path& path) {
   const auto steps = static_cast<std::int32_t>(load(bytes.data() + steps_at));
   if (count < 1) throw InputError(file, 0, fmt::format("{} boxes; expected at least one", count));
   if (steps < 0) throw InputError(file, 0, fmt::format("{} steps; expected 0 or more", steps));
-  // Before anything of that size is allocated.
+  // The check comes before anything of that size is allocated.
   const std::uintmax_t frames = std::uintmax_t{1} + static_cast<std::uintmax_t>(steps);
   const std::uintmax_t boxes = frames * static_cast<std::uintmax_t>(count);  // below 2^62
   if ((size - header_size) % box_size != 0 || (size - header_size) / box_size != boxes) {

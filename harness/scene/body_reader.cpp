@@ -1,3 +1,4 @@
+// Reads the shapes and bodies that a scene file lists.
 #include "harness/scene/body_reader.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace touchstone {
 namespace {
 
-// Row-major, and kept as it stands where it is a rotation to a thousandth.
+// Reads a row-major matrix. It is used as given if it is a rotation to a thousandth.
 Mat3d read_matrix(TomlTable& table) {
   const std::vector<double> m = table.numbers("rotation", 9, any_number);
   Mat3d rotation;
@@ -34,7 +35,7 @@ Mat3d read_rotation(TomlTable& table) {
   }
   if (!table.has("quaternion_wxyz")) return Mat3d::Identity();
   const std::vector<double> q = table.numbers("quaternion_wxyz", 4, any_number);
-  // Scaled first, so that no square overflows or vanishes.
+  // The numbers are scaled first, so that no square overflows or underflows.
   const double size = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
   if (!(size > 0)) {
     table.fail("quaternion_wxyz", "found [0, 0, 0, 0]; expected a quaternion that is not zero");
@@ -42,7 +43,7 @@ Mat3d read_rotation(TomlTable& table) {
   return rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
 }
 
-// A scene file's lists of shapes and bodies.
+// Reads a scene file's lists of shapes and bodies.
 class BodyReader {
  public:
   BodyReader(TomlTable& table, ShapeReader& shapes, Scene& scene)
@@ -77,7 +78,7 @@ class BodyReader {
     return {scene_.add_shape(turned.shape, turned.mesh), turned.turn};
   }
 
-  // The key "shape" is a name or a table; "mesh" and "scale" stand in the body itself.
+  // The key "shape" is a name or a table; "mesh" and "scale" are keys of the body itself.
   Placed shape_of(TomlTable& body) {
     const toml::node* node = body.node("shape");
     if (node == nullptr && body.contains("mesh")) return mesh_of(body);
@@ -96,7 +97,7 @@ class BodyReader {
                                    names.empty() ? "there are none" : names));
   }
 
-  // Bodies of one mesh and scale share their shape.
+  // Bodies with the same mesh and scale share their shape.
   Placed mesh_of(TomlTable& body) {
     const TurnedShape turned = shapes_.read(body);
     return {index_of(turned.shape, turned.mesh), Mat3d::Identity()};
@@ -129,7 +130,7 @@ class BodyReader {
     table.finish();
   }
 
-  // A body for each part of the mesh, where it is in the whole.
+  // Adds a body for each part of the mesh, at its place in the whole.
   void add_parts(TomlTable& table, const Body& whole) {
     if (whole.angular_velocity != Vec3d::Zero()) {
       table.fail("angular_velocity",

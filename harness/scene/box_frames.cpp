@@ -1,3 +1,4 @@
+// Reads frames of boxes from CSV or recordings, and lists what changed between them.
 #include "harness/scene/box_frames.h"
 
 #include <fmt/format.h>
@@ -94,13 +95,13 @@ std::vector<BoxFrame> read_recording(const std::filesystem::path& file) {
   return frames;
 }
 
-// The contract of updates tells 0 from -0.
+// Compares bits, since the contract of updates distinguishes 0 from -0.
 bool same_bits(const Aabb& a, const Aabb& b) {
   using Bits = std::array<std::uint32_t, 6>;
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-// Pads the array of the frame and says what is new in it.
+// Pads the frame's array and lists the changes since the previous frame.
 void compare(const BoxFrame& before, BoxFrame& now) {
   now.boxes.resize(std::max(now.count, before.boxes.size()), Aabb::empty());
   for (std::uint32_t id = 0; id < now.boxes.size(); ++id) {

@@ -1,3 +1,4 @@
+// Advances poses and velocities in plain arithmetic.
 #include "harness/scene/kinematics.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace touchstone {
 namespace {
 
-// The acceleration of all bodies while the frame after `frame` is reached.
+// The acceleration of all bodies from `frame` to the next frame.
 Vec3d acceleration(const Motion& motion, int frame) {
   switch (motion.kind) {
     case MotionKind::inertial:
@@ -22,8 +23,8 @@ Vec3d acceleration(const Motion& motion, int frame) {
   return Vec3d::Zero();
 }
 
-// Brings x back between the walls by mirroring it at them, and turns the velocity where that took
-// an odd number of mirrors. With an acceleration, the speed is then that of the height reached.
+// Brings x back between the walls by reflection, and reverses the velocity after an odd number of
+// reflections. With an acceleration, the speed becomes that of the height reached.
 void reflect(double low, double high, double acceleration, double& x, double& velocity) {
   if (x >= low && x <= high) return;
   const double width = high - low;
@@ -94,7 +95,7 @@ void Kinematics::replace_some(Random& random) {
   }
 }
 
-// The bodies take turns, as in Broadmark: after a hundred frames each has had a new velocity.
+// Bodies take turns, as in Broadmark: after a hundred frames each has had a new velocity.
 void Kinematics::kick_some() {
   const std::size_t n = poses_.size(), share = (n + 99) / 100;
   Random random(scene_->motion.seed, static_cast<std::uint64_t>(frame_));
@@ -128,7 +129,7 @@ void Kinematics::next() {
     }
   }
   if (movers_.empty()) return;
-  // Another seed than that of the kicks.
+  // The seed differs from that of the new velocities.
   Random random(~motion.seed, static_cast<std::uint64_t>(frame_));
   if (motion.teleports > 0) exchange_places(random);
   if (motion.churn > 0) replace_some(random);

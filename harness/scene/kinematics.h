@@ -10,15 +10,15 @@
 
 namespace touchstone {
 
-// Starts at frame 0. Plain arithmetic only: the same bits on every platform. Each axis of a body's
-// flight is exact for its velocity and acceleration; walls keep the energy. Attitudes are computed
-// from frame 0's, so that no error adds up: rotation(frame) = exp(frame * time_step * w) *
-// rotation.
+// Starts at frame 0. Uses plain arithmetic only, which gives the same bits on every platform. Each
+// axis of a body's flight is exact for its velocity and acceleration; walls preserve the energy.
+// Orientations are computed from frame 0, so that no error accumulates: rotation(frame) = exp(frame
+// * time_step * w) * rotation.
 //
-// Then some of the bodies that move may exchange places, in a circle and at random, each with its
-// own attitude and velocity; and some may go while as many come into the places left: at frame 1
-// those that were never there, later those that went the frame before, each with its own shape. So
-// places are spread as they were in any scene, and ids are used again.
+// Afterwards some of the moving bodies may exchange places, in a random cycle, each with its own
+// orientation and velocity. Some may leave while as many arrive in their places: at frame 1 those
+// that were never present, later those that left in the previous frame, each with its own shape. So
+// the distribution of places stays that of the scene, and ids are reused.
 class Kinematics {
  public:
   explicit Kinematics(const Scene& scene);
@@ -26,24 +26,24 @@ class Kinematics {
   int frame() const { return frame_; }
   void next();
   std::span<const Pose> poses() const { return poses_; }
-  std::span<const Vec3d> velocities() const { return velocities_; }  // metres a second
+  std::span<const Vec3d> velocities() const { return velocities_; }  // metres per second
   bool is_present(std::size_t body) const { return present_.empty() || present_[body] != 0; }
 
  private:
   void kick_some();
   void exchange_places(Random& random);
   void replace_some(Random& random);
-  // Brings so many of movers_, picked at random, to its front, in random order.
+  // Moves `count` random elements of movers_ to its front, in random order.
   void pick_movers(Random& random, std::size_t count);
 
   const Scene* scene_;
   int frame_ = 0;
   std::vector<Pose> poses_;
   std::vector<Vec3d> velocities_;
-  // Only where bodies come and go or jump.
-  std::vector<std::uint32_t> movers_;  // that are present, in any order
+  // The members below are used only if bodies jump, arrive or leave.
+  std::vector<std::uint32_t> movers_;  // present bodies that move, in any order
   std::vector<std::uint32_t> absent_;
-  std::vector<char> present_;  // of each body; only where bodies come and go
+  std::vector<char> present_;  // for each body; only if bodies arrive and leave
 };
 
 }  // namespace touchstone

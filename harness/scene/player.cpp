@@ -1,3 +1,4 @@
+// Computes the boxes of each frame and lists what changed.
 #include "harness/scene/player.h"
 
 #include <algorithm>
@@ -22,8 +23,8 @@ void include(Aabb& region, const Aabb& box) {
   }
 }
 
-// The reach must hold for every attitude of a body that turns, though each is orthonormal up to
-// rounding only.
+// The reach must hold for every orientation of a rotating body, although each is orthonormal only
+// up to rounding.
 double reach_of(const Shape& shape, const Body& body) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   return loose_reach(shape, body.pose.rotation) * (1 + rounding);
@@ -50,7 +51,8 @@ ScenePlayer::ScenePlayer(const Scene& scene, BoxKind kind)
   for (std::size_t i = 0; i < scene.size(); ++i) boxes_[0][i] = box_of(i);
 }
 
-// Half-spaces need the whole region beforehand, so all frames are played once; other scenes do not.
+// Half-spaces need the whole region in advance, so their scenes are played once before; others are
+// not.
 void ScenePlayer::fill_world() {
   const auto& bodies = scene_->bodies;
   const auto is_halfspace = [&](const Body& body) {
@@ -104,7 +106,7 @@ bool ScenePlayer::next() {
     for (std::size_t i = 0; i < now.size(); ++i) {
       now[i] = !kinematics_.is_present(i) ? Aabb::empty()
                : scene_->bodies[i].moving ? box_of(i)
-                                          : before[i];  // those that come move
+                                          : before[i];  // bodies that arrive are moving ones
     }
   }
   list_changes(before, now);

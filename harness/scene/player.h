@@ -11,23 +11,22 @@
 
 namespace touchstone {
 
-// Starts at frame 0. The same scene gives the same bits each time it is played, on every platform.
+// Starts at frame 0. A scene gives the same bits each time and on every platform.
 class ScenePlayer {
  public:
   ScenePlayer(const Scene& scene, BoxKind kind);
 
   int frame() const { return frame_; }
-  // Goes to the next frame; false at the last one. The boxes of the frame before stay valid (and
-  // those only), as BroadPhase::update wants.
+  // Advances to the next frame; false at the last one. The boxes of the previous frame stay valid,
+  // but no earlier ones, as BroadPhase::update requires.
   bool next();
 
   std::span<const Pose> poses() const { return kinematics_.poses(); }  // empty for a recording
-  // Finite boxes in world coordinates. A half-space's box is tight in either kind, and its infinite
-  // extents are cut to the region that all finite extents fill over all frames, so that no pair is
-  // lost. A body that is not there has the empty box; where bodies come and go, the array grows by
-  // those that come first at frame 1.
+  // Finite boxes in world coordinates. A half-space's box is tight for both kinds, and its infinite
+  // extents are cut to the region of all finite extents over all frames, so that no pair is lost. A
+  // body that is not present has the empty box. If bodies arrive, the array grows at frame 1.
   std::span<const Aabb> boxes() const { return boxes_[current_]; }
-  // Against the frame before: moved lists every body whose box changed. Empty lists at frame 0.
+  // Changes since the previous frame: `moved` lists every body whose box changed. Empty at frame 0.
   FrameChange change() const { return {boxes(), moved_, inserted_, removed_}; }
 
  private:
@@ -39,9 +38,9 @@ class ScenePlayer {
   BoxKind kind_;
   Kinematics kinematics_;
   int frame_ = 0;
-  std::vector<double> reach_;   // of each body; loose boxes only
-  Aabb world_ = Aabb::empty();  // what half-spaces are cut to
-  std::vector<Aabb> boxes_[2];  // this frame's and the one before
+  std::vector<double> reach_;   // for each body; loose boxes only
+  Aabb world_ = Aabb::empty();  // the region to which half-spaces are cut
+  std::vector<Aabb> boxes_[2];  // of this frame and the previous one
   int current_ = 0;
   std::vector<std::uint32_t> moved_, inserted_, removed_;
 };

@@ -1,3 +1,4 @@
+// Imports bodies, meshes and velocities of a rigid-ipc scene.
 #include "harness/scene/rigid_ipc.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ Json parse(const std::filesystem::path& file) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
     throw InputError(file.string(), 1 + std::count(text.begin(), end, '\n'),
                      std::string("malformed JSON (") + e.what() + ")");
-  } catch (const Json::exception& e) {  // such as a number that no double can hold
+  } catch (const Json::exception& e) {  // for example a number that no double can hold
     throw InputError(file.string(), 0, std::string("malformed JSON (") + e.what() + ")");
   }
 }
@@ -99,7 +100,7 @@ class Reader {
   std::string file_, where_;
 };
 
-// Turns about x, then y, then z, by degrees.
+// The rotation about x, then y, then z, in degrees.
 Mat3d rotation_of_degrees(const Vec3d& degrees) {
   const SinCos x = sin_cos_turns(degrees.x() / 360);
   const SinCos y = sin_cos_turns(degrees.y() / 360);
@@ -135,7 +136,7 @@ class Importer {
   }
 
  private:
-  // A mesh at its scale: shapes whose vertices are relative to the centre of mass.
+  // A mesh at its scale: a shape whose vertices are relative to the centre of mass.
   struct Part {
     std::uint32_t shape;
     Vec3d centre;
@@ -161,7 +162,7 @@ class Importer {
       if (fixed[static_cast<std::size_t>(k)]) placed.velocity[k] = 0;
       if (fixed[static_cast<std::size_t>(k + 3)]) placed.angular_velocity[k] = 0;
     }
-    // A dynamic body at rest may still be given a motion by the scene that imports it.
+    // The importing scene may still give a motion to a dynamic body at rest.
     placed.moving = type == "dynamic" || (type == "kinematic" && has_velocity(placed));
     const double end = body.number("kinematic_max_time", -1);
     if (type == "kinematic" && end >= 0) end_ = std::min(end_, end);
@@ -249,7 +250,7 @@ class Importer {
     return mesh;
   }
 
-  // Dimensions come before a scale.
+  // Dimensions take precedence over a scale.
   static Vec3d scale_of(const Reader& body, const Mesh& mesh) {
     if (body.find("dimensions") != nullptr) {
       Vec3d low = mesh.vertices.front(), high = low;

@@ -1,4 +1,4 @@
-// A scene: bodies with shapes and poses, and how they move from frame to frame.
+// A scene: bodies with shapes and poses, and their motion from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -17,58 +17,57 @@
 
 namespace touchstone {
 
-// How a body's box is made (core/bounds.h).
+// The kind of a body's box (core/bounds.h).
 enum class BoxKind : std::uint8_t { tight, loose };
 std::string_view to_string(BoxKind kind);
 
 struct Body {
   std::uint32_t shape = 0;                 // index into Scene::shapes
   Pose pose;                               // at frame 0
-  Vec3d velocity = Vec3d::Zero();          // metres a second, world
-  Vec3d angular_velocity = Vec3d::Zero();  // radians a second, world, about the body's origin
-  bool moving = true;                      // false: stays at its pose whatever its velocities say
+  Vec3d velocity = Vec3d::Zero();          // metres per second, world
+  Vec3d angular_velocity = Vec3d::Zero();  // radians per second, world, about the body's origin
+  bool moving = true;                      // false: stays at its pose whatever its velocities
 };
 
-// How velocities change. All motion is kinematic: bodies pass through each other.
+// The change of velocities. All motion is kinematic: bodies pass through each other.
 enum class MotionKind : std::uint8_t {
-  inertial,          // velocities stay as they are
-  brownian,          // each frame one body in a hundred is given a new random velocity
+  inertial,          // velocities are constant
+  brownian,          // each frame one body in a hundred gets a new random velocity
   free_fall,         // constant acceleration along -z
-  rotating_gravity,  // constant acceleration whose direction turns in the x-z plane
+  rotating_gravity,  // constant acceleration whose direction rotates in the x-z plane
 };
 
 struct Motion {
   MotionKind kind = MotionKind::inertial;
   double time_step = 1.0 / 30;  // seconds
-  double acceleration = 0;      // metres a second squared: free_fall, rotating_gravity
-  double period = 0;            // seconds a turn: rotating_gravity
-  double speed = 0;             // metres a second, greatest: brownian's new velocities
+  double acceleration = 0;      // metres per second squared: free_fall, rotating_gravity
+  double period = 0;            // seconds per turn: rotating_gravity
+  double speed = 0;             // metres per second, greatest: new velocities of brownian
   std::uint64_t seed = 0;       // brownian
-  // Elastic walls: a body whose origin would leave comes back with that component of its velocity
-  // turned. Without walls, min > max.
+  // Elastic walls: a body whose origin would leave is reflected. There are no walls if min > max.
   Vec3d wall_min = Vec3d::Constant(1);
   Vec3d wall_max = Vec3d::Constant(-1);
-  // Of the bodies that move, so many a frame exchange places at random, and so many go while as
-  // many others come into their places; from frame 1 on.
+  // Numbers of moving bodies per frame, from frame 1 on: `teleports` bodies exchange places at
+  // random; `churn` bodies leave while as many others arrive in their places.
   std::size_t teleports = 0;
   std::size_t churn = 0;
 };
 
 struct Scene {
-  std::string name;  // the file's stem, unless it says otherwise
+  std::string name;  // the file's stem, unless the file gives a name
   std::vector<Shape> shapes;
-  // Of shapes that are the convex hulls of meshes: those, in the same frame; null for the others.
-  // Empty where no shape has one.
+  // The meshes of shapes that are convex hulls of meshes, in the same frame; null for other shapes.
+  // Empty if no shape has a mesh.
   std::vector<std::shared_ptr<const Mesh>> meshes;
-  // The last Motion::churn of them are not there at frame 0.
+  // The last Motion::churn bodies are not present at frame 0.
   std::vector<Body> bodies;
   int frames = 1;  // at least one
   Motion motion;
-  // A recording of boxes alone, one array a frame, as Broadmark's files hold; such a scene has no
-  // bodies and no narrow phase. Empty otherwise.
+  // A recording of boxes alone, one array per frame, as in Broadmark's files. Such a scene has no
+  // bodies and no narrow phase. Otherwise empty.
   std::vector<std::vector<Aabb>> recording;
-  // The pairs that narrow phases are asked about, sorted, a < b, where the scene lists them instead
-  // of leaving it to a broad phase; the same in every frame. Empty otherwise.
+  // The pairs for narrow phases, sorted, a < b, in a scene that lists them instead of using a broad
+  // phase; equal in every frame. Otherwise empty.
   std::vector<IndexPair> pairs;
 
   std::uint32_t add_shape(Shape shape, std::shared_ptr<const Mesh> mesh = nullptr) {
@@ -83,28 +82,29 @@ struct Scene {
     return shape < meshes.size() ? meshes[shape].get() : nullptr;
   }
 
-  // Bodies that are there at a time: the same in every frame.
+  // The number of bodies present, which is equal in every frame.
   std::size_t size() const {
     return recording.empty() ? bodies.size() - motion.churn : recording.front().size();
   }
 };
 
-// What a user may change of a scene file from outside: a campaign's axes.
+// Values of a scene file that a user may override: a campaign's axes.
 struct SceneOverrides {
-  std::int64_t count = -1;  // bodies, of a generated scene; -1: as the file says
-  std::int64_t seed = -1;   // of a generated scene; -1: as the file says
-  int frames = -1;          // -1: as the file says
-  // Metres, signed: of the pairs of the generator `pairs`; it becomes part of the scene's name.
+  std::int64_t count = -1;  // bodies of a generated scene; -1: from the file
+  std::int64_t seed = -1;   // of a generated scene; -1: from the file
+  int frames = -1;          // -1: from the file
+  // Signed gap in metres for the generator `pairs`; it becomes part of the scene's name.
   std::optional<double> gap = {};
 };
 
 // Reads a scene file: TOML (a generator, bodies, or an import), rigid-ipc's JSON, or Broadmark's
-// .aabbs. Paths inside a scene file are relative to it. Throws InputError with file, line and what
-// was expected; an override that the scene cannot take (a count for listed bodies) is one too.
+// .aabbs. Paths inside a scene file are relative to it. Throws InputError with file, line and the
+// expected value, also for an override that does not apply to the scene (a count for listed
+// bodies).
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
 
-// 16 hexadecimal digits over everything that decides what an algorithm is given: shapes, every
-// frame's poses, or the recording. The same on every platform.
+// Returns 16 hexadecimal digits that depend on all inputs of an algorithm: shapes, every frame's
+// poses, or the recording. Equal on every platform.
 std::string scene_hash(const Scene& scene);
 
 }  // namespace touchstone

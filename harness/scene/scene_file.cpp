@@ -1,3 +1,4 @@
+// Reads scene files: chooses a generator, listed bodies or an import, and checks the result.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 constexpr std::int64_t most_bodies = 100'000'000;
 constexpr std::int64_t most_frames = 1'000'000;
 constexpr int generated_frames = 10;
-constexpr double broadmark_gravity = 0.0981;  // sides of the world a second squared
+constexpr double broadmark_gravity = 0.0981;  // world sides per second squared
 constexpr double broadmark_period = 6.2;      // seconds
 
 constexpr std::string_view motion_names[] = {"inertial", "brownian", "free_fall",
@@ -59,8 +60,8 @@ std::uint64_t read_seed(TomlTable& table, const SceneOverrides& overrides) {
   return static_cast<std::uint64_t>(used);
 }
 
-// Reads `motion` and what belongs to it; the scene's own motion gives the defaults. `side` is the
-// width of a generated world, 0 for others.
+// Reads `motion` and its parameters; the scene's own motion gives the defaults. `side` is the width
+// of a generated world, and 0 for others.
 void read_motion(TomlTable& table, double side, Motion& motion) {
   motion.time_step = table.number("time_step", {.low = 1e-9, .high = 1e6}, motion.time_step);
   motion.kind = static_cast<MotionKind>(
@@ -75,7 +76,7 @@ void read_motion(TomlTable& table, double side, Motion& motion) {
   }
 }
 
-// What listed and imported scenes may add: walls, and what brownian motion needs.
+// Reads additions to listed and imported scenes: walls, and the parameters of brownian motion.
 void read_motion_of_listed(TomlTable& table, const SceneOverrides& overrides, Scene& scene) {
   Motion& motion = scene.motion;
   read_motion(table, 0, motion);
@@ -138,7 +139,7 @@ Scene import_scene(const std::filesystem::path& file) {
                    "unknown kind of file; expected .toml, .json (rigid-ipc) or .aabbs (Broadmark)");
 }
 
-// Of a recording, the first frames.
+// Sets the number of frames; for a recording it keeps the first ones.
 void set_frames(const std::string& file, std::int64_t line, std::int64_t frames, Scene& scene) {
   const auto recorded = static_cast<std::int64_t>(scene.recording.size());
   const std::int64_t most = recorded > 0 ? recorded : most_frames;
@@ -149,7 +150,7 @@ void set_frames(const std::string& file, std::int64_t line, std::int64_t frames,
   if (recorded > 0) scene.recording.resize(static_cast<std::size_t>(frames));
 }
 
-// `lines` becomes the lines of listed bodies.
+// `lines` receives the lines of listed bodies.
 Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrides,
                 std::vector<std::int64_t>& lines) {
   const toml::table content = parse_toml(path);
@@ -206,12 +207,12 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   return scene;
 }
 
-// No box may leave the range of float in any frame.
+// Throws if a box may leave the range of float in any frame.
 void check_range(const std::string& file, std::span<const std::int64_t> lines, const Scene& scene) {
   constexpr double most = 1e38;
   const Motion& motion = scene.motion;
   const double time = motion.time_step * scene.frames;
-  std::vector<double> reach;  // doubled, for rotations are right to a thousandth only
+  std::vector<double> reach;  // doubled, because rotations are correct only to a thousandth
   for (const Shape& shape : scene.shapes) {
     const bool bounded = shape.kind != ShapeKind::halfspace;
     reach.push_back(bounded ? 2 * loose_reach(shape, Mat3d::Identity()) : 0);
@@ -232,7 +233,7 @@ void check_range(const std::string& file, std::span<const std::int64_t> lines, c
   }
 }
 
-// Bodies that move must start between the walls.
+// Throws unless moving bodies start between the walls.
 void check_walls(const std::string& file, std::span<const std::int64_t> lines, const Scene& scene) {
   const Motion& motion = scene.motion;
   if (!(motion.wall_min.x() <= motion.wall_max.x())) return;

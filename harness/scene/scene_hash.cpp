@@ -1,3 +1,4 @@
+// The hash of a scene, over its parameters and all poses.
 #include <bit>
 
 #include "harness/base/hash.h"
@@ -7,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-// A chain of mix(): each word changes everything behind it.
+// A chain of mix(): each word changes all later states.
 class Hash {
  public:
   void add(std::uint64_t word) { state_ = mix(state_ ^ word); }
@@ -26,7 +27,7 @@ class Hash {
       add((std::uint64_t{low} << 32) | high);
     }
   }
-  // What means something for the kind. A hull is its vertices; the rest follows from them.
+  // Adds the numbers that the kind uses. A hull is its vertices; the rest follows from them.
   void add(const Shape& shape) {
     add(static_cast<std::uint64_t>(shape.kind));
     switch (shape.kind) {
@@ -70,8 +71,8 @@ class Hash {
 
 }  // namespace
 
-// Both the parameters and what comes of them are taken in: a scene whose parameters differ is
-// another one even where its frames happen to agree, and so is one that is played otherwise.
+// The hash includes the parameters and the resulting poses: scenes with different parameters differ
+// even if their frames agree, and so do scenes that are played differently.
 std::string scene_hash(const Scene& scene) {
   Hash hash;
   if (!scene.recording.empty()) {

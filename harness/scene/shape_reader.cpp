@@ -1,3 +1,4 @@
+// Reads shapes and meshes of scene files, each mesh once.
 #include "harness/scene/shape_reader.h"
 
 #include "algorithms/hull/convex_hull.h"
@@ -7,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-// The turn that lays the body's z axis along axis 0 (x), 1 (y) or 2 (z): a cyclic permutation.
+// The rotation that takes the body's z axis to axis 0 (x), 1 (y) or 2 (z): a cyclic permutation.
 Mat3d axis_turn(std::size_t axis) {
   Mat3d turn = Mat3d::Zero();
   for (std::size_t column = 0; column < 3; ++column) {

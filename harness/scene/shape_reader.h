@@ -14,39 +14,39 @@
 
 namespace touchstone {
 
-// A shape, and how it is turned within its body: capsules, cylinders and cones along x or y. The
-// turn is a permutation of the axes, so that it is exact.
+// A shape with its rotation within its body, for capsules, cylinders and cones along x or y. The
+// rotation is a permutation of the axes and therefore exact.
 struct TurnedShape {
   Shape shape;
   Mat3d turn = Mat3d::Identity();
-  std::shared_ptr<const Mesh> mesh = nullptr;  // of which the shape is the convex hull
+  std::shared_ptr<const Mesh> mesh = nullptr;  // the shape is this mesh's convex hull
 };
 
-// The names of all shapes that a file can give: all_shape_kinds in order.
+// The names of all shapes in a file: all_shape_kinds in order.
 std::span<const std::string_view> shape_names();
 
-// A part of a mesh as its convex hull about the centre of the part's box.
+// A part of a mesh as its convex hull, relative to the centre of the part's box.
 struct MeshPart {
   Shape shape;
-  std::shared_ptr<const Mesh> mesh;  // of the part, about the same centre
+  std::shared_ptr<const Mesh> mesh;  // of the part, relative to the same centre
   Vec3d centre;                      // in the mesh's frame, scaled
 };
 
 class ShapeReader {
  public:
-  // Mesh files are named relative to `folder`. `get` says how to have them; it is told where one is
+  // Mesh files are relative to `folder`. `get` says how to get them; it is printed if one is
   // missing.
   explicit ShapeReader(std::filesystem::path folder, std::string get = "")
       : folder_(std::move(folder)), get_(std::move(get)) {}
 
-  // `type` with its sizes, in the words of the case format, or `mesh` with an optional `scale` (a
-  // number, or one for each axis): the mesh's convex hull. Makes the keys known to the table;
+  // Reads `type` with its sizes, named as in the case format, or `mesh` with an optional `scale`
+  // (one number, or one for each axis): the mesh's convex hull. Makes the keys known to the table;
   // the caller calls finish.
   TurnedShape read(TomlTable& table);
-  // `mesh` and `scale` again, but each connected part of the mesh as a hull of its own.
+  // Reads `mesh` and `scale` as above, with each connected part of the mesh as its own hull.
   const std::vector<MeshPart>& read_parts(TomlTable& table);
 
-  // The file that the key names, which must be there.
+  // The file named by the key; it must exist.
   std::filesystem::path existing_file(TomlTable& table, std::string_view key,
                                       std::string_view expected) const;
 

@@ -1,4 +1,4 @@
-// A city: everything stands on one plane, so that all boxes overlap along z.
+// Generator `city`: everything stands on one plane, so that all boxes overlap along z.
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +19,8 @@ Shape box(double x, double y, double z) {
 }  // namespace
 
 // Body 0 is the half-space z <= 0. The share `moving` of the others are cars, which drive along the
-// streets at up to `speed`; the rest are buildings, one in each `block`, of various footprints and
-// of heights even over the magnitudes of `height`. All touch the ground.
+// streets at up to `speed`. The rest are buildings, one in each `block`, with various footprints
+// and heights spread evenly over the magnitudes of `height`. All touch the ground.
 Generated make_city(GeneratorInput& input) {
   const double block = input.table.number("block", {.low = 8, .high = 1e6}, 20.0);
   const auto [lowest, highest] = input.table.range("height", positive, {4, 200});

@@ -1,3 +1,4 @@
+// Reads step, shuffled, teleports and churn of generated scenes.
 #include "harness/scene/generators/generated_motion.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ double median_size(const Scene& scene) {
   return *middle;
 }
 
-// To the nearest body.
+// Rounds a share to whole bodies.
 std::size_t part_of(double share, std::size_t count) {
   return static_cast<std::size_t>(std::floor(share * static_cast<double>(count) + 0.5));
 }

@@ -1,5 +1,5 @@
-// What every generated scene may ask for on top of its generator: how far bodies move in a frame,
-// the order of their ids, and bodies that jump, come and go.
+// Options of every generated scene: displacement per frame, order of ids, and bodies that jump,
+// arrive and leave.
 #pragma once
 
 #include "harness/files/toml_table.h"
@@ -8,16 +8,16 @@
 
 namespace touchstone {
 
-// Reads `step`, which stands in for `speed`: the greatest displacement a frame as a share of the
-// median size of the bodies (the longest side of a body's box in its own frame). The scene has its
+// Reads `step`, an alternative to `speed`: the greatest displacement per frame as a share of the
+// bodies' median size (the longest side of a body's box in its own frame). The scene must have its
 // time step already.
 void read_step(TomlTable& table, Scene& scene);
 
-// Reads `shuffled`: whether ids are in random order. Algorithms gain from ids that follow places.
+// Reads `shuffled`, which puts ids in random order. Algorithms gain from ids that follow places.
 void read_order(GeneratorInput& input, Scene& scene);
 
-// Reads `teleports` and `churn`, shares of the bodies that move (Motion), and adds the bodies that
-// come at frame 1: copies of random ones.
+// Reads `teleports` and `churn`, shares of the moving bodies (Motion), and adds the bodies that
+// arrive at frame 1: copies of random ones.
 void read_exchange(GeneratorInput& input, Scene& scene);
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// The list of generators, and the parts that they share.
 #include "harness/scene/generators/generators.h"
 
 #include <cmath>

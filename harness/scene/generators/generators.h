@@ -1,4 +1,4 @@
-// Seeded generators of scenes: the same bits on every platform.
+// Seeded generators of scenes. They give the same bits on every platform.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ namespace touchstone {
 struct GeneratorInput {
   TomlTable& table;
   ShapeReader& shapes;
-  std::int64_t count;  // bodies, at least one
+  std::int64_t count;  // number of bodies, at least one
   std::uint64_t seed;
-  std::optional<double> gap = {};  // of all pairs, instead of the file's gaps (metres)
-  int frames = 1;                  // of the scene, where the generator has to know
+  std::optional<double> gap = {};  // replaces the file's gaps for all pairs (metres)
+  int frames = 1;                  // the scene's frames, for generators that need the number
 
-  // Independent random numbers for each thing that is drawn, so that a change of one parameter
-  // leaves the others' draws as they were.
+  // Independent streams of random numbers for each property, so that a change of one parameter
+  // leaves the other draws as they were.
   enum Stream : std::uint64_t {
     shape_stream,
     pose_stream,
@@ -38,7 +38,7 @@ struct GeneratorInput {
 };
 
 // A scene with its walls, its kind of motion and its bodies' velocities. `side` is the world's
-// (metres), to which accelerations are in proportion.
+// (metres); accelerations are proportional to it.
 struct Generated {
   Scene scene;
   double side = 0;
@@ -51,18 +51,17 @@ struct Generator {
 
 std::span<const Generator> generators();
 
-// The parts that generators share.
-
-// Bodies of a mix of shapes, `turned` at random or not, without places.
+// Makes bodies from a mix of shapes, without positions. `turned` is the default for random
+// orientations.
 Scene make_bodies(GeneratorInput& input, const ShapeMixDefaults& defaults, bool turned,
                   std::int64_t count);
 struct MovementDefaults {
   double moving = 1;  // share of the bodies
-  double speed = 1;   // metres a second, greatest
-  double spin = 1;    // radians a second, greatest
+  double speed = 1;   // metres per second, greatest
+  double spin = 1;    // radians per second, greatest
 };
-// Reads `moving`, `speed` and `spin`, and gives the bodies from `first` on random velocities:
-// exactly that share of them, to the nearest body, moves. Sets the speed of the motion too.
+// Reads `moving`, `speed` and `spin`, and gives random velocities to the bodies from `first` on.
+// That share of them moves exactly, rounded to whole bodies. Also sets the speed of the motion.
 void set_in_motion(GeneratorInput& input, const MovementDefaults& defaults, std::size_t first,
                    Scene& scene);
 // Reads `walls` and encloses the region unless it is false.

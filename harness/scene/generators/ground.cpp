@@ -1,11 +1,11 @@
-// One large ground body with many small ones on it.
+// Generator `ground`: one large ground body with many small bodies on it.
 #include "harness/scene/generators/generators.h"
 #include "harness/scene/generators/world_size.h"
 
 namespace touchstone {
 
-// Body 0 is a box whose upper side is z = 0. The others' origins are evenly spread over it, up to
-// `layer` above it, so that those of the lower part stick in the ground.
+// Body 0 is a box whose upper side is z = 0. The others' origins are spread evenly over it, up to
+// `layer` above it, so that the lower ones penetrate the ground.
 Generated make_ground(GeneratorInput& input) {
   const ShapeMixDefaults sizes{.size = {0.2, 1}};
   const double thickness = input.table.number("thickness", positive, 1.0);

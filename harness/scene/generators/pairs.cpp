@@ -1,4 +1,4 @@
-// Pairs of bodies at exact distances, as benchmarks of narrow phases want them.
+// Generator `pairs`: pairs of bodies at exact distances, for benchmarks of narrow phases.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace touchstone {
 namespace {
 
-// A point of the shape that is farthest along n (unit, local).
+// Returns a point of the shape that is farthest along n (unit, local).
 Vec3d support_point(const Shape& shape, const Vec3d& n) {
   const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
   const double across = std::sqrt(n.x() * n.x() + n.y() * n.y());
@@ -79,15 +79,18 @@ std::vector<double> read_gaps(GeneratorInput& input) {
 
 }  // namespace
 
-// Body 2 i is placed against body 2 i + 1, whose gap is gaps[i modulo their number]: along a random
-// direction n the support points of the two, as seen from each other, are put that far apart on a
-// line along n. The planes through them then have nothing of either body between them, so that a
-// gap is the distance, exactly; a depth is that along n, and no greater than the bodies are deep
-// there. `settled`, body 2 i + 1 is then moved along the shortest connection until the distance, or
-// depth, is the gap by the exact answer; where it is that already, vertices still meet vertices.
-// `meeting`, it comes straight towards the other from a random direction until the exact distance,
-// or depth, is the gap: the nearest features are those of bodies that meet by chance. Pairs stand
-// on a grid, clear of each other. With `sway` they move (sway.h).
+// Body 2 i is placed against body 2 i + 1 with the gap gaps[i modulo their number]. Along a random
+// direction n, the support points of the two bodies that face each other are placed on a line along
+// n with that gap. Nothing lies between the planes through them, so a positive gap is the exact
+// distance; a depth is that along n, at most the bodies' depth there.
+//
+// `settled`: body 2 i + 1 then moves along the shortest connection until the exact distance or
+// depth is the gap. If it is already, vertices still face vertices.
+//
+// `meeting`: body 2 i + 1 moves straight towards the other from a random direction until the exact
+// distance or depth is the gap. The nearest features are those of bodies that meet by chance.
+//
+// Pairs stand on a grid, clear of each other. With `sway` they move (sway.h).
 Generated make_pairs(GeneratorInput& input) {
   if (input.count % 2 != 0) {
     throw InputError(input.table.file(), 0,

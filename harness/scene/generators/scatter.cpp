@@ -1,4 +1,5 @@
-// Bodies scattered in a cube: evenly, in clusters, of very different sizes, or as in Broadmark.
+// Generators that scatter bodies in a cube: evenly, in clusters, in very different sizes, or as
+// Broadmark does.
 #include <algorithm>
 
 #include "harness/scene/generators/generators.h"
@@ -9,7 +10,7 @@ namespace {
 
 // Broadmark starts its bodies in a ball of 0.9 times the world's width.
 constexpr double ball_radius = 0.45;
-// The half width of the cube that has the ball's volume.
+// Half the width of the cube that has the ball's volume.
 constexpr double ball_as_cube = ball_radius * 0.8059959770082348;
 
 Region centred(double half_width) {
@@ -42,10 +43,10 @@ Generated scatter_evenly(GeneratorInput& input, const ShapeMixDefaults& sizes) {
   return made;
 }
 
-// Broadmark's start (Serpa and Rodrigues 2020, and the scene generator that comes with it): unit
-// cubes in a ball in the middle of a cube of volume N * scale^3 / density, with velocities in a
-// ball of 0.75 world's widths a second. Ours turn from the start, because there is no solver to
-// turn them.
+// Broadmark's initial state (Serpa and Rodrigues 2020, and their scene generator): unit cubes in a
+// ball in the middle of a cube of volume N * scale^3 / density, with velocities in a ball of 0.75
+// world widths per second. The bodies here rotate from the start, because no solver makes them
+// rotate.
 Generated scatter_as_broadmark(GeneratorInput& input, MotionKind motion) {
   Generated made{make_bodies(input, {.size = {1, 1}, .aspect = 1}, false, input.count), 0};
   made.scene.motion.kind = motion;
@@ -69,14 +70,15 @@ Generated make_mixed(GeneratorInput& input) {
   return scatter_evenly(input, {.size = {0.01, 10}, .law = SizeLaw::over_magnitudes});
 }
 
-// Cubes of `spread` times the world's half width, anywhere in it; each body in one of them.
+// Clusters are cubes of `spread` times the world's half width, anywhere in it. Each body is in one
+// of them.
 Generated make_clustered(GeneratorInput& input) {
   Generated made{make_bodies(input, {}, true, input.count), 0};
   const std::int64_t clusters =
       input.table.integer("clusters", 1, 1'000'000, std::max<std::int64_t>(1, input.count / 100));
   const double spread = input.table.number("spread", {.low = 1e-6, .high = 1}, 0.1);
   Random places = input.random(GeneratorInput::place_stream);
-  std::vector<Vec3d> centres;  // in a world of side 2
+  std::vector<Vec3d> centres;  // for a world of side 2
   for (std::int64_t i = 0; i < clusters; ++i) {
     centres.push_back(place_in(centred(1 - spread), places));
   }

@@ -1,3 +1,4 @@
+// Moves a body until the oracle's signed distance is the requested one.
 #include "harness/scene/generators/settle.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace touchstone {
 namespace {
 
-// What doubles of the size of the translations can place.
+// The precision with which doubles of the size of the translations can place a body.
 double tolerance_of(double distance) { return std::max(1e-6 * std::abs(distance), 4e-16); }
 
 }  // namespace
@@ -25,7 +26,7 @@ bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
   return false;
 }
 
-// Newton's steps: along a line the signed distance is convex, so that none of them goes too far.
+// Takes Newton's steps: along a line the signed distance is convex, so no step goes too far.
 bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, const oracle::Solid& b,
           Pose& at_b, const Vec3d& way, double distance) {
   constexpr int most_steps = 60;
@@ -37,7 +38,7 @@ bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, cons
     if (measure.normal.isZero()) return false;
     const Vec3d normal = measure.normal.normalized();
     const double slope = -(normal.x() * way.x() + normal.y() * way.y() + normal.z() * way.z());
-    if (!(slope > 1e-3)) return false;  // past the nearest place, or almost
+    if (!(slope > 1e-3)) return false;  // beyond the nearest place, or almost
     at_b.translation += off / slope * way;
   }
   return false;

@@ -1,4 +1,4 @@
-// Two bodies at a given distance, by the exact answer.
+// Places two bodies at a given exact distance.
 #pragma once
 
 #include "algorithms/oracle/oracle.h"
@@ -6,13 +6,14 @@
 namespace touchstone {
 
 // Moves b along the shortest connection, or separating translation, until the signed distance
-// (metres) is right, to a millionth part of it or to 4e-16; on the way another feature may become
-// the nearest. False where that does not come to an end.
+// (metres) is correct to one millionth of it or to 4e-16. The nearest features may change on the
+// way. Returns false if this does not converge.
 bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
             const oracle::Solid& b, Pose& at_b, double distance);
 
-// Moves b straight on along `way`, a unit vector, to where the signed distance is right, as
-// exactly: from a place where it is greater, to the first such place. False where there is none.
+// Moves b straight along `way`, a unit vector, to the first place where the signed distance is
+// correct to that precision. It must be greater at the start. Returns false if there is no such
+// place.
 bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, const oracle::Solid& b,
           Pose& at_b, const Vec3d& way, double distance);
 

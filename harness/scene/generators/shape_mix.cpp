@@ -1,3 +1,4 @@
+// Reads the ingredients of a mix of shapes and draws random shapes from them.
 #include "harness/scene/generators/shape_mix.h"
 
 #include <fmt/format.h>
@@ -20,13 +21,13 @@ struct NormalLaw {
 struct Ingredient {
   double weight = 1;
   bool fixed = false;
-  TurnedShape shape;                // where fixed
-  ShapeKind kind = ShapeKind::box;  // where not
+  TurnedShape shape;                // if fixed
+  ShapeKind kind = ShapeKind::box;  // if not fixed
   std::int64_t hull_points = default_hull_points;
-  std::optional<NormalLaw> radii;  // of an ellipsoid, instead of `size` and `aspect`
+  std::optional<NormalLaw> radii;  // of an ellipsoid; replaces `size` and `aspect`
 };
 
-// Least part of the mean that a drawn length may have: a normal distribution has no end.
+// The least length relative to the mean that is drawn, since a normal distribution is unbounded.
 constexpr double least_part = 0.05;
 
 NormalLaw read_normal(TomlTable& table, const std::string& key) {
@@ -36,12 +37,12 @@ NormalLaw read_normal(TomlTable& table, const std::string& key) {
   return result;
 }
 
-// Random shapes are bounded: every kind but the half-space, which is the last of the list.
+// Names of the bounded kinds: all but the half-space, the last in the list.
 std::span<const std::string_view> bounded_names() {
   return shape_names().first(shape_names().size() - 1);
 }
 
-// A table that gives any size, or a mesh, is of one fixed shape.
+// Returns true if a table gives sizes or a mesh, and so a fixed shape.
 bool is_fixed(const TomlTable& table) {
   constexpr std::string_view sizes[] = {"mesh",  "radius",   "half_length", "half_extents",
                                         "radii", "vertices", "normal",      "offset"};
@@ -88,7 +89,7 @@ std::vector<Ingredient> read_ingredients(TomlTable& table, ShapeReader& reader) 
   return ingredients;
 }
 
-// A shape whose longest side or diameter is `size`.
+// Makes a shape whose longest side or diameter is `size`.
 Shape random_shape(const Ingredient& ingredient, double size, double aspect, Random& random) {
   Shape shape;
   shape.kind = ingredient.kind;
@@ -124,7 +125,7 @@ Shape random_shape(const Ingredient& ingredient, double size, double aspect, Ran
       shape.hull = make_hull(std::move(points));
       break;
     }
-    case ShapeKind::halfspace: break;  // never asked for
+    case ShapeKind::halfspace: break;  // does not occur
   }
   return shape;
 }

@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-// How sizes are spread between the least and the greatest.
+// Distribution of sizes between the least and the greatest.
 enum class SizeLaw : std::uint8_t { even, over_magnitudes };
 
 struct ShapeMixDefaults {

@@ -1,12 +1,13 @@
-// Piles of boxes that rest face to face.
+// Generator `stack`: piles of boxes that rest face to face.
 #include <cmath>
 
 #include "harness/scene/generators/generators.h"
 
 namespace touchstone {
 
-// Piles of `height` cubes of side `size` on a square grid with `gap` sides between them; 0 makes a
-// solid block. Faces touch exactly where size is a power of two. `turned` turns each pile about z.
+// Makes piles of `height` cubes of side `size` on a square grid with `gap` sides between them; gap
+// 0 makes a solid block. Faces touch exactly if size is a power of two. `turned` rotates each pile
+// about z.
 Generated make_stack(GeneratorInput& input) {
   const double size = input.table.number("size", positive, 1.0);
   const std::int64_t height = input.table.integer("height", 1, 1'000'000, 10);
@@ -39,7 +40,7 @@ Generated make_stack(GeneratorInput& input) {
     scene.bodies.push_back(body);
   }
   set_in_motion(input, {.moving = 0.1, .speed = 0.1 * size, .spin = 0}, 0, scene);
-  // Room for one more cube on every side.
+  // The walls leave room for one more cube on every side.
   const double across = static_cast<double>(row) * step;
   made.side = across;
   set_walls(input, {-step, -step, 0}, {across, across, (static_cast<double>(height) + 1) * size},

@@ -1,3 +1,4 @@
+// Small motions of pairs around their placed poses.
 #include "harness/scene/generators/sway.h"
 
 #include <cmath>
@@ -12,7 +13,7 @@ Vec3d cross(const Vec3d& u, const Vec3d& v) {
           u.x() * v.y() - u.y() * v.x()};
 }
 
-// Back from the middle frame to the first.
+// Moves a body back from the middle frame to the first.
 void start(double seconds, Body& body) {
   body.moving = true;
   body.pose.translation -= seconds * body.velocity;

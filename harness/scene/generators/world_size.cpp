@@ -1,3 +1,4 @@
+// Finds the side of a world with a given number of expected overlaps, or a given density.
 #include "harness/scene/generators/world_size.h"
 
 #include <fmt/format.h>
@@ -10,11 +11,12 @@
 namespace touchstone {
 namespace {
 
-// More where bodies are many: the fewer of all pairs overlap, the fewer of a sample do.
+// Many bodies need a larger sample: the smaller the share of overlapping pairs, the fewer a sample
+// has.
 constexpr std::size_t many_bodies = 200'000;
 constexpr std::size_t sampled_of_few = 16'384, sampled_of_many = 262'144;
 
-// P(X - Y <= x) for X and Y even on [0, 1].
+// The probability P(X - Y <= x) for X and Y uniform on [0, 1].
 double triangle(double x) {
   if (x <= -1) return 0;
   if (x >= 1) return 1;
@@ -24,7 +26,7 @@ double triangle(double x) {
 double overlap_probability(const Aabb& a, const Region& at, const Aabb& b, const Region& bt) {
   double probability = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    // The origins' difference must be in [low, high]: then the intervals share a point.
+    // The intervals share a point if the difference of the origins is in [low, high].
     const auto i = static_cast<std::size_t>(axis);
     const double between = bt.low[axis] - at.low[axis];
     const double low = static_cast<double>(a.min[i]) - static_cast<double>(b.max[i]) - between;
@@ -42,7 +44,7 @@ double round_to_16_bits(double x) {
   return std::ldexp(std::floor(mantissa * 0x1p16 + 0.5), exponent - 16);
 }
 
-// The sum of the volumes of the bodies' boxes in their own frames.
+// The sum of the volumes of the bodies' boxes, each in its own frame.
 double own_volume(const Scene& scene) {
   std::vector<double> volumes;
   for (const Shape& shape : scene.shapes) {
@@ -58,7 +60,7 @@ double own_volume(const Scene& scene) {
   return sum;
 }
 
-// The side at which so many overlaps are expected; 0 where they are too many for any.
+// Returns the side at which that many overlaps are expected, or 0 if no side has so many.
 double side_for_overlaps(double overlaps, std::span<const Aabb> boxes, const RegionOf& region,
                          const Random& random) {
   const auto expect = [&](double side) { return expected_overlaps(boxes, region, side, random); };
@@ -118,7 +120,7 @@ double read_world_side(TomlTable& table, const Scene& scene, const RegionOf& reg
     const double density = table.number("density", positive, defaults.density);
     return round_to_16_bits(cube_root(own_volume(scene) / density));
   }
-  // Where nothing was asked, few bodies have few overlaps.
+  // By default few bodies have few overlaps.
   const double overlaps =
       asked ? table.number("overlaps", positive) : std::min(defaults.overlaps, others / 2);
   if (!(overlaps > 0)) return round_to_16_bits(cube_root(own_volume(scene)) + 1);
