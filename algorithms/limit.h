@@ -1,4 +1,5 @@
-// What no broad phase that sorts can do without: the yardstick beside the contestants.
+// The lower bound on the time of a broad phase that sorts: `limit` in the results. It may include
+// core and kernels/sorting.
 #pragma once
 
 #include <memory>
@@ -10,8 +11,8 @@
 
 namespace touchstone {
 
-// Not a broad phase: it is told the pairs. Its time is that of a radix sort of a 32-bit key for
-// each box, of gathering the boxes in that order, and of writing the pairs.
+// Not a broad phase, since it is given the pairs. Its time is that of a radix sort of a 32-bit key
+// for each box, of gathering the boxes in that order, and of writing the pairs.
 class BroadPhaseLimit {
  public:
   virtual ~BroadPhaseLimit() = default;
@@ -19,7 +20,7 @@ class BroadPhaseLimit {
   virtual void write(std::span<const IndexPair> pairs, PairSink& sink) = 0;
 };
 
-// The executor outlives it.
+// Makes the bound. The executor must outlive it.
 std::unique_ptr<BroadPhaseLimit> make_broad_phase_limit(Executor& executor);
 
 }  // namespace touchstone

@@ -212,7 +212,7 @@ class LinearBvh final : public BroadPhase {
   std::vector<Aabb> leaves_;  // bounds of the leaves
   std::vector<Node> nodes_;
   std::uint32_t root_ = 0;
-  // For each node, the far end of the child that arrived first.
+  // The far end of the child that arrived first, by node.
   std::vector<std::atomic<std::uint32_t>> arrivals_;
   double spread_at_build_ = 0;
 };

@@ -96,7 +96,7 @@ class EndpointList {
 
   std::size_t axis_;
   std::vector<Endpoint> points_, fresh_;  // the sorted ones; scratch for those to be inserted
-  // For each id the extents of the box on the two other axes: minima, and negated maxima. Axes
+  // The extents of each box, by id, on the two other axes: minima, and negated maxima. Axes
   // before this one have this frame's values and those after it the last frame's.
   std::vector<Shadow> shadows_;
   std::vector<std::uint32_t> places_;  // places of the minimum and the maximum of each id

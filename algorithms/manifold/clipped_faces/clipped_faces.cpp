@@ -134,7 +134,7 @@ class ClippedFaces final : public ContactManifold {
   ExpandingPolytope<Scalar> expanding_{most_expansions};
   ContactFeature<Scalar> feature_a_, feature_b_;
   ContactPolygon<Scalar> region_;
-  std::vector<Outcome> outcomes_;    // of a batch of box pairs
+  std::vector<Outcome> outcomes_;    // results of a batch of box pairs
   std::vector<std::uint32_t> left_;  // indices of the pairs that the lanes do not solve
 };
 

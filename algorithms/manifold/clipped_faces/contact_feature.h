@@ -66,7 +66,7 @@ struct FeatureShape {
 template <class Scalar>
 struct ContactFeature {
   std::vector<Vec3<Scalar>> points;
-  Vec3<Scalar> normal = Vec3<Scalar>::Zero();  // of a polygon: unit, outward
+  Vec3<Scalar> normal = Vec3<Scalar>::Zero();  // a polygon's: unit, outward
   bool numbered = false;     // true if the edges have the same numbers in every frame and
   std::uint16_t number = 0;  // this is the number of the body's face
 };

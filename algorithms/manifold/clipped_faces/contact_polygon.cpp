@@ -121,7 +121,7 @@ void ContactPolygon<Scalar>::merge_neighbours(std::vector<Seen>& loop, Scalar di
   bool apart = !loop.empty() && !near(loop.back(), loop.front());
   for (std::size_t k = 1; k < loop.size(); ++k) apart = apart && !near(loop[k - 1], loop[k]);
   if (apart) return;
-  // Of two merged corners the first keeps its place, and the second its edge.
+  // The first of two merged corners keeps its place, and the second its edge.
   std::size_t kept = 0;
   for (std::size_t k = 0; k < loop.size(); ++k) {
     if (kept > 0 && near(loop[kept - 1], loop[k])) {
