@@ -1,4 +1,5 @@
-// Places along a Hilbert curve: neighbours on the curve are neighbours in space.
+// Places along a Hilbert curve: neighbours on the curve are neighbours in space. Used by Hilbert
+// sort.
 // Paper: Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004.
 #pragma once
 
@@ -11,31 +12,31 @@
 
 namespace touchstone {
 
-// A grid of equally many cells on each axis over a region; a box belongs to the cell of its centre.
-// Axes on which the region is flat have one cell, and their bits go to the others.
+// A grid of equally many cells on each axis of a region; a box belongs to the cell of its centre.
+// An axis on which the region is flat has one cell, and its bits go to the other axes.
 class HilbertGrid {
  public:
-  // Of doubled centres (min + max of a box), low <= high, finite. At most `code_bits` bits a place,
-  // 3 <= code_bits <= 30.
+  // The region is given in doubled centres (min + max of a box): finite, low <= high. A place has
+  // at most `code_bits` bits, 3 <= code_bits <= 30.
   HilbertGrid(const std::array<float, 3>& low, const std::array<float, 3>& high, int code_bits);
 
   int code_bits() const { return axes_ * bits_; }
-  // Of the boxes' centres: codes[i] is that of boxes[i]. The same at every level of vector
-  // instructions. Empty boxes have some code.
+  // Writes the place of boxes[i]'s centre to codes[i]. The codes are equal at every level of vector
+  // instructions. An empty box gets an arbitrary code.
   void codes(std::span<const Aabb> boxes, std::uint32_t* codes) const;
-  // codes[i] is that of boxes[ids[i]].
+  // Writes the place of boxes[ids[i]]'s centre to codes[i].
   void codes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
              std::uint32_t* codes) const;
 
  private:
-  // Of box_of(i), i < total.
+  // Writes the places of the boxes box_of(i), i < total.
   template <class Box>
   void codes_of(std::size_t total, const Box& box_of, std::uint32_t* codes) const;
 
   std::array<float, 3> low_, scale_;
-  std::array<std::size_t, 3> axis_;  // those that count come first
+  std::array<std::size_t, 3> axis_;  // the axes with more than one cell come first
   int axes_ = 0;
-  int bits_ = 0;  // an axis
+  int bits_ = 0;  // number for each axis
 };
 
 }  // namespace touchstone

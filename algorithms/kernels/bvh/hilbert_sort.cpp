@@ -15,17 +15,17 @@ namespace touchstone {
 namespace {
 
 constexpr std::size_t boxes_at_once = 1024;
-// Cells of the curve a body, as a power of two: more would make the sort longer, fewer the order
-// worse.
+// Cells of the curve for each body, as a power of two: more lengthen the sort, fewer worsen the
+// order.
 constexpr int cells_a_body_log2 = 1;
-// More boxes than these in one cell of the curve get a curve of their own.
+// A cell of the curve with more boxes gets a curve of its own.
 constexpr std::size_t most_in_cell = 32;
 
 int bits_of(std::size_t x) { return static_cast<int>(std::bit_width(x)); }
 
 struct Region {
   static constexpr float inf = std::numeric_limits<float>::infinity();
-  std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf};  // of doubled centres
+  std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf};  // bounds of doubled centres
 
   void add(const Aabb& box) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -36,7 +36,7 @@ struct Region {
   }
 };
 
-// Of the longest side: two to an octave.
+// The magnitude of a box is that of its longest side; there are two to an octave.
 constexpr std::size_t magnitudes = 512;
 std::size_t magnitude(float side) { return std::bit_cast<std::uint32_t>(side) >> 22 & 511; }
 std::size_t magnitude(const Aabb& box) {
@@ -44,7 +44,7 @@ std::size_t magnitude(const Aabb& box) {
       std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]}));
 }
 
-// What some of the boxes say of all.
+// Estimates for all boxes from every stride-th one.
 struct Sample {
   Region region;
   std::array<std::uint32_t, magnitudes> members{};
@@ -65,7 +65,8 @@ Sample take_sample(std::span<const Aabb> boxes) {
   return sample.empty() && sample.stride > 1 ? Sample(boxes, 1) : sample;
 }
 
-// How far apart this many bodies are that fill a region, be it flat or a line (metres).
+// Returns the mean distance between this many bodies that fill a region, which may be flat or a
+// line (metres).
 double spacing(const Region& region, double bodies) {
   std::array<double, 3> extent;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -79,13 +80,13 @@ double spacing(const Region& region, double bodies) {
 }
 
 struct Classes {
-  std::array<std::uint8_t, magnitudes> of{};  // of each magnitude
+  std::array<std::uint8_t, magnitudes> of{};  // class of each magnitude
   std::size_t count = 0;
 };
 
-// From the smallest up. Boxes that are not much larger than what a block of 16 takes up can be in
-// one with the smallest; the larger ones are fewer, so their blocks are larger, and the same holds
-// again.
+// Makes classes from the smallest size up. Boxes that are not much larger than the space of a block
+// of 16 can share a class with the smallest; the larger ones are fewer, so their blocks are larger,
+// and the same rule makes the next class.
 Classes make_classes(const Sample& sample) {
   constexpr double most_spacings = 5;
   double bodies = 0;
@@ -98,7 +99,7 @@ Classes make_classes(const Sample& sample) {
     const std::size_t end = std::clamp(magnitude(static_cast<float>(side)) + 1, from, magnitudes);
     double inside = 0;
     for (std::size_t i = from; i < end; ++i) inside += sample.members[i];
-    if (inside == 0) break;  // all overlap many others: size does not tell them apart
+    if (inside == 0) break;  // all boxes overlap many others: size does not separate them
     std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
               classes.of.begin() + static_cast<std::ptrdiff_t>(end),
               static_cast<std::uint8_t>(classes.count));
@@ -108,7 +109,7 @@ Classes make_classes(const Sample& sample) {
   }
   std::size_t seen = magnitudes;
   while (seen > from && sample.members[seen - 1] == 0) --seen;
-  // The rest, and what is larger than any of the sample.
+  // The last two classes: the rest, and boxes larger than any of the sample.
   for (const std::size_t end : {seen, magnitudes}) {
     if (end == from) continue;
     std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
@@ -155,7 +156,7 @@ void HilbertSort::make(Executor& executor, std::span<const Aabb> boxes) {
   refine_runs(executor, boxes);
 }
 
-// Finds the cells that hold too many.
+// Finds cells that hold too many boxes, and refines each.
 void HilbertSort::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
   constexpr std::size_t stride = most_in_cell / 2;
   runs_.clear();
@@ -172,7 +173,7 @@ void HilbertSort::refine_runs(Executor& executor, std::span<const Aabb> boxes) {
   executor.run(runs_.size(), std::cref(task));
 }
 
-// Draws a curve through boxes first <= i < last of the order, which have one key and keep it.
+// Sorts boxes first <= i < last, which share a key and keep it, along a curve of their own.
 void HilbertSort::refine(std::span<const Aabb> boxes, std::size_t first, std::size_t last,
                          int depth) {
   Region region;
@@ -193,7 +194,8 @@ void HilbertSort::refine(std::span<const Aabb> boxes, std::size_t first, std::si
   }
   const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::sort(at(first), at(last));
-  // Each curve is at least four times as fine; floats have no more than this.
+  // Each curve is at least four times as fine as the last; floats cannot be refined further than
+  // this.
   constexpr int deepest = 64;
   for (std::size_t i = first; depth < deepest && i < last;) {
     std::size_t end = i + 1;
@@ -219,7 +221,7 @@ void HilbertSort::gather(Executor& executor, std::span<const Aabb> boxes, AabbSo
     const std::size_t members = begins_[at + 1] - begin;
     for_each_block(executor, members, boxes_at_once,
                    [&](std::size_t, std::size_t first, std::size_t last) {
-                     // The boxes are anywhere in memory: they are asked for in good time.
+                     // The boxes are scattered in memory, so they are prefetched.
                      constexpr std::size_t ahead = 24;
                      for (std::size_t i = first; i < last; ++i) {
                        if (i + ahead < last) __builtin_prefetch(&boxes[id(begin + i + ahead)]);
