@@ -1,3 +1,4 @@
+// Containment of one convex body in another, proven with bounds on the rounding.
 #include "harness/proxies/certainty.h"
 
 #include <algorithm>
@@ -15,19 +16,18 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The triangle's normal, right to its last digit however thin the triangle is.
+// The triangle's normal, correct to its last digit however thin the triangle is.
 Vec3d true_normal(const Triangle& t) {
   return cross(DoubleDouble3::difference(t.b, t.a), DoubleDouble3::difference(t.c, t.a)).value();
 }
 
 // Bounds the rounding of normal . (x - a) for |x - a| = 1: of the normal, of the difference, and of
-// the sum of three products, with room to spare.
+// the sum of three products, with a margin.
 double rounding_of(const Triangle& t, const Vec3d& normal) {
   return 16 * epsilon * normal.norm() + 0x1p-96 * (t.b - t.a).norm() * (t.c - t.a).norm();
 }
 
-// The triangle's plane seen from the body's middle: everything near it is at most this far from
-// t.a.
+// An upper bound on the distance of the body's points from a.
 double span_from(const LocalBody& body, const Vec3d& a) {
   return (body.size + (a - body.middle).norm()) * (1 + 8 * epsilon);
 }
@@ -54,7 +54,7 @@ double ellipsoid_clearance(const Vec3d& radii, const Vec3d& p) {
   return std::sqrt(std::max(0.0, best)) - 32 * epsilon * radii.maxCoeff();
 }
 
-// Of shapes other than hulls.
+// The clearance for shapes other than hulls.
 double round_clearance(const Shape& s, const Vec3d& x) {
   const double slack = 16 * epsilon * (s.radius + s.half_length + x.cwiseAbs().maxCoeff());
   const double beside = std::hypot(x.x(), x.y());
@@ -116,7 +116,7 @@ std::optional<Shape> hull_that_holds(const LocalBody& body, const std::vector<Ve
   for (int round = 0; round < 60; ++round) {
     auto hull = std::make_shared<Hull>(*first);
     for (Vec3d& v : hull->vertices) v = middle + (1 + more) * (v - middle);
-    double beyond = -infinity;  // as a part of the plane's distance from the middle
+    double beyond = -infinity;  // relative to the plane's distance from the middle
     for (const Triangle& t : triangles_of(*hull)) {
       const Vec3d n = true_normal(t);
       const double error = rounding_of(t, n) * span_from(body, t.a);

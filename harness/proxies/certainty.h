@@ -1,4 +1,4 @@
-// What is certain in spite of rounding: that one convex body holds another.
+// Proofs in spite of rounding that one convex body contains another.
 #pragma once
 
 #include <optional>
@@ -11,33 +11,36 @@ namespace touchstone {
 // An upper bound on n . (x - a) over the points x of the body (of its hull, for a mesh).
 double reach(const LocalBody& body, const Vec3d& n, const Vec3d& a);
 
-// The hull of these points scaled up about its middle by as little as is needed until it certainly
-// holds the body. The proof: a closed surface of triangles, each of which has the body on its inner
-// side, and all of which are seen from inside by one point, has the body inside it, for a ray from
-// that point leaves the half-spaces before it leaves the surface; and the convex hull of the
-// surface's corners holds what is inside it. All signs are of sums with a bound on their rounding.
-// Nothing where Qhull finds no solid in the points.
+// Scales the hull of these points up around its middle, by as little as necessary, until it
+// certainly contains the body. Returns nothing if Qhull finds no solid in the points.
+//
+// Proof: consider a closed surface of triangles that have the body on their inner side and a common
+// point that sees all of them from inside. A ray from that point leaves the half-spaces before it
+// leaves the surface, so the body is inside the surface, and the convex hull of the surface's
+// corners contains everything inside it. All signs are those of sums with a bound on their
+// rounding.
 std::optional<Shape> hull_that_holds(const LocalBody& body, const std::vector<Vec3d>& points);
 
-// The inside of a convex body without its rim of rounding.
+// The interior of a convex body, reduced by rounding.
 class Inside {
  public:
   explicit Inside(const LocalBody& body);
 
-  // False where the body is too thin for any point to be certainly inside.
+  // False if the body is too thin for any point to be certainly inside.
   bool has_interior() const { return has_interior_; }
-  // A point about as far inside as any.
+  // A point about as deep inside as any.
   const Vec3d& deepest() const { return deepest_; }
-  // A lower bound on the distance of x from the outside: a ball of that radius about x is inside
-  // the body for certain. Negative where x is not certainly inside.
+  // A lower bound on the distance of x from the outside: a ball of that radius around x is
+  // certainly inside the body. Negative if x is not certainly inside.
   double clearance(const Vec3d& x) const;
-  // The planes of a polytope's faces, unit normals; of a round body those of a polytope inside it.
+  // The planes of a polytope's faces with unit normals; for a round body those of a polytope inside
+  // it.
   const std::vector<Plane>& planes() const { return planes_; }
 
  private:
   struct Facet {
     Vec3d normal, point;
-    double length, error;  // of the normal; of normal . (x - point), by the distance of x
+    double length, error;  // |normal|; error of normal . (x - point) per distance of x
   };
   double within_facets(const Vec3d& x) const;
 

@@ -1,3 +1,4 @@
+// Approximate convex decomposition: greedy cuts, joins, and hulls that are proven.
 #include "harness/proxies/decomposition.h"
 
 #include <algorithm>
@@ -19,18 +20,18 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_parts = 64;
-constexpr double enough = 0.01;        // of the body's volume
-constexpr double worth_a_part = 1e-4;  // of the body's volume
+constexpr double enough = 0.01;        // share of the body's volume
+constexpr double worth_a_part = 1e-4;  // share of the body's volume
 constexpr std::size_t concave_edges = 12;
-constexpr std::size_t neighbours = 8;  // with which joining is tried
+constexpr std::size_t neighbours = 8;  // number of nearest pieces with which joining is tried
 
 struct Piece {
-  Mesh mesh;                   // no triangles where it was joined of several
+  Mesh mesh;                   // empty if joined from several pieces
   std::vector<Vec3d> corners;  // of its hull
   Vec3d middle = Vec3d::Zero();
   double hull_volume = 0, volume = 0;
-  int cuts = 0;        // that its points may have come from
-  bool whole = false;  // not to be cut
+  int cuts = 0;        // number of cuts that its points may have come from
+  bool whole = false;  // must not be cut
 
   double concavity() const { return whole ? 0 : hull_volume - volume; }
 };
@@ -54,7 +55,7 @@ Piece measured(Mesh mesh, int cuts, bool whole) {
   return piece;
 }
 
-// Planes of the faces beside the concave edges that bend most, weighed by length.
+// The planes of the faces beside the most concave edges, weighted by length.
 std::vector<Plane> concave_planes(const Mesh& mesh) {
   const std::vector<Triangle> triangles = triangles_of(mesh);
   std::map<std::array<std::uint32_t, 2>, std::size_t> first;
@@ -67,7 +68,7 @@ std::vector<Plane> concave_planes(const Mesh& mesh) {
       const Vec3d m = triangles[t].normal().normalized();
       const Vec3d n = triangles[other->second].normal().normalized();
       const Vec3d edge = mesh.vertices[b] - mesh.vertices[a];
-      const double bend = -m.cross(n).dot(edge);  // of the other triangle's direction along it
+      const double bend = -m.cross(n).dot(edge);  // sine times length, > 0 if concave
       if (bend > 1e-3 * edge.norm()) edges.push_back({bend, {t, other->second}});
     }
   }
@@ -135,8 +136,8 @@ Piece joined(const Piece& a, const Piece& b) {
   return piece;
 }
 
-// Joins pieces that are near each other: always the pair that adds least, while there are too many
-// pieces or it adds hardly anything.
+// Joins neighbouring pieces: always the pair that adds least volume, while there are too many
+// pieces or the pair adds almost nothing.
 class Joiner {
  public:
   Joiner(std::vector<Piece> pieces, double volume)
@@ -173,7 +174,7 @@ class Joiner {
       if (live_[i]) price(i);
     }
   }
-  // With the nearest others.
+  // Prices the joins with the nearest pieces.
   void price(std::size_t i) {
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t j = 0; j < live_.size(); ++j) {
@@ -199,8 +200,8 @@ class Joiner {
 Part part_around(const LocalBody& body, const Piece& piece) {
   Part part;
   part.shape.kind = ShapeKind::hull;
-  // A rounded point is off by less than 8 units of its coordinates; six points around each hold a
-  // ball.
+  // A rounded point is off by less than 8 units of its coordinates. Six points around it contain a
+  // ball of that radius.
   const double moved = piece.cuts * 16 * epsilon * (body.size + body.middle.norm());
   LocalBody grown = body;
   grown.points.clear();
@@ -213,7 +214,7 @@ Part part_around(const LocalBody& body, const Piece& piece) {
   if (std::optional<Shape> hull = hull_that_holds(grown, piece.mesh.vertices)) {
     part.shape = std::move(*hull);
   } else {
-    part.shape.hull = make_hull(grown.points);  // thin: all of the points are its vertices
+    part.shape.hull = make_hull(grown.points);  // for a thin piece all points are vertices
   }
   return part;
 }
@@ -229,7 +230,8 @@ std::vector<Part> decompose(const LocalBody& body, int most) {
     volume += pieces.back().whole ? pieces.back().hull_volume : pieces.back().volume;
   }
   if (pieces.empty()) throw InputError("the mesh has no triangles, so no parts; expected some");
-  // Somewhat more than asked for, as joining makes up for cuts that were not the best.
+  // The number of pieces exceeds the limit at first, because joining makes up for cuts that were
+  // not the best.
   const std::size_t limit =
       most > 0 ? static_cast<std::size_t>(most) : std::max(pieces.size(), std::size_t{most_parts});
   while (pieces.size() < limit + limit / 2) {

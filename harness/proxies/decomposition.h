@@ -1,4 +1,4 @@
-// A mesh as convex parts.
+// Decomposes a mesh into convex parts.
 #pragma once
 
 #include <vector>
@@ -7,20 +7,22 @@
 
 namespace touchstone {
 
-// Convex parts whose union certainly holds the solid of the mesh, in the body's local frame.
+// Returns convex parts whose union certainly contains the solid of the mesh, in the body's local
+// frame.
 //
-// Approximate convex decomposition by planes, as in Wei, Liu, Su, "Approximate convex decomposition
-// for 3D meshes with collision-aware concavity and tree search", SIGGRAPH 2022; but concavity is
-// the volume that the hull adds, cuts are chosen greedily (along three axes, and along the faces
-// beside the sharpest concave edges), and parts are joined again while that adds little. A piece
-// that is not closed is one part, its hull.
+// The method is approximate convex decomposition by planes, as in Wei, Liu, Su, "Approximate convex
+// decomposition for 3D meshes with collision-aware concavity and tree search", SIGGRAPH 2022. Here
+// concavity is the volume that the hull adds, cuts are chosen greedily (along three axes, and along
+// the faces beside the sharpest concave edges), and parts are joined again while that adds little.
+// A piece that is not closed becomes one part, its hull.
 //
-// Why it holds the solid: where the winding number of the mesh is not zero, that of one of the
-// pieces that it is cut into is not (mesh_cut.h), and there one is in that piece's hull. What the
-// rounding of cuts moves the surface by is added around each hull.
+// The parts contain the solid for this reason: at a point with a nonzero winding number of the
+// mesh, one of the pieces has a nonzero winding number (mesh_cut.h), so the point is in that
+// piece's hull. The error of rounding the cuts is added around each hull.
 //
-// `most` parts or, for 0, cuts until each hull has at most a hundredth of the body's volume too
-// much, at most 64 parts, or as many as the mesh has pieces that do not hang together.
+// `most` limits the number of parts. For 0, cuts continue until each hull has at most a hundredth
+// of the body's volume too much, with at most 64 parts or as many as the mesh has disconnected
+// pieces.
 std::vector<Part> decompose(const LocalBody& body, int most);
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// Inner proxies of a convex body: each shrinks until its clearance is certain.
 #include "harness/proxies/inner_fits.h"
 
 #include <algorithm>
@@ -26,8 +27,8 @@ Inside inside_of(const LocalBody& body) {
   return inside;
 }
 
-// The copy of the hull of `corners` (about zero) that is certainly inside. Corner i of the copy is
-// centre + scale * corners[i], up to 4 units in the last place of the body's size.
+// The greatest copy of the hull of `corners` (around zero) that is certainly inside. Corner i of
+// the copy is centre + scale * corners[i], up to 4 units in the last place of the body's size.
 Copy copy_inside(const LocalBody& body, const Inside& inside, const std::vector<Vec3d>& corners) {
   const auto support = [&](const Vec3d& n) {
     double far = 0;
@@ -43,7 +44,7 @@ Copy copy_inside(const LocalBody& body, const Inside& inside, const std::vector<
       return inside.clearance(copy.centre + scale * c) >= 8 * epsilon * body.size;
     });
   };
-  // A round shape is somewhat greater than the polytope that stood for it.
+  // A round shape is slightly larger than its polytope.
   double low = 0, high = copy.scale * (round ? 1.05 : 1 + 0x1p-30);
   if (copy.scale > 0 && fits(copy.scale * (1 - 0x1p-30))) low = copy.scale * (1 - 0x1p-30);
   for (int step = 0; step < 60 && copy.scale > 0; ++step) {
@@ -131,7 +132,7 @@ Part inner_capsule(const LocalBody& body) {
     }
     copy.centre = body.snap(copy.centre);
     const Vec3d along = copy.scale * ratio * axis;
-    // A capsule is in a convex body where both end balls are.
+    // A capsule is in a convex body if both end balls are.
     const double radius =
         std::min(inside.clearance(copy.centre + along), inside.clearance(copy.centre - along)) -
         8 * epsilon * body.size;

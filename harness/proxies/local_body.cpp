@@ -1,3 +1,4 @@
+// Moves a body near the origin and to unit size, exactly.
 #include "harness/proxies/local_body.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ Vec3d half_extents(const Shape& s) {
   }
 }
 
-// To about 1; 0 for what has no size.
+// The exponent that scales to about 1; 0 for a body without size.
 int exponent_of(const Vec3d& v) {
   const double greatest = v.maxCoeff();
   return greatest > 0 ? std::ilogb(greatest) : 0;
@@ -89,7 +90,7 @@ LocalBody::LocalBody(const Shape& body, const Mesh* with) : has_mesh(with != nul
     high = high.cwiseMax(p);
   }
   middle = snap(0.5 * (low + high));
-  // The exact difference is at most half a unit in the last place beyond.
+  // The exact difference is at most half a unit in the last place larger.
   half = (high - middle).cwiseMax(middle - low) * (1 + epsilon);
   for (const Vec3d& p : points) size = std::max(size, (p - middle).norm() * (1 + 8 * epsilon));
 }

@@ -1,4 +1,5 @@
-// A body where fitting is safe: about unit size, near the origin, with exact ways there and back.
+// A body in a frame where fitting is safe: about unit size, near the origin, with exact
+// conversions.
 #pragma once
 
 #include <vector>
@@ -8,31 +9,31 @@
 
 namespace touchstone {
 
-// The body is scaled by a power of two; a hull is also moved by exact differences: by one of its
-// points along each axis where it is farther from the origin than it is long. So no digit of a body
-// far off, tiny or huge is lost (numbers that become subnormal aside).
+// The body is scaled by a power of two. A hull is also moved by exact differences: by one of its
+// points along each axis on which it is farther from the origin than it is long. So no digit of a
+// distant, tiny or huge body is lost (except for subnormal numbers).
 struct LocalBody {
   LocalBody(const Shape& body, const Mesh* mesh);
 
   Shape shape;
-  std::vector<Vec3d> points;     // of hulls: the vertices, and the mesh's
-  Mesh mesh;                     // empty for a body without one
-  Vec3d middle = Vec3d::Zero();  // of the own axes' box
-  Vec3d half = Vec3d::Zero();    // of the own axes' box, rounded up
-  double size = 0;               // a bound on the distance of its points from the middle
+  std::vector<Vec3d> points;     // of hulls: the vertices, and those of the mesh
+  Mesh mesh;                     // empty if the body has none
+  Vec3d middle = Vec3d::Zero();  // centre of the box along the body's axes
+  Vec3d half = Vec3d::Zero();    // half extents of that box, rounded up
+  double size = 0;               // upper bound on the distance of its points from the middle
   bool has_mesh = false;
-  bool solid = true;  // of dimension 3
+  bool solid = true;  // has dimension 3
 
-  // The nearest point at which a part can be centred exactly.
+  // The point nearest to `centre` at which a part can be centred exactly.
   Vec3d snap(const Vec3d& centre) const;
-  // A part of this body's frame in the given one's. Its translation is a snapped point, or zero.
+  // Converts a part to the original frame. Its translation must be a snapped point, or zero.
   Part placed(Part part) const;
-  // Its inverse, up to rounding; metres of this frame as given.
+  // The inverse of `placed`, up to rounding, and the original length of a length here in metres.
   Part localised(Part part) const;
   double length_as_given(double length) const;
 
  private:
-  Vec3d shift_ = Vec3d::Zero();  // as given
+  Vec3d shift_ = Vec3d::Zero();  // in the original frame
   int exponent_ = 0;
 };
 

@@ -1,3 +1,4 @@
+// Inner proxies of closed meshes: candidates from sample points, proven with the exact oracle.
 #include "harness/proxies/mesh_inside.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ Shape hull_of(const Triangle& t) {
   return shape;
 }
 
-// Corners about the part's middle.
+// Corners relative to the part's middle.
 std::vector<Vec3d> corners_of(const Part& part) {
   std::vector<Vec3d> corners = PlacedSolid(part.shape, part.pose).extremes();
   Vec3d middle = Vec3d::Zero();
@@ -31,7 +32,7 @@ std::vector<Vec3d> corners_of(const Part& part) {
   return corners;
 }
 
-// How great the copy about zero becomes before it meets the triangle.
+// The scale at which the copy around zero meets the triangle.
 double scale_at(const std::vector<Plane>& planes, const Triangle& t) {
   std::vector<Vec3d> rows;
   for (const Plane& p : planes) {
@@ -85,8 +86,8 @@ bool MeshInside::winds_about(const Vec3d& x) const {
   });
 }
 
-// A plane across the way to the nearest point keeps the whole triangle as far as its nearest
-// corner.
+// A plane perpendicular to the direction of the nearest point keeps the whole triangle at the
+// distance of its nearest corner.
 double MeshInside::clearance(const Vec3d& x) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Triangle& t : surface_.triangles()) {
@@ -104,7 +105,7 @@ std::optional<Vec3d> MeshInside::deepest(const Vec3d& low, const Vec3d& high, in
                                          const Measure& measure) const {
   std::vector<std::pair<double, Vec3d>> points;
   for (int i = 1; i <= count; ++i) {
-    // The powers of the root of x^4 = x + 1.
+    // Powers of the root of x^4 = x + 1.
     const Vec3d at(std::fmod(i * 0.8191725133961645, 1), std::fmod(i * 0.6710436067037893, 1),
                    std::fmod(i * 0.5497004779019703, 1));
     const Vec3d x = low + at.cwiseProduct(high - low);
@@ -164,7 +165,8 @@ std::optional<Part> MeshInside::copy_about(const Part& part, const Vec3d& centre
   double scale = 1e9;
   for (Triangle& t : triangles) {
     for (Vec3d* v : {&t.a, &t.b, &t.c}) *v -= centre;
-    // The least value on the triangle is no farther below that at a corner than its reach allows.
+    // The least value on the triangle is below that at a corner by at most its reach times the
+    // steepest slope.
     double at_corner = 0;
     for (const Plane& p : planes) at_corner = std::max(at_corner, p.normal.dot(t.a) / p.offset);
     const double reach = std::max((t.b - t.a).norm(), (t.c - t.a).norm());
@@ -221,7 +223,7 @@ Part MeshInside::capsule(const Mat3d& axes) const {
     const Vec3d axis = axes.col(k);
     for (double share : {0.95, 0.85, 0.7, 0.5, 0.3}) {
       const double radius = share * greatest;
-      // From the middle on by as much as the clearance allows each time.
+      // The end advances from the middle by the clearance at each step.
       const auto run = [&](double sign) {
         double at = 0;
         for (int step = 0; step < 200; ++step) {
@@ -233,7 +235,7 @@ Part MeshInside::capsule(const Mat3d& axes) const {
       };
       const double up = run(1), down = run(-1);
       const double half = 0.5 * (up + down);
-      // The centre is snapped, and the ends are rounded: by less than this.
+      // The centre is snapped and the ends are rounded, by less than this.
       const Vec3d centre = body_.snap(centre_ + 0.5 * (up - down) * axis);
       const double moved = (centre - centre_ - 0.5 * (up - down) * axis).norm();
       const double certain = radius - 2 * moved - 32 * epsilon * body_.size;

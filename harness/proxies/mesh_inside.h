@@ -1,4 +1,4 @@
-// What is inside the solid of a closed mesh, convex or not.
+// Collision proxies inside the solid of a closed mesh, convex or not.
 #pragma once
 
 #include <optional>
@@ -9,28 +9,29 @@
 
 namespace touchstone {
 
-// In the body's local frame. Throws InputError where a piece of the mesh is not closed, or no ball
-// inside was found. What is inside touches no triangle, and has a point that the surface winds
-// about: distances to triangles are those to planes between, less their rounding; polytopes are
-// held against every triangle that no face's plane keeps away by the exact oracle.
+// Works in the body's local frame. Throws InputError if a piece of the mesh is not closed, or if no
+// ball inside is found. A proxy is inside if it touches no triangle and contains a point around
+// which the surface winds. Distances to triangles are those to planes in between, minus their
+// rounding. For polytopes, the exact oracle tests every triangle that no face's plane separates.
 class MeshInside {
  public:
   explicit MeshInside(const LocalBody& body);
 
-  // The greatest ball that was found: from the eight deepest of 2,048 points, climbed.
+  // The greatest ball found by ascent from the eight deepest of 2,048 points.
   Part sphere() const;
-  // The greatest copy of this convex part (a box or a hull) about the ball's centre.
+  // The greatest copy of this convex part (a box or a hull) around the ball's centre.
   Part copy(const Part& part) const;
-  // The longest of five radii along the three axes, through the ball's centre.
+  // The longest capsule of five radii along the three axes, through the ball's centre.
   Part capsule(const Mat3d& axes) const;
-  // Of each part the greatest copy about the point deepest in it and in the body; those in which
-  // none was found are left out.
+  // For each part the greatest copy around the point that is deepest in it and in the body. Parts
+  // for which none is found are left out.
   std::vector<Part> copies(const std::vector<Part>& parts) const;
 
  private:
   bool winds_about(const Vec3d& x) const;
   double clearance(const Vec3d& x) const;
-  // The point inside, of `count` in the box and then climbed, where this is greatest, if it is > 0.
+  // Samples `count` points in the box, ascends from the best, and returns the inside point with the
+  // greatest measure, if that is > 0.
   template <class Measure>
   std::optional<Vec3d> deepest(const Vec3d& low, const Vec3d& high, int count,
                                const Measure& measure) const;

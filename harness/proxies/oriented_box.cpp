@@ -1,4 +1,4 @@
-// The oriented box of least volume that is found.
+// The oriented box of least volume that the search finds.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_faces = 64;
 
-// Columns: u, n x u, n, orthonormal to rounding.
+// The frame has the columns u, n x u, n, orthonormal up to rounding.
 Mat3d frame_of(const Vec3d& normal, const Vec3d& along) {
   Mat3d frame;
   const Vec3d n = normal.normalized();
@@ -36,7 +36,7 @@ Extent extent_along(const Mat3d& frame, const std::vector<Vec3d>& points) {
   return e;
 }
 
-// Volume, with a little of area and length so that flat bodies are fitted too.
+// The cost is the volume, with a small share of area and length so that flat bodies are fitted too.
 double cost(const Vec3d& size) {
   return size.prod() + 1e-6 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x()) +
          1e-12 * size.sum();
@@ -53,7 +53,7 @@ class Search {
     least_ = value;
     best_ = frame;
   }
-  // All boxes with an edge of the outline along the given normal.
+  // Tries all boxes with the given normal and a side along an edge of the outline.
   void consider_normal(const Vec3d& normal) {
     int least = 0;
     normal.cwiseAbs().minCoeff(&least);
@@ -66,7 +66,7 @@ class Search {
     }
     flat = make_reduced_hull(flat)->vertices;
     if (flat.size() > 2) {
-      // In the order around.
+      // Sorts the corners by angle.
       Vec3d mean = Vec3d::Zero();
       for (const Vec3d& p : flat) mean += p / static_cast<double>(flat.size());
       std::sort(flat.begin(), flat.end(), [&](const Vec3d& a, const Vec3d& b) {
@@ -132,8 +132,8 @@ Part outer_oriented_box(const LocalBody& body) {
   part.shape.kind = ShapeKind::box;
   part.pose.rotation = frame;
   part.pose.translation = body.snap(frame * (0.5 * (e.low + e.high)));
-  // The box is {R x + t}, with R orthonormal to a few units in the last place only: what R' says of
-  // a point and what the inverse of R says differ by less than 16 of them, of its distance.
+  // The box is {R x + t}, with R orthonormal only to a few units in the last place. R' and the
+  // inverse of R differ at a point by less than 16 of them, relative to its distance.
   for (const Vec3d& p : body.points) {
     const Vec3d from = p - part.pose.translation;
     const Vec3d at = (frame.transpose() * from).cwiseAbs();

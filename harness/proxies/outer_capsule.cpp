@@ -1,4 +1,4 @@
-// The capsule of least volume that is found around a body.
+// The capsule of least volume that the search finds around a body.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// An axis along `direction` (unit) from low to high of it, through `beside`.
+// An axis along `direction` (unit) through `beside`, from low to high.
 struct Fit {
   Vec3d direction = Vec3d::UnitZ(), beside = Vec3d::Zero();
   double low = 0, high = 0, radius = 0;
@@ -23,7 +23,8 @@ double volume_of(double length, double radius) {
   return std::numbers::pi * radius * radius * (length + 4.0 / 3 * radius);
 }
 
-// The least capsule about a line, each point being given along it and beside it.
+// The least capsule around a line; each point is given by its coordinate along the line and its
+// distance from it.
 Fit fit_on_line(const std::vector<std::pair<double, double>>& along_and_beside, Fit fit) {
   double least = 0, low = along_and_beside.front().first, high = low;
   for (const auto& [along, beside] : along_and_beside) {
@@ -100,7 +101,7 @@ Mat3d frame_with_z(const Vec3d& z) {
   return frame;
 }
 
-// Points whose distance from an axis of symmetry along z is the greatest: of a rim one.
+// Points with the greatest distance from an axis of symmetry along z, one for each rim.
 std::vector<Vec3d> outline(const LocalBody& body) {
   const Shape& s = body.shape;
   if (s.kind == ShapeKind::hull) return body.points;
@@ -117,7 +118,8 @@ std::vector<Vec3d> outline(const LocalBody& body) {
   return points;
 }
 
-// An ellipsoid a >= b >= c, axis along a: the farthest from the segment to +-s is b or a - s.
+// For an ellipsoid a >= b >= c with its axis along a, the farthest distance from the segment to +-s
+// is b or a - s.
 Part around_ellipsoid(const Shape& s) {
   int longest = 0, shortest = 0;
   s.radii.maxCoeff(&longest);
@@ -159,7 +161,7 @@ Part outer_capsule(const LocalBody& body) {
   if (half < 1e-9 * body.size) half = 0;  // a ball
   part.pose = {frame, centre};
   part.shape.half_length = half;
-  // To any point of the segment as it is placed; the nearest is not farther.
+  // The distance to any point of the placed segment; the nearest is not farther.
   for (const Vec3d& p : points) {
     const Vec3d from = p - centre;
     const double at = std::clamp(axis.dot(from), -half, half);

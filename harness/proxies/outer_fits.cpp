@@ -1,3 +1,4 @@
+// Outer proxies: ball, boxes, k-DOPs and hulls with proven containment.
 #include "harness/proxies/outer_fits.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ namespace touchstone {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double thinnest = 0x1p-26;     // half the thickness of what is made of a flat body
-constexpr double same_corner = 0x1p-30;  // corners nearer than this become one
+constexpr double thinnest = 0x1p-26;     // half the thickness that a flat body's proxy gets
+constexpr double same_corner = 0x1p-30;  // corners nearer than this are merged
 
 Part certain(const LocalBody& body, const std::vector<Vec3d>& points) {
   std::optional<Shape> hull = hull_that_holds(body, points);
@@ -26,7 +27,7 @@ Part certain(const LocalBody& body, const std::vector<Vec3d>& points) {
   return {*hull, {}};
 }
 
-// The half-space along n that holds the body, and a little of the other side of its middle.
+// The half-space along n that contains the body, with a small margin around its middle.
 Plane plane_around(const LocalBody& body, const Vec3d& n) {
   const double far = std::max(reach(body, n, body.middle), thinnest * body.size * n.norm());
   return {n, n.dot(body.middle) + far};
@@ -40,7 +41,7 @@ std::vector<Vec3d> corners_of(const LocalBody& body, const std::vector<Plane>& p
 
 double volume_of(const Part& part) { return Polyhedron::of(*part.shape.hull).volume(); }
 
-// Vertices that come near to the surface of the shape.
+// Vertices near the surface of the shape.
 std::vector<Vec3d> vertices_near(const LocalBody& body) {
   if (body.shape.kind == ShapeKind::hull) return body.shape.hull->vertices;
   return as_polytope(body.shape, 3).hull->vertices;
@@ -54,7 +55,7 @@ std::vector<Vec3d> normals_near(const LocalBody& body) {
   return normals;
 }
 
-// The oriented box cut by planes of the body while there are at most so many corners.
+// Cuts the oriented box by planes of the body while the number of corners is at most `most`.
 std::vector<Vec3d> cut_box(const LocalBody& body, std::size_t most) {
   const Mat3d axes = fitting_axes(body);
   std::vector<Plane> planes;
@@ -68,7 +69,7 @@ std::vector<Vec3d> cut_box(const LocalBody& body, std::size_t most) {
   std::vector<Plane> more;
   for (const Vec3d& n : normals_near(body)) more.push_back(plane_around(body, n));
   while (!more.empty()) {
-    // By how far a corner is beyond each.
+    // Distances by which a corner is beyond each plane.
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < more.size(); ++i) {
       double beyond = 0;
@@ -171,7 +172,8 @@ std::vector<Vec3d> farthest_vertices(const std::vector<Vec3d>& vertices, int cou
   const auto most = static_cast<std::size_t>(count);
   if (vertices.size() <= most) return vertices;
   std::vector<Vec3d> chosen = {vertices.front()};
-  // How far beyond what is chosen; infinite planes stand in until it is solid.
+  // Adds the vertex farthest beyond the chosen ones. Until they form a solid, lines and planes
+  // replace its faces.
   const auto add_farthest = [&](const auto& distance) {
     const Vec3d* best = nullptr;
     double greatest = 0;
@@ -225,14 +227,15 @@ Part outer_reduced_hull(const LocalBody& body, int vertices) {
 Part outer_hull(const LocalBody& body) {
   if (!body.has_mesh) return {body.shape, {}};
   if (body.solid) return certain(body, body.points);
-  // A flat mesh is in the hull of its points, whatever of them is no corner.
+  // A flat mesh is inside the hull of all its points.
   Part part{body.shape, {}};
   part.shape.hull = make_hull(body.points);
   return part;
 }
 
 Part outer_icosphere(const LocalBody& body, int level) {
-  // How far the faces of the unit sphere's polytope are from its centre, and those of a circle's.
+  // Distance of the faces of the unit sphere's polytope from its centre, and of the sides of a
+  // circle's.
   Shape unit;
   unit.radius = 1;
   double nearest = 1;

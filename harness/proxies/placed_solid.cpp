@@ -1,3 +1,4 @@
+// Distances, volumes and extreme points of convex solids.
 #include "harness/proxies/placed_solid.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ Interval either(const Interval& a, const Interval& b) {
   return std::pair(std::min(a->first, b->first), std::max(a->second, b->second));
 }
 
-// |from + t by| <= radius, in as many dimensions as are given.
+// The interval of t with |from + t by| <= radius, in any dimension.
 template <class Vector>
 Interval in_ball(const Vector& from, const Vector& by, double radius) {
   const double a = by.squaredNorm(), b = from.dot(by), c = from.squaredNorm() - radius * radius;
@@ -43,8 +44,8 @@ Interval in_slab(double from, double by, double half) {
   return std::pair(std::min(a, b), std::max(a, b));
 }
 
-// From p to the ellipsoid, whose semi-axes are positive: Lagrange's dual, concave in its
-// multiplier.
+// Signed distance from p to the ellipsoid, whose semi-axes are positive. It maximises Lagrange's
+// dual, which is concave in its multiplier.
 double ellipsoid_distance(const Vec3d& radii, const Vec3d& p) {
   const Vec3d squares = radii.cwiseAbs2();
   const bool inside = p.cwiseQuotient(radii).squaredNorm() <= 1;
@@ -66,7 +67,8 @@ double ellipsoid_distance(const Vec3d& radii, const Vec3d& p) {
   return (inside ? -1 : 1) * std::sqrt(std::max(0.0, square));
 }
 
-// To a convex polygon in the half-plane x >= 0, anticlockwise, the last edge back along x = 0.
+// Distance to a convex polygon in the half-plane x >= 0, anticlockwise, with the last edge along x
+// = 0.
 double profile_distance(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& x) {
   double inside = -infinity, outside = (x - corners.front()).norm();
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
@@ -117,7 +119,7 @@ PlacedSolid::PlacedSolid(const Shape& shape, const Pose& pose, const Mat3d& turn
   }
   near = as_polytope(shape, 3);
   if (polytope_ && shape.kind == ShapeKind::box && shape.half_extents.minCoeff() == 0) {
-    near.hull = make_reduced_hull(near.hull->vertices);  // flat
+    near.hull = make_reduced_hull(near.hull->vertices);  // a flat box
   }
   auto hull = std::make_shared<Hull>(*near.hull);
   for (Vec3d& v : hull->vertices) v = pose_(v);
@@ -232,7 +234,7 @@ std::optional<std::pair<double, double>> PlacedSolid::along_line(const Vec3d& fr
       return in_ball<Vec3d>(from.cwiseQuotient(shape_.radii), by.cwiseQuotient(shape_.radii), 1);
     case ShapeKind::cone: {
       if (!slab || !(h > 0)) return std::nullopt;
-      // Within the slab: beside <= k (h - z), both sides squared.
+      // The condition within the slab is beside <= k (h - z), with both sides squared.
       const double k = r / (2 * h), up = k * (h - from.z()), less = -k * by.z();
       const double a = by.head<2>().squaredNorm() - less * less;
       const double b = from.head<2>().dot(by.head<2>()) - up * less;

@@ -1,4 +1,5 @@
-// Convex solids in their places, as measured by RepresentationError. Good to rounding.
+// Convex solids at their poses, for the measurement of proxies' errors. Results are correct to
+// rounding.
 #pragma once
 
 #include <optional>
@@ -12,33 +13,34 @@ namespace touchstone {
 
 class PlacedSolid {
  public:
-  // `turn` is applied behind the pose. Throws InputError for a half-space, and for a hull whose
-  // faces are not known.
+  // `turn` is applied after the pose. Throws InputError for a half-space, and for a hull with
+  // unknown faces.
   PlacedSolid(const Shape& shape, const Pose& pose, const Mat3d& turn = Mat3d::Identity());
 
   double volume() const { return volume_; }
-  // Metres: from x to the surface, negative inside. Closed form; of an ellipsoid to 1e-12 of it.
+  // Distance from x to the surface in metres, negative inside. A closed form, except for an
+  // ellipsoid, which is correct to 1e-12 of its size.
   double signed_distance(const Vec3d& x) const;
-  // For x inside a polytope: the point of its nearest face's plane that is nearest, and the normal.
+  // For x inside a polytope: its projection on the nearest face's plane, and the normal.
   SurfacePoint way_out(const Vec3d& x) const;
-  // Where the line of points (x, y, z) is inside.
+  // The interval of z in which the points (x, y, z) are inside.
   std::optional<std::pair<double, double>> along_z(double x, double y) const;
 
-  // The solid is the convex hull of some set of points, grown by a radius. These are the set itself
-  // of balls, capsules, boxes and hulls; of rims 512 points each, and of an ellipsoid 2562.
+  // The solid is the convex hull of a set of points, grown by a radius. These are the set itself
+  // for balls, capsules, boxes and hulls, 512 points of each rim, and 2562 points of an ellipsoid.
   const std::vector<Vec3d>& extremes() const { return extremes_; }
   double radius() const { return radius_; }
-  // The greatest value over the set of f, which is convex: over the points, and on the rims and the
-  // ellipsoid climbed from the best of them, so that what may be missed of a function that changes
-  // by at most 1 a metre is 2e-5 of a rim's radius, 1e-3 of an ellipsoid's, where it has other
-  // tops.
+  // Maximum of the convex function f over the solid: exact over vertices; on rims and ellipsoids a
+  // local search from the best sample. For a 1-Lipschitz f with several local maxima the result may
+  // be low by 2e-5 (rim) or 1e-3 (ellipsoid) of the radius.
   template <class Function>
   double greatest(const Function& f) const;
 
   bool is_polytope() const { return polytope_; }
   bool solid() const { return volume_ > 0; }
-  const std::vector<Plane>& planes() const { return planes_; }                   // of polytopes
-  const std::vector<Triangle>& surface() const { return surface_.triangles(); }  // near it if round
+  const std::vector<Plane>& planes() const { return planes_; }  // of polytopes
+  // Triangles of the surface; approximate if the solid is round.
+  const std::vector<Triangle>& surface() const { return surface_.triangles(); }
   Vec3d low() const { return low_; }
   Vec3d high() const { return high_; }
 
@@ -46,7 +48,7 @@ class PlacedSolid {
   double own_volume() const;
   Vec3d local(const Vec3d& x) const { return pose_.rotation.transpose() * (x - pose_.translation); }
   std::optional<std::pair<double, double>> along_line(const Vec3d& from, const Vec3d& by) const;
-  // The point of the rim (of the end of that sign) or ellipsoid in a direction.
+  // The point of an ellipsoid in a direction, or of the rim at the end with that sign.
   Vec3d rounded(const Vec3d& direction, double end) const;
 
   Shape shape_;
@@ -75,7 +77,7 @@ double PlacedSolid::greatest(const Function& f) const {
   const double end = start.z() >= 0 ? 1 : -1;
   Vec3d direction = rim ? Vec3d(start.x(), start.y(), 0)
                         : Vec3d(start.cwiseQuotient(shape_.radii.cwiseMax(1e-300)));
-  if (!(direction.norm() > 0)) return best;  // a cone's tip
+  if (!(direction.norm() > 0)) return best;  // at a cone's tip
   direction.normalize();
   for (double step = 0.05; step > 1e-9; step /= 2) {
     for (int k = 0; k < (rim ? 2 : 3); ++k) {

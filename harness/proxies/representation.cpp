@@ -1,3 +1,4 @@
+// Names, parses and makes the collision proxies of a body.
 #include "harness/proxies/representation.h"
 
 #include <fmt/format.h>
@@ -84,7 +85,7 @@ std::vector<Part> inner_parts_of_mesh(const LocalBody& body, const Representatio
   }
 }
 
-// About its middle, to the body's volume.
+// Scales a proxy around its middle to the body's volume.
 Part nearest_part(const LocalBody& body, Representation r) {
   const double volume = WholeBody(body, fitting_axes(body).transpose()).volume();
   if (!(volume > 0)) {

@@ -1,4 +1,4 @@
-// What stands for a body: from a sphere around it to its own mesh, outside or inside of it.
+// Collision proxies of a body: from a sphere around it to its own mesh, outside or inside it.
 #pragma once
 
 #include <cstdint>
@@ -13,71 +13,72 @@
 namespace touchstone {
 
 enum class Form : std::uint8_t {
-  as_given,      // the shape that the scene gives; of a mesh its convex hull
-  sphere,        // least enclosing ball; inner: the greatest inside, of a mesh that is found
+  as_given,      // the scene's shape; for a mesh its convex hull
+  sphere,        // least enclosing ball; inner: the greatest inside, found by search for a mesh
   box,           // along the body's own axes
-  oriented_box,  // turned to fit
+  oriented_box,  // along fitted axes
   dop14,         // k-DOP: slabs along the axes and the cube's corners (14), edges (18), both (26)
   dop18,
   dop26,
   capsule,       // fitted
-  reduced_hull,  // a hull of at most `detail` vertices, 8 or more
-  hull,          // the convex hull of all vertices; a convex shape is its own
-  parts,         // a decomposition into convex parts, at most `detail` (0: as many as are worth it)
-  mesh,          // each triangle, for a body that has a mesh: its surface, with nothing inside
-  icosphere,     // round shapes as polytopes of level `detail`, 0 to 5; others as given
+  reduced_hull,  // a hull of at most `detail` vertices, at least 8
+  hull,          // the convex hull of all vertices; a convex shape itself
+  parts,         // a decomposition into at most `detail` convex parts (0: as many as worthwhile)
+  mesh,          // every triangle of a mesh body: its surface, with nothing inside
+  icosphere,     // round shapes as polytopes of level `detail`, 0 to 5; other shapes unchanged
 };
 
 enum class Side : std::uint8_t {
-  outer,    // holds the body: no contact is missed
-  inner,    // inside the body: no contact is made up
-  nearest,  // neither: the outer one (icosphere: the inner one) scaled to the body's volume
+  outer,    // contains the body: no contact is missed
+  inner,    // is inside the body: no contact is invented
+  nearest,  // the outer one (icosphere: the inner one) scaled to the body's volume
 };
 
 struct Representation {
   Form form = Form::as_given;
-  Side side = Side::outer;  // means nothing to as_given and mesh, which have no other
+  Side side = Side::outer;  // unused for as_given and mesh
   int detail = 0;
 
   friend bool operator==(const Representation&, const Representation&) = default;
 };
 
-// "sphere", "hull-16 inner", "icosphere-2 nearest"; outer is not said.
+// For example "sphere", "hull-16 inner", "icosphere-2 nearest"; "outer" is not printed.
 std::string to_string(const Representation& representation);
-// Its inverse. Throws InputError with what was expected.
+// The inverse of to_string. Throws InputError with the expected values.
 Representation parse_representation(std::string_view text);
 
-// A convex piece of what stands for a body.
+// A convex piece of a body's proxy.
 struct Part {
   Shape shape;
   Pose pose;  // in the body's frame
 };
 
-// What stands for a body of this shape (and of this mesh, where it has one: then the shape is the
-// mesh's convex hull). At least one part. Outer and inner ones are proven to be so in spite of
-// rounding; how good each is, is said in outer_fits.h, inner_fits.h, mesh_inside.h and
-// decomposition.h. A mesh's solid is that of mesh_solid.h. Throws InputError where there is no such
-// representation: an inner one of a flat body or of a mesh that is not closed, a nearest one of a
-// flat body or of several parts, anything but as_given of a half-space, a mesh of a body without
-// one, another side of as_given and mesh.
+// Returns the proxy of a body with this shape, and with this mesh if it has one; the shape is then
+// the mesh's convex hull. It has at least one part. Outer and inner proxies are proven in spite of
+// rounding; their quality is described in outer_fits.h, inner_fits.h, mesh_inside.h and
+// decomposition.h. A mesh's solid is that of mesh_solid.h. Throws InputError if there is no such
+// proxy: an inner one of a flat body or of an open mesh, a nearest one of a flat body or of several
+// parts, any but as_given of a half-space, a mesh of a body without one, and another side of
+// as_given and mesh.
 std::vector<Part> represent(const Shape& shape, const Mesh* mesh,
                             const Representation& representation);
 
-// How far a representation is from the body, both as solids (the union of the parts).
+// The difference between a proxy and the body, both as solids (the union of the parts).
 struct RepresentationError {
-  double added = 0;      // volume outside the body, as a part of the body's volume
-  double lost = 0;       // volume of the body that it leaves out, the same
+  double added = 0;      // volume outside the body, relative to the body's volume
+  double lost = 0;       // volume of the body outside the proxy, relative to the body's volume
   double hausdorff = 0;  // metres: greatest distance of a point of either surface from the other
   double size = 0;       // metres: diameter of the body's bounding ball
-  // Standard error of the volumes, as a part of the body's. 0: exact to rounding, as it is where
-  // one of two convex solids holds the other and where both are polytopes. Else the volumes are
-  // integrals of exact lengths along 8 times 4,096 parallel lines, and this is what the eight
-  // differ by. Infinite where the body has no volume but the parts have; then `added` is so too.
+  // Standard error of the volumes, relative to the body's. 0: exact to rounding, which holds if one
+  // of two convex solids contains the other and if both are polytopes. Otherwise volumes are
+  // integrals of exact lengths along 8 times 4,096 parallel lines, and the error follows from the
+  // differences of the eight. Infinite if the body has no volume but the parts have; `added` is
+  // then infinite too.
   double volume_deviation = 0;
-  // Metres: the Hausdorff distance may be greater or less by so much. 0: exact to rounding, as it
-  // is between convex polytopes, balls and capsules. Round rims: 2e-5 of the radius; ellipsoids:
-  // 1e-3. Of meshes and unions it is the greatest distance between neighbours of the points that
-  // stand for the surfaces.
+  // Error of the Hausdorff distance in metres, in both directions. 0: exact to rounding, which
+  // holds between convex polytopes, balls and capsules. Round rims: 2e-5 of the radius; ellipsoids:
+  // 1e-3. For meshes and unions it is the greatest distance between neighbouring sample points of
+  // the surfaces.
   double hausdorff_deviation = 0;
   double volume_error() const { return added + lost; }
 };

@@ -1,4 +1,4 @@
-// How far what stands for a body is from it: volumes and Hausdorff distance.
+// The error of a proxy: volumes and Hausdorff distance.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t surface_points = 2048;
-constexpr double way_step = 1e-7;  // of about unit size: into what lies beyond a surface
+constexpr double way_step = 1e-7;  // relative to about unit size: a step beyond a surface
 
 void set_volumes(double body, double added, double lost, RepresentationError& error) {
   const auto part = [&](double v) { return v > 0 ? (body > 0 ? v / body : infinity) : 0; };
@@ -21,7 +21,7 @@ void set_volumes(double body, double added, double lost, RepresentationError& er
   error.lost = part(lost);
 }
 
-// What sampling may miss on a round solid.
+// The error of sampling on a round solid.
 double unseen(const Shape& shape) {
   switch (shape.kind) {
     case ShapeKind::cylinder:
@@ -31,8 +31,8 @@ double unseen(const Shape& shape) {
   }
 }
 
-// Two convex solids. Their surfaces are as far from each other as the solids are, and the greatest
-// distance of a point of one from the other is at an extreme point, as it is a convex function.
+// Compares two convex solids. Their surfaces are as far apart as the solids. The greatest distance
+// of a point of one from the other is at an extreme point, since it is a convex function.
 void compare_convex(const PlacedSolid& body, const PlacedSolid& part, double tolerance,
                     RepresentationError& error) {
   const double out_of_part =
@@ -61,7 +61,7 @@ void compare_convex(const PlacedSolid& body, const PlacedSolid& part, double tol
   if (body_volume == 0 && part_volume > 0) error.volume_deviation = infinity;
 }
 
-// Whether the way out of one part at a point of its surface leads into another.
+// Returns true if a step out of one part at a point of its surface leads into another part.
 bool is_covered(const std::vector<PlacedSolid>& parts, const PlacedSolid& part,
                 const SurfacePoint& p) {
   const Vec3d out = part.solid() ? Vec3d(p.at + way_step * p.normal) : p.at;
@@ -71,8 +71,8 @@ bool is_covered(const std::vector<PlacedSolid>& parts, const PlacedSolid& part,
   });
 }
 
-// Points of the surface of the union: those of each part's from which the way out does not lead
-// into another.
+// Sample points of the union's surface: those of each part from which a step outward does not lead
+// into another part.
 std::vector<Vec3d> points_of_union(const std::vector<PlacedSolid>& parts) {
   double area = 0;
   const auto area_of = [](const PlacedSolid& part) {
@@ -98,8 +98,8 @@ double distance_to_points(const std::vector<Vec3d>& points, const Vec3d& x) {
   return std::sqrt(least);
 }
 
-// From the surface of the union. Inside, it is known by the ways straight out that lead into no
-// other part, and by its points.
+// Distance from the surface of the union. Inside it follows from the straight ways out that lead
+// into no other part, and from the sample points.
 double distance_to_union(const std::vector<PlacedSolid>& parts, const std::vector<Vec3d>& points,
                          const Vec3d& x) {
   double nearest = infinity, out = infinity;
@@ -117,7 +117,7 @@ double distance_to_union(const std::vector<PlacedSolid>& parts, const std::vecto
   return nearest >= 0 ? nearest : std::min(out, distance_to_points(points, x));
 }
 
-// About the greatest distance that a point of the area has from those that stand for it.
+// About the greatest distance of a surface point from its nearest sample point.
 double spacing_of(const std::vector<Triangle>& surface) {
   double area = 0;
   for (const Triangle& t : surface) area += t.normal().norm() / 2;
@@ -154,7 +154,7 @@ RepresentationError representation_error(const Shape& shape, const Mesh* mesh,
                                          const std::vector<Part>& parts) {
   const LocalBody body(shape, mesh);
   RepresentationError error;
-  // Everything in the body's local frame, lines across its shortest way.
+  // The computation uses the body's local frame, with lines across its shortest dimension.
   const Mat3d turn = fitting_axes(body).transpose();
   std::vector<PlacedSolid> placed;
   for (const Part& given : parts) {

@@ -1,3 +1,4 @@
+// Volumes of unions, by intervals along parallel lines.
 #include "harness/proxies/union_volume.h"
 
 #include <algorithm>
@@ -8,13 +9,13 @@ namespace touchstone {
 namespace {
 
 constexpr int lattices = 8, lines = 4096;
-constexpr int cells = 64;  // each way, in which triangles are sought
-// With more planes than this a polytope is cheaper by its triangles.
+constexpr int cells = 64;  // per direction, for finding triangles
+// A polytope with more planes than this is faster by its triangles.
 constexpr std::size_t few_planes = 64;
 
 using Intervals = std::vector<std::pair<double, double>>;
 
-// Sorts and joins; returns the length.
+// Sorts and merges the intervals; returns their total length.
 double join(Intervals& intervals) {
   std::sort(intervals.begin(), intervals.end());
   Intervals joined;
@@ -56,7 +57,7 @@ class Columns {
       }
     }
   }
-  // Where the winding number is not zero.
+  // Adds the intervals with a nonzero winding number.
   void add(double x, double y, Intervals& intervals) const {
     std::vector<std::pair<double, int>> crossings;
     for (std::uint32_t t : cells_[static_cast<std::size_t>(cell(x, 0) * cells + cell(y, 1))]) {
@@ -76,8 +77,8 @@ class Columns {
   int cell(double x, int axis) const {
     return std::clamp(static_cast<int>((x - low_[axis]) / width_[axis]), 0, cells - 1);
   }
-  // On which side of the edge the line is: the same bits for both triangles of an edge, and never
-  // between the two.
+  // The side of the edge on which the line is. Both triangles of an edge get the same bits, and no
+  // line is between the two.
   static double side(const Vec3d& p, const Vec3d& q, double x, double y) {
     if (std::array{q.x(), q.y(), q.z()} < std::array{p.x(), p.y(), p.z()}) return -side(q, p, x, y);
     const double s = (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x());

@@ -1,4 +1,4 @@
-// Volumes of unions of solids, by lines through them.
+// Volumes of unions of solids, by integration along lines.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ struct Overlap {
   double deviation = 0;                  // standard error of body + parts - 2 both
 };
 
-// The union of `body` and of what each of `closed` (watertight triangles) winds around, against the
-// union of `parts`. Lines along z stand on eight lattices of 4,096 points (Roberts' sequence of the
-// plastic number), each shifted; along a line the lengths are exact. The solids fill their box in x
-// and y best where the caller has turned them so.
+// Compares the union of `body` and of the interiors of `closed` (watertight triangles) with the
+// union of `parts`. Lines along z form eight lattices of 4,096 points (Roberts' sequence of the
+// plastic number), each shifted; lengths along a line are exact. The caller should rotate the
+// solids so that they fill their box in x and y.
 Overlap overlap_of(const std::vector<PlacedSolid>& body,
                    const std::vector<std::vector<Triangle>>& closed,
                    const std::vector<PlacedSolid>& parts);

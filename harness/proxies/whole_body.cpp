@@ -1,3 +1,4 @@
+// Splits a body into convex solids and closed surfaces.
 #include "harness/proxies/whole_body.h"
 
 #include "algorithms/hull/convex_hull.h"

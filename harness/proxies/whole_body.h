@@ -1,4 +1,4 @@
-// A body as the solids that it is made of.
+// A body as a union of solids, for the measurement of proxies' errors.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace touchstone {
 
-// In the local frame, turned. The body is the union of all.
+// Solids in the local frame, rotated by `turn`. The body is their union.
 struct WholeBody {
   WholeBody(const LocalBody& body, const Mat3d& turn);
 
-  std::vector<PlacedSolid> convex;  // hulls of pieces that are not closed; a body without mesh
-  std::vector<std::vector<Triangle>> closed;  // pieces of a mesh that are
-  std::vector<Triangle> surface;              // of a round shape near it
+  std::vector<PlacedSolid> convex;            // hulls of open pieces, or a body without mesh
+  std::vector<std::vector<Triangle>> closed;  // closed pieces of a mesh
+  std::vector<Triangle> surface;              // approximate if round
   double volume() const;                      // of a mesh as in union_volume.h
 };
 
