@@ -1,19 +1,19 @@
-// What `touchstone bench` measures. Inputs are made when a benchmark first runs, so that a filter
-// makes for a quick start.
+// The benchmarks of `touchstone bench`. A benchmark makes its inputs when it first runs, so that a
+// filter makes for a quick start.
 #pragma once
 
 namespace touchstone {
 
-// narrow/ALGORITHM/SCALAR/SHAPES/TASK/REGIME: one query an iteration, over 256 pairs
-// (placed_pairs.h). `wrong` counts the pairs whose answer is not the right one.
+// narrow/ALGORITHM/SCALAR/SHAPES/TASK/REGIME: one query per iteration, over 256 pairs
+// (placed_pairs.h). `wrong` counts the pairs with a wrong answer.
 void register_narrow_benchmarks();
 
-// broad/ALGORITHM/SCENE/BODIES/CALL: one call an iteration, at one thread; CALL is `build` and
-// `find-pairs` of a scene's boxes, each time another draw, and `update` and `find-pairs-updated` of
-// its frames. `pairs` is how many there were.
+// broad/ALGORITHM/SCENE/BODIES/CALL: one call per iteration, with one thread. CALL is `build` and
+// `find-pairs` on a scene's boxes, with another draw each time, and `update` and
+// `find-pairs-updated` on its frames. `pairs` is the number of pairs found.
 void register_broad_benchmarks();
 
-// oracle/{verdict,distance,depth}/SHAPES/REGIME: the exact answers, one query an iteration.
+// oracle/{verdict,distance,depth}/SHAPES/REGIME: the exact answers, one query per iteration.
 void register_oracle_benchmarks();
 
 // kernels/...: support functions, sorting and tests of boxes.

@@ -1,4 +1,4 @@
-// Every broad phase on the families of scenes, each of its calls apart.
+// Benchmarks of every broad phase on the families of scenes, each call separately.
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
@@ -32,7 +32,7 @@ Scene load(std::string_view name, const SceneOverrides& overrides) {
   return load_scene(folder / (std::string(name) + ".toml"), overrides);
 }
 
-// The boxes of a scene drawn with many seeds: one input in a loop would measure trained branch
+// The boxes of a scene drawn with many seeds. A single input in a loop would measure trained branch
 // predictors.
 class Draws {
  public:
@@ -54,7 +54,7 @@ class Draws {
   std::size_t at_ = 0;
 };
 
-// The frames of a scene, round and round.
+// The frames of a scene, in a cycle.
 class Film {
  public:
   Film(std::string_view scene, std::int64_t count) {
@@ -100,7 +100,7 @@ double seconds_of(const Call& call) {
   return watch.seconds();
 }
 
-// Every iteration makes both calls, and one of them is timed.
+// Makes both calls in every iteration and times one of them.
 void rebuild(benchmark::State& state, const Subject& subject, bool time_build) {
   Draws& draws = input<Draws>(subject.scene, subject.count);
   Executor executor(1);
@@ -118,7 +118,7 @@ void rebuild(benchmark::State& state, const Subject& subject, bool time_build) {
       benchmark::Counter(static_cast<double>(pairs), benchmark::Counter::kAvgIterations);
 }
 
-// The same with the frames of one scene; the build of its first frame is not timed.
+// Makes both calls on the frames of one scene. The build of its first frame is not timed.
 void update(benchmark::State& state, const Subject& subject, bool time_update) {
   const Film& film = input<Film>(subject.scene, subject.count);
   Executor executor(1);

@@ -1,3 +1,4 @@
+// Measures samplers whose algorithms do nothing.
 #include "harness/bench/harness_overhead.h"
 
 #include <benchmark/benchmark.h>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr std::int64_t bodies = 1000;
 constexpr int frames = 64;
-constexpr int repetitions = 15;  // of a real algorithm's sample; the median counts
+constexpr int repetitions = 15;  // samples of a real algorithm; the median counts
 
 class NoBroadPhase final : public BroadPhase {
  public:
@@ -51,11 +52,11 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Seconds a unit: what one sample says.
+// The result of one sample, seconds per unit.
 using Take = std::function<double(Sampler& sampler)>;
 
 double typical(Sampler& sampler, const Take& take) {
-  take(sampler);  // to warm up
+  take(sampler);  // warms up
   std::vector<double> values;
   for (int i = 0; i < repetitions; ++i) values.push_back(take(sampler));
   return median(std::move(values));
@@ -95,7 +96,7 @@ void broad(benchmark::State& state, int threads) {
   report(state, idle, take, fastest);
 }
 
-// Spheres against spheres, the cheapest queries that there are, and the kind with the most pairs.
+// Measures spheres against spheres: the cheapest queries, and the kind with the most pairs.
 void narrow(benchmark::State& state, int threads) {
   const Stage stage("primitives.toml");
   Executor executor(threads);

@@ -1,3 +1,4 @@
+// Counts instructions of narrow-phase queries under Callgrind.
 #include "harness/bench/instructions.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ std::vector<NarrowSubject> subjects_of(const std::string& filter) {
   return subjects;
 }
 
-// Callgrind's dumps are numbered; each says in words what made it, and then its sum.
+// One of Callgrind's numbered dumps: the benchmark that made it, and its sum.
 struct Dump {
   std::string benchmark;
   std::int64_t instructions = -1;
@@ -66,7 +67,7 @@ Dump read_dump(const fs::path& file) {
   return dump;
 }
 
-// A folder for the dumps, which goes with them.
+// A temporary folder for the dumps.
 class DumpFolder {
  public:
   DumpFolder() {
@@ -97,7 +98,7 @@ void count_under_valgrind([[maybe_unused]] const std::string& filter) {
     algorithm->bind(pairs.shapes);
     std::vector<Outcome> outcomes(PlacedPairs::count);
     const PairBatch batch = pairs.batch(subject.task, 0, PlacedPairs::count);
-    algorithm->solve(batch, outcomes);  // what it allocates once
+    algorithm->solve(batch, outcomes);  // allocations that happen once
     CALLGRIND_START_INSTRUMENTATION;
     CALLGRIND_ZERO_STATS;
     algorithm->solve(batch, outcomes);
@@ -114,7 +115,7 @@ void count_instructions(const std::string& filter, const fs::path& out) {
         "built without Valgrind's headers, which count instructions "
         "(Debian: valgrind)");
   }
-  subjects_of(filter);  // a wrong filter is told before a minute has passed
+  subjects_of(filter);  // a wrong filter is reported at once
   check_output(out);
   const DumpFolder folder;
   const int status =

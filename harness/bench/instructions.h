@@ -1,5 +1,5 @@
-// How many instructions a query takes, counted by Valgrind's Callgrind: a number that a noisy
-// machine does not change.
+// Counts the instructions of a query with Valgrind's Callgrind. A noisy machine does not change the
+// result.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 
 namespace touchstone {
 
-// Runs this program again under Valgrind and writes a row a narrow-phase benchmark (benchmarks.h)
-// whose name matches the expression (as std::regex_search does):
-// `benchmark,queries,instructions`, the mean of a query over the pairs of its batch, after one pass
-// that is not counted. Valgrind offers AVX2 at most. InputError where Valgrind is not there, or was
-// not when this program was built, and for a filter that is no expression or matches nothing.
+// Runs this program again under Valgrind and writes a row for each narrow-phase benchmark
+// (benchmarks.h) whose name matches the expression (as std::regex_search does):
+// `benchmark,queries,instructions`, the mean over the pairs of its batch, after one pass that is
+// not counted. Valgrind supports at most AVX2. Throws InputError if Valgrind is missing now or was
+// missing when this program was built, and for a filter that is malformed or matches nothing.
 void count_instructions(const std::string& filter, const std::filesystem::path& out);
 
-// What the program does when it is run again: counts, one dump of Callgrind's a benchmark.
+// The task of the second run: counts, one dump of Callgrind's per benchmark.
 void count_under_valgrind(const std::string& filter);
 
 }  // namespace touchstone

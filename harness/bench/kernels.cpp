@@ -1,4 +1,4 @@
-// The kernels that algorithms share, each alone. The only file of the harness that knows kernels.
+// Benchmarks of the kernels that algorithms share. No other file of the harness includes kernels.
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
@@ -37,19 +37,18 @@ void add_timed_by_hand(const std::string& name, const Run& run) {
   benchmark::RegisterBenchmark(("kernels/" + name).c_str(), run)->UseManualTime();
 }
 
-// --- support functions
-// ----------------------------------------------------------------------------
+// --- support functions ----------------------------------------------------------------------------
 
-// One call an iteration, over 64 shapes in turn. In `random` the direction is another each time; in
-// `coherent` a shape's next one is a twentieth of a radian from its last, as in the later steps of
-// a query, which find most of what they look at in cache.
+// One call per iteration, over 64 shapes in turn. In `random` the direction is new each time. In
+// `coherent` a shape's next direction is a twentieth of a radian from its last, as in the later
+// steps of a query, whose data is mostly in cache.
 template <class Scalar>
 void support(benchmark::State& state, const ShapeFamily& family, bool coherent) {
   constexpr std::size_t shapes = 64, directions = 16 * shapes;
   Random random(2);
   std::vector<SupportShape<Scalar>> made;
   made.reserve(shapes);
-  std::vector<TurnedShape<Scalar>> turned;
+  std::vector<PosedShape<Scalar>> turned;
   std::vector<Vec3<Scalar>> along;
   for (std::size_t i = 0; i < shapes; ++i) {
     made.emplace_back(family.draw(random));
@@ -88,14 +87,13 @@ void register_support() {
   }
 }
 
-// --- sorting
-// ----------------------------------------------------------------------------------------
+// --- sorting --------------------------------------------------------------------------------------
 
 using Items = std::vector<std::uint64_t>;
 
 constexpr std::size_t lists = 16;
 
-// Random coordinates as keys, with their places.
+// Random coordinates as keys, with their indices.
 Items draw_items(std::size_t count, Random& random) {
   Items items;
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,7 +103,7 @@ Items draw_items(std::size_t count, Random& random) {
   return items;
 }
 
-// One sorted list an iteration; copying the list into place is not timed.
+// Sorts one list per iteration; copying the list is not timed.
 template <class Sort>
 void sort_lists(benchmark::State& state, const std::vector<Items>& inputs, const Sort& sort) {
   Items items;
@@ -160,10 +158,9 @@ void register_sorts() {
   }
 }
 
-// --- tests of boxes
-// -----------------------------------------------------------------------------------
+// --- tests of boxes -------------------------------------------------------------------------------
 
-// Cubes of side 1, each overlapping about two others, in the order of their x.
+// Cubes of side 1, each overlapping about two others, sorted by x.
 std::unique_ptr<AabbSoA> draw_boxes(std::size_t count, Random& random) {
   const double side = std::cbrt(4.0 * static_cast<double>(count));
   std::vector<Aabb> boxes(count);
@@ -180,7 +177,7 @@ std::unique_ptr<AabbSoA> draw_boxes(std::size_t count, Random& random) {
   return arrays;
 }
 
-// One set of boxes an iteration, at a level of vector instructions.
+// Scans one set of boxes per iteration, at a level of vector instructions.
 template <class Scan>
 void scan(benchmark::State& state, Isa level, std::size_t count, const Scan& scan_set) {
   if (level > isa_of_machine()) return state.SkipWithError("this machine has no such instructions");
@@ -201,7 +198,7 @@ void scan(benchmark::State& state, Isa level, std::size_t count, const Scan& sca
       benchmark::Counter(static_cast<double>(pairs), benchmark::Counter::kAvgIterations);
 }
 
-// The 15 axes of one pair an iteration, with what precedes them.
+// Tests the 15 axes of one pair per iteration, including the placement of the pair.
 template <class Scalar>
 void box_axes(benchmark::State& state, const PairRegime& regime) {
   const FamilyPair families{find_family("box"), find_family("box")};

@@ -1,8 +1,8 @@
-// Kernel benchmarks: every algorithm of the registry, the oracle and the kernels that algorithms
-// share, under Google Benchmark, for profiling one at a time
-// (--benchmark_filter=narrow/gjk/double/box-box). The harness proper times whole scenes, and keeps
-// what crashes or hangs apart; see `touchstone run`. With --instructions=FILE.csv it counts the
-// instructions of a query instead; --benchmark_filter then takes a regular expression.
+// Kernel benchmarks under Google Benchmark: every algorithm of the registry, the oracle and the
+// shared kernels, for profiling one at a time (--benchmark_filter=narrow/gjk/double/box-box).
+// `touchstone run` times whole scenes and isolates crashes and hangs. With --instructions=FILE.csv
+// the program counts the instructions of a query instead; --benchmark_filter then takes a regular
+// expression.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -16,7 +16,7 @@
 
 namespace {
 
-// The value of an option `name=value`; none where it is not given.
+// The value of an option `name=value`, or an empty string if it is not given.
 std::string value_of(int argc, char** argv, std::string_view name) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];

@@ -1,4 +1,4 @@
-// Every narrow phase on every two kinds of shapes, near and far.
+// Benchmarks of every narrow phase on every two kinds of shapes, near and far.
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
@@ -15,7 +15,7 @@
 namespace touchstone {
 namespace {
 
-// One query an iteration; batches that are short enough for the slowest to end.
+// Solves one query per iteration, in batches that are short enough for the slowest algorithm.
 void solve(benchmark::State& state, const NarrowSubject& subject) {
   constexpr std::size_t batch_size = 32;
   static_assert(PlacedPairs::count % batch_size == 0);
@@ -34,7 +34,7 @@ void solve(benchmark::State& state, const NarrowSubject& subject) {
   const auto wrong =
       std::count_if(outcomes.begin(), outcomes.begin() + static_cast<std::ptrdiff_t>(asked),
                     [&](const Outcome& o) { return o.answer != right; });
-  state.counters["wrong"] = static_cast<double>(wrong);  // of the distinct pairs that were asked
+  state.counters["wrong"] = static_cast<double>(wrong);  // of the distinct pairs that were solved
   state.SetItemsProcessed(state.iterations());
 }
 

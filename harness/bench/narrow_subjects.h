@@ -1,4 +1,4 @@
-// What there is to ask of narrow phases: each on each two families of shapes, near and far.
+// The queries for narrow phases: each algorithm on each two families of shapes, near and far.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct NarrowSubject {
   std::string name() const;  // "narrow/gjk/double/hull-32/distance/gap-0.1"
 };
 
-// Of every narrow phase that is built.
+// All queries of every narrow phase that is built.
 std::vector<NarrowSubject> narrow_subjects();
 
 }  // namespace touchstone

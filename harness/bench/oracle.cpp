@@ -1,4 +1,4 @@
-// What exact answers cost.
+// Benchmarks of the exact answers.
 #include "algorithms/oracle/oracle.h"
 
 #include <benchmark/benchmark.h>
@@ -14,7 +14,8 @@
 namespace touchstone {
 namespace {
 
-// Gaps and depths where the filters of floating point give way to exact arithmetic are among them.
+// The places include gaps and depths at which the floating-point filters give way to exact
+// arithmetic.
 constexpr std::array<PairRegime, 7> places = {{{"1", 1},
                                                {"1e-3", 1e-3},
                                                {"1e-9", 1e-9},

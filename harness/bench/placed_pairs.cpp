@@ -1,3 +1,4 @@
+// Draws shapes and places pairs of them at exact distances.
 #include "harness/bench/placed_pairs.h"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ Shape draw_halfspace(Random& random) {
   return shape;
 }
 
-// In the order of the kinds.
+// The families in the order of their kinds.
 constexpr std::array<ShapeFamily, 13> all_families = {{
     {"sphere", ShapeKind::sphere, draw_sphere},
     {"capsule", ShapeKind::capsule, draw_capsule},

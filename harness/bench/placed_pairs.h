@@ -1,4 +1,4 @@
-// Pairs of bodies for the kernel benchmarks: of two families of shapes, at a given distance or
+// Pairs of bodies for the kernel benchmarks, from two families of shapes, at a given distance or
 // depth.
 #pragma once
 
@@ -16,19 +16,19 @@
 
 namespace touchstone {
 
-// Shapes of one sort, drawn at random, of about unit size (metres): sphere, capsule, box, cylinder,
-// cone, ellipsoid, hull-N (N random points on a sphere), icosphere-N, halfspace.
+// Random shapes of one sort, of about unit size (metres): sphere, capsule, box, cylinder, cone,
+// ellipsoid, hull-N (N random points on a sphere), icosphere-N, halfspace.
 struct ShapeFamily {
   std::string_view name;
   ShapeKind kind;
   Shape (*draw)(Random& random);
 };
 std::span<const ShapeFamily> shape_families();
-// Null where there is none of that name.
+// Null if there is no family with that name.
 const ShapeFamily* find_family(std::string_view name);
 
-// Two families, a's kind before or equal to b's: every two kinds once, hull-32 for the hulls, and
-// each family of hulls with itself.
+// Two families, with a's kind before or equal to b's: every two kinds once, hull-32 for the hulls,
+// and each family of hulls with itself.
 struct FamilyPair {
   const ShapeFamily* a;
   const ShapeFamily* b;
@@ -36,21 +36,21 @@ struct FamilyPair {
 };
 std::vector<FamilyPair> family_pairs();
 
-// How the bodies of a pair stand to each other.
+// The distance between the bodies of a pair.
 struct PairRegime {
   std::string_view name;  // "far", "gap-0.1", "gap-1e-3", "depth-1e-3", "deep"
   double distance;        // metres, signed: < 0 is minus the depth
 
-  // Whether the task has more to say there than the answer.
+  // Returns true if the task gives more than the answer at that distance.
   bool fits(Task task) const {
     return task == Task::intersect || (task == Task::distance) == (distance > 0);
   }
 };
 std::span<const PairRegime> pair_regimes();
 
-// Distinct pairs, turned at random, that look at each other from random directions: the nearest
-// features are those that random bodies have. The signed distance is the regime's by the exact
-// oracle, to a millionth part of it or to 4e-16 m.
+// Distinct pairs at random orientations and in random directions from each other, so that their
+// nearest features are those of random bodies. The exact signed distance is the regime's, to one
+// millionth of it or to 4e-16 m.
 struct PlacedPairs {
   static constexpr std::size_t count = 256;
 
@@ -61,11 +61,11 @@ struct PlacedPairs {
 
   PlacedPairs(const FamilyPair& families, const PairRegime& regime);
 
-  // `size` pairs from `begin` on.
+  // A batch of `size` pairs from `begin` on.
   PairBatch batch(Task task, std::size_t begin, std::size_t size) const;
 };
 
-// Made when first asked for, and kept.
+// The pairs are made when first requested, and kept.
 const PlacedPairs& placed_pairs(const FamilyPair& families, const PairRegime& regime);
 
 }  // namespace touchstone
