@@ -1,16 +1,16 @@
 // touchstone advise: the cheapest configuration that is right enough for a scene.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "harness/base/error.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/commands/trade.h"
-#include "harness/record/build_info.h"
 #include "harness/trade/advice/advice_files.h"
 #include "harness/trade/advice/advice_list.h"
 
@@ -24,12 +24,6 @@ struct Options {
   bool verify = false;
   int draws = 3;
 };
-
-// For CLI::Option::check. Zero is an error that one may ask for, NaN is none.
-std::string error_fault(const std::string& text) {
-  if (CLI::NonNegativeNumber(text).empty() && !std::isnan(std::stod(text))) return "";
-  return fmt::format("found '{}'; expected a finite number >= 0", text);
-}
 
 void say(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
@@ -61,8 +55,7 @@ int advise(Options& options) {
   std::filesystem::path folder;
   if (!options.list.empty()) {
     tasks = read_advice_list(options.list, options.request);
-    folder = options.out.empty() ? std::filesystem::path(source_folder) / "results/local/advice"
-                                 : std::filesystem::path(options.out);
+    folder = results_folder(options.out, "advice");
   } else {
     AdviceTask& task = tasks.emplace_back();
     task.request = options.request;
@@ -94,46 +87,40 @@ int advise(Options& options) {
 
 }  // namespace
 
-void add_advise(CLI::App& app, int& status) {
+void add_advise(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Arguments command = line.add_command(
       "advise", "The cheapest configuration for a scene that is right enough, by measuring");
-  CLI::Option* scene =
-      command->add_option("scene", options->scene, "Scene file: .toml or rigid-ipc's .json");
-  CLI::Option* list =
-      command->add_option("--list", options->list, "File of scenes, each with its own error");
-  command->add_option("--max-error", options->budget.most, "The greatest error that will do")
-      ->check(error_fault)
-      ->capture_default_str()
-      ->excludes(list);
-  command
-      ->add_flag("--no-false-negatives", options->budget.no_false_negatives,
-                 "No contact may be missed, or be left without an answer")
-      ->excludes(list);
-  command->add_option("--error", options->error, "What counts as the error of a configuration")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(error_measure_names.begin(), error_measure_names.end())))
-      ->excludes(list);
-  CLI::Option* verify = command->add_flag(
-      "--verify", options->verify,
-      "Hold the advice against the full grid, and against scenes that were not looked at");
-  command->add_option("--seeds", options->draws, "How many such scenes")
-      ->check(CLI::Range(1, 100))
-      ->needs(verify)
-      ->capture_default_str();
-  command->add_option(
-      "--out", options->out,
-      "Folder for advice.toml (default: results/local/trade-NAME-advice in the project)");
-  add_trade_axes(*command, options->request);
-  for (const char* name : {"--task", "--count", "--seed"}) {
-    command->get_option(name)->excludes(list);
+  const Option scene =
+      command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json");
+  Option list = command.text("--list", options->list, "File of scenes, each with its own error");
+  command.number("--max-error", options->budget.most, "The greatest error that will do")
+      .not_negative()
+      .show_default();
+  command.flag("--no-false-negatives", options->budget.no_false_negatives,
+               "No contact may be missed, or be left without an answer");
+  add_error_measure(command, options->error);
+  const Option verify =
+      command.flag("--verify", options->verify,
+                   "Hold the advice against the full grid, and against scenes that were not "
+                   "looked at");
+  command.number("--seeds", options->draws, "How many such scenes")
+      .within(1, 100)
+      .needs(verify)
+      .show_default();
+  command.text("--out", options->out,
+               "Folder for advice.toml (default: results/local/trade-NAME-advice in the project)");
+  add_trade_axes(command, options->request);
+  list.excludes(scene);
+  for (const char* name :
+       {"--max-error", "--no-false-negatives", "--error", "--task", "--count", "--seed"}) {
+    list.excludes(command.option(name));
   }
-  scene->excludes(list);
-  command->callback([options, scene, list, &status] {
-    if (scene->count() + list->count() == 0) {
+  command.job([options, scene, list] {
+    if (!scene.given() && !list.given()) {
       throw InputError("advise: no scene; expected a scene file, or --list FILE");
     }
-    status = advise(*options);
+    return advise(*options);
   });
 }
 

@@ -1,9 +1,9 @@
-// The commands of the program. Each adds its options to the command line and says what to run.
+// The commands of the program. Each adds itself and its options to the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 namespace touchstone {
+
+class CommandLine;
 
 // The exit status of the program.
 enum ExitStatus : int {
@@ -13,21 +13,20 @@ enum ExitStatus : int {
   exit_undecided = 3,       // `compare` alone: too few samples, or too much noise, to tell
 };
 
-// Each puts its exit status into `status` when its subcommand was given.
-void add_list(CLI::App& app, int& status);
-void add_query(CLI::App& app, int& status);
-void add_manifold(CLI::App& app, int& status);
-void add_pairs(CLI::App& app, int& status);
-void add_check(CLI::App& app, int& status);
-void add_soak(CLI::App& app, int& status);
-void add_stress(CLI::App& app, int& status);
-void add_run(CLI::App& app, int& status);
-void add_compare(CLI::App& app, int& status);
-void add_tables(CLI::App& app, int& status);
-void add_draw(CLI::App& app, int& status);
-void add_record(CLI::App& app, int& status);
-void add_trade(CLI::App& app, int& status);
-void add_advise(CLI::App& app, int& status);
-void add_represent(CLI::App& app, int& status);
+void add_list(CommandLine& line);
+void add_query(CommandLine& line);
+void add_manifold(CommandLine& line);
+void add_pairs(CommandLine& line);
+void add_check(CommandLine& line);
+void add_soak(CommandLine& line);
+void add_stress(CommandLine& line);
+void add_run(CommandLine& line);
+void add_compare(CommandLine& line);
+void add_tables(CommandLine& line);
+void add_draw(CommandLine& line);
+void add_record(CommandLine& line);
+void add_trade(CommandLine& line);
+void add_advise(CommandLine& line);
+void add_represent(CommandLine& line);
 
 }  // namespace touchstone

@@ -8,7 +8,9 @@
 
 #include "harness/base/error.h"
 #include "harness/base/text_table.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
@@ -134,8 +136,7 @@ int compare_programs(const Options& options) {
   const std::string campaign = options.files.empty()
                                    ? (source / "datasets/campaigns/compare.toml").string()
                                    : options.files[0];
-  const std::filesystem::path out =
-      options.out.empty() ? source / "results/local/compare" : std::filesystem::path(options.out);
+  const std::filesystem::path out = results_folder(options.out, "compare");
   if (!std::ifstream(campaign)) throw InputError(campaign, 0, "cannot be read");
   std::vector<Results> a, b;
   for (int i = 0; i < options.runs; ++i) {
@@ -157,36 +158,36 @@ int compare_programs(const Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, int& status) {
+void add_compare(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Arguments command = line.add_command(
       "compare", "Compare two results, or two builds of this program: is B slower than A?");
-  command->add_option("results", options->files,
-                      "A and B: results folders, or raw.csv files. With --exe: a campaign file "
-                      "(default: datasets/campaigns/compare.toml)");
-  CLI::Option* exe = command->add_option(
-      "--exe", options->programs,
-      "A program to run; given twice, A and B, whose runs of the campaign are interleaved");
-  exe->allow_extra_args(false);  // one each: what follows is the campaign
+  command.texts("results", options->files,
+                "A and B: results folders, or raw.csv files. With --exe: a campaign file "
+                "(default: datasets/campaigns/compare.toml)");
+  const Option exe =
+      command
+          .texts("--exe", options->programs,
+                 "A program to run; given twice, A and B, whose runs of the campaign are "
+                 "interleaved")
+          .once_each();  // what follows the second is the campaign
+  command.number("--threshold", options->threshold, "A slower B is a regression beyond this part")
+      .positive()
+      .show_default();
+  command.number("--runs", options->runs, "With --exe: runs of each program")
+      .within(1, 1000)
+      .needs(exe)
+      .show_default();
   command
-      ->add_option("--threshold", options->threshold, "A slower B is a regression beyond this part")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--runs", options->runs, "With --exe: runs of each program")
-      ->check(CLI::Range(1, 1000))
-      ->needs(exe)
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--out", options->out,
-          "With --exe: folder for the runs (default: results/local/compare in the project)")
-      ->needs(exe);
-  command->add_option("--csv", options->csv, "Write the cells to this file, too");
-  command->add_flag("--any-machine", options->any_machine,
-                    "Compare although the machines differ or are not known");
-  command->add_flag("--noisy", options->noisy,
-                    "Keep the rounds that were measured under noise; they are left out otherwise");
-  command->footer(
+      .text("--out", options->out,
+            "With --exe: folder for the runs (default: results/local/compare in the project)")
+      .needs(exe);
+  command.text("--csv", options->csv, "Write the cells to this file, too");
+  command.flag("--any-machine", options->any_machine,
+               "Compare although the machines differ or are not known");
+  command.flag("--noisy", options->noisy,
+               "Keep the rounds that were measured under noise; they are left out otherwise");
+  command.footer(
       "A cell is one algorithm on one input. Its ratio B / A comes with an interval of 95 %: a "
       "cell\n"
       "is slower where all of it is above 1 + threshold and Mann-Whitney's p, corrected by Holm "
@@ -198,8 +199,8 @@ void add_compare(CLI::App& app, int& status) {
       "  2  not comparable: machine, scene hash, settings or vector instructions differ (it says\n"
       "     which); or the request or a file is wrong\n"
       "  3  undecided: no regression is shown, and in at least one cell none is ruled out");
-  command->callback([options, &status] {
-    status = options->programs.empty() ? compare_files(*options) : compare_programs(*options);
+  command.job([options] {
+    return options->programs.empty() ? compare_files(*options) : compare_programs(*options);
   });
 }
 

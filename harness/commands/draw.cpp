@@ -7,7 +7,9 @@
 #include "algorithms/core/executor.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/draw/scene_picture.h"
 #include "harness/grade/pair_groups.h"
 #include "harness/scene/player.h"
@@ -86,33 +88,26 @@ void draw(const Options& options) {
 
 }  // namespace
 
-void add_draw(CLI::App& app, int& status) {
+void add_draw(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("draw", "Draw a frame of a scene as a PNG");
-  command->add_option("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
-      ->required();
-  command->add_option("--out", options->out, "The picture, .png")
-      ->required()
-      ->check([](const std::string& name) {
+  Arguments command = line.add_command("draw", "Draw a frame of a scene as a PNG");
+  command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
+      .required();
+  command.text("--out", options->out, "The picture, .png")
+      .required()
+      .check([](const std::string& name) {
         return name.ends_with(".png") ? "" : "the picture's name must end in .png";
       });
-  command->add_option("--frame", options->frame, "Which frame")->capture_default_str();
-  command->add_option("--view", options->view, "From where")
-      ->check(CLI::IsMember({"corner", "front", "side", "top"}))
-      ->capture_default_str();
-  command->add_option("--width", options->width, "Pixels")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  command->add_option("--height", options->height, "Pixels")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  command->add_option("--count", options->overrides.count, "Bodies of a generated scene")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--seed", options->overrides.seed, "Seed of a generated scene")
-      ->check(CLI::NonNegativeNumber);
-  command->callback([options, &status] {
+  command.number("--frame", options->frame, "Which frame").show_default();
+  command.text("--view", options->view, "From where")
+      .among({"corner", "front", "side", "top"})
+      .show_default();
+  command.number("--width", options->width, "Pixels").within(16, 8192).show_default();
+  command.number("--height", options->height, "Pixels").within(16, 8192).show_default();
+  add_scene_overrides(command, options->overrides);
+  command.job([options] {
     draw(*options);
-    status = exit_done;
+    return exit_done;
   });
 }
 

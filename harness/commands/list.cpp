@@ -13,6 +13,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/files/csv.h"
 
@@ -98,13 +99,11 @@ std::string as_table(const std::vector<Listed>& all) {
 
 }  // namespace
 
-void add_list(CLI::App& app, int& status) {
+void add_list(CommandLine& line) {
   const auto format = std::make_shared<std::string>("table");
-  CLI::App& command = *app.add_subcommand("list", "List the algorithms, built or not");
-  command.add_option("--format", *format, "How to print them")
-      ->check(CLI::IsMember({"table", "csv"}))
-      ->capture_default_str();
-  command.callback([format, &status] {
+  Arguments command = line.add_command("list", "List the algorithms, built or not");
+  command.text("--format", *format, "How to print them").among({"table", "csv"}).show_default();
+  command.job([format] {
     const std::vector<Listed> all = all_algorithms();
     const std::string text = *format == "csv" ? as_csv(all) : as_table(all);
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
@@ -112,7 +111,7 @@ void add_list(CLI::App& app, int& status) {
       throw InputError("standard output", 0,
                        fmt::format("cannot be written: {}", std::strerror(errno)));
     }
-    status = exit_done;
+    return exit_done;
   });
 }
 

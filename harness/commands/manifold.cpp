@@ -13,9 +13,9 @@
 #include "harness/base/text_table.h"
 #include "harness/campaign/selection.h"
 #include "harness/check/regimes/settled_pairs.h"
-#include "harness/commands/checks.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/commands/failures.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
 #include "harness/grade/manifold_tally.h"
@@ -222,37 +222,29 @@ int manifold(const ManifoldOptions& options) {
 
 }  // namespace
 
-void add_manifold(CLI::App& app, int& status) {
+void add_manifold(CommandLine& line) {
   const auto options = std::make_shared<ManifoldOptions>();
-  CLI::App& command =
-      *app.add_subcommand("manifold", "The contact points of bodies that lie on each other");
-  command.add_option("CASES", options->cases, "Cases: JSON, one object a line");
+  Arguments command =
+      line.add_command("manifold", "The contact points of bodies that lie on each other");
+  command.text("CASES", options->cases, "Cases: JSON, one object a line");
   command
-      .add_option("--settled", options->settled,
-                  "Instead of CASES: so many generated pairs of each family of face contacts")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}).description(""));
-  command.add_option("--seed", options->seed, "Of the generated pairs")->capture_default_str();
+      .number("--settled", options->settled,
+              "Instead of CASES: so many generated pairs of each family of face contacts")
+      .within(1, 1'000'000);
+  command.number("--seed", options->seed, "The seed of the generated pairs").show_default();
   command
-      .add_option("--algorithm", options->algorithms,
-                  "Contact manifolds: names joined by commas, or all, ours, peers")
-      ->capture_default_str();
-  command
-      .add_option_function<std::string>(
-          "--scalar",
-          [options](const std::string& name) {
-            options->scalar = name == "float" ? Precision::float32 : Precision::float64;
-          },
-          "What is calculated in; without it, in each that an algorithm has")
-      ->check(CLI::IsMember({"float", "double"}));
-  command.add_flag("--grade", options->grade,
-                   "Hold the points to the oracle, the bodies and the touching area; exit status 1 "
-                   "where one of ours is not as good as it promises");
-  command.add_option("--page", options->page, "With --grade: the table as a Markdown page");
-  command.add_option("--time-limit", options->time_limit, "Seconds that a query may take")
-      ->check(positive_number)
-      ->capture_default_str();
-  command.add_option("--out", options->out, "The CSV file to write, a row for each point");
-  command.callback([options, &status] { status = manifold(*options); });
+      .text("--algorithm", options->algorithms,
+            "Contact manifolds: names joined by commas, or all, ours, peers")
+      .show_default();
+  command.one_of("--scalar", options->scalar, scalar_choices(),
+                 "What is calculated in; without it, in each that an algorithm has");
+  command.flag("--grade", options->grade,
+               "Hold the points to the oracle, the bodies and the touching area; exit status 1 "
+               "where one of ours is not as good as it promises");
+  command.text("--page", options->page, "With --grade: the table as a Markdown page");
+  add_time_limit(command, options->time_limit).show_default();
+  command.text("--out", options->out, "The CSV file to write, a row for each point");
+  command.job([options] { return manifold(*options); });
 }
 
 }  // namespace touchstone

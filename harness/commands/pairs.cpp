@@ -17,9 +17,9 @@
 #include "harness/base/clock.h"
 #include "harness/base/hash.h"
 #include "harness/campaign/selection.h"
-#include "harness/commands/checks.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/commands/failures.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/process/isolate.h"
 #include "harness/scene/box_frames.h"
@@ -218,28 +218,25 @@ void pairs(const PairsOptions& options) {
 
 }  // namespace
 
-void add_pairs(CLI::App& app, int& status) {
+void add_pairs(CommandLine& line) {
   const auto options = std::make_shared<PairsOptions>();
-  CLI::App& command = *app.add_subcommand("pairs", "Find the pairs of boxes that overlap");
+  Arguments command = line.add_command("pairs", "Find the pairs of boxes that overlap");
   command
-      .add_option("FILE", options->file,
-                  "Boxes: CSV (frame,id,min_x,min_y,min_z,max_x,max_y,max_z), or a Broadmark "
-                  "recording (.aabbs)")
-      ->required();
-  command.add_option("--broad", options->broad, "Broad phases: names joined by commas, or all")
-      ->required();
-  command.add_option("--threads", options->threads, "Width of the executor")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command.add_option("--time-limit", options->time_limit, "Seconds that a frame may take")
-      ->check(positive_number)
-      ->default_str("none");
-  command.add_flag("--rebuild", options->rebuild, "Build each frame anew; no updates");
-  command.add_option("--out", options->out, "The CSV file to write")->required();
-  command.add_option("--pairs", options->pairs, "Where to write the pairs themselves, as CSV");
-  command.callback([options, &status] {
+      .text("FILE", options->file,
+            "Boxes: CSV (frame,id,min_x,min_y,min_z,max_x,max_y,max_z), or a Broadmark "
+            "recording (.aabbs)")
+      .required();
+  command.text("--broad", options->broad, "Broad phases: names joined by commas, or all")
+      .required();
+  add_threads(command, options->threads, "Width of the executor");
+  add_time_limit(command, options->time_limit, "Seconds that a frame may take")
+      .show_default("none");
+  command.flag("--rebuild", options->rebuild, "Build each frame anew; no updates");
+  command.text("--out", options->out, "The CSV file to write").required();
+  command.text("--pairs", options->pairs, "Where to write the pairs themselves, as CSV");
+  command.job([options] {
     pairs(*options);
-    status = exit_done;
+    return exit_done;
   });
 }
 

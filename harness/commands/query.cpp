@@ -11,9 +11,9 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/campaign/selection.h"
-#include "harness/commands/checks.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/commands/failures.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
 #include "harness/grade/solve_case.h"
@@ -134,52 +134,33 @@ void query(const QueryOptions& options) {
 
 }  // namespace
 
-void add_query(CLI::App& app, int& status) {
+void add_query(CommandLine& line) {
   const auto options = std::make_shared<QueryOptions>();
-  CLI::App& command = *app.add_subcommand("query", "Ask narrow phases about pairs of bodies");
-  command.add_option("CASES", options->cases, "Cases: JSON, one object a line")->required();
-  command.add_option("--narrow", options->narrow, "Narrow phases: names joined by commas, or all")
-      ->required();
+  NarrowPhaseSettings& settings = options->settings;
+  Arguments command = line.add_command("query", "Ask narrow phases about pairs of bodies");
+  command.text("CASES", options->cases, "Cases: JSON, one object a line").required();
+  command.text("--narrow", options->narrow, "Narrow phases: names joined by commas, or all")
+      .required();
+  command.one_of("--task", options->task, task_choices(), "What is asked").required();
+  command.one_of("--scalar", settings.scalar, scalar_choices(), "What is calculated in")
+      .show_default("double");
   command
-      .add_option_function<std::string>(
-          "--task",
-          [options](const std::string& name) {
-            for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
-              if (name == to_string(task)) options->task = task;
-            }
-          },
-          "What is asked")
-      ->check(CLI::IsMember({"intersect", "distance", "penetration"}))
-      ->required();
+      .number("--tolerance", settings.tolerance,
+              "Error of a distance at which to stop, as a part of the pair's size")
+      .positive();
   command
-      .add_option_function<std::string>(
-          "--scalar",
-          [options](const std::string& name) {
-            options->settings.scalar = name == "float" ? Precision::float32 : Precision::float64;
-          },
-          "What is calculated in")
-      ->check(CLI::IsMember({"float", "double"}))
-      ->default_str("double");
+      .number("--duality-gap", settings.duality_gap,
+              "Stop a distance by the absolute duality gap of its square instead (square metres)")
+      .positive();
   command
-      .add_option("--tolerance", options->settings.tolerance,
-                  "Error of a distance at which to stop, as a part of the pair's size")
-      ->check(positive_number);
-  command
-      .add_option(
-          "--duality-gap", options->settings.duality_gap,
-          "Stop a distance by the absolute duality gap of its square instead (square metres)")
-      ->check(positive_number);
-  command
-      .add_option("--max-iterations", options->settings.max_iterations,
-                  "Greatest number of iterations of each loop of a query")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()).description(""));
-  command.add_option("--time-limit", options->time_limit, "Seconds that a query may take")
-      ->check(positive_number)
-      ->capture_default_str();
-  command.add_option("--out", options->out, "The CSV file to write")->required();
-  command.callback([options, &status] {
+      .number("--max-iterations", settings.max_iterations,
+              "Greatest number of iterations of each loop of a query")
+      .positive();
+  add_time_limit(command, options->time_limit).show_default();
+  command.text("--out", options->out, "The CSV file to write").required();
+  command.job([options] {
     query(*options);
-    status = exit_done;
+    return exit_done;
   });
 }
 

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "harness/base/error.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/scene/aabbs.h"
 #include "harness/scene/box_frames.h"
@@ -19,7 +21,7 @@ namespace {
 
 struct RecordOptions {
   std::string scene, out;
-  std::string boxes = "tight";
+  BoxKind boxes = BoxKind::tight;
   SceneOverrides overrides;
 };
 
@@ -68,7 +70,7 @@ void record(const RecordOptions& options) {
         "bodies come and go in this scene, and Broadmark's format has the same ones in "
         "every frame; expected --out with a name ending in .csv");
   }
-  ScenePlayer player(scene, options.boxes == "tight" ? BoxKind::tight : BoxKind::loose);
+  ScenePlayer player(scene, options.boxes);
   const std::size_t count = player.boxes().size();
   if (csv) {
     record_csv(player, out);
@@ -81,28 +83,25 @@ void record(const RecordOptions& options) {
 
 }  // namespace
 
-void add_record(CLI::App& app, int& status) {
+void add_record(CommandLine& line) {
   const auto options = std::make_shared<RecordOptions>();
-  CLI::App& command = *app.add_subcommand("record", "Write a scene's boxes as a recording");
-  command.add_option("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc) or .aabbs")
-      ->required();
+  Arguments command = line.add_command("record", "Write a scene's boxes as a recording");
+  command.text("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc) or .aabbs")
+      .required();
   command
-      .add_option("--out", options->out,
-                  "The file to write: .aabbs (Broadmark's format) or .csv, as `pairs` reads them")
-      ->required();
-  command.add_option("--frames", options->overrides.frames, "Instead of the scene's own")
-      ->check(CLI::Range(1, 1'000'000));
-  command.add_option("--count", options->overrides.count, "Bodies, of a generated scene")
-      ->check(CLI::Range(1, 100'000'000));
-  command.add_option("--seed", options->overrides.seed, "Of a generated scene")
-      ->check(CLI::Range(std::int64_t{0}, INT64_MAX));
+      .text("--out", options->out,
+            "The file to write: .aabbs (Broadmark's format) or .csv, as `pairs` reads them")
+      .required();
+  command.number("--frames", options->overrides.frames, "Instead of the scene's own")
+      .within(1, 1'000'000);
+  add_scene_overrides(command, options->overrides);
   command
-      .add_option("--boxes", options->boxes, "Tight boxes, or loose ones that hold any attitude")
-      ->check(CLI::IsMember({"tight", "loose"}))
-      ->capture_default_str();
-  command.callback([options, &status] {
+      .one_of("--boxes", options->boxes, box_choices(),
+              "Tight boxes, or loose ones that hold any attitude")
+      .show_default("tight");
+  command.job([options] {
     record(*options);
-    status = exit_done;
+    return exit_done;
   });
 }
 

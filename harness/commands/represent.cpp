@@ -10,7 +10,9 @@
 
 #include "harness/base/error.h"
 #include "harness/base/text_table.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/proxies/representation.h"
 #include "harness/scene/scene.h"
@@ -171,33 +173,28 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_represent(CLI::App& app, int& status) {
+void add_represent(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Arguments command = line.add_command(
       "represent", "What stands for a scene's bodies, from ball to mesh, and how far off it is");
-  command->add_option("scene", options->scene, "Scene file: .toml or rigid-ipc's .json")
-      ->required();
+  command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
   command
-      ->add_option(
-          "--forms", options->forms,
-          "Of: as-given, sphere, box, oriented-box, dop-14, dop-18, dop-26, capsule, hull-K "
-          "(at most K vertices, from 8), hull, parts, parts-K (at most K), mesh, icosphere-L "
-          "(0 to 5)")
-      ->delimiter(',')
-      ->capture_default_str();
+      .texts("--forms", options->forms,
+             "Of: as-given, sphere, box, oriented-box, dop-14, dop-18, dop-26, capsule, hull-K "
+             "(at most K vertices, from 8), hull, parts, parts-K (at most K), mesh, icosphere-L "
+             "(0 to 5)")
+      .separated_by_commas()
+      .show_default();
   command
-      ->add_option("--side", options->side,
-                   "outer: holds the body; inner: inside it; nearest: of the body's volume")
-      ->check(CLI::IsMember({"outer", "inner", "nearest"}))
-      ->capture_default_str();
-  command->add_option("--out", options->out, "One row for each shape and form (CSV)")->required();
-  command->add_option("--count", options->overrides.count, "Bodies of a generated scene")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--seed", options->overrides.seed, "Seed of a generated scene")
-      ->check(CLI::NonNegativeNumber);
-  command->callback([options, &status] {
+      .text("--side", options->side,
+            "outer: holds the body; inner: inside it; nearest: of the body's volume")
+      .among({"outer", "inner", "nearest"})
+      .show_default();
+  command.text("--out", options->out, "One row for each shape and form (CSV)").required();
+  add_scene_overrides(command, options->overrides);
+  command.job([options] {
     run(*options);
-    status = exit_done;
+    return exit_done;
   });
 }
 

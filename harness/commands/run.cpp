@@ -8,7 +8,9 @@
 #include "harness/campaign/report.h"
 #include "harness/campaign/runner.h"
 #include "harness/campaign/selection.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/commands/trade.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
@@ -111,9 +113,7 @@ int run_trade_file(const Options& options) {
 int run(const Options& options) {
   if (!options.campaign.empty() && is_trade_file(options.campaign)) return run_trade_file(options);
   const Campaign campaign = campaign_of(options);
-  const std::filesystem::path folder = options.out.empty() ? std::filesystem::path(source_folder) /
-                                                                 "results" / "local" / campaign.name
-                                                           : std::filesystem::path(options.out);
+  const std::filesystem::path folder = results_folder(options.out, campaign.name);
   if (options.dry_run) {
     print_plan(campaign);
     return exit_done;
@@ -150,84 +150,58 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_run(CLI::App& app, int& status) {
+void add_run(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Arguments command = line.add_command(
       "run", "Run a campaign: every scene through every algorithm, compared and timed");
-  CLI::Option* campaign = command->add_option(
+  const Option campaign = command.text(
       "campaign", options->campaign, "Campaign file (.toml); without one, the standard comparison");
-  command->add_option(
-      "--out", options->out,
-      "Folder for raw.csv and machine.csv (default: results/local/NAME in the project)");
-
-  CLI::Option* resume = command->add_flag(
-      "--resume", options->resume, "Go on with the run that was stopped in the folder of --out");
+  command.text("--out", options->out,
+               "Folder for raw.csv and machine.csv (default: results/local/NAME in the project)");
+  const Option resume = command.flag("--resume", options->resume,
+                                     "Go on with the run that was stopped in the folder of --out");
   command
-      ->add_flag("--overwrite", options->overwrite,
-                 "Begin anew even where the folder holds a run that was not finished")
-      ->excludes(resume);
-  command->add_flag("--strict", options->strict, "Refuse to measure on a machine that is busy");
-  command->add_flag("--noisy", options->noisy,
-                    "Let the tables count rounds that the machine disturbed");
-  command->add_flag("--dry-run", options->dry_run,
-                    "Print what would be measured, and for how long");
+      .flag("--overwrite", options->overwrite,
+            "Begin anew even where the folder holds a run that was not finished")
+      .excludes(resume);
+  command.flag("--strict", options->strict, "Refuse to measure on a machine that is busy");
+  command.flag("--noisy", options->noisy, "Let the tables count rounds that the machine disturbed");
+  command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";
-  CLI::Option* scene =
-      command
-          ->add_option("--scene", options->scenes, "Scene files: .toml, rigid-ipc's .json, .aabbs")
-          ->excludes(campaign)
-          ->group(one);
-  const auto add = [&](CLI::Option* option) { option->needs(scene)->group(one); };
+  const Option scene =
+      command.texts("--scene", options->scenes, "Scene files: .toml, rigid-ipc's .json, .aabbs")
+          .excludes(campaign)
+          .group(one);
+  const auto add = [&](Option option) { option.needs(scene).group(one); };
+  add(command.text("--broad", options->broad, "Broad phases: names, all, ours, peers, oracle, none")
+          .show_default());
   add(command
-          ->add_option("--broad", options->broad,
-                       "Broad phases: names, all, ours, peers, oracle, none")
-          ->capture_default_str());
+          .text("--narrow", options->narrow, "Narrow phases: names, all, ours, peers, oracle, none")
+          .show_default());
+  add(command.some_of("--task", options->tasks, task_choices(), "What is asked"));
+  add(command.some_of("--scalar", options->scalars, scalar_choices(),
+                      "What is calculated in (default: both)"));
+  add(command.some_of("--boxes", options->boxes, box_choices(),
+                      "Tight boxes, or loose ones that hold any attitude"));
+  add(command.numbers("--threads", options->threads, "Numbers of threads")
+          .within(1, 1024)
+          .show_default());
+  add(command.numbers("--count", options->counts, "Bodies of a generated scene").positive());
+  add(command.numbers("--seed", options->seeds, "Seeds of a generated scene").not_negative());
+  add(command.number("--frames", options->frames, "Frames").positive());
   add(command
-          ->add_option("--narrow", options->narrow,
-                       "Narrow phases: names, all, ours, peers, oracle, none")
-          ->capture_default_str());
-  const std::map<std::string, Task> tasks = {{"intersect", Task::intersect},
-                                             {"distance", Task::distance},
-                                             {"penetration", Task::penetration}};
-  add(command->add_option("--task", options->tasks, "intersect, distance, penetration")
-          ->delimiter(',')
-          ->transform(CLI::CheckedTransformer(tasks).description("")));
-  const std::map<std::string, Precision> scalars = {{"float", Precision::float32},
-                                                    {"double", Precision::float64}};
-  add(command->add_option("--scalar", options->scalars, "float, double (default: both)")
-          ->delimiter(',')
-          ->transform(CLI::CheckedTransformer(scalars).description("")));
-  const std::map<std::string, BoxKind> boxes = {{"tight", BoxKind::tight},
-                                                {"loose", BoxKind::loose}};
-  add(command->add_option("--boxes", options->boxes, "tight, loose")
-          ->delimiter(',')
-          ->transform(CLI::CheckedTransformer(boxes).description("")));
-  add(command->add_option("--threads", options->threads, "Numbers of threads")
-          ->delimiter(',')
-          ->check(CLI::Range(1, 1024))
-          ->capture_default_str());
-  add(command->add_option("--count", options->counts, "Bodies of a generated scene")
-          ->delimiter(',')
-          ->check(CLI::PositiveNumber));
-  add(command->add_option("--seed", options->seeds, "Seeds of a generated scene")
-          ->delimiter(',')
-          ->check(CLI::NonNegativeNumber));
-  add(command->add_option("--frames", options->frames, "Frames")->check(CLI::PositiveNumber));
-  add(command
-          ->add_option("--tolerance", options->tolerance, "Of the narrow phases, part of the size")
-          ->check(CLI::PositiveNumber));
-  add(command
-          ->add_option("--time-limit", options->time_limit, "Seconds for a frame of an algorithm")
-          ->check(CLI::PositiveNumber)
-          ->capture_default_str());
-  add(command->add_flag("--product", options->product,
-                        "Every narrow phase on the pairs of every broad phase"));
-  add(command->add_flag("--rebuild", options->rebuild,
-                        "Build every frame anew instead of updating"));
-  add(command->add_flag("--warm", options->warm,
-                        "Narrow phases that know it once more, starting from the frame before"));
-  command->callback([options, &status] { status = run(*options); });
+          .number("--tolerance", options->tolerance,
+                  "Of the narrow phases, as a part of the pair's size")
+          .positive());
+  add(add_time_limit(command, options->time_limit, "Seconds for a frame of an algorithm")
+          .show_default());
+  add(command.flag("--product", options->product,
+                   "Every narrow phase on the pairs of every broad phase"));
+  add(command.flag("--rebuild", options->rebuild, "Build every frame anew instead of updating"));
+  add(command.flag("--warm", options->warm,
+                   "Narrow phases that know it once more, starting from the frame before"));
+  command.job([options] { return run(*options); });
 }
 
 }  // namespace touchstone

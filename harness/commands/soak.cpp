@@ -8,9 +8,9 @@
 
 #include "harness/base/text_table.h"
 #include "harness/campaign/selection.h"
-#include "harness/commands/checks.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/record/build_info.h"
+#include "harness/commands/shared_options.h"
 
 namespace touchstone {
 namespace {
@@ -43,8 +43,7 @@ void print(const SoakRequest& request, const SoakResult& result) {
 int soak(Options& options) {
   SoakRequest& request = options.request;
   request.narrow = select(narrow_phases(), split_names(options.narrow), "narrow phase");
-  request.out = options.out.empty() ? std::filesystem::path(source_folder) / "results/local/soak"
-                                    : std::filesystem::path(options.out);
+  request.out = results_folder(options.out, "soak");
   for (const Regime& regime : regimes()) request.regimes.push_back(&regime);
   const SoakResult result = run_soak(request);
   print(request, result);
@@ -54,32 +53,16 @@ int soak(Options& options) {
 
 }  // namespace
 
-void add_soak(CLI::App& app, int& status) {
+void add_soak(CommandLine& line) {
   const auto options = std::make_shared<Options>();
   SoakRequest& request = options->request;
-  CLI::App& command = *app.add_subcommand(
+  Arguments command = line.add_command(
       "soak", "Count verdicts by the million against exact ones, in regimes that are hard");
-  command.add_option("--narrow", options->narrow, "Narrow phases: names, all, ours, peers")
-      ->capture_default_str();
-  const std::map<std::string, Precision> scalars = {{"float", Precision::float32},
-                                                    {"double", Precision::float64}};
-  command.add_option("--scalar", request.scalars, "float, double (default: both)")
-      ->delimiter(',')
-      ->transform(CLI::CheckedTransformer(scalars).description(""));
-  command.add_option("--pairs", request.pairs, "Pairs in all, spread over the regimes")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
-      ->capture_default_str();
-  command.add_option("--seed", request.seed, "Of the cases")->capture_default_str();
-  command.add_option("--threads", request.workers, "Processes that share the work")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  command.add_option("--time-limit", request.time_limit, "Seconds that a query may take")
-      ->check(positive_number)
-      ->capture_default_str();
-  command.add_option("--out", options->out,
-                     "Folder for the counts (default: results/local/soak in the project)");
-  command.add_flag("--resume", request.resume, "Go on with the soak that this folder is of");
-  command.callback([options, &status] { status = soak(*options); });
+  add_case_options(command, request, options->narrow, options->out, "soak", "soak");
+  command.number("--pairs", request.pairs, "Pairs in all, spread over the regimes")
+      .within(1, 1'000'000'000'000)
+      .show_default();
+  command.job([options] { return soak(*options); });
 }
 
 }  // namespace touchstone

@@ -3,20 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
-#include <map>
 #include <memory>
 
 #include "harness/base/error.h"
 #include "harness/base/text_table.h"
 #include "harness/campaign/selection.h"
 #include "harness/check/axes/stress_run.h"
-#include "harness/commands/checks.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/record/build_info.h"
+#include "harness/commands/figures.h"
+#include "harness/commands/shared_options.h"
 
 namespace touchstone {
 namespace {
@@ -48,56 +45,6 @@ std::vector<const Axis*> chosen_axes(const std::string& names) {
   return chosen;
 }
 
-// The oracle does not judge itself, unless it is asked to.
-std::vector<const NarrowPhaseEntry*> chosen_narrow(const Options& options) {
-  const std::vector<std::string> list = split_names(options.narrow);
-  auto chosen = select(narrow_phases(), list, "narrow phase");
-  const auto is_named = [&](const NarrowPhaseEntry* entry) {
-    return std::ranges::find(list, entry->info.name) != list.end();
-  };
-  std::erase_if(chosen, [&](const NarrowPhaseEntry* entry) {
-    return entry->info.origin == Origin::oracle && !is_named(entry);
-  });
-  for (const NarrowPhaseEntry* entry : chosen) {
-    // With all of them, those without the scalar are left out; one that was named is not.
-    const bool offered = std::ranges::any_of(
-        options.request.scalars, [&](Precision scalar) { return offers(*entry, scalar); });
-    if (!is_named(entry) || offered) continue;
-    throw InputError(fmt::format("'{}' does not compute in {}; expected another --scalar",
-                                 entry->info.name, to_string(options.request.scalars.front())));
-  }
-  if (chosen.empty()) throw InputError("--narrow names no algorithm; expected at least one");
-  return chosen;
-}
-
-// A word of the shell.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      word += "'\\''";
-    } else {
-      word += c;
-    }
-  }
-  return word + "'";
-}
-
-// Draws the maps where there is a Python with matplotlib; whether it did.
-bool draw_maps(const std::filesystem::path& folder) {
-  const std::filesystem::path script = std::filesystem::path(source_folder) / "plots" / "stress.py";
-  for (const char* python : {"/usr/bin/python3", "python3"}) {
-    if (std::system(fmt::format("{} -c 'import matplotlib' 2>/dev/null", python).c_str()) != 0) {
-      continue;
-    }
-    std::fflush(stdout);
-    return std::system(
-               fmt::format("{} -B {} {}", python, quoted(script.string()), quoted(folder.string()))
-                   .c_str()) == 0;
-  }
-  return false;
-}
-
 void write_page(const Options& options, const StressResult& result, const std::string& command,
                 bool drawn) {
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
@@ -112,11 +59,13 @@ void write_page(const Options& options, const StressResult& result, const std::s
 
 int stress(Options& options, const std::string& command) {
   StressRequest& request = options.request;
-  request.narrow = chosen_narrow(options);
+  request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
+  if (request.narrow.empty()) {
+    throw InputError("--narrow names no algorithm; expected at least one");
+  }
   request.cells = cells_of(chosen_axes(options.axes));
   if (options.quick) request.cases = quick_cases;
-  request.out = options.out.empty() ? std::filesystem::path(source_folder) / "results/local/stress"
-                                    : std::filesystem::path(options.out);
+  request.out = results_folder(options.out, "stress");
   if (!options.page.empty()) {
     // It may lie in the folder that the sweep is about to make.
     std::error_code ignored;
@@ -127,65 +76,39 @@ int stress(Options& options, const std::string& command) {
   fmt::print("{}", stress_text(request, result, page_width()));
   fmt::print("\nRows in {}; case files of what is wrong in {}\n",
              (request.out / "stress.csv").string(), (request.out / "failures").string());
-  const bool drawn = draw_maps(request.out);
-  if (!drawn) {
+  const std::filesystem::path log = request.out / "figures.txt";
+  const Drawing maps = draw_figures("stress.py", {request.out.string()}, log);
+  if (maps == Drawing::no_matplotlib) {
     fmt::print(
         "The maps are not drawn: that takes Python 3 with matplotlib "
         "(Debian: python3-matplotlib)\n");
+  } else if (maps == Drawing::failed) {
+    fmt::print("The maps could not be drawn; {} says why\n", log.string());
   }
-  if (!options.page.empty()) write_page(options, result, command, drawn);
+  if (!options.page.empty()) write_page(options, result, command, maps == Drawing::drawn);
   return result.broken.empty() ? exit_done : exit_measured_wrong;
 }
 
 }  // namespace
 
-void add_stress(CLI::App& app, int& status) {
+void add_stress(CommandLine& line) {
   const auto options = std::make_shared<Options>();
   StressRequest& request = options->request;
-  CLI::App& command = *app.add_subcommand(
+  Arguments command = line.add_command(
       "stress",
       "Drive every narrow phase to where it breaks: scale, proportions, distance, gap, ...");
-  command.add_option("--narrow", options->narrow, "Narrow phases: names, all, ours, peers")
-      ->capture_default_str();
-  command.add_option("--axes", options->axes, "Axes: names joined by commas (default: all)");
-  const std::map<std::string, Precision> scalars = {{"float", Precision::float32},
-                                                    {"double", Precision::float64}};
-  command.add_option("--scalar", request.scalars, "float, double (default: both)")
-      ->delimiter(',')
-      ->transform(CLI::CheckedTransformer(scalars).description(""));
-  CLI::Option* const cases =
-      command
-          .add_option("--cases", request.cases, "Cases of each value; of large hulls at most 12")
-          ->check(CLI::Range(1, 100'000))
-          ->capture_default_str();
+  add_case_options(command, request, options->narrow, options->out, "stress", "sweep");
+  command.text("--axes", options->axes, "Axes: names joined by commas (default: all)");
+  const Option cases =
+      command.number("--cases", request.cases, "Cases of each value; of large hulls at most 12")
+          .within(1, 100'000)
+          .show_default();
   command
-      .add_flag("--quick", options->quick,
-                fmt::format("The same as --cases {}, for a first look", quick_cases))
-      ->excludes(cases);
-  command.add_option("--seed", request.seed, "Of the cases")->capture_default_str();
-  command.add_option("--threads", request.workers, "Processes that share the work")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  command
-      .add_option("--time-limit", request.time_limit,
-                  "Seconds of the processor that a query may take")
-      ->check(positive_number)
-      ->capture_default_str();
-  command.add_option("--out", options->out,
-                     "Folder for what is found (default: results/local/stress in the project)");
-  command.add_flag("--resume", request.resume, "Go on with the sweep that this folder is of");
-  command.add_option("--page", options->page, "Also write the tables as a Markdown page");
-  command.callback([options, &app, &status] {
-    std::string line = "touchstone stress";
-    for (const CLI::Option* option : app.get_subcommand("stress")->get_options()) {
-      if (option->count() == 0 || option->get_name() == "--resume") continue;
-      line += " " + option->get_name();
-      if (option->get_expected_max() > 0) {
-        line += " " + fmt::format("{}", fmt::join(option->results(), ","));
-      }
-    }
-    status = stress(*options, line);
-  });
+      .flag("--quick", options->quick,
+            fmt::format("The same as --cases {}, for a first look", quick_cases))
+      .excludes(cases);
+  command.text("--page", options->page, "Also write the tables as a Markdown page");
+  command.job([options, command] { return stress(*options, command.shell_line("--resume")); });
 }
 
 }  // namespace touchstone

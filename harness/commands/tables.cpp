@@ -9,7 +9,9 @@
 #include "algorithms/core/isa.h"
 #include "harness/base/error.h"
 #include "harness/base/text_table.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/stats/table_check.h"
@@ -50,8 +52,7 @@ std::filesystem::path run_again(const std::filesystem::path& reference, const Op
         campaign.string(), 0,
         "cannot be read; expected the reference's campaign (--campaign names another)");
   }
-  const std::filesystem::path out =
-      options.out.empty() ? source / "results/local/tables" : std::filesystem::path(options.out);
+  const std::filesystem::path out = results_folder(options.out, "tables");
   std::filesystem::create_directories(out);
   std::filesystem::remove(out / "raw.csv");  // of an earlier check, perhaps not finished
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
@@ -126,33 +127,33 @@ int tables(const Options& options) {
 
 }  // namespace
 
-void add_tables(CLI::App& app, int& status) {
+void add_tables(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Arguments command = line.add_command(
       "tables",
       "Write the tables of a results folder, or see whether those of a reference hold here");
-  command->add_option("results", options->results,
-                      "Results folder, or raw.csv: its tables are written beside it. Without one, "
-                      "the campaign of the reference is run again and checked");
+  command.text("results", options->results,
+               "Results folder, or raw.csv: its tables are written beside it. Without one, "
+               "the campaign of the reference is run again and checked");
+  const Option check =
+      command
+          .text("--check", options->reference,
+                "Check against this reference: a results folder with tables (default: "
+                "results/reference in the project)")
+          .value_optional();
+  command.text("--campaign", options->campaign,
+               "The campaign to run again (default: the one in datasets/campaigns that has "
+               "the name in the reference's raw.csv)");
+  command.text("--out", options->out, "Folder for the tables, or for the campaign run again");
   command
-      ->add_option("--check", options->reference,
-                   "Check against this reference: a results folder with tables (default: "
-                   "results/reference in the project)")
-      ->expected(0, 1);
-  command->add_option("--campaign", options->campaign,
-                      "The campaign to run again (default: the one in datasets/campaigns that has "
-                      "the name in the reference's raw.csv)");
-  command->add_option("--out", options->out,
-                      "Folder for the tables, or for the campaign run again");
-  command
-      ->add_option("--band", options->band,
-                   "Written tables state that a ratio holds within its interval, widened by this "
-                   "factor at both ends")
-      ->check(CLI::Range(1.0, 1e6))
-      ->capture_default_str();
-  command->add_flag("--noisy", options->noisy,
-                    "Keep the rounds that were measured under noise; they are left out otherwise");
-  command->footer(
+      .number("--band", options->band,
+              "Written tables state that a ratio holds within its interval, widened by this "
+              "factor at both ends")
+      .within_real(1, 1e6)
+      .show_default();
+  command.flag("--noisy", options->noisy,
+               "Keep the rounds that were measured under noise; they are left out otherwise");
+  command.footer(
       "A check looks at hashes, pair counts, contact counts and work counters first: they must be\n"
       "the same to the digit. Then a cell passes where the interval of its ratio lies within the\n"
       "stated band, and fails where it lies wholly outside; absolute times count for nothing.\n\n"
@@ -160,9 +161,9 @@ void add_tables(CLI::App& app, int& status) {
       "  0  written; or nothing failed\n"
       "  1  at least one cell failed, or answers are not the same\n"
       "  2  the request or a file is wrong");
-  command->callback([options, command, &status] {
-    options->check = command->count("--check") > 0;
-    status = tables(*options);
+  command.job([options, check] {
+    options->check = check.given();
+    return tables(*options);
   });
 }
 

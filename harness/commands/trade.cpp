@@ -1,5 +1,8 @@
 // touchstone trade: speed against accuracy on one scene.
 #include "harness/commands/trade.h"
+#include "harness/commands/arguments.h"
+#include "harness/commands/figures.h"
+#include "harness/commands/shared_options.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +11,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/text_table.h"
-#include "harness/commands/checks.h"
 #include "harness/commands/commands.h"
-#include "harness/process/subprocess.h"
-#include "harness/record/build_info.h"
 #include "harness/trade/trade_files.h"
 
 namespace touchstone {
@@ -23,42 +23,24 @@ struct Options {
   bool plain = false;
 };
 
-// Draws the figure with the first Python that has matplotlib.
 void draw(const std::filesystem::path& folder) {
-  for (const std::string python : {"/usr/bin/python3", "python3"}) {
-    const std::filesystem::path log = folder / "figure.txt";
-    int status = 1;
-    try {
-      status = run_and_wait(python, {"-c", "import matplotlib"}, log);
-      if (status == 0) {
-        status =
-            run_and_wait(python,
-                         {"-B", (std::filesystem::path(source_folder) / "plots/trade.py").string(),
-                          folder.string(), "--out", folder.string()},
-                         log);
-        if (status != 0) {
-          throw InputError(fmt::format("the figure could not be drawn; {} says why", log.string()));
-        }
-        std::filesystem::remove(log);
-        fmt::print("{} and .svg, .pdf\n", (folder / "trade.png").string());
-        return;
-      }
-    } catch (const InputError&) {
-      if (status == 0) throw;
-    }
-    std::filesystem::remove(log);
+  const std::filesystem::path log = folder / "figure.txt";
+  switch (draw_figures("trade.py", {folder.string(), "--out", folder.string()}, log)) {
+    case Drawing::drawn: fmt::print("{} and .svg, .pdf\n", (folder / "trade.png").string()); return;
+    case Drawing::failed:
+      throw InputError(fmt::format("the figure could not be drawn; {} says why", log.string()));
+    case Drawing::no_matplotlib:
+      fmt::print(stderr,
+                 "touchstone: without matplotlib (Debian: python3-matplotlib) there is no figure; "
+                 "`touchstone plot {}` installs it and draws\n",
+                 folder.string());
   }
-  fmt::print(stderr,
-             "touchstone: without matplotlib (Debian: python3-matplotlib) there is no figure; "
-             "`touchstone plot {}` installs it and draws\n",
-             folder.string());
 }
 
 }  // namespace
 
 std::filesystem::path trade_folder(const std::string& out, const std::string& name) {
-  return out.empty() ? std::filesystem::path(source_folder) / "results/local" / ("trade-" + name)
-                     : std::filesystem::path(out);
+  return results_folder(out, "trade-" + name);
 }
 
 int run_trade(TradeRequest request, const std::filesystem::path& folder, bool with_figure) {
@@ -75,28 +57,17 @@ int run_trade(TradeRequest request, const std::filesystem::path& folder, bool wi
   return exit_done;
 }
 
-void add_trade_axes(CLI::App& command, TradeRequest& request) {
-  command
-      .add_option_function<std::string>(
-          "--task",
-          [&request](const std::string& name) {
-            for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
-              if (name == to_string(task)) request.task = task;
-            }
-          },
-          "intersect, distance, penetration")
-      ->check(CLI::IsMember({"intersect", "distance", "penetration"}));
-  command.add_option("--threads", request.threads, "Threads")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command.add_option("--frames", request.overrides.frames, "Frames")->check(CLI::PositiveNumber);
-  command.add_option("--count", request.overrides.count, "Bodies of a generated scene")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--seed", request.overrides.seed, "Seed of a generated scene")
-      ->check(CLI::NonNegativeNumber);
-  command.add_option("--seconds", request.seconds, "For all of it, about")
-      ->check(positive_number)
-      ->capture_default_str();
+void add_trade_axes(Arguments& command, TradeRequest& request) {
+  command.one_of("--task", request.task, task_choices(), "What is asked");
+  add_threads(command, request.threads);
+  command.number("--frames", request.overrides.frames, "Frames").positive();
+  add_scene_overrides(command, request.overrides);
+  command.number("--seconds", request.seconds, "For all of it, about").positive().show_default();
+}
+
+void add_error_measure(Arguments& command, std::string& name) {
+  command.text("--error", name, "What counts as the error of a configuration")
+      .among({error_measure_names.begin(), error_measure_names.end()});
 }
 
 void take_measure(const std::string& name, TradeRequest& request) {
@@ -107,26 +78,23 @@ void take_measure(const std::string& name, TradeRequest& request) {
   }
 }
 
-void add_trade(CLI::App& app, int& status) {
+void add_trade(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Arguments command = line.add_command(
       "trade", "Speed against accuracy on a scene: every configuration, and the Pareto front");
-  command->add_option("scene", options->scene, "Scene file: .toml or rigid-ipc's .json")
-      ->required();
-  command->add_option(
+  command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
+  command.text(
       "--out", options->out,
       "Folder for rows, front and figure (default: results/local/trade-NAME in the project)");
-  command->add_option("--error", options->error, "What counts as the error of a configuration")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(error_measure_names.begin(), error_measure_names.end())));
-  command->add_flag("--no-figure", options->plain, "Leave the figure out");
-  add_trade_axes(*command, options->request);
-  command->callback([options, &status] {
+  add_error_measure(command, options->error);
+  command.flag("--no-figure", options->plain, "Leave the figure out");
+  add_trade_axes(command, options->request);
+  command.job([options] {
     TradeRequest& request = options->request;
     request.scene = options->scene;
     request.name = request.scene.stem().string();
     take_measure(options->error, request);
-    status = run_trade(request, trade_folder(options->out, request.name), !options->plain);
+    return run_trade(request, trade_folder(options->out, request.name), !options->plain);
   });
 }
 

@@ -1,10 +1,10 @@
 // What the commands about trades share.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 
+#include "harness/commands/arguments.h"
 #include "harness/proxies/representation.h"
 #include "harness/trade/trade_request.h"
 
@@ -20,7 +20,9 @@ std::filesystem::path trade_folder(const std::string& out, const std::string& na
 int run_trade(TradeRequest request, const std::filesystem::path& folder, bool with_figure);
 
 // Options for the question, the scene and the time.
-void add_trade_axes(CLI::App& command, TradeRequest& request);
+void add_trade_axes(Arguments& command, TradeRequest& request);
+// --error, whose value take_measure reads.
+void add_error_measure(Arguments& command, std::string& name);
 // The measure of this name; empty: the task's own.
 void take_measure(const std::string& name, TradeRequest& request);
 

@@ -1,9 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
-
 #include "harness/base/error.h"
+#include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/files/csv.h"
 #include "tests/harness/temporary_folder.h"
@@ -28,17 +27,17 @@ class Represent : public testing::Test {
     std::string kind, form, status;
     double bodies, triangles, parts;
   };
-  std::vector<Row> run(std::vector<std::string> arguments) {
-    CLI::App app;
-    int status = -1;
-    add_represent(app, status);
-    const std::string out = (folder_.path() / "errors.csv").string();
-    arguments.insert(arguments.begin(), {"represent", scene_.string(), "--out", out});
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
-    app.parse(arguments);
-    EXPECT_EQ(status, exit_done);
+  std::string out() const { return (folder_.path() / "errors.csv").string(); }
+  int status_of(std::vector<std::string> arguments) {
+    CommandLine line("");
+    add_represent(line);
+    arguments.insert(arguments.begin(), {"represent", scene_.string(), "--out", out()});
+    return line.run(arguments);
+  }
+  std::vector<Row> run(const std::vector<std::string>& arguments) {
+    EXPECT_EQ(status_of(arguments), exit_done);
     std::vector<Row> rows;
-    CsvReader(out, {"kind", "form", "status", "bodies", "triangles", "parts"})
+    CsvReader(out(), {"kind", "form", "status", "bodies", "triangles", "parts"})
         .read([&](const CsvReader::Row& row) {
           rows.push_back({std::string(row.text(0)), std::string(row.text(1)),
                           std::string(row.text(2)), row.number(3), row.number(4), row.number(5)});
@@ -76,7 +75,7 @@ TEST_F(Represent, ASideIsForAllForms) {
 TEST_F(Represent, RefusesWhatIsNone) {
   EXPECT_THROW(run({"--forms", "ball"}), InputError);
   EXPECT_THROW(run({"--forms", "sphere inner"}), InputError);
-  EXPECT_THROW(run({"--side", "left"}), CLI::ParseError);
+  EXPECT_EQ(status_of({"--side", "left"}), exit_bad_request);
 }
 
 }  // namespace

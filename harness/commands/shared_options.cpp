@@ -1,0 +1,83 @@
+#include "harness/commands/shared_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "harness/base/error.h"
+#include "harness/campaign/selection.h"
+#include "harness/record/build_info.h"
+
+namespace touchstone {
+
+const Arguments::Choices<Task>& task_choices() {
+  static const Arguments::Choices<Task> choices = {{"intersect", Task::intersect},
+                                                   {"distance", Task::distance},
+                                                   {"penetration", Task::penetration}};
+  return choices;
+}
+
+const Arguments::Choices<Precision>& scalar_choices() {
+  static const Arguments::Choices<Precision> choices = {{"float", Precision::float32},
+                                                        {"double", Precision::float64}};
+  return choices;
+}
+
+const Arguments::Choices<BoxKind>& box_choices() {
+  static const Arguments::Choices<BoxKind> choices = {{"tight", BoxKind::tight},
+                                                      {"loose", BoxKind::loose}};
+  return choices;
+}
+
+void add_scene_overrides(Arguments& command, SceneOverrides& overrides) {
+  command.number("--count", overrides.count, "Bodies of a generated scene").positive();
+  command.number("--seed", overrides.seed, "Seed of a generated scene").not_negative();
+}
+
+Option add_time_limit(Arguments& command, double& seconds, const std::string& help) {
+  return command.number("--time-limit", seconds, help).positive();
+}
+
+Option add_threads(Arguments& command, int& threads, const std::string& help) {
+  return command.number("--threads", threads, help).within(1, 1024).show_default();
+}
+
+std::filesystem::path results_folder(const std::string& out, const std::string& name) {
+  if (!out.empty()) return out;
+  return std::filesystem::path(source_folder) / "results/local" / name;
+}
+
+std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
+                                                            std::span<const Precision> scalars) {
+  const std::vector<std::string> list = split_names(names);
+  const auto is_named = [&](const NarrowPhaseEntry* entry) {
+    return std::ranges::find(list, entry->info.name) != list.end();
+  };
+  auto chosen = select(narrow_phases(), list, "narrow phase");
+  std::erase_if(chosen, [&](const NarrowPhaseEntry* entry) {
+    return entry->info.origin == Origin::oracle && !is_named(entry);
+  });
+  for (const NarrowPhaseEntry* entry : chosen) {
+    // An algorithm of a group may lack the scalar: it is left out.
+    const bool offered =
+        std::ranges::any_of(scalars, [&](Precision scalar) { return offers(*entry, scalar); });
+    if (!is_named(entry) || offered) continue;
+    throw InputError(fmt::format("'{}' does not compute in {}; expected another --scalar",
+                                 entry->info.name, to_string(scalars.front())));
+  }
+  return chosen;
+}
+
+void print_failures(std::string_view algorithm, std::span<const IsolationFailure> failures,
+                    const std::function<std::string(std::size_t)>& name_of) {
+  constexpr std::size_t shown = 5;
+  for (const IsolationFailure& failure : failures.first(std::min(shown, failures.size()))) {
+    fmt::print(stderr, "{}, {}: {}\n", algorithm, name_of(failure.item), failure.reason());
+  }
+  if (failures.size() > shown) {
+    fmt::print(stderr, "{}: {} more failures\n", algorithm, failures.size() - shown);
+  }
+}
+
+}  // namespace touchstone

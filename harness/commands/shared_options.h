@@ -1,0 +1,64 @@
+// What several commands share: options with their checks and texts, names of results folders, the
+// choice of algorithms.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/commands/arguments.h"
+#include "harness/process/isolate.h"
+#include "harness/scene/scene.h"
+
+namespace touchstone {
+
+const Arguments::Choices<Task>& task_choices();
+const Arguments::Choices<Precision>& scalar_choices();
+const Arguments::Choices<BoxKind>& box_choices();
+
+// --count and --seed of a generated scene.
+void add_scene_overrides(Arguments& command, SceneOverrides& overrides);
+// --time-limit in seconds.
+Option add_time_limit(Arguments& command, double& seconds,
+                      const std::string& help = "Seconds that a query may take");
+// --threads of an executor.
+Option add_threads(Arguments& command, int& threads, const std::string& help = "Threads");
+
+// The options of the commands that ask narrow phases about generated cases in many processes.
+// `folder` is the results folder's default name, `work` what --resume goes on with.
+template <class Request>
+void add_case_options(Arguments& command, Request& request, std::string& narrow, std::string& out,
+                      const std::string& folder, const std::string& work) {
+  command.text("--narrow", narrow, "Narrow phases: names, all, ours, peers, none").show_default();
+  command.some_of("--scalar", request.scalars, scalar_choices(),
+                  "What is calculated in (default: both)");
+  command.number("--seed", request.seed, "The seed of the cases").show_default();
+  command.number("--threads", request.workers, "Processes that share the work")
+      .within(1, 256)
+      .show_default();
+  add_time_limit(command, request.time_limit).show_default();
+  command.text("--out", out,
+               "Folder for the results (default: results/local/" + folder + " in the project)");
+  command.flag("--resume", request.resume, "Go on with the " + work + " in this folder");
+}
+
+// The folder `out`; results/local/NAME in the project where it is empty.
+std::filesystem::path results_folder(const std::string& out, const std::string& name);
+
+// The narrow phases of these names and groups. The oracle belongs to no group: it does not grade
+// itself, unless it is named. Throws InputError for a name that is unknown, or that has none of the
+// scalars.
+std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
+                                                            std::span<const Precision> scalars);
+
+// Prints a line for each of the first failures of an algorithm, and the number of the others;
+// `name_of` names an item.
+void print_failures(std::string_view algorithm, std::span<const IsolationFailure> failures,
+                    const std::function<std::string(std::size_t)>& name_of);
+
+}  // namespace touchstone

@@ -1,0 +1,113 @@
+#include "harness/commands/arguments.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/commands/commands.h"
+
+namespace touchstone {
+namespace {
+
+enum class Colour { red, green };
+const Arguments::Choices<Colour> colours = {{"red", Colour::red}, {"green", Colour::green}};
+
+// A command with an option of each kind.
+class TheCommandLine : public testing::Test {
+ protected:
+  TheCommandLine() {
+    Arguments command = line_.add_command("paint", "Paints");
+    command.text("file", file_, "A file");
+    command.texts("--names", names_, "Names").separated_by_commas();
+    command.flag("--wet", wet_, "Wet paint");
+    command.number("--count", count_, "How many").within(1, 9).show_default();
+    command.number("--size", size_, "How large").positive();
+    command.number("--limit", limit_, "At most").not_negative();
+    command.numbers("--layers", layers_, "Layers").within(1, 5);
+    command.one_of("--colour", colour_, colours, "The colour");
+    command.some_of("--colours", some_, colours, "Colours").excludes(command.option("--colour"));
+    command.text("--alone", alone_, "Stands alone");
+    command.exclude_others("--alone");
+    command.job([this, command] {
+      shell_line_ = command.shell_line("--limit");
+      return 7;
+    });
+  }
+
+  int run(std::vector<std::string> words) {
+    words.insert(words.begin(), "paint");
+    testing::internal::CaptureStderr();
+    const int status = line_.run(words);
+    error_ = testing::internal::GetCapturedStderr();
+    return status;
+  }
+
+  CommandLine line_{"A program"};
+  std::string file_, alone_, shell_line_, error_;
+  std::vector<std::string> names_;
+  bool wet_ = false;
+  int count_ = 2;
+  double size_ = 1;
+  std::optional<double> limit_;
+  std::vector<int> layers_ = {1};
+  Colour colour_ = Colour::red;
+  std::vector<Colour> some_ = {Colour::red};
+};
+
+TEST_F(TheCommandLine, ReadsEveryKindOfOption) {
+  EXPECT_EQ(run({"wall", "--names", "a,b", "--wet", "--count", "3", "--size", "0.5", "--limit", "0",
+                 "--layers", "1,2", "--colours", "green,red"}),
+            7);
+  EXPECT_EQ(file_, "wall");
+  EXPECT_THAT(names_, testing::ElementsAre("a", "b"));
+  EXPECT_TRUE(wet_);
+  EXPECT_EQ(count_, 3);
+  EXPECT_EQ(size_, 0.5);
+  EXPECT_EQ(limit_, 0);
+  EXPECT_THAT(layers_, testing::ElementsAre(1, 2));
+  EXPECT_THAT(some_, testing::ElementsAre(Colour::green, Colour::red));
+  EXPECT_EQ(colour_, Colour::red);
+}
+
+TEST_F(TheCommandLine, KeepsWhatIsNotGiven) {
+  EXPECT_EQ(run({}), 7);
+  EXPECT_EQ(count_, 2);
+  EXPECT_EQ(limit_, std::nullopt);
+  EXPECT_THAT(layers_, testing::ElementsAre(1));
+  EXPECT_THAT(some_, testing::ElementsAre(Colour::red));
+}
+
+TEST_F(TheCommandLine, SaysWhatWasExpected) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> faults = {
+      {{"--count", "0"}, "--count: Value 0 not in range 1 to 9"},
+      {{"--count", "x"}, "--count: Value x not in range 1 to 9"},
+      {{"--size", "0"}, "--size: found '0'; expected a finite number > 0"},
+      {{"--size", "nan"}, "--size: found 'nan'; expected a finite number > 0"},
+      {{"--size", "inf"}, "expected a finite number > 0"},
+      {{"--limit", "-1"}, "--limit: found '-1'; expected a finite number >= 0"},
+      {{"--layers", "1,6"}, "--layers: Value 6 not in range 1 to 5"},
+      {{"--colour", "blue"}, "--colour: blue not in {red,green}"},
+      {{"--colours", "red,0"}, "--colours: 0 not in {red,green}"},
+      {{"--colour", "red", "--colours", "red"}, "--colour excludes --colours"},
+      {{"--alone", "a", "--wet"}, "excludes --alone"},
+      {{"--other"}, "The following argument was not expected: --other"},
+  };
+  for (const auto& [words, text] : faults) {
+    EXPECT_EQ(run(words), exit_bad_request) << text;
+    EXPECT_THAT(error_, testing::HasSubstr(text));
+  }
+}
+
+TEST_F(TheCommandLine, IsRebuiltAsAShellReadsIt) {
+  run({"a wall", "--wet", "--limit", "3", "--names", "it's,b", "--colour", "green"});
+  EXPECT_EQ(shell_line_, "touchstone paint 'a wall' --names 'it'\\''s,b' --wet --colour green");
+}
+
+TEST_F(TheCommandLine, NamesTheCommandsWhereItKnowsNone) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(line_.run({"draw"}), exit_bad_request);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("Expected a command, one of: paint."));
+}
+
+}  // namespace
+}  // namespace touchstone
