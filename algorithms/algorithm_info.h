@@ -25,25 +25,3 @@ struct AlgorithmInfo {
 };
 
 }  // namespace touchstone
-
-// An algorithm's file says what it offers in the body of one of the two functions that these macros
-// open: TOUCHSTONE_BROAD_PHASE { return {{.info = {...}, .make = ...}}; }
-// The build names the function after the file, and the generated registry calls it by that name.
-#define TOUCHSTONE_BROAD_PHASE                                 \
-  namespace touchstone::entries {                              \
-  std::vector<touchstone::BroadPhaseEntry> TOUCHSTONE_ENTRY(); \
-  }                                                            \
-  std::vector<touchstone::BroadPhaseEntry> touchstone::entries::TOUCHSTONE_ENTRY()
-#define TOUCHSTONE_NARROW_PHASE                                 \
-  namespace touchstone::entries {                               \
-  std::vector<touchstone::NarrowPhaseEntry> TOUCHSTONE_ENTRY(); \
-  }                                                             \
-  std::vector<touchstone::NarrowPhaseEntry> touchstone::entries::TOUCHSTONE_ENTRY()
-
-// For peers: a factory where the library is there, null where it is not. TOUCHSTONE_BUILT is 0
-// or 1.
-#if defined(TOUCHSTONE_BUILT) && TOUCHSTONE_BUILT
-#define TOUCHSTONE_IF_BUILT(factory) factory
-#else
-#define TOUCHSTONE_IF_BUILT(factory) nullptr
-#endif

@@ -74,11 +74,3 @@ struct ManifoldEntry {
 };
 
 }  // namespace touchstone
-
-// Opens the function in which an algorithm's file says what it offers, as TOUCHSTONE_NARROW_PHASE
-// does.
-#define TOUCHSTONE_CONTACT_MANIFOLD                          \
-  namespace touchstone::entries {                            \
-  std::vector<touchstone::ManifoldEntry> TOUCHSTONE_ENTRY(); \
-  }                                                          \
-  std::vector<touchstone::ManifoldEntry> touchstone::entries::TOUCHSTONE_ENTRY()

@@ -1,5 +1,7 @@
 // Every algorithm there is, ours and the peers', built or not. The list itself is in CMakeLists.txt
-// beside this file, one line each.
+// beside this file, one line each. Each line names a file, which defines the function that says what
+// it offers, in the namespace touchstone::entries and named after its folder and itself:
+//     std::vector<BroadPhaseEntry> broad_phase_naive() { return {{.info = {...}, .make = ...}}; }
 #pragma once
 
 #include <span>

@@ -220,11 +220,13 @@ class LinearBvh final : public BroadPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_linear_bvh() {
   return {{.info = {.name = "linear-bvh",
                     .citation = "Karras, HPG 2012; Apetrei, \"Fast and Simple Agglomerative LBVH "
                                 "Construction\", CGVC 2014; Hilbert order, leaves of 16"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::LinearBvh>(executor);
-           }}};
+           .make = [](Executor& executor) { return std::make_unique<LinearBvh>(executor); }}};
 }
+
+}  // namespace touchstone::entries

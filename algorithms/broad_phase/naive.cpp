@@ -61,9 +61,11 @@ class Naive final : public BroadPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_naive() {
   return {{.info = {.name = "naive", .citation = "definition: every pair of boxes is tested"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::Naive>(executor);
-           }}};
+           .make = [](Executor& executor) { return std::make_unique<Naive>(executor); }}};
 }
+
+}  // namespace touchstone::entries

@@ -98,12 +98,14 @@ class PackedRTree final : public BroadPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_packed_rtree() {
   return {
       {.info = {.name = "packed-rtree",
                 .citation = "Kamel, Faloutsos, \"On Packing R-trees\", CIKM 1993; size classes, "
                             "implicit 16-ary tree"},
-       .make = [](touchstone::Executor& executor) {
-         return std::make_unique<touchstone::PackedRTree>(executor);
-       }}};
+       .make = [](Executor& executor) { return std::make_unique<PackedRTree>(executor); }}};
 }
+
+}  // namespace touchstone::entries

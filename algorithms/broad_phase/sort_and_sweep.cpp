@@ -166,11 +166,13 @@ class SortAndSweep final : public BroadPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_sort_and_sweep() {
   return {{.info = {.name = "sort-and-sweep",
                     .citation = "Baraff, thesis, Cornell 1992; Cohen, Lin, Manocha, Ponamgi, "
                                 "\"I-COLLIDE\", I3D 1995; three axes, lists intersected"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::SortAndSweep>(executor);
-           }}};
+           .make = [](Executor& executor) { return std::make_unique<SortAndSweep>(executor); }}};
 }
+
+}  // namespace touchstone::entries

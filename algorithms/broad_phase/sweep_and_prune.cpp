@@ -145,10 +145,12 @@ class SweepAndPrune final : public BroadPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_sweep_and_prune() {
   return {{.info = {.name = "sweep-and-prune",
                     .citation = "Cohen, Lin, Manocha, Ponamgi, \"I-COLLIDE\", I3D 1995; one axis"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::SweepAndPrune>(executor);
-           }}};
+           .make = [](Executor& executor) { return std::make_unique<SweepAndPrune>(executor); }}};
 }
+
+}  // namespace touchstone::entries

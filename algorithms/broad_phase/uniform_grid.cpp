@@ -286,11 +286,13 @@ class UniformGrid final : public BroadPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_uniform_grid() {
   return {{.info = {.name = "uniform-grid",
                     .citation = "Ericson, Real-Time Collision Detection, 2005, section 7.1; "
                                 "Dittrich, Seeger, ICDE 2000 (home cell)"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::UniformGrid>(executor);
-           }}};
+           .make = [](Executor& executor) { return std::make_unique<UniformGrid>(executor); }}};
 }
+
+}  // namespace touchstone::entries

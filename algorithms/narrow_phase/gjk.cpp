@@ -116,8 +116,9 @@ NarrowPhaseEntry entry(AlgorithmInfo info, bool starts_warm,
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_gjk() {
   const std::string depth =
       "; van den Bergen, \"Proximity queries and penetration depth computation on 3D game "
       "objects\", GDC 2001";
@@ -139,3 +140,5 @@ TOUCHSTONE_NARROW_PHASE {
                          depth},
             false, make<Momentum::where_it_pays>)};
 }
+
+}  // namespace touchstone::entries

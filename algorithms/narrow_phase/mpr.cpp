@@ -105,8 +105,9 @@ class Mpr final : public NarrowPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_mpr() {
   return {{.info = {.name = "mpr",
                     .citation = "Snethen, XenoCollide: Complex Collision Made Simple, Game "
                                 "Programming Gems 7, 2008"},
@@ -119,3 +120,5 @@ TOUCHSTONE_NARROW_PHASE {
              return std::make_unique<Mpr<double>>(settings);
            }}};
 }
+
+}  // namespace touchstone::entries

@@ -60,8 +60,9 @@ class SatFaces final : public NarrowPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_sat_faces() {
   return {
       {.info = {.name = "sat-faces",
                 .citation = "Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996: separating axes, "
@@ -76,3 +77,5 @@ TOUCHSTONE_NARROW_PHASE {
          return std::make_unique<SatFaces<double>>();
        }}};
 }
+
+}  // namespace touchstone::entries

@@ -51,8 +51,9 @@ class Exact final : public NarrowPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> oracle_exact() {
   return {{.info = {.name = "exact",
                     .citation = "Touchstone's oracle: GJK and EPA in integers, each answer with a "
                                 "certificate",
@@ -61,3 +62,5 @@ TOUCHSTONE_NARROW_PHASE {
            .scalars = {Precision::float64},
            .make = [](const NarrowPhaseSettings&) { return std::make_unique<Exact>(); }}};
 }
+
+}  // namespace touchstone::entries

@@ -15,7 +15,7 @@
 // Cost:    O(n log n) to load, O(log n) to insert or remove; a query O(log n + its pairs) if boxes
 //          are small.
 #include "algorithms/broad_phase.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_BOOST
 #define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost's own headers include some and warn
 #include <algorithm>
 #include <boost/geometry.hpp>
@@ -97,15 +97,22 @@ class BoostRtree final : public BroadPhase {
   std::int64_t candidates_ = 0;
 };
 
+std::unique_ptr<BroadPhase> make(Executor&) { return std::make_unique<BoostRtree>(); }
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t make = nullptr;
 #endif
 
-TOUCHSTONE_BROAD_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> peers_boost_broad_phase() {
   return {{.info = {.name = "boost-rtree",
                     .citation = "Boost.Geometry 1.74, index::rtree, linear<8>, packing constructor "
                                 "(Guttman, SIGMOD 1984; Garcia, Lopez, Leutenegger, GIS 1998)",
                     .origin = Origin::peer},
-           .make = TOUCHSTONE_IF_BUILT([](Executor&) { return std::make_unique<BoostRtree>(); })}};
+           .make = make}};
 }
+
+}  // namespace touchstone::entries

@@ -6,7 +6,7 @@
 // Cost:    O(1).
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 
 #include "algorithms/peers/bullet_bodies.h"
@@ -33,12 +33,21 @@ struct BoxBox {
   }
 };
 
+std::unique_ptr<NarrowPhase> make_box_box(const NarrowPhaseSettings& settings) {
+  return make<BoxBox>("bullet-box-box", settings);
+}
+
 }  // namespace
+}  // namespace touchstone::bullet
+#else
+namespace touchstone::bullet {
+constexpr std::nullptr_t encoding = nullptr, make_box_box = nullptr;
 }  // namespace touchstone::bullet
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_bullet_box_box() {
   return {{.info = {.name = "bullet-box-box",
                     .citation = "Bullet 3.24, btBoxBoxDetector",
                     .origin = Origin::peer,
@@ -49,8 +58,8 @@ TOUCHSTONE_NARROW_PHASE {
            .scalars = bullet::scalars(),
            .supports = [](ShapeKind a, ShapeKind b,
                           Task) { return a == ShapeKind::box && b == ShapeKind::box; },
-           .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
-           .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
-             return bullet::make<bullet::BoxBox>("bullet-box-box", settings);
-           })}};
+           .encoding = bullet::encoding,
+           .make = bullet::make_box_box}};
 }
+
+}  // namespace touchstone::entries

@@ -19,7 +19,7 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 
@@ -189,22 +189,32 @@ class BulletBroadPhase final : public BroadPhase {
   std::int64_t candidates_ = 0;
 };
 
+template <class Structure>
+std::unique_ptr<BroadPhase> make(Executor&) {
+  return std::make_unique<BulletBroadPhase<Structure>>();
+}
+constexpr auto make_tree = make<Tree>;
+constexpr auto make_axis_sweep = make<AxisSweep>;
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t make_tree = nullptr, make_axis_sweep = nullptr;
 #endif
 
-TOUCHSTONE_BROAD_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> peers_bullet_broad_phase() {
   return {
       {.info = {.name = "bullet-tree",
                 .citation = "Bullet 3.24, btDbvtBroadphase (setAabb, calculateOverlappingPairs)",
                 .origin = Origin::peer},
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<BulletBroadPhase<Tree>>(); })},
+       .make = make_tree},
       {.info = {.name = "bullet-axis-sweep",
                 .citation = "Bullet 3.24, bt32BitAxisSweep3 (setAabb, calculateOverlappingPairs)",
                 .origin = Origin::peer},
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<BulletBroadPhase<AxisSweep>>(); })},
+       .make = make_axis_sweep},
   };
 }
+
+}  // namespace touchstone::entries

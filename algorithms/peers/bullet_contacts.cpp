@@ -16,7 +16,7 @@
 // Cost:    O(n m) for faces of n and m corners; EPA.
 #include "algorithms/contact_manifold.h"
 #include "algorithms/peers/bullet_double.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/CollisionDispatch/btBoxBoxCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -140,12 +140,25 @@ std::unique_ptr<ContactManifold> make_manifold(const char* name, const ManifoldS
   return std::make_unique<BulletManifold<Algorithm>>();
 }
 
+std::unique_ptr<ContactManifold> make_box_box(const ManifoldSettings& settings) {
+  return make_manifold<BoxBox>("bullet-box-contacts", settings);
+}
+
+std::unique_ptr<ContactManifold> make_hull_hull(const ManifoldSettings& settings) {
+  return make_manifold<HullHull>("bullet-hull-contacts", settings);
+}
+
 }  // namespace
+}  // namespace touchstone::bullet
+#else
+namespace touchstone::bullet {
+constexpr std::nullptr_t make_box_box = nullptr, make_hull_hull = nullptr;
 }  // namespace touchstone::bullet
 #endif
 
-TOUCHSTONE_CONTACT_MANIFOLD {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<ManifoldEntry> peers_bullet_contacts() {
   return {
       {.info = {.name = "bullet-box-contacts",
                 .citation = "Bullet 3.24, btBoxBoxCollisionAlgorithm, btPersistentManifold",
@@ -154,9 +167,7 @@ TOUCHSTONE_CONTACT_MANIFOLD {
        .scalars = bullet::scalars(),
        .supports = [](ShapeKind a,
                       ShapeKind b) { return a == ShapeKind::box && b == ShapeKind::box; },
-       .make = TOUCHSTONE_IF_BUILT([](const ManifoldSettings& settings) {
-         return bullet::make_manifold<bullet::BoxBox>("bullet-box-contacts", settings);
-       })},
+       .make = bullet::make_box_box},
       {.info = {.name = "bullet-hull-contacts",
                 .citation = "Bullet 3.24, btConvexConvexAlgorithm, btPolyhedralContactClipping, "
                             "btPersistentManifold",
@@ -170,7 +181,7 @@ TOUCHSTONE_CONTACT_MANIFOLD {
              };
              return flat_sided(a) && flat_sided(b);
            },
-       .make = TOUCHSTONE_IF_BUILT([](const ManifoldSettings& settings) {
-         return bullet::make_manifold<bullet::HullHull>("bullet-hull-contacts", settings);
-       })}};
+       .make = bullet::make_hull_hull}};
 }
+
+}  // namespace touchstone::entries

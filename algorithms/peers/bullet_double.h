@@ -22,16 +22,14 @@
 
 namespace touchstone::bullet {
 
-// TOUCHSTONE_BULLET_MODULE is the module's file name. A build without the module defines
-// TOUCHSTONE_BULLET_NO_DOUBLE, the reason.
-#ifdef TOUCHSTONE_BULLET_MODULE
-inline constexpr const char* module_name = TOUCHSTONE_BULLET_MODULE;
-inline constexpr bool has_double = true;
-inline std::string lacking() { return {}; }
-#else
-inline constexpr const char* module_name = "";
+// The module's file. TOUCHSTONE_BULLET_NO_DOUBLE says why there is none.
+inline constexpr const char* module_name = "touchstone_bullet_double.so";
+#ifdef TOUCHSTONE_BULLET_NO_DOUBLE
 inline constexpr bool has_double = false;
 inline std::string lacking() { return "double is not built, because " TOUCHSTONE_BULLET_NO_DOUBLE; }
+#else
+inline constexpr bool has_double = true;
+inline std::string lacking() { return {}; }
 #endif
 
 // The scalars that each of Bullet's narrow phases supports.

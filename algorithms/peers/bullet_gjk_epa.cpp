@@ -10,7 +10,7 @@
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
@@ -62,12 +62,21 @@ struct GjkEpa {
   btGjkEpaPenetrationDepthSolver epa_;
 };
 
+std::unique_ptr<NarrowPhase> make_gjk_epa(const NarrowPhaseSettings& settings) {
+  return make<GjkEpa>("bullet-gjk-epa", settings);
+}
+
 }  // namespace
+}  // namespace touchstone::bullet
+#else
+namespace touchstone::bullet {
+constexpr std::nullptr_t encoding = nullptr, make_gjk_epa = nullptr;
 }  // namespace touchstone::bullet
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_bullet_gjk_epa() {
   return {
       {.info = {.name = "bullet-gjk-epa",
                 .citation = "Bullet 3.24, btGjkPairDetector with btGjkEpaPenetrationDepthSolver",
@@ -78,8 +87,8 @@ TOUCHSTONE_NARROW_PHASE {
        .tasks = {Task::intersect, Task::distance, Task::penetration},
        .scalars = bullet::scalars(),
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
-       .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
-       .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
-         return bullet::make<bullet::GjkEpa>("bullet-gjk-epa", settings);
-       })}};
+       .encoding = bullet::encoding,
+       .make = bullet::make_gjk_epa}};
 }
+
+}  // namespace touchstone::entries

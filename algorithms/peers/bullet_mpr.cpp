@@ -10,7 +10,7 @@
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btMprPenetration.h>
 
 #include "algorithms/peers/bullet_bodies.h"
@@ -77,12 +77,21 @@ class Mpr {
   int cap_;
 };
 
+std::unique_ptr<NarrowPhase> make_mpr(const NarrowPhaseSettings& settings) {
+  return make<Mpr>("bullet-mpr", settings);
+}
+
 }  // namespace
+}  // namespace touchstone::bullet
+#else
+namespace touchstone::bullet {
+constexpr std::nullptr_t encoding = nullptr, make_mpr = nullptr;
 }  // namespace touchstone::bullet
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_bullet_mpr() {
   return {
       {.info =
            {.name = "bullet-mpr",
@@ -95,8 +104,8 @@ TOUCHSTONE_NARROW_PHASE {
        .scalars = bullet::scalars(),
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
        .depth_is_bound = true,
-       .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
-       .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
-         return bullet::make<bullet::Mpr>("bullet-mpr", settings);
-       })}};
+       .encoding = bullet::encoding,
+       .make = bullet::make_mpr}};
 }
+
+}  // namespace touchstone::entries

@@ -10,7 +10,7 @@
 // Cost:    O(E^2 V).
 #include "algorithms/narrow_phase.h"
 #include "algorithms/peers/bullet_double.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 
 #include "algorithms/peers/bullet_bodies.h"
@@ -63,12 +63,21 @@ struct PolyhedralSat {
   btVertexArray polygon_, clipped_;
 };
 
+std::unique_ptr<NarrowPhase> make_sat(const NarrowPhaseSettings& settings) {
+  return make<PolyhedralSat>("bullet-sat", settings);
+}
+
 }  // namespace
+}  // namespace touchstone::bullet
+#else
+namespace touchstone::bullet {
+constexpr std::nullptr_t encoding = nullptr, make_sat = nullptr;
 }  // namespace touchstone::bullet
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_bullet_sat() {
   return {{.info = {.name = "bullet-sat",
                     .citation = "Bullet 3.24, btPolyhedralContactClipping::findSeparatingAxis",
                     .origin = Origin::peer,
@@ -82,8 +91,8 @@ TOUCHSTONE_NARROW_PHASE {
                  };
                  return flat_sided(a) && flat_sided(b);
                },
-           .encoding = TOUCHSTONE_IF_BUILT(touchstone::bullet::encoding),
-           .make = TOUCHSTONE_IF_BUILT([](const NarrowPhaseSettings& settings) {
-             return bullet::make<bullet::PolyhedralSat>("bullet-sat", settings);
-           })}};
+           .encoding = bullet::encoding,
+           .make = bullet::make_sat}};
 }
+
+}  // namespace touchstone::entries

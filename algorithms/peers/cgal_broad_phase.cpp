@@ -14,7 +14,7 @@
 //          if most do so on the axes y and z.
 // Cost:    O(n log^3 n + k) time, O(n) memory.
 #include "algorithms/broad_phase.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_CGAL
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
@@ -110,18 +110,24 @@ class CgalBoxIntersection final : public BroadPhase {
   std::int64_t candidates_ = 0;
 };
 
+std::unique_ptr<BroadPhase> make(Executor&) { return std::make_unique<CgalBoxIntersection>(); }
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t make = nullptr;
 #endif
 
-TOUCHSTONE_BROAD_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> peers_cgal_broad_phase() {
   return {
       {.info = {.name = "cgal-box",
                 .citation = "CGAL 5.5, box_self_intersection_d (Zomorodian, Edelsbrunner, \"Fast "
                             "software for box intersections\", SoCG 2000)",
                 .origin = Origin::peer},
-       .make =
-           TOUCHSTONE_IF_BUILT([](Executor&) { return std::make_unique<CgalBoxIntersection>(); })},
+       .make = make},
   };
 }
+
+}  // namespace touchstone::entries

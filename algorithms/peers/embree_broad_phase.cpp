@@ -19,7 +19,7 @@
 // Cost:    O(n log n) time to build, O(n) to refit; O(n + k) to query if boxes are small; O(n)
 //          memory.
 #include "algorithms/broad_phase.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_EMBREE
 #include <embree3/rtcore.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -198,26 +198,34 @@ class EmbreeBroadPhase final : public BroadPhase {
   std::int64_t candidates_ = 0;
 };
 
+template <RTCBuildQuality quality>
+std::unique_ptr<BroadPhase> make(Executor& executor) {
+  return std::make_unique<EmbreeBroadPhase>(executor, quality);
+}
+constexpr auto make_low = make<RTC_BUILD_QUALITY_LOW>;
+constexpr auto make_refit = make<RTC_BUILD_QUALITY_REFIT>;
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t make_low = nullptr, make_refit = nullptr;
 #endif
 
-TOUCHSTONE_BROAD_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> peers_embree_broad_phase() {
   return {
       {.info = {.name = "embree-low",
                 .citation = "Embree 3.13, rtcCollide, RTC_BUILD_QUALITY_LOW (Wald, Woop, Benthin, "
                             "Johnson, Ernst, SIGGRAPH 2014)",
                 .origin = Origin::peer},
-       .make = TOUCHSTONE_IF_BUILT([](Executor& executor) {
-         return std::make_unique<EmbreeBroadPhase>(executor, RTC_BUILD_QUALITY_LOW);
-       })},
+       .make = make_low},
       {.info = {.name = "embree-refit",
                 .citation = "Embree 3.13, rtcCollide, RTC_BUILD_QUALITY_REFIT (Wald, Woop, "
                             "Benthin, Johnson, Ernst, SIGGRAPH 2014)",
                 .origin = Origin::peer},
-       .make = TOUCHSTONE_IF_BUILT([](Executor& executor) {
-         return std::make_unique<EmbreeBroadPhase>(executor, RTC_BUILD_QUALITY_REFIT);
-       })},
+       .make = make_refit},
   };
 }
+
+}  // namespace touchstone::entries

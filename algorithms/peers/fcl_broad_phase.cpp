@@ -25,7 +25,7 @@
 //          passed times pairs); trees O(n log n) to build.
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_FCL
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>
@@ -304,12 +304,29 @@ class FclBroadPhase final : public BroadPhase {
   Status status_ = Status::ok;
 };
 
+template <class Rules>
+std::unique_ptr<BroadPhase> make(Executor&) {
+  return std::make_unique<FclBroadPhase<Rules>>();
+}
+constexpr auto make_naive = make<Incremental<fcl::NaiveCollisionManager<double>>>;
+constexpr auto make_ssap = make<Incremental<fcl::SSaPCollisionManager<double>>>;
+constexpr auto make_sap = make<SortAndSweep>;
+constexpr auto make_tree = make<Incremental<fcl::DynamicAABBTreeCollisionManager<double>>>;
+constexpr auto make_tree_array = make<DynamicTreeArray>;
+constexpr auto make_interval_tree = make<IntervalTree>;
+constexpr auto make_spatial_hash = make<SpatialHash>;
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t make_naive = nullptr, make_ssap = nullptr, make_sap = nullptr,
+                         make_tree = nullptr, make_tree_array = nullptr,
+                         make_interval_tree = nullptr, make_spatial_hash = nullptr;
 #endif
 
-TOUCHSTONE_BROAD_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> peers_fcl_broad_phase() {
   const auto info = [](const char* name, const char* manager, const char* known_defect = "") {
     return AlgorithmInfo{
         .name = name,
@@ -318,32 +335,20 @@ TOUCHSTONE_BROAD_PHASE {
         .known_defect = known_defect};
   };
   return {
-      {.info = info("fcl-naive", "NaiveCollisionManager"),
-       .make = TOUCHSTONE_IF_BUILT(([](Executor&) {
-         return std::make_unique<FclBroadPhase<Incremental<fcl::NaiveCollisionManager<double>>>>();
-       }))},
-      {.info = info("fcl-ssap", "SSaPCollisionManager"),
-       .make = TOUCHSTONE_IF_BUILT(([](Executor&) {
-         return std::make_unique<FclBroadPhase<Incremental<fcl::SSaPCollisionManager<double>>>>();
-       }))},
+      {.info = info("fcl-naive", "NaiveCollisionManager"), .make = make_naive},
+      {.info = info("fcl-ssap", "SSaPCollisionManager"), .make = make_ssap},
       {.info =
            info("fcl-sap", "SaPCollisionManager", "misses pairs that only touch, and flat boxes"),
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<FclBroadPhase<SortAndSweep>>(); })},
-      {.info = info("fcl-dynamic-tree", "DynamicAABBTreeCollisionManager"),
-       .make = TOUCHSTONE_IF_BUILT(([](Executor&) {
-         return std::make_unique<
-             FclBroadPhase<Incremental<fcl::DynamicAABBTreeCollisionManager<double>>>>();
-       }))},
+       .make = make_sap},
+      {.info = info("fcl-dynamic-tree", "DynamicAABBTreeCollisionManager"), .make = make_tree},
       {.info = info("fcl-dynamic-tree-array", "DynamicAABBTreeCollisionManager_Array"),
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<FclBroadPhase<DynamicTreeArray>>(); })},
+       .make = make_tree_array},
       {.info = info("fcl-interval-tree", "IntervalTreeCollisionManager",
                     "misses pairs that only touch, and flat boxes"),
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<FclBroadPhase<IntervalTree>>(); })},
+       .make = make_interval_tree},
       {.info = info("fcl-spatial-hash", "SpatialHashingCollisionManager"),
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<FclBroadPhase<SpatialHash>>(); })},
+       .make = make_spatial_hash},
   };
 }
+
+}  // namespace touchstone::entries

@@ -30,7 +30,7 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/narrow_phase.h"
 
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_FCL
 // GCC warns of the contacts of separated bodies, which are never read, once FCL is inlined here.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -300,16 +300,22 @@ std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
   return std::make_unique<Fcl<double, Solver>>(settings);
 }
 
+constexpr auto make_libccd = make<fcl::detail::GJKSolver_libccd>;
+constexpr auto make_indep = make<fcl::detail::GJKSolver_indep>;
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t supports = nullptr, quaternion_encoding = nullptr,
+                         matrix_encoding = nullptr, make_libccd = nullptr, make_indep = nullptr;
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using enum touchstone::Task;
-  using touchstone::Origin;
-  const std::vector<touchstone::Task> tasks = {intersect, distance, penetration};
-  const std::vector<touchstone::Precision> scalars = {touchstone::Precision::float32,
-                                                      touchstone::Precision::float64};
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
+  using enum Task;
+  const std::vector<Task> tasks = {intersect, distance, penetration};
+  const std::vector<Precision> scalars = {Precision::float32, Precision::float64};
   return {
       {.info = {.name = "fcl-libccd",
                 .citation = "FCL 0.7, GJKSolver_libccd: shapeIntersect, shapeDistance",
@@ -318,10 +324,10 @@ TOUCHSTONE_NARROW_PHASE {
                                 "half-space is wrong"},
        .tasks = tasks,
        .scalars = scalars,
-       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .supports = supports,
        .depth_is_bound = true,
-       .encoding = TOUCHSTONE_IF_BUILT(touchstone::quaternion_encoding),
-       .make = TOUCHSTONE_IF_BUILT(touchstone::make<fcl::detail::GJKSolver_libccd>)},
+       .encoding = quaternion_encoding,
+       .make = make_libccd},
       {.info = {.name = "fcl-indep",
                 .citation = "FCL 0.7, GJKSolver_indep: shapeIntersect, shapeDistance",
                 .origin = Origin::peer,
@@ -330,8 +336,10 @@ TOUCHSTONE_NARROW_PHASE {
                     "on half-space is wrong"},
        .tasks = tasks,
        .scalars = scalars,
-       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
-       .encoding = TOUCHSTONE_IF_BUILT(touchstone::matrix_encoding),
-       .make = TOUCHSTONE_IF_BUILT(touchstone::make<fcl::detail::GJKSolver_indep>)},
+       .supports = supports,
+       .encoding = matrix_encoding,
+       .make = make_indep},
   };
 }
+
+}  // namespace touchstone::entries

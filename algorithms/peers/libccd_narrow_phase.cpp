@@ -21,7 +21,7 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/narrow_phase.h"
 
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_LIBCCD
 #include <ccd/ccd.h>
 
 namespace touchstone {
@@ -261,14 +261,22 @@ std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
   return std::make_unique<Libccd>(method, settings);
 }
 
+constexpr auto make_gjk = make<Method::gjk>;
+constexpr auto make_epa = make<Method::epa>;
+constexpr auto make_mpr = make<Method::mpr>;
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t supports = nullptr, make_gjk = nullptr, make_epa = nullptr,
+                         make_mpr = nullptr;
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using enum touchstone::Task;
-  using touchstone::Origin;
-  const std::vector<touchstone::Precision> scalars = {touchstone::Precision::float64};
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_libccd_narrow_phase() {
+  using enum Task;
+  const std::vector<Precision> scalars = {Precision::float64};
   return {
       {.info = {.name = "libccd-gjk",
                 .citation = "libccd 2.1, ccdGJKIntersect",
@@ -276,24 +284,26 @@ TOUCHSTONE_NARROW_PHASE {
                 .known_defect = "thresholds are absolute: gaps below 1e-8 are overlaps"},
        .tasks = {intersect},
        .scalars = scalars,
-       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
-       .make = TOUCHSTONE_IF_BUILT(touchstone::make<touchstone::Method::gjk>)},
+       .supports = supports,
+       .make = make_gjk},
       {.info = {.name = "libccd-epa",
                 .citation = "libccd 2.1, ccdGJKPenetration",
                 .origin = Origin::peer,
                 .known_defect = "expands one face at a time, without a horizon: depths too small"},
        .tasks = {penetration},
        .scalars = scalars,
-       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
-       .make = TOUCHSTONE_IF_BUILT(touchstone::make<touchstone::Method::epa>)},
+       .supports = supports,
+       .make = make_epa},
       {.info = {.name = "libccd-mpr",
                 .citation = "libccd 2.1, ccdMPRIntersect and ccdMPRPenetration",
                 .origin = Origin::peer,
                 .known_defect = "the depth is along the portal: an upper bound"},
        .tasks = {intersect, penetration},
        .scalars = scalars,
-       .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+       .supports = supports,
        .depth_is_bound = true,
-       .make = TOUCHSTONE_IF_BUILT(touchstone::make<touchstone::Method::mpr>)},
+       .make = make_mpr},
   };
 }
+
+}  // namespace touchstone::entries

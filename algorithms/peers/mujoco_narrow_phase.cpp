@@ -14,7 +14,7 @@
 // Cost:    closed forms O(1); otherwise a support call of both bodies an iteration.
 #include "algorithms/narrow_phase.h"
 
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_MUJOCO
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -202,10 +202,13 @@ std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
 
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t supports = nullptr, encoding = nullptr, make = nullptr;
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_mujoco_narrow_phase() {
   return {{.info = {.name = "mujoco",
                     .citation = "MuJoCo 2.2, the functions of mjCOLLISIONFUNC",
                     .origin = Origin::peer,
@@ -213,8 +216,10 @@ TOUCHSTONE_NARROW_PHASE {
                                     "portal, an upper bound"},
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float64},
-           .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+           .supports = supports,
            .depth_is_bound = true,
-           .encoding = TOUCHSTONE_IF_BUILT(touchstone::encoding),
-           .make = TOUCHSTONE_IF_BUILT(touchstone::make)}};
+           .encoding = encoding,
+           .make = make}};
 }
+
+}  // namespace touchstone::entries

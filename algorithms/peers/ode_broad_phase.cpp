@@ -23,7 +23,7 @@
 //          are small, sweep O(n + pairs on the axis); O(n) memory but for the hash.
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/world.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_ODE
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -286,27 +286,37 @@ class OdeBroadPhase final : public BroadPhase {
   std::int64_t candidates_ = 0;
 };
 
+template <class Space>
+std::unique_ptr<BroadPhase> make(Executor&) {
+  return std::make_unique<OdeBroadPhase<Space>>();
+}
+constexpr auto make_hash = make<Hash>;
+constexpr auto make_quadtree = make<QuadTree>;
+constexpr auto make_sweep = make<Sweep>;
+
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t make_hash = nullptr, make_quadtree = nullptr, make_sweep = nullptr;
 #endif
 
-TOUCHSTONE_BROAD_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> peers_ode_broad_phase() {
   return {
       {.info = {.name = "ode-hash",
                 .citation = "ODE 0.16, dHashSpaceCreate (dSpaceCollide)",
                 .origin = Origin::peer},
-       .make =
-           TOUCHSTONE_IF_BUILT([](Executor&) { return std::make_unique<OdeBroadPhase<Hash>>(); })},
+       .make = make_hash},
       {.info = {.name = "ode-quadtree",
                 .citation = "ODE 0.16, dQuadTreeSpaceCreate (dSpaceCollide)",
                 .origin = Origin::peer},
-       .make = TOUCHSTONE_IF_BUILT(
-           [](Executor&) { return std::make_unique<OdeBroadPhase<QuadTree>>(); })},
+       .make = make_quadtree},
       {.info = {.name = "ode-sap",
                 .citation = "ODE 0.16, dSweepAndPruneSpaceCreate (dSpaceCollide)",
                 .origin = Origin::peer},
-       .make =
-           TOUCHSTONE_IF_BUILT([](Executor&) { return std::make_unique<OdeBroadPhase<Sweep>>(); })},
+       .make = make_sweep},
   };
 }
+
+}  // namespace touchstone::entries

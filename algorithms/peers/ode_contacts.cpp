@@ -9,7 +9,7 @@
 //          same orientation. It never reports a failure.
 // Cost:    O(1).
 #include "algorithms/contact_manifold.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_ODE
 #include <algorithm>
 #include <type_traits>
 
@@ -74,24 +74,27 @@ class OdeContacts final : public ContactManifold {
 constexpr Precision scalar =
     std::is_same_v<dReal, double> ? Precision::float64 : Precision::float32;
 
+std::unique_ptr<ContactManifold> make(const ManifoldSettings&) {
+  return std::make_unique<OdeContacts>();
+}
+
 }  // namespace
 }  // namespace touchstone
 #else
-namespace touchstone {
-namespace {
-constexpr Precision scalar = Precision::float64;  // Debian's build
-}  // namespace
-}  // namespace touchstone
+constexpr touchstone::Precision scalar = touchstone::Precision::float64;  // Debian's build
+constexpr std::nullptr_t make = nullptr;
 #endif
 
-TOUCHSTONE_CONTACT_MANIFOLD {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<ManifoldEntry> peers_ode_contacts() {
   return {{.info = {.name = "ode-box-contacts",
                     .citation = "ODE 0.16, dBoxBox",
                     .origin = Origin::peer},
-           .scalars = {touchstone::scalar},
+           .scalars = {scalar},
            .supports = [](ShapeKind a,
                           ShapeKind b) { return a == ShapeKind::box && b == ShapeKind::box; },
-           .make = TOUCHSTONE_IF_BUILT(
-               [](const ManifoldSettings&) { return std::make_unique<OdeContacts>(); })}};
+           .make = make}};
 }
+
+}  // namespace touchstone::entries

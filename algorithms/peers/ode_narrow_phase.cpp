@@ -14,7 +14,7 @@
 //          than its radius. No query reports a failure.
 // Cost:    O(1).
 #include "algorithms/narrow_phase.h"
-#if TOUCHSTONE_BUILT
+#ifdef TOUCHSTONE_HAS_ODE
 #include <cmath>
 #include <type_traits>
 
@@ -131,18 +131,20 @@ bool supports(ShapeKind a, ShapeKind b, Task) {
   return a <= ShapeKind::box && (b <= ShapeKind::box || b == ShapeKind::halfspace);
 }
 
+std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings&) {
+  return std::make_unique<OdeNarrowPhase>();
+}
+
 }  // namespace
 }  // namespace touchstone
 #else
-namespace touchstone {
-namespace {
-constexpr Precision scalar = Precision::float64;  // Debian's build
-}  // namespace
-}  // namespace touchstone
+constexpr touchstone::Precision scalar = touchstone::Precision::float64;  // Debian's build
+constexpr std::nullptr_t supports = nullptr, encoding = nullptr, make = nullptr;
 #endif
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> peers_ode_narrow_phase() {
   return {{.info = {.name = "ode",
                     .citation = "ODE 0.16, dBoxBox, dCollide",
                     .origin = Origin::peer,
@@ -150,10 +152,11 @@ TOUCHSTONE_NARROW_PHASE {
                                     "of the same orientation; depth of capsule and box is at most "
                                     "the radius"},
            .tasks = {Task::intersect, Task::penetration},
-           .scalars = {touchstone::scalar},
-           .supports = TOUCHSTONE_IF_BUILT(touchstone::supports),
+           .scalars = {scalar},
+           .supports = supports,
            .depth_is_bound = true,
-           .encoding = TOUCHSTONE_IF_BUILT(touchstone::encoding),
-           .make = TOUCHSTONE_IF_BUILT(
-               [](const NarrowPhaseSettings&) { return std::make_unique<OdeNarrowPhase>(); })}};
+           .encoding = encoding,
+           .make = make}};
 }
+
+}  // namespace touchstone::entries

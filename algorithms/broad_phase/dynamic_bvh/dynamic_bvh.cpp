@@ -274,12 +274,14 @@ BroadPhaseWork DynamicBvh::work() const {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_dynamic_bvh() {
   return {
       {.info = {.name = "dynamic-bvh",
                 .citation = "Catto, \"Dynamic Bounding Volume Hierarchies\", GDC 2019; Presson, "
                             "Bullet's btDbvt, 2008; wide nodes, fat pairs kept"},
-       .make = [](touchstone::Executor& executor) {
-         return std::make_unique<touchstone::DynamicBvh>(executor);
-       }}};
+       .make = [](Executor& executor) { return std::make_unique<DynamicBvh>(executor); }}};
 }
+
+}  // namespace touchstone::entries

@@ -149,11 +149,14 @@ void HierarchicalGrid::find_partners(const Level& level, const Aabb& bounds, std
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
-  return {{.info = {.name = "hierarchical-grid",
-                    .citation = "Ericson, Real-Time Collision Detection, 2005, section 7.2; "
-                                "Mirtich, thesis, Berkeley 1996; sorted cells"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::HierarchicalGrid>(executor);
-           }}};
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_hierarchical_grid() {
+  return {
+      {.info = {.name = "hierarchical-grid",
+                .citation = "Ericson, Real-Time Collision Detection, 2005, section 7.2; "
+                            "Mirtich, thesis, Berkeley 1996; sorted cells"},
+       .make = [](Executor& executor) { return std::make_unique<HierarchicalGrid>(executor); }}};
 }
+
+}  // namespace touchstone::entries

@@ -288,11 +288,15 @@ void IncrementalSweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_incremental_sweep_and_prune() {
   return {{.info = {.name = "incremental-sweep-and-prune",
                     .citation = "Baraff, thesis, Cornell 1992; Cohen, Lin, Manocha, Ponamgi, "
                                 "\"I-COLLIDE\", I3D 1995; three axes, kept pairs"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::IncrementalSweepAndPrune>(executor);
+           .make = [](Executor& executor) {
+             return std::make_unique<IncrementalSweepAndPrune>(executor);
            }}};
 }
+
+}  // namespace touchstone::entries

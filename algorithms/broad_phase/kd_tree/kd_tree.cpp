@@ -192,13 +192,15 @@ void KdTree::collect(const KdNode& from, const Aabb& bound, Scratch& scratch) co
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_kd_tree() {
   return {
       {.info = {.name = "kd-tree",
                 .citation = "Serpa, Rodrigues, \"Flexible Use of Temporal and Spatial Reasoning "
                             "... Using KD-Trees\", Computer Graphics Forum 2019; split by "
                             "centres, with bounds"},
-       .make = [](touchstone::Executor& executor) {
-         return std::make_unique<touchstone::KdTree>(executor);
-       }}};
+       .make = [](Executor& executor) { return std::make_unique<KdTree>(executor); }}};
 }
+
+}  // namespace touchstone::entries

@@ -228,11 +228,13 @@ void LooseOctree::fit() {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_loose_octree() {
   return {{.info = {.name = "loose-octree",
                     .citation = "Ulrich, \"Loose Octrees\", Game Programming Gems, 2000; "
                                 "Gargantini, CACM 1982 (linear); cells against cells"},
-           .make = [](touchstone::Executor& executor) {
-             return std::make_unique<touchstone::LooseOctree>(executor);
-           }}};
+           .make = [](Executor& executor) { return std::make_unique<LooseOctree>(executor); }}};
 }
+
+}  // namespace touchstone::entries

@@ -333,12 +333,14 @@ BroadPhaseWork VerletList::work() const {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_BROAD_PHASE {
+namespace touchstone::entries {
+
+std::vector<BroadPhaseEntry> broad_phase_verlet_list() {
   return {
       {.info = {.name = "verlet-list",
                 .citation = "Verlet, \"Computer 'Experiments' on Classical Fluids. I\", Physical "
                             "Review 159, 1967; over a Hilbert pyramid"},
-       .make = [](touchstone::Executor& executor) {
-         return std::make_unique<touchstone::VerletList>(executor);
-       }}};
+       .make = [](Executor& executor) { return std::make_unique<VerletList>(executor); }}};
 }
+
+}  // namespace touchstone::entries

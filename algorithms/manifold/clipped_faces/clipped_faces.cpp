@@ -288,8 +288,9 @@ bool supports(ShapeKind a, ShapeKind b) {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_CONTACT_MANIFOLD {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<ManifoldEntry> manifold_clipped_faces() {
   return {{.info = {.name = "clipped-faces",
                     .citation = "Gregorius, \"Robust contact creation for physics simulations\", "
                                 "GDC 2015; Sutherland, Hodgman, \"Reentrant polygon clipping\", "
@@ -303,3 +304,5 @@ TOUCHSTONE_CONTACT_MANIFOLD {
              return std::make_unique<ClippedFaces<double>>();
            }}};
 }
+
+}  // namespace touchstone::entries

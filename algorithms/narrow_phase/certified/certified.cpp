@@ -243,8 +243,9 @@ bool Certified::on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Ou
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_certified() {
   return {{.info = {.name = "certified",
                     .citation = "Shewchuk, \"Adaptive precision floating-point arithmetic and fast "
                                 "robust geometric predicates\", Discrete & Computational Geometry "
@@ -253,3 +254,5 @@ TOUCHSTONE_NARROW_PHASE {
            .scalars = {Precision::float64},
            .make = [](const NarrowPhaseSettings&) { return std::make_unique<Certified>(); }}};
 }
+
+}  // namespace touchstone::entries

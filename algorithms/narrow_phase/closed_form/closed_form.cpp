@@ -268,8 +268,9 @@ bool takes(ShapeKind a, ShapeKind b, Task task) {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_closed_form() {
   return {{.info = {.name = "closed-form",
                     .citation = "Ericson, Real-Time Collision Detection, 2005; Gottschalk, Lin, "
                                 "Manocha, OBBTree, SIGGRAPH 1996"},
@@ -282,3 +283,5 @@ TOUCHSTONE_NARROW_PHASE {
              return std::make_unique<ClosedForm<double>>();
            }}};
 }
+
+}  // namespace touchstone::entries

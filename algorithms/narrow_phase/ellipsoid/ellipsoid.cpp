@@ -199,8 +199,9 @@ bool takes(ShapeKind a, ShapeKind b, Task) {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_ellipsoid() {
   return {{.info = {.name = "ellipsoid",
                     .citation = "Perram, Wertheim, \"Statistical mechanics of hard ellipsoids. I. "
                                 "Overlap algorithm and the contact function\", J. Computational "
@@ -215,3 +216,5 @@ TOUCHSTONE_NARROW_PHASE {
              return std::make_unique<EllipsoidPlanes<double>>(settings);
            }}};
 }
+
+}  // namespace touchstone::entries

@@ -90,8 +90,9 @@ bool takes(ShapeKind a, ShapeKind b, Task) {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_gjk_lanes() {
   return {{.info = {.name = "gjk-lanes",
                     .citation = "Gilbert, Johnson, Keerthi, \"A fast procedure for computing the "
                                 "distance between complex objects in three-dimensional space\", "
@@ -102,3 +103,5 @@ TOUCHSTONE_NARROW_PHASE {
            .supports = takes,
            .make = make}};
 }
+
+}  // namespace touchstone::entries

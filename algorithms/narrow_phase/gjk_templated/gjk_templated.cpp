@@ -98,8 +98,9 @@ std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_gjk_templated() {
   return {{.info = {.name = "gjk-templated",
                     .citation = "Gilbert, Johnson, Keerthi, \"A fast procedure for computing the "
                                 "distance between complex objects in three-dimensional space\", "
@@ -111,3 +112,5 @@ TOUCHSTONE_NARROW_PHASE {
            .stops_by_duality_gap = true,
            .make = make}};
 }
+
+}  // namespace touchstone::entries

@@ -266,8 +266,9 @@ class MprRefined final : public NarrowPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_mpr_refined() {
   return {
       {.info = {.name = "mpr-refined",
                 .citation = "Snethen, XenoCollide: Complex Collision Made Simple, Game "
@@ -283,3 +284,5 @@ TOUCHSTONE_NARROW_PHASE {
          return std::make_unique<MprRefined<double>>(settings);
        }}};
 }
+
+}  // namespace touchstone::entries

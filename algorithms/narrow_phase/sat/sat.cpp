@@ -192,8 +192,9 @@ class Sat final : public NarrowPhase {
 }  // namespace
 }  // namespace touchstone
 
-TOUCHSTONE_NARROW_PHASE {
-  using namespace touchstone;
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_sat() {
   return {{.info = {.name = "sat",
                     .citation = "Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996; Gregorius, The "
                                 "Separating Axis Test between Convex Polyhedra, GDC 2013"},
@@ -206,3 +207,5 @@ TOUCHSTONE_NARROW_PHASE {
              return std::make_unique<Sat<double>>();
            }}};
 }
+
+}  // namespace touchstone::entries

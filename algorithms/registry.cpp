@@ -1,42 +1,15 @@
-// Written by CMake from the list in algorithms/CMakeLists.txt.
 #include "algorithms/registry.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace touchstone {
 
-namespace entries {
-@TOUCHSTONE_DECLARATIONS@
-}  // namespace entries
+// Written by CMake.
+std::vector<BroadPhaseEntry> list_broad_phases();
+std::vector<NarrowPhaseEntry> list_narrow_phases();
+std::vector<ManifoldEntry> list_contact_manifolds();
 
 namespace {
-
-template <class Entry>
-void add(std::vector<Entry>& list, std::vector<Entry> entries, const char* reason) {
-  for (Entry& entry : entries) {
-    if (!entry.make) entry.info.reason = reason;
-    list.push_back(std::move(entry));
-  }
-}
-
-std::vector<BroadPhaseEntry> make_broad_phases() {
-  std::vector<BroadPhaseEntry> list;
-@TOUCHSTONE_BROAD_PHASES@
-  return list;
-}
-
-std::vector<NarrowPhaseEntry> make_narrow_phases() {
-  std::vector<NarrowPhaseEntry> list;
-@TOUCHSTONE_NARROW_PHASES@
-  return list;
-}
-
-std::vector<ManifoldEntry> make_contact_manifolds() {
-  std::vector<ManifoldEntry> list;
-@TOUCHSTONE_CONTACT_MANIFOLDS@
-  return list;
-}
 
 template <class Entry>
 const Entry* find(std::span<const Entry> entries, std::string_view name) {
@@ -47,17 +20,17 @@ const Entry* find(std::span<const Entry> entries, std::string_view name) {
 }  // namespace
 
 std::span<const BroadPhaseEntry> broad_phases() {
-  static const std::vector<BroadPhaseEntry> list = make_broad_phases();
+  static const std::vector<BroadPhaseEntry> list = list_broad_phases();
   return list;
 }
 
 std::span<const NarrowPhaseEntry> narrow_phases() {
-  static const std::vector<NarrowPhaseEntry> list = make_narrow_phases();
+  static const std::vector<NarrowPhaseEntry> list = list_narrow_phases();
   return list;
 }
 
 std::span<const ManifoldEntry> contact_manifolds() {
-  static const std::vector<ManifoldEntry> list = make_contact_manifolds();
+  static const std::vector<ManifoldEntry> list = list_contact_manifolds();
   return list;
 }
 
