@@ -93,7 +93,7 @@ class Mpr final : public NarrowPhase {
   }
 
  private:
-  // On a curved surface a portal as narrow as the root of this still has a normal.
+  // A portal on a curved surface that is as narrow as the root of this still has a normal.
   static constexpr double default_tolerance = 1e-10;
 
   int max_iterations_;

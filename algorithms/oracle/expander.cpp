@@ -196,7 +196,7 @@ void Expander::find_nearest() {
     const Face& face = faces_[f];
     if (!face.alive) continue;
     inside_ = inside_ && !face.offset.is_zero();
-    // Among faces at the same distance a final one is better.
+    // A final face is better than others at the same distance.
     const bool better = nearest_ == no_face || nearer(face, faces_[nearest_]) ||
                         (face.final && !faces_[nearest_].final && !nearer(faces_[nearest_], face));
     if (better) nearest_ = f;

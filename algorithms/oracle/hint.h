@@ -28,8 +28,8 @@ struct Hint {
   std::array<DifferencePoint, 4> points;
 };
 
-// With `decide` the search ends as soon as the answer is proven. Otherwise it ends when it has the
-// nearest simplex or one that contains the origin.
+// The search ends as soon as the answer is proven if `decide` is set. Otherwise it ends when it has
+// the nearest simplex or one that contains the origin.
 Hint find_hint(GridPair& pair, const Filters& filters, bool decide);
 
 }  // namespace touchstone::oracle

@@ -109,7 +109,7 @@ void Oracle::Workspace::measure_apart(const ExactSearch& search, Measure& measur
                                       Certificate* certificate) {
   const NearestPlane& plane = search.plane;
   const ExactSimplex& simplex = search.simplex;
-  // For a triangle the sum of the weights is |normal|^2. For an edge or a vertex the normal is the
+  // The sum of the weights is |normal|^2 for a triangle. The normal of an edge or a vertex is the
   // nearest point times that sum.
   const Integer numerator = simplex.size == 3 ? Integer(plane.offset * plane.offset) : plane.offset;
   measure.core_upper = pair.in_metres(1, numerator, simplex.weight);

@@ -25,7 +25,7 @@ inline Vec3d unit(const Vec3d& v) {
 // The unit vector perpendicular to the unit vector n that is nearest to `wish` (not along n).
 inline Vec3d beside(const Vec3d& n, const Vec3d& wish) { return unit(outer(outer(n, wish), n)); }
 
-// The same products in double-double precision.
+// Products in double-double precision.
 inline DoubleDouble3 exactly(const Vec3d& v) { return {{v.x(), 0}, {v.y(), 0}, {v.z(), 0}}; }
 inline DoubleDouble3 scaled(const DoubleDouble3& v, const DoubleDouble& factor) {
   return {v.x * factor, v.y * factor, v.z * factor};

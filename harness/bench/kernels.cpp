@@ -37,7 +37,7 @@ void add_timed_by_hand(const std::string& name, const Run& run) {
   benchmark::RegisterBenchmark(("kernels/" + name).c_str(), run)->UseManualTime();
 }
 
-// --- support functions ----------------------------------------------------------------------------
+// --- support functions ---------------------------------------------------------------------------
 
 // One call per iteration, over 64 shapes in turn. In `random` the direction is new each time. In
 // `coherent` a shape's next direction is a twentieth of a radian from its last, as in the later
@@ -87,7 +87,7 @@ void register_support() {
   }
 }
 
-// --- sorting --------------------------------------------------------------------------------------
+// --- sorting -------------------------------------------------------------------------------------
 
 using Items = std::vector<std::uint64_t>;
 
@@ -158,7 +158,7 @@ void register_sorts() {
   }
 }
 
-// --- tests of boxes -------------------------------------------------------------------------------
+// --- tests of boxes ------------------------------------------------------------------------------
 
 // Cubes of side 1, each overlapping about two others, sorted by x.
 std::unique_ptr<AabbSoA> draw_boxes(std::size_t count, Random& random) {

@@ -254,7 +254,7 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
     descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | before, 0666);
     flushed_ = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
   } else {
-    // Behind a symbolic link, the target is replaced instead of the link.
+    // The target of a symbolic link is replaced instead of the link.
     if (std::filesystem::is_symlink(file_, ignored)) {
       const std::filesystem::path target = std::filesystem::canonical(file_, ignored);
       if (!ignored) file_ = target;
@@ -278,7 +278,8 @@ CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>&
     discard();
     write_failed(file_, reason);
   }
-  // With this buffer rows leave the process when they are flushed, and not in the middle of a row.
+  // The buffer lets rows leave the process only when they are flushed, and not in the middle of a
+  // row.
   if (flushed_ >= 0) std::setvbuf(stream_, nullptr, _IOFBF, std::size_t{1} << 20);
   if (flushed_ > 0) return;
   for (const std::string& name : header) field(name);

@@ -68,12 +68,12 @@ void check_output(const std::filesystem::path& file);
 // directly.
 class CsvWriter {
  public:
-  // What remains if the work does not finish: nothing, or every row that was flushed.
+  // The content that remains if the work does not finish: nothing, or every row that was flushed.
   enum class Keep : std::uint8_t { whole_file, flushed_rows, appended_rows };
 
-  // With Keep::flushed_rows the file itself is written and its old content is lost; a failure
-  // truncates it to the last flush. Keep::appended_rows does this after the file's content, which
-  // must begin with this header; an empty file gets the header.
+  // Keep::flushed_rows writes the file itself, whose old content is lost; a failure truncates it to
+  // the last flush. Keep::appended_rows does this after the file's content, which must begin with
+  // this header; an empty file gets the header.
   CsvWriter(std::filesystem::path file, const std::vector<std::string>& header,
             Keep keep = Keep::whole_file);
   ~CsvWriter();

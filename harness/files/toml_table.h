@@ -59,7 +59,7 @@ class TomlTable {
                         std::span<const std::string_view> names) const;
   Vec3d vector(std::string_view key, Limits limits, std::optional<Vec3d> fallback = {});
   std::vector<double> numbers(std::string_view key, std::size_t count, Limits limits);
-  // At least one point.
+  // An array of at least one point.
   std::vector<Vec3d> points(std::string_view key);
   // Two numbers in ascending order; a single number stands for both.
   std::pair<double, double> range(std::string_view key, Limits limits,

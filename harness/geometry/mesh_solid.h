@@ -21,9 +21,9 @@ std::vector<MeshPiece> pieces_of(const Mesh& mesh);
 
 std::vector<Triangle> triangles_of(const Mesh& mesh);
 
-// How often the surface winds around x (Van Oosterom and Strackee, "The solid angle of a plane
-// triangle", IEEE Trans. Biomed. Eng. 30, 1983). It is close to a whole number unless x is on the
-// surface.
+// The number of times that the surface winds around x (Van Oosterom and Strackee, "The solid angle
+// of a plane triangle", IEEE Trans. Biomed. Eng. 30, 1983). It is close to a whole number unless x
+// is on the surface.
 double winding_number(const std::vector<Triangle>& surface, const Vec3d& x);
 
 // The point of the triangle that is nearest to x, up to rounding.

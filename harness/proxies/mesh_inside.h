@@ -23,7 +23,7 @@ class MeshInside {
   Part copy(const Part& part) const;
   // The longest capsule of five radii along the three axes, through the ball's centre.
   Part capsule(const Mat3d& axes) const;
-  // For each part the greatest copy around the point that is deepest in it and in the body. Parts
+  // The greatest copy of each part around the point that is deepest in it and in the body. Parts
   // for which none is found are left out.
   std::vector<Part> copies(const std::vector<Part>& parts) const;
 

@@ -118,8 +118,8 @@ std::vector<Vec3d> outline(const LocalBody& body) {
   return points;
 }
 
-// For an ellipsoid a >= b >= c with its axis along a, the farthest distance from the segment to +-s
-// is b or a - s.
+// The capsule around an ellipsoid a >= b >= c with its axis along a: the farthest distance from the
+// segment to +-s is b or a - s.
 Part around_ellipsoid(const Shape& s) {
   int longest = 0, shortest = 0;
   s.radii.maxCoeff(&longest);

@@ -23,7 +23,7 @@ Part outer_oriented_box(const LocalBody& body);
 Part outer_capsule(const LocalBody& body);
 // `directions` is 14, 18 or 26: axes and corners, axes and edges, all.
 Part outer_dop(const LocalBody& body, int directions);
-// At most `vertices` vertices, at least 8. It is the better of two: the oriented box cut by the
+// A hull of at most `vertices` (at least 8) vertices: the better of the oriented box cut by the
 // body's planes where a corner is farthest beyond one, and the inner hull scaled up.
 Part outer_reduced_hull(const LocalBody& body, int vertices);
 // The hull of all points of a mesh.
@@ -31,8 +31,8 @@ Part outer_hull(const LocalBody& body);
 // A polytope of level 0 to 5 (geometry/tessellation.h) whose faces touch the round shape's surface.
 Part outer_icosphere(const LocalBody& body, int level);
 
-// At most `count` (at least 4) vertices of the body, each as far as possible from the hull of those
-// before it.
+// Returns at most `count` (at least 4) vertices of the body, each as far as possible from the hull
+// of those before it.
 std::vector<Vec3d> farthest_vertices(const std::vector<Vec3d>& vertices, int count);
 // Half the directions of a k-DOP: one of each opposite pair.
 std::vector<Vec3d> dop_normals(int directions);

@@ -21,7 +21,8 @@ class PlacedSolid {
   // Distance from x to the surface in metres, negative inside. A closed form, except for an
   // ellipsoid, which is correct to 1e-12 of its size.
   double signed_distance(const Vec3d& x) const;
-  // For x inside a polytope: its projection on the nearest face's plane, and the normal.
+  // The projection of x, which must be inside a polytope, on the nearest face's plane, and the
+  // normal.
   SurfacePoint way_out(const Vec3d& x) const;
   // The interval of z in which the points (x, y, z) are inside.
   std::optional<std::pair<double, double>> along_z(double x, double y) const;

@@ -42,7 +42,7 @@ struct Representation {
   friend bool operator==(const Representation&, const Representation&) = default;
 };
 
-// For example "sphere", "hull-16 inner", "icosphere-2 nearest"; "outer" is not printed.
+// Names such as "sphere", "hull-16 inner", "icosphere-2 nearest"; "outer" is not printed.
 std::string to_string(const Representation& representation);
 // The inverse of to_string. Throws InputError with the expected values.
 Representation parse_representation(std::string_view text);

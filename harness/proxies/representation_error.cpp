@@ -117,7 +117,7 @@ double distance_to_union(const std::vector<PlacedSolid>& parts, const std::vecto
   return nearest >= 0 ? nearest : std::min(out, distance_to_points(points, x));
 }
 
-// About the greatest distance of a surface point from its nearest sample point.
+// The approximate greatest distance of a surface point from its nearest sample point.
 double spacing_of(const std::vector<Triangle>& surface) {
   double area = 0;
   for (const Triangle& t : surface) area += t.normal().norm() / 2;

@@ -10,8 +10,8 @@
 
 namespace touchstone {
 
-// Among triangles in one plane, selects the one that contains the projection or is closest to that.
-// If all are flat it gives the centre of the first.
+// Selects the triangle that contains the projection, or is closest to that, among triangles in one
+// plane. If all are flat it gives the centre of the first.
 template <class Scalar>
 class OriginProjection {
  public:

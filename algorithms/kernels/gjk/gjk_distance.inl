@@ -187,7 +187,7 @@ Approach<Scalar> approach_by(SupportPair<Scalar>& pair, const ApproachGoal<Scala
     const bool spent =
         accelerated && simplex.size > 0 &&
         !goal.is_open(pair, found.nearest.distance, found.nearest.direction.dot(point.difference));
-    // In a shallow overlap of round shapes the bound must hold along the reported normal.
+    // The bound on a shallow overlap of round shapes must hold along the reported normal.
     const bool oblique = accelerated && task == Task::penetration && !apart && !open;
     if (accelerated && (found.end != End::decided || oblique) && (known || spent || oblique)) {
       accelerated = false;

@@ -47,9 +47,9 @@ struct Found {
 
 inline constexpr std::size_t most_blocks = 16;  // blocks that are tested together
 
-// At each level, `furthest_at(blocks, x, y, z)` returns the index of the vertex with the greatest
-// d.v, and the first if there are several. The result is equal at every level. NaN never compares
-// as greatest: if all are NaN the index is 0.
+// The function `furthest_at(blocks, x, y, z)` of each level returns the index of the vertex with
+// the greatest d.v, and the first if there are several. The result is equal at every level. NaN
+// never compares as greatest: if all are NaN the index is 0.
 #define TOUCHSTONE_LANES real_lanes
 #define TOUCHSTONE_LOOPS "algorithms/kernels/minkowski/hull_scan.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"

@@ -56,7 +56,7 @@ class PosedShape {
   bool has_corner(std::uint32_t number) const { return number < corners(); }
   // The corner with that index, relative to the centre.
   Vec3<Scalar> corner(std::uint32_t number) const;
-  // For a hull: the index of the last support vertex.
+  // The index of the last support vertex of a hull.
   std::uint32_t last_corner() const {
     return shape_->cells.empty() ? vertex_ : shape_->cells.number(vertex_);
   }

@@ -49,7 +49,7 @@ class Search {
     const Scalar length = nearest.norm();
     Vec3<Scalar> direction = Vec3<Scalar>::Zero();
     if (length > 0) {
-      // Without this a direction from nearly coincident points would not be normal to the edge.
+      // The subtraction makes a direction from nearly coincident points normal to the edge.
       direction = nearest / length;
       direction -= direction.dot(edge) / whole * edge;
       // If the direction is mostly along the edge, the nearest point is only rounding.

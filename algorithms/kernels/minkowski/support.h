@@ -52,8 +52,8 @@ class SupportPair {
   static constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
 
   // The proof, for poses with any matrix. Let u be half of epsilon, M a core's matrix and v a point
-  // of the core, both as stored; (..)_i is a component, |..| applies to each. Because unit_ is above
-  // the offset and the reach of both bodies, (|M| |v|)_i <= sqrt(3), and its sum with the components
+  // of the core, both as stored; (..)_i is a component, |..| applies to each. unit_ is above the
+  // offset and the reach of both bodies, so (|M| |v|)_i <= sqrt(3), and its sum with the components
   // of a unit vector n is at most 3. For a support point w = p - q and any direction n:
   //                                              each component      along n
   //   stored v (hulls: centre subtracted)         sqrt(3) u           3 u   a body

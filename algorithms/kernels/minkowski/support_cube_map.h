@@ -34,9 +34,9 @@ class SupportCubeMap {
   struct Block {
     alignas(64) Scalar x[block_size], y[block_size], z[block_size];
   };
-  // Up to four blocks in ascending order, with the last one repeated. If the last is `listed`, the
-  // first two are the place in the lists (low half, high half) of the number of blocks and their
-  // indices.
+  // The blocks of a cell: up to four in ascending order, with the last one repeated. If the last is
+  // `listed`, the first two are the place in the lists (low half, high half) of the number of
+  // blocks and their indices.
   struct Cell {
     static constexpr std::uint16_t listed = 0xffff;
     std::array<std::uint16_t, 4> blocks;

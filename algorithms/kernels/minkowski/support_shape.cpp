@@ -9,7 +9,7 @@
 namespace touchstone {
 namespace {
 
-// For more vertices than this the cube map is faster than a scan.
+// The cube map is faster than a scan for more vertices than this.
 constexpr std::size_t most_vertices_to_scan = 192;
 
 // The depth of the body's origin inside the faces (metres); zero if there are no faces.

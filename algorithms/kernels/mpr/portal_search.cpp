@@ -50,7 +50,7 @@ typename PortalSearch<Scalar>::Depth PortalSearch<Scalar>::settle_from_portal() 
 template <class Scalar>
 typename PortalSearch<Scalar>::Depth PortalSearch<Scalar>::settle(Depth from) {
   start_ = {Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero()};
-  // On a curved surface portals are too narrow to turn over their edges.
+  // Portals on a curved surface are too narrow to turn over their edges.
   const bool flat = pair_.is_polytope() && pair_.radius() == 0;
   Depth least = from;
   Vec3<Scalar> ray = from.normal;

@@ -18,7 +18,7 @@ TOUCHSTONE_TARGET inline unsigned crossing_of(const GaussBlock& block, const Gau
     };
     const Real b_left = product(3, arc.direction), b_right = product(6, arc.direction);
     const Real a_left = product(0, arc.left), a_right = product(0, arc.right);
-    // Both ends of one arc are on one side of the other's circle.
+    // The ends of one arc are on one side of the other's circle.
     const unsigned same_side = Lanes::bits(Lanes::less(most, Lanes::min(b_left, b_right))) |
                                Lanes::bits(Lanes::less(Lanes::max(b_left, b_right), least)) |
                                Lanes::bits(Lanes::less(most, Lanes::min(a_left, a_right))) |

@@ -57,8 +57,8 @@ SegmentPoints<Scalar> closest_points(const Segment<Scalar>& p, const Segment<Sca
     s = std::clamp(s + ds, Scalar{0}, Scalar{1});
     t = std::clamp(t + dt, Scalar{0}, Scalar{1});
   }
-  // For almost parallel lines s and t are uncertain, but each point of one has a well-defined
-  // nearest point on the other.
+  // The parameters s and t of almost parallel lines are uncertain, but each point of one has a
+  // well-defined nearest point on the other.
   offer(points(s, q.nearest(p.at(s))));
   offer(points(p.nearest(q.at(t)), t));
   return best;

@@ -128,7 +128,7 @@ ProvenGap GapProver::between(const ProvenShape& a, const Pose& pose_a, const Pro
   const Wide near = length + 32 * wide_unit * reach;
   const Wide upper = near - radii + 8 * wide_unit * (near + radii);
   if (upper < std::numeric_limits<Wide>::infinity()) gap.upper = round_up(upper);
-  // For bodies far apart the connection is a better normal than one in doubles.
+  // The connection of bodies far apart is a better normal than one in doubles.
   const double fine = 2 * std::numeric_limits<double>::epsilon() * static_cast<double>(length);
   if (gap.upper - gap.lower > fine && length > Wide{1e-3} * reach) prove_lower(sum);
   return gap;

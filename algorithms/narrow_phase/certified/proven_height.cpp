@@ -80,8 +80,8 @@ ProvenGap HeightProver::closely(const ProvenShape& a, const Pose& pose_a, const 
 ProvenGap HeightProver::roughly(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
                                 const Pose& pose_b) {
   const auto height = height_over<double>(a, pose_a, b, pose_b, BestByScan());
-  // With matrices and the plane's normal below 2^100 and lengths below 2^200 nothing overflows, and
-  // all underflow amounts to less than 2^-500.
+  // Nothing overflows if matrices and the plane's normal are below 2^100 and lengths below 2^200,
+  // and all underflow amounts to less than 2^-500.
   const double factors =
       std::max({pose_a.rotation.cwiseAbs().maxCoeff(), pose_b.rotation.cwiseAbs().maxCoeff(),
                 b.shape->normal.cwiseAbs().maxCoeff()});

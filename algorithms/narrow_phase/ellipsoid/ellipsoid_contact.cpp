@@ -10,7 +10,7 @@ namespace touchstone {
 template <class Scalar>
 EllipsoidContact<Scalar> contact(const EllipsoidPair<Scalar>& pair, int most_iterations) {
   constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
-  // With a weight below this, rounding loses the lighter matrix.
+  // Rounding loses the lighter matrix if its weight is below this.
   constexpr Scalar lightest = std::numeric_limits<Scalar>::epsilon();
   const Vec3<Scalar>& c = pair.centre;
   EllipsoidContact<Scalar> found;
@@ -45,8 +45,8 @@ EllipsoidContact<Scalar> contact(const EllipsoidPair<Scalar>& pair, int most_ite
       const Vec3<Scalar> in_a = a_times(pn), in_b = pair.q * qn;
       const Scalar room = 1 - std::max(scale_a, scale_b);
       if (room > 0) {
-        // Both bodies, scaled about the point to the remaining room, have a difference that
-        // contains a ball of this radius.
+        // The bodies, scaled about the point to the remaining room, have a difference that contains
+        // a ball of this radius.
         if (shortest < 0) {
           const Mat3<Scalar> both = aa + pair.qq;
           shortest = std::sqrt(Cofactors<Scalar>(both).least(both.trace()));

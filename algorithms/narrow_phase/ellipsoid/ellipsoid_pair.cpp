@@ -86,7 +86,7 @@ Vec3<Scalar> reweighted(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<
   Mat3<Scalar> sum = at.gap * Mat3<Scalar>::Identity();
   sum += at.per_reach_a * pair.pp + at.per_reach_b * pair.qq;
   const Cofactors<Scalar> cofactors(sum);
-  // Without a centre or an inverse the normal stays as it is.
+  // The normal stays as it is if there is no centre or no inverse.
   const Vec3<Scalar> next = cofactors.solve(pair.centre);
   return next.squaredNorm() > 0 ? next : at.normal;
 }

@@ -162,7 +162,7 @@ std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const Bo
     places_.push_back(static_cast<std::uint32_t>(places_.size()));
   }
   const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
-  // Without wider vectors lanes of doubles are slower than one pair at a time.
+  // Lanes of doubles are slower than one pair at a time without wider vectors.
   constexpr bool wants_avx2 = std::is_same_v<Scalar, double>;
   if (wants_avx2 && isa() == Isa::baseline) {
     std::ranges::copy(places, left);

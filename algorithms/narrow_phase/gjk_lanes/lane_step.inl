@@ -9,7 +9,7 @@ struct Corner {
   Vectors<Scalar> on_a;   // on the core of a; only if points are requested
 };
 
-// Up to three corners; corners that a lane does not have are arbitrary numbers.
+// A simplex of up to three corners; corners that a lane does not have are arbitrary numbers.
 template <class Scalar>
 struct LaneSimplex {
   Corner<Scalar> b, c, d;

@@ -248,7 +248,7 @@ class MprRefined final : public NarrowPhase {
   }
 
  private:
-  // On a curved surface a portal as narrow as the root of this still has a normal.
+  // A portal on a curved surface that is as narrow as the root of this still has a normal.
   static constexpr double curved_tolerance = 1e-10;
 
   Scalar tolerance_for(const SupportPair<Scalar>& pair) const {

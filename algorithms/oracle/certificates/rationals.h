@@ -40,7 +40,7 @@ bool is_zero(const RationalVector& v);
 // If the root is rational, it is returned itself.
 mpq_class root_above(const mpq_class& x, mp_bitcnt_t bits);
 
-// For a length x the rational x * |x|, which orders like the lengths; or an infinite length.
+// A length x as the rational x * |x|, which orders like the lengths, or an infinite length.
 struct SignedSquare {
   int infinite = 0;  // the sign of an infinite length, else 0
   mpq_class square = {};

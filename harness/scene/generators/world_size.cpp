@@ -120,7 +120,7 @@ double read_world_side(TomlTable& table, const Scene& scene, const RegionOf& reg
     const double density = table.number("density", positive, defaults.density);
     return round_to_16_bits(cube_root(own_volume(scene) / density));
   }
-  // By default few bodies have few overlaps.
+  // Few bodies have few overlaps by default.
   const double overlaps =
       asked ? table.number("overlaps", positive) : std::min(defaults.overlaps, others / 2);
   if (!(overlaps > 0)) return round_to_16_bits(cube_root(own_volume(scene)) + 1);
