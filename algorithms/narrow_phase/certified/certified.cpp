@@ -2,8 +2,8 @@
 // Paper:   Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 //          predicates", Discrete & Computational Geometry 18, 1997 (a filter before exact
 //          arithmetic); Gilbert, Johnson, Keerthi, 1988, as in gjk.cpp.
-// Steps:   1. Half-space: bound the height of the lowest point over the plane, in doubles and then
-//             in long double (proven_height).
+// Steps:   1. Half-space: bound the height of the lowest point over the plane, for a verdict in
+//             doubles first, then in long double (proven_height).
 //          2. Pairs whose bounding balls are apart are separated (not for distance).
 //          3. intersect: run GJK's fast iteration; accept a support plane, a tetrahedron around the
 //             origin or a point within the radii that holds by more than
