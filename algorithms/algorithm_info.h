@@ -1,4 +1,5 @@
-// What the registry knows of every algorithm, whatever its contract.
+// The data that the registry holds on every algorithm, whatever its contract. It may include the
+// standard library only.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +13,17 @@ enum class Origin : std::uint8_t { ours, peer, oracle };
 std::string_view to_string(Origin origin);
 
 struct AlgorithmInfo {
-  std::string name;  // as on the command line: lower case, words joined by '-'
-  std::string
-      citation;  // authors, title, where and when; for a peer the library and what was called
+  std::string name;  // name on the command line: lower case, words joined by '-'
+  // Authors, title, where and when; for a peer the library and the function called.
+  std::string citation;
   Origin origin = Origin::ours;
-  // A departure from the contract that is known and accepted, in one line; the comparison reports
-  // it as such. Empty: any departure is a fault.
+  // A known and accepted departure from the contract, in one line, which the comparison reports as
+  // such. If it is empty, any departure is a fault.
   std::string known_defect = {};
-  std::string reason = {};  // why it is not built; empty where it is. Filled in by the registry.
-  // What of a built algorithm is not built, and why, in one line; empty where all of it is.
+  // The reason why it is not built; empty if it is. The registry fills it in.
+  std::string reason = {};
+  // The part of a built algorithm that is not built, and the reason, in one line; empty if all of
+  // it is.
   std::string lacking = {};
 };
 

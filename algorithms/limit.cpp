@@ -1,3 +1,4 @@
+// The lower bound: radix sort, gather, write.
 #include "algorithms/limit.h"
 
 #include <algorithm>

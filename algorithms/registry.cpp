@@ -1,10 +1,11 @@
+// The registry: look-ups by name, and what an entry offers.
 #include "algorithms/registry.h"
 
 #include <algorithm>
 
 namespace touchstone {
 
-// Written by CMake.
+// Defined in the file that CMake writes from registry_list.cpp.in.
 std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
@@ -13,7 +14,8 @@ namespace {
 
 template <class Entry>
 const Entry* find(std::span<const Entry> entries, std::string_view name) {
-  const auto at = std::ranges::find_if(entries, [&](const Entry& e) { return e.info.name == name; });
+  const auto at =
+      std::ranges::find_if(entries, [&](const Entry& e) { return e.info.name == name; });
   return at == entries.end() ? nullptr : &*at;
 }
 
@@ -34,9 +36,15 @@ std::span<const ManifoldEntry> contact_manifolds() {
   return list;
 }
 
-const BroadPhaseEntry* find_broad_phase(std::string_view name) { return find(broad_phases(), name); }
-const NarrowPhaseEntry* find_narrow_phase(std::string_view name) { return find(narrow_phases(), name); }
-const ManifoldEntry* find_contact_manifold(std::string_view name) { return find(contact_manifolds(), name); }
+const BroadPhaseEntry* find_broad_phase(std::string_view name) {
+  return find(broad_phases(), name);
+}
+const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
+  return find(narrow_phases(), name);
+}
+const ManifoldEntry* find_contact_manifold(std::string_view name) {
+  return find(contact_manifolds(), name);
+}
 
 bool offers(const NarrowPhaseEntry& entry, Task task) {
   return std::ranges::find(entry.tasks, task) != entry.tasks.end();

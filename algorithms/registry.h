@@ -1,7 +1,9 @@
-// Every algorithm there is, ours and the peers', built or not. The list itself is in CMakeLists.txt
-// beside this file, one line each. Each line names a file, which defines the function that says what
-// it offers, in the namespace touchstone::entries and named after its folder and itself:
+// The registry of all algorithms, ours and the peers', built or not. The list itself is in
+// CMakeLists.txt beside this file, one line each. A line names a file, which defines a function
+// that returns its entries, in the namespace touchstone::entries and named after its folder and
+// itself:
 //     std::vector<BroadPhaseEntry> broad_phase_naive() { return {{.info = {...}, .make = ...}}; }
+// The harness includes this; algorithms do not.
 #pragma once
 
 #include <span>
@@ -13,12 +15,12 @@
 
 namespace touchstone {
 
-// In the order of the list. Names are unique within each.
+// The entries, in the order of the list. Names are unique within a contract.
 std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
 
-// Null where there is none of that name.
+// Each returns null if no entry has that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
@@ -26,11 +28,11 @@ const ManifoldEntry* find_contact_manifold(std::string_view name);
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);
 bool offers(const NarrowPhaseEntry& entry, Precision scalar);
-// Also asks for the kinds, in either order.
+// True if the entry offers the task for these kinds, in either order.
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
 bool offers(const ManifoldEntry& entry, Precision scalar);
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // in either order
-// Of a pair of these kinds, in either order.
+// The encoding of a pair of these kinds, in either order.
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,
                      Precision scalar);
 

@@ -1,3 +1,4 @@
+// The extents of each kind of shape, with bounds on their rounding.
 #include "algorithms/core/bounds.h"
 
 #include <algorithm>

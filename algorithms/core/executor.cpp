@@ -1,3 +1,4 @@
+// The executor on oneTBB, and the pinning of its threads.
 #include "algorithms/core/executor.h"
 
 #include <oneapi/tbb/blocked_range.h>

@@ -1,3 +1,4 @@
+// The detection of vector instructions, and their limit.
 #include "algorithms/core/isa.h"
 
 #include <algorithm>

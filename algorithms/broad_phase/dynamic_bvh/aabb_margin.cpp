@@ -1,3 +1,4 @@
+// Part of dynamic-bvh: the margin's estimates, from samples of the moved bodies.
 #include "algorithms/broad_phase/dynamic_bvh/aabb_margin.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Part of dynamic-bvh: the bulk load of a Bvh16 and its searches.
 #include "algorithms/broad_phase/dynamic_bvh/bvh16.h"
 
 #include <algorithm>

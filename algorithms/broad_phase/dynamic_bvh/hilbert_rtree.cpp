@@ -1,3 +1,4 @@
+// Part of dynamic-bvh: the reuse of the order, and the join of the loaded tree with itself.
 #include "algorithms/broad_phase/dynamic_bvh/hilbert_rtree.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Part of dynamic-bvh: tests, lists, removal and output of the cached pairs.
 #include "algorithms/broad_phase/dynamic_bvh/pair_cache.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Part of hierarchical-grid: size classes, the sort by cell, the split of dense cells, the index.
 #include "algorithms/broad_phase/hierarchical_grid/grid_levels.h"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// Part of hierarchical-grid: the choice of a grid's cells.
 #include "algorithms/broad_phase/hierarchical_grid/serpentine_grid.h"
 
 #include <algorithm>

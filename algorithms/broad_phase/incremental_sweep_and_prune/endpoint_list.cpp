@@ -1,3 +1,4 @@
+// Part of incremental-sweep-and-prune: sorting end points, and merging bodies in and out.
 #include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_list.h"
 
 #include <algorithm>

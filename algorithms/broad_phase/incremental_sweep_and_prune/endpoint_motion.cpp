@@ -1,3 +1,4 @@
+// Part of incremental-sweep-and-prune: sorting the moved bodies by the axes of their motion.
 #include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_motion.h"
 
 #include "algorithms/core/memory_usage.h"

@@ -1,3 +1,4 @@
+// Part of kd-tree: the split of a node's bodies at a plane.
 #include "algorithms/broad_phase/kd_tree/kd_bodies.h"
 
 #include <cmath>

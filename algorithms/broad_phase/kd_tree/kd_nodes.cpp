@@ -1,3 +1,4 @@
+// Part of kd-tree: building the nodes on all threads, and their bounds.
 #include "algorithms/broad_phase/kd_tree/kd_nodes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Part of loose-octree: the keys of boxes, and their sort.
 #include "algorithms/broad_phase/loose_octree/octree_order.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Part of loose-octree: the choice of the instruction level for the loops of tree_self_join.inl.
 #include "algorithms/broad_phase/loose_octree/tree_self_join.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Part of verlet-list: the cost model that chooses the rebuild interval.
 #include "algorithms/broad_phase/verlet_list/rebuild_interval.h"
 
 #include <algorithm>

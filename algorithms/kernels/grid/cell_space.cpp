@@ -1,3 +1,4 @@
+// The sample from which grids are chosen: quantiles of places and sizes, and the density.
 #include "algorithms/kernels/grid/cell_space.h"
 
 #include <algorithm>

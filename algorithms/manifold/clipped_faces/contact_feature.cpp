@@ -1,3 +1,4 @@
+// Part of clipped-faces: the supporting feature of each kind of shape.
 #include "algorithms/manifold/clipped_faces/contact_feature.h"
 
 #include <algorithm>

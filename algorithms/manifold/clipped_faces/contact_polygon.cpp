@@ -1,3 +1,4 @@
+// Part of clipped-faces: projection along the normal, and Sutherland-Hodgman clipping.
 #include "algorithms/manifold/clipped_faces/contact_polygon.h"
 
 #include <algorithm>

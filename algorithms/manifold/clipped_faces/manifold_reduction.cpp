@@ -1,3 +1,4 @@
+// Part of clipped-faces: the search for the four corners of greatest area.
 #include "algorithms/manifold/clipped_faces/manifold_reduction.h"
 
 #include <algorithm>

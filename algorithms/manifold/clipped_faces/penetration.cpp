@@ -1,3 +1,4 @@
+// Part of clipped-faces: GJK, followed by EPA if the cores overlap.
 #include "algorithms/manifold/clipped_faces/penetration.h"
 
 #include <algorithm>
