@@ -29,7 +29,8 @@ struct Walk {
   WalkEnd end = WalkEnd::doubtful;
   Simplex<Scalar> simplex;  // weights are not set
   Scalar lower = 0;         // lower bound on the cores' distance, in the pair's unit
-  Vec3<Scalar> way = Vec3<Scalar>::Zero();  // that plane's normal, away from the origin; any length
+  // The last support plane's normal, away from the origin; any length.
+  Vec3<Scalar> way = Vec3<Scalar>::Zero();
   int iterations = 0;
   bool moved = false;  // the simplex differs from the initial one
 };
