@@ -7,16 +7,16 @@
 //          box test, and the trees keep the larger box of a body that shrank. SaP repeats pairs, so
 //          they are sorted and made unique. Four managers are made anew where FCL 0.7 cannot update
 //          them:
-//                   - SaP, in a frame in which bodies come or go, or a box does more than slide.
-//          unregisterObject reads a list node that it has freed; registerObject misses the boxes
-//          that contain the new one; update links an end point to itself, and then runs for ever or
-//          crashes, when a box's two ends on an axis do not both rise, both fall or both stay.
-//                   - the tree in an array, when bodies come: its insertion reads nodes that it has
-//          freed as the array grows. Its re-balancing from the top renumbers the nodes behind the
-//          manager's back, which exchanges boxes; so that is switched off
-//          (max_tree_nonbalanced_level), and the incremental one remains.
-//                   - the interval tree, in every frame: update(objects) never moves upper end
-//          points, and update() does the work of a fresh set-up and loses its old intervals.
+//          - SaP, in a frame in which bodies come or go, or a box does more than slide.
+//            unregisterObject reads a list node that it has freed; registerObject misses the boxes
+//            that contain the new one; update links an end point to itself, and then runs for ever
+//            or crashes, when a box's two ends on an axis do not both rise, both fall or both stay.
+//          - the tree in an array, when bodies come: its insertion reads nodes that it has freed as
+//            the array grows. Its re-balancing from the top renumbers the nodes behind the
+//            manager's back, which exchanges boxes; so that is switched off
+//            (max_tree_nonbalanced_level), and the incremental one remains.
+//          - the interval tree, in every frame: update(objects) never moves upper end points, and
+//            update() does the work of a fresh set-up and loses its old intervals.
 //          - the hash, when a box leaves the limits: two boxes that overlap only outside are lost.
 // Fails:   SaP and the interval tree order equal end points at random, so they miss pairs that
 //          merely touch, and pairs of flat boxes. SaP and the hash are quadratic in dense scenes.

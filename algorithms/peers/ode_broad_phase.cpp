@@ -5,16 +5,16 @@
 //          which is built for doubles, and in a build for floats. dSpaceClean updates the boxes in
 //          build and update; dSpaceCollide would else do it first. The adapter tests every pair of
 //          the callback against the given boxes. ODE's manual leaves the settings to the scene:
-//                   - the hash's cells range from the size of the smallest box to that of the
-//          greatest, but no cell is so small that a coordinate's cell is beyond an int, on which
-//          ODE aborts. ODE gets coordinates that are shifted to be positive: it loses pairs where
-//          the address of a cell changes sign, as it does about the origin;
-//                   - the quadtree has the world (core/world.h) as its bounds and is made anew when
-//          a box leaves it; it has about as many leaves as there are bodies. Bodies are inserted
-//          with their boxes known, or all would first go through one list;
+//          - the hash's cells range from the size of the smallest box to that of the greatest, but
+//            no cell is so small that a coordinate's cell is beyond an int, on which ODE aborts.
+//            ODE gets coordinates that are shifted to be positive: it loses pairs where the address
+//            of a cell changes sign, as it does about the origin;
+//          - the quadtree has the world (core/world.h) as its bounds and is made anew when a box
+//            leaves it; it has about as many leaves as there are bodies. Bodies are inserted with
+//            their boxes known, or all would first go through one list;
 //          - the sweep sorts on the axis on which the world is widest, and tests the thinnest last.
-//                   A box that ends at the greatest float is given as infinite, or the sweep would
-//          pass its own sentinel. ODE's library has globals, so all calls of a process take turns.
+//          A box that ends at the greatest float is given as infinite, or the sweep would pass its
+//          own sentinel. ODE's library has globals, so all calls of a process take turns.
 // Fails:   the hash keeps a table of n^2 bits, and gives up (`capacity`) where that is 2 GB, from
 //          131,072 bodies on. The quadtree is flat, its axes are x and y, and all boxes that lie
 //          across its middle lines are tested against everything: far from linear. The sweep is
