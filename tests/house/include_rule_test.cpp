@@ -112,7 +112,7 @@ bool harness_may_include(const std::string& from, const std::string& to) {
   return floor(to) <= floor(from);
 }
 
-// Whether a file may include one of the project's own.
+// Returns true if a file may include one of the project's own.
 bool may_include(const std::string& from, const std::string& to) {
   if (in(from, "tests")) return true;
   if (in(from, "harness")) return in(to, "algorithms/core") || harness_may_include(from, to);
@@ -246,7 +246,7 @@ TEST(House, NoFolderIsTooFull) {
   for (const auto& [folder, count] : files_in) EXPECT_LE(count, 25) << folder;
 }
 
-// Whether the file is the one by which an algorithm or a peer is entered in the registry.
+// Returns true for the file by which an algorithm or a peer is entered in the registry.
 bool is_algorithm(const std::string& path) {
   if (in(path, "algorithms/peers")) return path.ends_with(".cpp");
   if (!is_in_algorithms(path) || !path.ends_with(".cpp")) return false;

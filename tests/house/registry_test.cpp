@@ -1,4 +1,4 @@
-// What the registry says of each algorithm.
+// Tests of what each algorithm declares in the registry.
 #include "algorithms/registry.h"
 
 #include <gtest/gtest.h>

@@ -43,7 +43,7 @@ TEST(Executor, NoTwoTasksShareAWorkerAtOnce) {
 
 #if defined(__linux__)
 TEST(Executor, PinnedThreadsHaveAProcessorEach) {
-  // In a thread of its own, for pins stay.
+  // The test runs in a thread of its own, because pins stay.
   std::thread([] {
     cpu_set_t allowed;
     ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);

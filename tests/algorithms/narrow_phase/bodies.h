@@ -15,7 +15,7 @@
 
 namespace touchstone {
 
-// For the messages of failed tests.
+// Printers for the messages of failed tests.
 inline void PrintTo(Answer answer, std::ostream* out) { *out << to_string(answer); }
 inline void PrintTo(Status status, std::ostream* out) { *out << to_string(status); }
 
@@ -189,8 +189,8 @@ inline NarrowPhaseSettings settings_of(Precision scalar) {
   return settings;
 }
 
-// What the algorithm says of one pair, in the order given: where the kinds are in the other order
-// than a batch has them, the pair is swapped, and the outcome back.
+// The algorithm's answer for one pair in the given order. If the kinds are in the other order than
+// in a batch, the pair is swapped, and the outcome swapped back.
 inline Outcome ask(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings, Task task,
                    const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const bool swap = a.kind > b.kind;

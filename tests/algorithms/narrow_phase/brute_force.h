@@ -1,8 +1,7 @@
-// What an algorithm that goes by faces and edges is compared with: signed distances of boxes and
-// hulls over the features that the shapes come with, every axis and every pair, in long double.
-// Fast enough for thousands of pairs in each of many algorithms; the verdict needs bodies whose
-// difference is solid.
-// polytope_reference.h goes by vertices alone, and also knows spheres, capsules and normals.
+// The reference for algorithms that use faces and edges: signed distances of boxes and hulls over
+// the shapes' own features, with every axis and every pair, in long double. Fast enough for
+// thousands of pairs in each of many algorithms; the verdict needs bodies whose difference is
+// solid. polytope_reference.h goes by vertices alone, and also knows spheres, capsules and normals.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +35,7 @@ inline void add_triangle(Body& body, const Vec& a, const Vec& b, const Vec& c) {
   body.triangles.push_back({a, b, c});
   const Vec normal = (b - a).cross(c - a);
   if (!(normal.norm() > 0)) return;
-  // Which side is out is not asked: the axis is tried both ways.
+  // The axis is tried both ways, so that its outward side need not be known.
   body.axes.push_back(normal.normalized());
   body.axes.push_back(-normal.normalized());
 }
@@ -170,7 +169,7 @@ inline Real distance(const Edge& p, const Edge& q) {
   return best;
 }
 
-// Of bodies that are apart.
+// The distance of bodies that are apart.
 inline Real distance(const Body& a, const Body& b) {
   Real best = std::numeric_limits<Real>::infinity();
   for (const Vec& p : a.vertices) {
@@ -197,7 +196,7 @@ inline double signed_distance(const Shape& a, const Pose& pose_a, const Shape& b
   return static_cast<double>(gap > 0 ? distance(body_a, body_b) : gap);
 }
 
-// How far a point in the world lies outside of a box or solid hull; <= 0 inside.
+// The distance of a point in the world from a box or solid hull; <= 0 inside.
 inline double outside(const Shape& shape, const Pose& pose, const Vec3d& point) {
   const Body body = place(shape, pose, point);
   Body at;

@@ -83,7 +83,7 @@ void compare(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pos
     ASSERT_FALSE(outcome.status == Status::ok && outcome.answer == Answer::unknown);
     ASSERT_TRUE(!wide || (curved && task == Task::penetration));
     if (!std::isnan(outcome.distance)) {
-      // Which holds of infinities too.
+      // The comparison holds for infinities too.
       ASSERT_LE(outcome.lower, outcome.distance);
       ASSERT_LE(outcome.distance, outcome.upper);
       ASSERT_LE(outcome.lower, exact.upper);
@@ -145,7 +145,7 @@ TEST(Certified, KnowsTouchingFromBoth) {
       Pose pose_b;
       pose_b.translation = {1 + 1 + 2 * shift, 0, 0};
       compare(cube, {}, b, pose_b, count);
-      // On a corner, and with coordinates that are far from both origins.
+      // The point is on a corner, with coordinates far from both origins.
       pose_b.translation = {1e8, 2 + 2 * shift, 0};
       Pose pose_a;
       pose_a.translation = {1e8, 0, 0};
@@ -191,7 +191,7 @@ TEST(Certified, HullsFarFromTheirOwnOrigin) {
   EXPECT_GT(count.overlapping, 20);
 }
 
-// Of all its neighbours, none of a wrongly linked hull need lead to the furthest vertex.
+// The neighbours in a wrongly linked hull need not lead to the furthest vertex.
 TEST(Certified, DoesNotTrustTheEdgesOfAHull) {
   Random random(7);
   Count count;

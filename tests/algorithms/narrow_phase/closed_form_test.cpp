@@ -88,7 +88,7 @@ TEST(ClosedForm, SphereAndBox) {
       return Pose{Mat3d::Identity(), pose(Vec3d(x, y, z))};
     };
     const double gap = std::pow(10.0, uniform(random, -9, 0));
-    // Where the ball was put is rounded at 1e3 from the origin.
+    // The ball's position is rounded at 1e3 from the origin.
     EXPECT_NEAR(signed_distance(ball, at(1.25 + gap, 0.3, -2), block, pose), gap, 1e-12);
     EXPECT_NEAR(signed_distance(ball, at(1.25 - 0.2 * gap, 0.3, -2), block, pose), -0.2 * gap,
                 1e-12);

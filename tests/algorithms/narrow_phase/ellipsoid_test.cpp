@@ -31,7 +31,7 @@ Shape random_ellipsoid(Random& random, double aspect) {
   return ellipsoid({radius(), radius(), radius()});
 }
 
-// What came of many pairs of one sort.
+// The results of many pairs of one sort.
 struct Tally {
   int pairs = 0, overlapping = 0, gave_up = 0;
   double worst = 0;  // error of a distance or depth that was `ok`, as a part of the size
@@ -97,7 +97,7 @@ Tally check(Precision scalar, int count, unsigned seed, const std::function<Pair
 
 class EllipsoidPairs : public testing::TestWithParam<Precision> {
  protected:
-  // Both answers occur, and all but some parts of a hundred are `ok`.
+  // Expects that both answers occur, and that all but `percent` per cent are `ok`.
   void expect_good(int count, unsigned seed, int percent,
                    const std::function<Pair(Random&)>& draw) const {
     const Tally tally = check(GetParam(), count, seed, draw);

@@ -1,5 +1,5 @@
-// What the contract asks of every narrow phase, ours and the peers', in each scalar, task and pair
-// of kinds that it offers.
+// Tests the contract on every narrow phase, ours and the peers', in each scalar, task and pair of
+// kinds that it offers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,7 +66,7 @@ Vec3d point_within(const Shape& shape, const Pose& pose, const Vec3d& direction)
   return (pose.translation + support(shape, pose, direction)) / 2;
 }
 
-// How far the point is outside of the body; only along a few directions, so never too much.
+// The distance of the point from the body along a few directions only, so it is never too great.
 double outside(const Shape& shape, const Pose& pose, const Vec3d& point) {
   if (shape.kind == ShapeKind::halfspace) {
     const Vec3d outward = (pose.rotation * shape.normal).normalized();
@@ -292,7 +292,7 @@ TEST_P(EveryNarrowPhase, AgreesWithTheBruteForce) {
           EXPECT_GE(outcome.upper, truth - margin);
         }
         EXPECT_LE(outcome.distance, truth + margin);
-        // Where the bounds are tight, or there is one answer only, it is the truth.
+        // The distance is the truth if the bounds are tight, or if there is only one answer.
         if (truth > 0 || outcome.upper - outcome.lower <= margin) {
           EXPECT_NEAR(outcome.distance, truth, margin);
           if (swapped.status == Status::ok) {
@@ -321,8 +321,8 @@ TEST_P(EveryNarrowPhase, AgreesWithTheBruteForce) {
   }
 }
 
-// The same gap, from a tenth down to 1e-12, between a face and a face, two crossed edges, and a
-// vertex and a face.
+// One gap, from a tenth down to 1e-12, between two faces, two crossed edges, and a vertex and a
+// face.
 TEST_P(EveryNarrowPhase, ClimbsTheLadderOfGaps) {
   const Subject& subject = GetParam();
   Random random(5);

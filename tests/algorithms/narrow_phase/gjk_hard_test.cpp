@@ -119,7 +119,7 @@ TEST(GjkDegenerate, PointsSegmentsAndPolygons) {
         EXPECT_EQ(apart.answer, Answer::separated);
         EXPECT_GE(apart.distance, 3 - 1e-9);
         EXPECT_LE(apart.distance, 5 + 1e-9);
-        // The same place: at most touching, or crossing without a common volume.
+        // Bodies at one place touch at most, or cross without a common volume.
         for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
           const Outcome same = query(*gjk, task, at(a, {1, 2, 3}), at(b, {1, 2, 3}, rotation));
           EXPECT_NE(same.answer, Answer::separated);
@@ -447,7 +447,7 @@ TEST(GjkCollected, EveryCaseIsRight) {
     }
     const double extent = (b.pose.translation - a.pose.translation).norm();
     const double tolerance = std::max(expected["tolerance"].get<double>(), 1e-9 * extent);
-    // Where the answer went the other way within the tolerance, the number was not asked for.
+    // The number is missing if the answer went the other way within the tolerance.
     const bool other_way = std::isnan(outcome.distance) && expected["answer"].is_null() &&
                            std::abs(truth) <= tolerance;
     if (!other_way) {

@@ -28,7 +28,7 @@ enum class Sort { plain, near, flat, aligned, stretched, huge };
 constexpr std::array sorts{Sort::plain,   Sort::near,      Sort::flat,
                            Sort::aligned, Sort::stretched, Sort::huge};
 
-// Of more vertices than hulls have that are looked at one by one.
+// A prism with more vertices than hulls that are scanned.
 Shape great_prism() {
   constexpr std::uint32_t sides = 120;
   std::vector<Vec3d> vertices;
@@ -101,7 +101,7 @@ std::vector<Outcome> solve_with(const NarrowPhaseEntry& entry, const NarrowPhase
   return outcomes;
 }
 
-// What gjk says of them.
+// Expects gjk's outcomes, bit for bit, and returns them.
 std::vector<Outcome> expect_alike(const NarrowPhaseSettings& settings, Task task,
                                   const Pairs& pairs, const std::string& what) {
   const std::vector<Outcome> expected = solve_with(switching(), settings, task, pairs);

@@ -42,8 +42,8 @@ Shape octahedron(double reach) {
                     {0, 0, -reach}});
 }
 
-// What must hold of an outcome whatever the bodies: no wrong answer with `ok`, numbers within
-// `tolerance`, bounds around them, witness points that fit. `signed_distance` is the truth.
+// Checks an outcome of any bodies: no wrong answer with `ok`, numbers within `tolerance`, bounds
+// around them, witness points that fit. `signed_distance` is the truth.
 void expect_right(const Outcome& outcome, Task task, double truth, double tolerance) {
   ASSERT_EQ(outcome.status, Status::ok);
   ASSERT_EQ(outcome.answer, truth > 0 ? Answer::separated : Answer::overlapping);

@@ -89,13 +89,13 @@ inline Mat3d turn(double angle, const Vec3d& axis) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-// What makes a pair hard.
+// The property that makes a pair hard.
 enum class Sort { plain, parallel, stacked, slivers, scaled, remote, skewed };
 inline constexpr std::array all_sorts{Sort::plain,  Sort::parallel, Sort::stacked, Sort::slivers,
                                       Sort::scaled, Sort::remote,   Sort::skewed};
 
-// Of random sizes and places; then b is moved until the signed distance is about one of a ladder
-// of lengths.
+// Adds a pair of random sizes and places; b is moved until the signed distance is about one of a
+// ladder of lengths.
 inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort sort, Pairs& pairs) {
   const bool slivers = sort == Sort::slivers;
   Shape a = random_shape(random, kinds.a, slivers, kinds.hull_points);
@@ -158,7 +158,7 @@ inline Pairs hard_pairs(std::uint64_t seed, Kinds kinds, Sort sort, std::size_t 
   return pairs;
 }
 
-// In batches of a size.
+// Solves the pairs in batches of the given size.
 inline std::vector<Outcome> solve(const NarrowPhaseEntry& entry, Precision scalar, Task task,
                                   const Pairs& pairs, std::size_t batch_size) {
   const auto algorithm = entry.make(settings_of(scalar));

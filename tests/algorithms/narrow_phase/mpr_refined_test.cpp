@@ -1,5 +1,5 @@
-// What mpr-refined promises beyond the contract: never more than mpr's depth, bounds that hold, the
-// least depth for most pairs, and warm starts that are never worse than cold ones.
+// Tests the promises of mpr-refined beyond the contract: never more than mpr's depth, bounds that
+// hold, the least depth for most pairs, and warm starts that are never worse than cold ones.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ Outcome ask_named(const char* name, Precision scalar, const Body& a, const Body&
   return ask(*find_narrow_phase(name), settings_of(scalar), task, a.shape, a.pose, b.shape, b.pose);
 }
 
-// How far b has to move along a direction until a plane across it is between the bodies.
+// The distance by which b must move along a direction until a plane across it separates the bodies.
 double depth_along(const Vec3d& direction, const Body& a, const Body& b) {
   return direction.dot(support(a.shape, a.pose, direction)) -
          direction.dot(support(b.shape, b.pose, -direction));

@@ -159,7 +159,7 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
               ASSERT_EQ(o.answer, truth.answer);
             }
             if (std::isnan(o.distance)) continue;
-            // What the world's coordinates round away.
+            // The rounding of the world's coordinates.
             const double place = 0x1p-50 * (pose_a.translation.norm() + size);
             // A sphere's distance to a skewed box is known between bounds.
             const double error = (200 * epsilon + (sort == Sort::skewed ? 1e-9 : 0)) * size;
@@ -183,7 +183,7 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
               ASSERT_LE(off.middle(), error + place);
             }
           }
-          // What is no rotation may be said to be beyond it.
+          // A matrix that is not a rotation may be reported as out of range.
           EXPECT_LE(given_up, sort == Sort::skewed ? pairs.size() / 2 : 0)
               << to_string(scalar) << " sort " << static_cast<int>(sort);
         }

@@ -68,7 +68,8 @@ void offer_point_segment(const Real3& p, const Real3& q0, const Real3& q1, Real 
   nearest.offer(sign * (q0 + t * e - p));
 }
 
-// Where the nearest points of the two lines lie within the segments; ends are points'.
+// Offers the nearest points of the two lines if they lie within the segments; ends are offered as
+// points.
 void offer_segments(const Real3& p0, const Real3& p1, const Real3& q0, const Real3& q1,
                     Nearest& nearest) {
   const Real3 e = p1 - p0;
@@ -189,7 +190,7 @@ Real signed_distance(const Body& a, const Body& b, Vec3d& normal) {
   const std::vector<Real3> points_a = core_vertices(a, origin);
   const std::vector<Real3> points_b = core_vertices(b, origin);
   const Real radius = Real{ball(a)} + Real{ball(b)};
-  // For points and segments the heights of normals are not enough to tell overlap; their gap is.
+  // The heights of normals do not decide overlap of points and segments; their gap does.
   const Nearest gap = nearest_features(points_a, points_b);
   const Depth depth = least_height(points_a, points_b);
   const bool solid = depth.height < std::numeric_limits<Real>::infinity();

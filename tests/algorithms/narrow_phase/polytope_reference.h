@@ -1,8 +1,8 @@
-// What an algorithm that goes by support functions is compared with: signed distances and normals
-// of bodies whose cores are polytopes, from their vertices alone, in long double. Takes points,
-// segments and flat bodies as well, and hulls that came without faces; the time grows with the
-// fifth power of the vertices, so these are few. brute_force.h is for boxes and hulls with their
-// faces and edges, and much faster.
+// The reference for algorithms that use support functions: signed distances and normals of bodies
+// whose cores are polytopes, from their vertices alone, in long double. Takes points, segments and
+// flat bodies as well, and hulls that came without faces; the time grows with the fifth power of
+// the vertices, so these are few. brute_force.h is for boxes and hulls with their faces and edges,
+// and much faster.
 #pragma once
 
 #include "algorithms/narrow_phase.h"
@@ -27,7 +27,7 @@ struct Body {
 Real signed_distance(const Body& a, const Body& b, Vec3d& normal);
 // The greatest of the bodies' extents from their centres, and of the distance between those.
 double pair_size(const Body& a, const Body& b);
-// How far a point is from being in the body; 0 inside. Any kind but hull.
+// The distance of a point from the body; 0 inside. Any kind but hull.
 double outside_by(const Body& body, const Vec3d& point);
 
 // One query. Swaps the bodies for the call where their kinds are in the wrong order, and turns the

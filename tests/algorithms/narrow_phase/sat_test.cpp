@@ -1,5 +1,4 @@
-// What is particular to the separating axis tests: axes across edges, flat and thin bodies,
-// extremes.
+// Tests particular to separating axes: axes across edges, flat and thin bodies, extremes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -223,7 +223,7 @@ TEST(WarmStart, WhateverIsInMemory) {
   });
 }
 
-// The same memory serves every task.
+// One memory serves every task.
 TEST(WarmStart, TasksMayTakeTurns) {
   const NarrowPhaseEntry& gjk = *find_narrow_phase("gjk");
   Random random(11);
@@ -242,7 +242,7 @@ TEST(WarmStart, TasksMayTakeTurns) {
   }
 }
 
-// Of pairs that move a little each frame.
+// The work for pairs that move a little each frame.
 struct Work {
   std::int64_t iterations = 0, support_calls = 0, answers[2] = {};
 };

@@ -79,7 +79,7 @@ struct Claim {
   }
 
   std::string verdict() const { return fault(certificate, a, b); }
-  // What is said of the claim with this change.
+  // The verdict on the claim with this change.
   std::string with(const std::function<void(Claim&)>& change) const {
     Claim changed = *this;
     changed.solid_a = std::make_shared<Solid>(*solid_a);
@@ -89,7 +89,7 @@ struct Claim {
     change(changed);
     return changed.verdict();
   }
-  // The same claim of the bodies in the other order.
+  // The claim with the bodies in the other order.
   Claim swapped() const {
     Claim other = *this;
     std::swap(other.solid_a, other.solid_b);
@@ -112,8 +112,8 @@ constexpr const char* bad_lower = "the direction does not prove the lower bound"
 constexpr const char* bad_upper = "the points do not prove the upper bound";
 constexpr const char* bad_answer = "the answer does not follow from the bounds";
 
-// What must hold of every claim whose bounds are as good as its evidence. Symmetric: the reverse
-// direction proves it as well.
+// Checks a claim whose bounds are as good as its evidence. Symmetric: the reverse direction proves
+// it as well.
 void expect_tight(const Claim& claim, bool symmetric = false) {
   ASSERT_EQ(claim.verdict(), "");
   EXPECT_EQ(claim.swapped().verdict(), "");
@@ -338,7 +338,7 @@ TEST(CertificateCheck, BoxesThatOverlapByATetrahedron) {
                   {vertex(7), vertex(4), vertex(2), vertex(1)})
       .surface({{0, 0}, {1, 1}, {2, 2}, {3, 3}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
   expect_surface(claim, true);
-  // For the answer the surface is enough.
+  // The surface suffices for the answer.
   EXPECT_EQ(claim.with([](Claim& c) {
     c.certificate.lower = SignedRoot::infinity(-1);
     c.certificate.direction = {};
@@ -467,8 +467,8 @@ TEST(CertificateCheck, CylinderBesideASphere) {
 }
 
 TEST(CertificateCheck, ARootThatIsIrrational) {
-  // Along (1, 1, 0) the cylinder reaches sqrt(2) and the sphere's centre is at 4: the gap is
-  // (4 - sqrt(2)) / sqrt(2), which is between k and k + 1 over 2^180.
+  // The cylinder reaches sqrt(2) along (1, 1, 0) and the sphere's centre is at 4: the gap is (4 -
+  // sqrt(2)) / sqrt(2), which is between k and k + 1 over 2^180.
   Claim claim(make_cylinder(1, 2), Pose{}, make_sphere(0), at(2, 2, 0));
   const Integer power = Integer(1) << 180;
   const Integer k = sqrt(Integer(8 * power * power)) - power;
@@ -478,7 +478,7 @@ TEST(CertificateCheck, ARootThatIsIrrational) {
   EXPECT_EQ(claim.with(
                 [&](Claim& c) { c.certificate.lower = root(1, (k + 1) * (k + 1), power * power); }),
             bad_lower);
-  // The same number from above, and inside.
+  // An upper bound on that number, and one for a point inside.
   claim = Claim(make_cylinder(1, 9), Pose{}, make_sphere(0), at(0.5, 0.5, 0));
   // (1 - sqrt(2)) / sqrt(2) = -(1 - sqrt(1/2))
   const Integer j = power - sqrt(Integer(power * power / 2));
@@ -538,7 +538,7 @@ TEST(CertificateCheck, AConeWithoutHeightIsADisc) {
 }
 
 TEST(CertificateCheck, Ellipsoid) {
-  // Along (3, 8, 0) it reaches sqrt(15^2 + 20^2), at (3, 2, 0).
+  // The ellipsoid reaches sqrt(15^2 + 20^2) along (3, 8, 0), at (3, 2, 0).
   Claim claim(make_ellipsoid(5, 2.5, 1), Pose{}, make_sphere(1), at(6, 10, 0));
   claim.exactly(root(1, 73), Answer::separated)
       .along(3, 8, 0)
@@ -552,7 +552,7 @@ TEST(CertificateCheck, Ellipsoid) {
     }),
               "a generator lies outside its body");
   }
-  // Without one semi-axis it is an elliptic disc.
+  // An ellipsoid with one zero semi-axis is an elliptic disc.
   Claim disc(make_ellipsoid(5, 0, 1), Pose{}, make_sphere(1), at(3, 1, 0.75));
   disc.exactly(length(1), Answer::touching)
       .along(0, 1, 0)
@@ -630,7 +630,7 @@ TEST(CertificateCheck, Halfspace) {
     c.certificate.lower = SignedRoot::infinity(-1);
   }),
             "the matrix of a half-space is singular");
-  // Of what is no half-space nothing is known, and nothing need be proven.
+  // A body that is not a half-space has no known bound, and nothing need be proven.
   EXPECT_EQ(inside.with([](Claim& c) {
     c.b.matrix.row(1) = 2 * c.b.matrix.row(0);
     c.bounds(SignedRoot::infinity(-1), SignedRoot::infinity(1), Answer::unknown);
@@ -643,7 +643,7 @@ TEST(CertificateCheck, Halfspace) {
 }
 
 TEST(CertificateCheck, AHalfspaceUnderAMatrix) {
-  // Of z <= 1: scaled by 2 and sheared along x by y, then turned upside down.
+  // The half-space z <= 1 is scaled by 2 and sheared along x by y, then turned upside down.
   Pose pose = at(0, 0, 3);
   pose.rotation << 1, 0.5, 0, 0, 1, 0, 0, 0, 2;
   Claim upright(make_sphere(1), at(9, 9, 7), make_halfspace({0, 0, 3}, 3), pose);

@@ -24,7 +24,7 @@ namespace {
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr float inf_float = std::numeric_limits<float>::infinity();
 
-// For a message: the pair, in numbers that lose nothing.
+// The pair for a message, in numbers that lose nothing.
 std::string describe(const Sample& sample) {
   std::string text;
   const auto number = [&](double x) {
@@ -61,8 +61,8 @@ std::string describe(const Sample& sample) {
   return text;
 }
 
-// Whether x is no greater than the signed distance of the bodies, whose cores' signed square this
-// is.
+// Returns true if x is no greater than the signed distance of the bodies with this signed square of
+// their cores' distance.
 bool is_below(double x, const mpq_class& cores, const mpq_class& radii) {
   if (std::isinf(x)) return x < 0;
   const mpq_class of_cores = mpq_class(x) + radii;
@@ -74,7 +74,7 @@ bool is_above(double x, const mpq_class& cores, const mpq_class& radii) {
   return of_cores * abs(of_cores) >= cores;
 }
 
-// What holds of every answer, whatever the bodies. Returns the measure with its proof.
+// Checks every property of an answer that holds for all bodies. Returns the measure with its proof.
 Measure expect_sound(Oracle& oracle, const Sample& sample) {
   const Body a = sample.a.body(), b = sample.b.body();
   Certificate certificate;

@@ -71,8 +71,7 @@ mpz_class height(const IntegerPair& pair, const Point& n) {
   return furthest(pair.a, 1) + furthest(pair.b, -1);
 }
 
-// Of a difference that is flat: whether it holds the origin, where these are all the directions
-// that can separate it.
+// Decides whether a flat difference contains the origin; `directions` are all that can separate it.
 Answer flat_answer(const IntegerPair& pair, const std::vector<Point>& directions) {
   for (const Point& n : directions) {
     if (height(pair, n) < 0 || height(pair, minus({}, n)) < 0) return Answer::separated;

@@ -27,10 +27,10 @@ IntegerPair integer_pair(const Body& a, const Body& b);
 // x * |x| of a signed distance x in square metres, which orders as x does.
 using SignedSquare = mpq_class;
 
-// Of the cores, by separating axes: every direction that can be normal to a face of the difference
-// of the two sets of points, so to two of all the segments between points of one and the same set.
-// In the difference's own plane or line where it is flat. The time grows with the fifth power of
-// the number of points.
+// The separation of the cores by separating axes: every direction that can be normal to a face of
+// the difference of the two sets of points, and so to two segments between points of one set. A
+// flat difference is treated in its own plane or line. The time grows with the fifth power of the
+// number of points.
 struct Separation {
   Answer answer = Answer::unknown;
   SignedSquare depth;  // overlapping: the signed square of minus the depth

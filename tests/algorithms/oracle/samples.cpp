@@ -135,7 +135,7 @@ Sample quaternions(Random& random, int number) {
     std::array<double, 4> q;
     for (double& part : q) part = random.uniform(-1, 1);
     if (number % 3 == 0) {
-      // With a length that squares beyond the range of double, or of a few bits only.
+      // The length's square is beyond the range of double, or the length has only a few bits.
       const int exponent = random.below(2) == 0 ? random.below(1200) - 600 : 2;
       for (double& part : q) part = std::ldexp(std::round(4 * part), exponent);
       if (q == std::array<double, 4>{}) q[0] = 1;
@@ -186,7 +186,8 @@ Sample integers(Random& random, int number) {
   return {a, body()};
 }
 
-// Both in one random pose, so that what touches in body coordinates touches in the world.
+// The bodies have one random pose, so that bodies that touch in body coordinates touch in the
+// world.
 Sample one_pose(Random& random, int number) {
   Sample sample;
   const Pose pose = random_pose(random, 10);
@@ -205,7 +206,7 @@ Sample one_pose(Random& random, int number) {
   return sample;
 }
 
-// The same body twice, one inside of the other, or both around one point.
+// One body twice, one inside the other, or both around one point.
 Sample coincident(Random& random, int number) {
   Sample sample;
   const Shape shape = number % 2 == 0 ? random_polytope(random) : integer_hull(random, 8);

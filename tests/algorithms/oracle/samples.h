@@ -45,7 +45,7 @@ struct Regime {
   int by_axes, by_cgal;  // of these, the first so many are compared with a reference as well
 };
 
-// Of polytopes with or without balls, so that each answer is exact.
+// Regimes of polytopes with or without balls, whose answers are exact.
 std::vector<Regime> exact_regimes();
 
 // Cylinders, cones and ellipsoids with each other and with all the rest.

@@ -178,8 +178,8 @@ TYPED_TEST(PolytopeSurfaceTest, RefusesWhatHasNoHorizon) {
   EXPECT_FALSE(surface.start(corners));
 }
 
-// Where all four corners are beyond reach there is nothing to choose; a face that is set aside is
-// not the nearest.
+// There is no nearest face if all four corners are out of reach; a face that is set aside is not
+// the nearest.
 TYPED_TEST(PolytopeSurfaceTest, SetsFacesAside) {
   constexpr TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
   typename TestFixture::Surface surface(most_vertices);

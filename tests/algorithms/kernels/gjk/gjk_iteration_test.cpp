@@ -15,8 +15,8 @@ namespace {
 
 using Exact = Vec3<long double>;
 
-// Whether the determinants of the corners by threes, all moved by `off` against the sign of each,
-// keep their signs.
+// Returns true if the determinants of the corners by threes keep their signs when all are moved by
+// `off` against the sign of each.
 template <class Scalar>
 bool keeps_signs(const Simplex<Scalar>& simplex, long double off) {
   std::array<Exact, 4> w;
@@ -71,7 +71,7 @@ TYPED_TEST(SurelyInside, HoldsForCornersThatAreOff) {
     if (is_surely_inside(simplex)) {
       ++sure;
       ASSERT_TRUE(keeps_signs(simplex, 107 * u)) << repeat;
-      // What the quick test alone would leave open.
+      // The quick test alone would leave these open.
       if (!keeps_signs(simplex, 1000 * u)) ++close;
     } else {
       ++unsure;

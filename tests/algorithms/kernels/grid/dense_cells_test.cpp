@@ -126,7 +126,7 @@ TEST(OctreeOrder, HasLargeBoxesFirstAndAllOfACellOneBehindTheOther) {
   for (std::size_t i = 0; i < order.size(); ++i) {
     ids.push_back(order.id(i));
     EXPECT_LE(order.key(i == 0 ? 0 : i - 1), order.key(i));
-    // Of a cell that is at least as wide: half of the world, not its quarter.
+    // The cell is at least as wide: half of the world instead of its quarter.
     if (order.id(i) % 10 == 0) {
       EXPECT_LE(OctreeOrder::depth(order.key(i)), 1);
       ++large;
@@ -157,7 +157,7 @@ TEST(OctreeOrder, TellsACrowdApart) {
     different += order.key(i - 1) != order.key(i) ? 1 : 0;
   }
   EXPECT_GT(different, 1000u);
-  // In one place there is nothing to be told apart.
+  // Boxes at one place cannot be distinguished.
   const std::vector<Aabb> same(100, Aabb{{1, 1, 1}, {2, 2, 2}});
   order.sort(executor, same, all_ids(same.size()));
   EXPECT_FALSE(order.refine(executor, same, 0, same.size()));

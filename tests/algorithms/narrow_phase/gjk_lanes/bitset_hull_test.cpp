@@ -127,7 +127,7 @@ TEST(BitsetHull, RefusesWhatIsNoDisc) {
     ASSERT_EQ(surface.add(seen), disc);
     (disc ? taken : refused) += 1;
     if (disc) continue;
-    // Nothing is left of it for the next polytope.
+    // A failed addition leaves no trace in the next polytope.
     surface.start();
     ASSERT_TRUE(surface.add({1, 0}));
     ASSERT_EQ(surface.cone().size, 3u);
