@@ -23,7 +23,7 @@
 namespace touchstone {
 namespace {
 
-// What the program prints to its standard output; empty where it fails.
+// The program's standard output, or an empty string if it fails.
 std::string bench(const std::string& arguments) {
   std::FILE* const pipe = popen((TOUCHSTONE_BENCH " " + arguments + " 2>/dev/null").c_str(), "r");
   if (pipe == nullptr) return {};

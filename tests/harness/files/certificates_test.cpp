@@ -42,7 +42,7 @@ class Certificates : public ::testing::Test {
                       });
     return all;
   }
-  // What is said of the plain certificate where one part of its text is another.
+  // The message for the plain certificate with one part of its text replaced.
   std::string error(const std::string& part, const std::string& other) {
     std::string text = plain;
     const auto place = text.find(part);

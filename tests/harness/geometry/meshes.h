@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-// About z: the ring's radius and the tube's, in n by m quadrangles.
+// A torus around z with the radii of ring and tube, in n by m quadrangles.
 inline Mesh torus(double ring, double tube, int n, int m) {
   Mesh mesh;
   for (int i = 0; i < n; ++i) {

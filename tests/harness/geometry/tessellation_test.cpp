@@ -21,7 +21,7 @@ Shape make(ShapeKind kind) {
   return shape;
 }
 
-// How far a point is outside the shape (metres, roughly); 0 on the surface, < 0 inside.
+// The distance of a point from the shape (metres, roughly); 0 on the surface, < 0 inside.
 double outside(const Shape& s, const Vec3d& p) {
   const double z = std::abs(p.z());
   const double r = p.head<2>().norm();

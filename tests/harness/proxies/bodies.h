@@ -109,7 +109,7 @@ class Exact {
     const oracle::Solid solid(part.shape), at(hull_shape({point}));
     return oracle_.verdict({solid, part.pose}, {at, frame}) != Answer::separated;
   }
-  // How deep a point (of a frame) is inside, rounded down; negative outside.
+  // The depth of a point (of a frame) inside the shape, rounded down; negative outside.
   double depth(const Shape& shape, const Vec3d& point, const Pose& frame) {
     const oracle::Solid solid(shape), at(hull_shape({point}));
     return -oracle_.measure({solid, Pose{}}, {at, frame}).upper;

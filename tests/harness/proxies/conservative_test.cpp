@@ -66,7 +66,7 @@ TEST(Inner, IsInsideTheBody) {
         const double half = s.kind == ShapeKind::capsule ? s.half_length : 0;
         for (double end : {-half, half}) {
           const double depth = exact.depth(body.shape, {0, 0, end}, part.pose);
-          // Of round cores the oracle has an enclosure only.
+          // The oracle has only an enclosure for round cores.
           ASSERT_GE(depth, s.radius * (1 - 1e-3)) << body.name << ", " << to_string(r);
           if (body.shape.kind == ShapeKind::hull) {
             ASSERT_GE(depth, s.radius) << body.name << ", " << to_string(r);

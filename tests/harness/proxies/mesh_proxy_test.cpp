@@ -1,4 +1,4 @@
-// What stands for meshes: outer parts hold the solid, inner ones are inside it, exactly.
+// Tests the proxies of meshes: outer parts contain the solid, inner ones are inside it, exactly.
 #include <gtest/gtest.h>
 
 #include "harness/base/error.h"
@@ -26,7 +26,8 @@ std::vector<NamedMesh> meshes() {
   return all;
 }
 
-// Of the mesh's box, those that it winds about, and the others.
+// Samples points of the mesh's box: returns those around which it winds, and the others in
+// `outside`.
 std::vector<Vec3d> sample(const Mesh& mesh, std::vector<Vec3d>& outside) {
   Vec3d low = mesh.vertices.front(), high = low;
   for (const Vec3d& v : mesh.vertices) {

@@ -115,7 +115,7 @@ TEST_F(Aabbs, RefusesFilesOfTheWrongSize) {
   EXPECT_NE(fault(good.substr(0, 304)), "");
 }
 
-// Nothing of the claimed size is allocated before it is compared with the file's.
+// The claimed size is compared with the file's before anything is allocated.
 TEST_F(Aabbs, RefusesClaimsBeyondTheFile) {
   for (const std::uint32_t count : {0x7fffffffu, 0x40000000u, 0x08000000u, 0u, 0xffffffffu}) {
     for (const std::uint32_t steps : {0x7fffffffu, 0x1fffffffu, 2u, 0u, 0xffffffffu}) {

@@ -116,14 +116,15 @@ TEST_F(Parts, AreBodiesWhereTheyAreInTheWhole) {
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     ASSERT_NE(scene.mesh_of(i), nullptr);
     EXPECT_EQ(scene.mesh_of(i)->triangles.size(), i < 2 ? 4u : 8u);
-    // In the same frame as the hull.
+    // The mesh is in the frame of the hull.
     for (const Vec3d& v : scene.shapes[i].hull->vertices) {
       EXPECT_NE(std::find(scene.mesh_of(i)->vertices.begin(), scene.mesh_of(i)->vertices.end(), v),
                 scene.mesh_of(i)->vertices.end());
     }
   }
   EXPECT_EQ(scene.bodies[0].shape, scene.bodies[2].shape);
-  // About the centre of each part's box: (0.5, 0.5, 0.5) and (6, 1, 1); turned, (-y, x, z).
+  // The parts are relative to the centres of their boxes: (0.5, 0.5, 0.5) and (6, 1, 1); rotated,
+  // (-y, x, z).
   EXPECT_LT((scene.bodies[0].pose.translation - Vec3d(-0.5, 0.5, 1.5)).norm(), 1e-14);
   EXPECT_LT((scene.bodies[1].pose.translation - Vec3d(-1, 6, 2)).norm(), 1e-14);
   EXPECT_EQ(scene.bodies[3].pose.translation, Vec3d(6, 1, 1));

@@ -116,7 +116,7 @@ TEST(Exchange, TeleportsPermuteThePlacesOfThoseThatMove) {
   EXPECT_GT(jumped.size(), 30u) << "not the same ones each time";
 }
 
-// What FrameChange promises, and what a reader of the file was promised.
+// Checks the promises of FrameChange and of the file's format.
 TEST(Exchange, ChurnKeepsTheContractOfFrameChange) {
   const Scene scene = load(
       "generator = \"uniform\"\ncount = 400\nframes = 12\nmoving = 0.5\nchurn = 0.1\n"
@@ -204,7 +204,7 @@ TEST(Exchange, HashAndFramesAreTheSameEachTimeAndTellTheKeysApart) {
       second.next();
     } while (first.next());
   }
-  // None is the same as without the keys.
+  // Zero is equal to a missing key.
   EXPECT_TRUE(hashes.contains(scene_hash(load(content + "churn = 0\nteleports = 0\n"))));
 }
 

@@ -32,7 +32,7 @@ double mean_overlaps(std::span<const Aabb> boxes) {
   return 2.0 * static_cast<double>(pairs) / static_cast<double>(boxes.size());
 }
 
-// What these scenes are, to the bit, on every platform.
+// The hashes of these scenes, equal on every platform.
 TEST(Generators, DatasetsAreWhatTheyWere) {
   const std::map<std::string, std::string> golden = {
       {"uniform", "62069946ce163b47"},
@@ -53,7 +53,7 @@ TEST(Generators, DatasetsAreWhatTheyWere) {
   }
 }
 
-// But for those whose data have to be got first, and say how.
+// The test skips data sets whose data must be fetched first; they say how.
 TEST(Generators, EveryDatasetLoadsAsItStands) {
   for (const auto& entry : std::filesystem::directory_iterator(dataset("x").parent_path())) {
     if (entry.path().extension() != ".toml") continue;

@@ -37,7 +37,7 @@ TEST(Pairs, GapsAreExactForEveryKind) {
       EXPECT_EQ(scene.pairs[i], (IndexPair{static_cast<std::uint32_t>(2 * i),
                                            static_cast<std::uint32_t>(2 * i + 1)}));
       const oracle::Enclosure distance = exact_distance(scene, scene.pairs[i]);
-      // What is left is the rounding of coordinates of some hundred metres.
+      // The margin is the rounding of coordinates of some hundred metres.
       EXPECT_NEAR(distance.lower, gaps[i % 4], 1e-12) << kind << " " << i;
       EXPECT_NEAR(distance.upper, gaps[i % 4], 1e-12) << kind << " " << i;
     }

@@ -227,7 +227,7 @@ TEST(Player, GravityTurnsOnceAPeriod) {
   EXPECT_LT(kinematics.velocities()[0].norm(), 1e-13) << "a full turn gives as much as it takes";
 }
 
-// With walls, origins stay between them and no energy is lost or won, however fast the bodies are.
+// Walls keep origins between them and preserve the energy, however fast the bodies are.
 TEST(Player, WallsAreElastic) {
   for (const double speed : {0.1, 5.0, 400.0, 1e6}) {
     for (const MotionKind kind : {MotionKind::inertial, MotionKind::free_fall}) {
