@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/executor.h"
-#include "algorithms/core/outcome.h"
 #include "algorithms/core/pair_sink.h"
+#include "algorithms/core/status.h"
 
 namespace touchstone {
 
@@ -44,18 +44,19 @@ class BroadPhase {
   // Status::capacity. Status::ok otherwise.
   virtual Status find_pairs(PairSink& sink) = 0;
 
-  // Of a peer: turns these boxes, none of them empty, into what its library takes, in memory of its
-  // own, and does nothing else: what build and update do to the boxes that are new to them, once
-  // more, so that the harness can time it apart. False where there is nothing to convert.
-  virtual bool convert(std::span<const Aabb> boxes) {
-    static_cast<void>(boxes);
-    return false;
-  }
-
   // What find_pairs does, on what was last built or updated. Counted when it is asked for, by going
   // over the structure again, so that find_pairs itself does not have to; not to be asked for
   // inside the clock.
   virtual BroadPhaseWork work() const { return {}; }
+};
+
+// A broad phase of a library that has types of its own for boxes.
+class PeerBroadPhase : public BroadPhase {
+ public:
+  // Turns these boxes, none of them empty, into what the library takes, in memory of its own, and
+  // does nothing else. It repeats what build and update do to the boxes that are new to them, so that
+  // the harness can time the conversion apart.
+  virtual void convert(std::span<const Aabb> boxes) = 0;
 };
 
 struct BroadPhaseEntry {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
-#include "algorithms/core/encoding.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
+#include "algorithms/encoding.h"
 
 namespace touchstone {
 

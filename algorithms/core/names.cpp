@@ -1,5 +1,4 @@
 // The written names of the core's enumerations.
-#include "algorithms/core/encoding.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/shape.h"
 
@@ -48,18 +47,6 @@ std::string_view to_string(Status status) {
     case Status::not_reported: return "not_reported";
     case Status::crashed: return "crashed";
     case Status::timed_out: return "timed_out";
-  }
-  return "?";
-}
-
-std::string_view to_string(Encoding encoding) {
-  switch (encoding) {
-    case Encoding::as_given: return "as_given";
-    case Encoding::float32: return "float32";
-    case Encoding::relative: return "relative";
-    case Encoding::float32_relative: return "float32_relative";
-    case Encoding::quaternion: return "quaternion";
-    case Encoding::quaternion_float32: return "quaternion_float32";
   }
   return "?";
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "algorithms/core/status.h"
 #include "algorithms/core/vec.h"
 
 namespace touchstone {
@@ -17,17 +18,6 @@ enum class Task : std::uint8_t {
 };
 
 enum class Answer : std::uint8_t { separated, touching, overlapping, unknown };
-
-enum class Status : std::uint8_t {
-  ok,             // the algorithm stands by its answer: wrong with `ok` is a silent error
-  not_converged,  // the iteration cap or the end of the scalar's precision came first
-  degenerate,     // the input is beyond what the algorithm can decide
-  capacity,       // a fixed store was full
-  unsupported,    // this kind of pair, or this task, is not one of the algorithm's
-  not_reported,   // the library has no way to say whether it failed
-  crashed,        // set by the harness: the query killed its process
-  timed_out,      // set by the harness: the query was stopped
-};
 
 enum class Precision : std::uint8_t { float32, float64 };
 
@@ -53,7 +43,6 @@ struct Outcome {
 
 std::string_view to_string(Task task);
 std::string_view to_string(Answer answer);
-std::string_view to_string(Status status);
 std::string_view to_string(Precision scalar);  // "float" or "double"
 
 }  // namespace touchstone

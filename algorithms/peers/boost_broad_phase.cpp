@@ -35,7 +35,7 @@ Box to_boost(const Aabb& box) {
   return {Point(box.min[0], box.min[1], box.min[2]), Point(box.max[0], box.max[1], box.max[2])};
 }
 
-class BoostRtree final : public BroadPhase {
+class BoostRtree final : public PeerBroadPhase {
  public:
   void build(std::span<const Aabb> boxes) override {
     boxes_.resize(boxes.size());
@@ -80,10 +80,9 @@ class BoostRtree final : public BroadPhase {
     return Status::ok;
   }
 
-  bool convert(std::span<const Aabb> boxes) override {
+  void convert(std::span<const Aabb> boxes) override {
     converted_.clear();
     for (std::uint32_t i = 0; i < boxes.size(); ++i) converted_.emplace_back(to_boost(boxes[i]), i);
-    return true;
   }
 
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }

@@ -18,7 +18,7 @@
 #include <cstdint>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/core/world.h"
+#include "algorithms/peers/world.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -123,7 +123,7 @@ class AxisSweep {
 };
 
 template <class Structure>
-class BulletBroadPhase final : public BroadPhase {
+class BulletBroadPhase final : public PeerBroadPhase {
  public:
   void build(std::span<const Aabb> boxes) override {
     boxes_ = boxes;
@@ -163,13 +163,12 @@ class BulletBroadPhase final : public BroadPhase {
     return Status::ok;
   }
 
-  bool convert(std::span<const Aabb> boxes) override {
+  void convert(std::span<const Aabb> boxes) override {
     converted_.clear();
     for (const Aabb& box : boxes) {
       converted_.push_back(corner(box.min));
       converted_.push_back(corner(box.max));
     }
-    return true;
   }
 
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }

@@ -55,7 +55,7 @@ class Box {
   std::uint32_t id_;
 };
 
-class CgalBoxIntersection final : public BroadPhase {
+class CgalBoxIntersection final : public PeerBroadPhase {
  public:
   void build(std::span<const Aabb> boxes) override {
     given_ = boxes;
@@ -79,10 +79,7 @@ class CgalBoxIntersection final : public BroadPhase {
     return Status::ok;
   }
 
-  bool convert(std::span<const Aabb> boxes) override {
-    to_cgal(boxes, converted_);
-    return true;
-  }
+  void convert(std::span<const Aabb> boxes) override { to_cgal(boxes, converted_); }
 
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }
 

@@ -50,7 +50,7 @@ RTCBounds to_embree(const Aabb& box, float scale) {
           scale * box.max[0], scale * box.max[1], scale * box.max[2], 0};
 }
 
-class EmbreeBroadPhase final : public BroadPhase {
+class EmbreeBroadPhase final : public PeerBroadPhase {
  public:
   EmbreeBroadPhase(Executor& executor, RTCBuildQuality quality)
       : executor_(&executor),
@@ -125,10 +125,9 @@ class EmbreeBroadPhase final : public BroadPhase {
     }
   }
 
-  bool convert(std::span<const Aabb> boxes) override {
+  void convert(std::span<const Aabb> boxes) override {
     converted_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) converted_[i] = to_embree(boxes[i], scale_);
-    return true;
   }
 
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }

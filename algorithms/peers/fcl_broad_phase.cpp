@@ -24,7 +24,7 @@
 // Cost:    naive O(n^2); SSaP and interval tree O(n log n + pairs on the axis); SaP O(end points
 //          passed times pairs); trees O(n log n) to build.
 #include "algorithms/broad_phase.h"
-#include "algorithms/core/world.h"
+#include "algorithms/peers/world.h"
 #ifdef TOUCHSTONE_HAS_FCL
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
@@ -167,7 +167,7 @@ struct SpatialHash {
 };
 
 template <class Rules>
-class FclBroadPhase final : public BroadPhase {
+class FclBroadPhase final : public PeerBroadPhase {
  public:
   void build(std::span<const Aabb> boxes) override {
     boxes_ = boxes;
@@ -203,10 +203,9 @@ class FclBroadPhase final : public BroadPhase {
     return status_;
   }
 
-  bool convert(std::span<const Aabb> boxes) override {
+  void convert(std::span<const Aabb> boxes) override {
     converted_.clear();
     for (const Aabb& box : boxes) converted_.push_back(to_fcl(box));
-    return true;
   }
 
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }

@@ -9,7 +9,7 @@
 //            no cell is so small that a coordinate's cell is beyond an int, on which ODE aborts.
 //            ODE gets coordinates that are shifted to be positive: it loses pairs where the address
 //            of a cell changes sign, as it does about the origin;
-//          - the quadtree has the world (core/world.h) as its bounds and is made anew when a box
+//          - the quadtree has the world (world.h) as its bounds and is made anew when a box
 //            leaves it; it has about as many leaves as there are bodies. Bodies are inserted with
 //            their boxes known, or all would first go through one list;
 //          - the sweep sorts on the axis on which the world is widest, and tests the thinnest last.
@@ -22,7 +22,7 @@
 // Cost:    hash O(n levels + k) time beside clearing its table, quadtree O(n sqrt(n) + k) if boxes
 //          are small, sweep O(n + pairs on the axis); O(n) memory but for the hash.
 #include "algorithms/broad_phase.h"
-#include "algorithms/core/world.h"
+#include "algorithms/peers/world.h"
 #ifdef TOUCHSTONE_HAS_ODE
 #include <algorithm>
 #include <cmath>
@@ -172,7 +172,7 @@ class Sweep {
 };
 
 template <class Rules>
-class OdeBroadPhase final : public BroadPhase {
+class OdeBroadPhase final : public PeerBroadPhase {
  public:
   OdeBroadPhase() = default;
   ~OdeBroadPhase() override {
@@ -218,10 +218,9 @@ class OdeBroadPhase final : public BroadPhase {
     return Status::ok;
   }
 
-  bool convert(std::span<const Aabb> boxes) override {
+  void convert(std::span<const Aabb> boxes) override {
     converted_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) set_box(converted_[i], boxes[i], rules_.shift());
-    return true;
   }
 
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }

@@ -1,7 +1,7 @@
 // The exact problem that an algorithm is given: a case in one of the encodings.
 #pragma once
 
-#include "algorithms/core/encoding.h"
+#include "algorithms/encoding.h"
 #include "algorithms/oracle/solid.h"
 #include "harness/files/cases.h"
 

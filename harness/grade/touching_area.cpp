@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/core/encoding.h"
+#include "algorithms/encoding.h"
 
 namespace touchstone {
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/core/broad_phase_work.h"
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/executor.h"
 #include "harness/base/clock.h"
 #include "harness/measure/allocations.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithms/core/broad_phase_work.h"
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/outcome.h"
 #include "harness/files/csv.h"
 #include "harness/record/row.h"

@@ -17,8 +17,8 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "algorithms/broad_phase/dynamic_bvh/bvh16.h"
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/parallel_blocks.h"

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <span>
 
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/broad_phase_work.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/core/broad_phase_work.h"
+#include "algorithms/broad_phase_work.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"

@@ -25,7 +25,17 @@ inline constexpr std::array<Encoding, 6> all_encodings = {
     Encoding::as_given,         Encoding::float32,    Encoding::relative,
     Encoding::float32_relative, Encoding::quaternion, Encoding::quaternion_float32};
 
-std::string_view to_string(Encoding encoding);
+inline std::string_view to_string(Encoding encoding) {
+  switch (encoding) {
+    case Encoding::as_given: return "as_given";
+    case Encoding::float32: return "float32";
+    case Encoding::relative: return "relative";
+    case Encoding::float32_relative: return "float32_relative";
+    case Encoding::quaternion: return "quaternion";
+    case Encoding::quaternion_float32: return "quaternion_float32";
+  }
+  return "?";
+}
 
 // The conversions in doubles. Adapters and the checker both go through these, so that the exact
 // problem has the very bits that the library was given.
