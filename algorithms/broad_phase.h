@@ -1,4 +1,5 @@
-// The contract of a broad phase: all pairs of boxes that overlap.
+// The contract of a broad phase: all pairs of boxes that overlap. Broad phases and the harness
+// include this.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@
 
 namespace touchstone {
 
-// What is new in a frame. `boxes` is the whole new array; a body's id is its place in it. The three
-// lists are disjoint and in ascending order; every box that is in none of them is bit for bit what
-// it was. The array grows when bodies with new ids come in, and never shrinks.
+// The changes of a frame. `boxes` is the whole new array; a body's id is its place in it. The three
+// lists are disjoint and in ascending order; a box in none of them has the bits of the last frame.
+// The array grows when bodies with new ids come in, and never shrinks.
 struct FrameChange {
   std::span<const Aabb> boxes;
   std::span<const std::uint32_t> moved;     // present before and now
@@ -26,12 +27,13 @@ struct FrameChange {
   std::span<const std::uint32_t> removed;   // no longer present: boxes[id] is the empty box
 };
 
-// Called as build, find_pairs, then (update, find_pairs) for each further frame; `build` may come
-// again at any time and starts afresh. The harness times the three apart.
+// A broad phase is called as build, find_pairs, then (update, find_pairs) for each further frame;
+// `build` may come again at any time and starts from scratch. The harness times the three
+// separately.
 //
-// The boxes handed to build or update stay alive and unchanged until the next build or update.
-// Boxes are finite, with min <= max, or empty: an empty slot has no body and is skipped. There may
-// be none.
+// The boxes given to build or update stay alive and unchanged until the next build or update. Boxes
+// are finite, with min <= max, or empty: an empty slot has no body and is skipped. There may be no
+// boxes.
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
@@ -40,28 +42,27 @@ class BroadPhase {
   virtual void update(const FrameChange& change) = 0;
 
   // Writes every pair of boxes whose closed boxes share a point, each once, a < b, in an order that
-  // does not depend on the executor's width. A pair is never dropped: grow and go on, or return
-  // Status::capacity. Status::ok otherwise.
+  // does not depend on the executor's width. No pair may be dropped: grow, or return
+  // Status::capacity. Returns Status::ok otherwise.
   virtual Status find_pairs(PairSink& sink) = 0;
 
-  // What find_pairs does, on what was last built or updated. Counted when it is asked for, by going
-  // over the structure again, so that find_pairs itself does not have to; not to be asked for
-  // inside the clock.
+  // Returns the work of find_pairs on the last build or update. It repeats the search to count, so
+  // that find_pairs itself does not have to; the harness calls it outside of the timed region.
   virtual BroadPhaseWork work() const { return {}; }
 };
 
-// A broad phase of a library that has types of its own for boxes.
+// A broad phase of a library that has its own types for boxes.
 class PeerBroadPhase : public BroadPhase {
  public:
-  // Turns these boxes, none of them empty, into what the library takes, in memory of its own, and
-  // does nothing else. It repeats what build and update do to the boxes that are new to them, so that
-  // the harness can time the conversion apart.
+  // Converts these boxes, none of them empty, to the library's types, in memory of its own. This
+  // repeats what build and update do to new boxes, and nothing else, so that the harness can time
+  // it separately.
   virtual void convert(std::span<const Aabb> boxes) = 0;
 };
 
 struct BroadPhaseEntry {
   AlgorithmInfo info;
-  // Null where it is not built. The executor outlives the algorithm.
+  // Null if it is not built. The executor outlives the algorithm.
   std::function<std::unique_ptr<BroadPhase>(Executor&)> make;
 };
 

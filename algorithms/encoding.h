@@ -1,5 +1,5 @@
-// What an algorithm is given of a pair of bodies, and so the exact problem that its own arithmetic
-// is held to.
+// The encoding in which an algorithm gets a pair of bodies, and so the exact problem against which
+// its own arithmetic is judged.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 namespace touchstone {
 
 enum class Encoding : std::uint8_t {
-  as_given,  // doubles as they stand; whatever is rounded after that is the algorithm's own error
-  float32,   // each number of the shapes and of the poses rounded to float; the normal of a
-             // half-space has been made unit in double
-  relative,  // doubles after a subtraction: hulls are about the mean of their vertices, and
-             // the pair is about the first body's centre (offset_between)
-  float32_relative,    // relative, and then each number rounded to float
-  quaternion,          // the rotation turned into a quaternion in double (to_quaternion)
+  as_given,          // doubles as given; any later rounding is the algorithm's own error
+  float32,           // each number of the shapes and of the poses rounded to float; the normal of a
+                     // half-space has been made unit in double
+  relative,          // doubles after a subtraction: hulls are about the mean of their vertices, and
+                     // the pair is about the first body's centre (offset_between)
+  float32_relative,  // relative, and then each number rounded to float
+  quaternion,        // the rotation turned into a quaternion in double (to_quaternion)
   quaternion_float32,  // float32, and then the rotation turned into a quaternion in float
 };
 inline constexpr std::array<Encoding, 6> all_encodings = {
@@ -37,10 +37,10 @@ inline std::string_view to_string(Encoding encoding) {
   return "?";
 }
 
-// The conversions in doubles. Adapters and the checker both go through these, so that the exact
-// problem has the very bits that the library was given.
+// The conversions in doubles. Adapters and the checker both use these, so that the exact problem
+// has the very bits that the library got.
 
-// Of a hull the mean of its vertices, of every other shape its origin; body coordinates.
+// Returns the mean of a hull's vertices, or the origin of any other shape; body coordinates.
 inline Vec3d encoding_centre(const Shape& shape) {
   Vec3d centre = Vec3d::Zero();
   if (shape.kind != ShapeKind::hull) return centre;
@@ -49,14 +49,15 @@ inline Vec3d encoding_centre(const Shape& shape) {
   return centre;
 }
 
-// From the centre of a to that of b, world axes. `origin` is set to the centre of a in the world.
+// Returns the vector from the centre of a to that of b, in world axes, and sets `origin` to the
+// centre of a in the world.
 inline Vec3d offset_between(const Pose& pose_a, const Vec3d& centre_a, const Pose& pose_b,
                             const Vec3d& centre_b, Vec3d& origin) {
   origin = pose_a(centre_a);
   return pose_b(centre_b) - origin;
 }
 
-// n.x <= offset with n of about unit length, in the same order.
+// The half-space n.x <= offset with n of about unit length, always computed by these operations.
 struct UnitHalfspace {
   Vec3d normal;
   double offset;
@@ -68,7 +69,7 @@ struct UnitHalfspace {
   }
 };
 
-// Not normalised.
+// Returns the rotation as a quaternion, which is not normalised.
 template <class Scalar>
 Eigen::Quaternion<Scalar> to_quaternion(const Mat3<Scalar>& rotation) {
   return Eigen::Quaternion<Scalar>(rotation);

@@ -31,7 +31,7 @@ bool offers(const NarrowPhaseEntry& entry, Precision scalar);
 // True if the entry offers the task for these kinds, in either order.
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
 bool offers(const ManifoldEntry& entry, Precision scalar);
-bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // in either order
+bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // kinds in either order
 // The encoding of a pair of these kinds, in either order.
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,
                      Precision scalar);

@@ -1,4 +1,4 @@
-// Memory that an algorithm's parts have reserved.
+// The memory that an algorithm's parts have reserved, in bytes.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@ std::size_t held_bytes(const std::vector<Item>& items) {
   return items.capacity() * sizeof(Item);
 }
 
-// Of a kernel that says so itself.
+// The memory of a kernel that reports its own.
 template <class Kernel>
 requires requires(const Kernel& kernel) { kernel.held_bytes(); }
 std::size_t held_bytes(const Kernel& kernel) { return kernel.held_bytes(); }
 
-// Of all of them, as BroadPhaseWork has it.
+// The sum over all parts, for BroadPhaseWork.
 template <class... Parts>
 std::int64_t sum_held_bytes(const Parts&... parts) {
   return static_cast<std::int64_t>((std::size_t{0} + ... + held_bytes(parts)));

@@ -1,4 +1,4 @@
-// What a narrow phase answers.
+// The outcome of a narrow-phase query. Everything may include this.
 #pragma once
 
 #include <cstdint>
@@ -10,31 +10,31 @@
 
 namespace touchstone {
 
-// What is asked. A query computes no more than its task.
+// The task of a query, which computes no more than this.
 enum class Task : std::uint8_t {
-  intersect,    // do the bodies share a point
-  distance,     // how far apart, with witness points; nothing but the answer where they overlap
-  penetration,  // how deep, with normal and witness points; nothing but the answer where apart
+  intersect,    // do the bodies share a point?
+  distance,     // the distance, with witness points; only the answer if they overlap
+  penetration,  // the depth, with normal and witness points; only the answer if separated
 };
 
 enum class Answer : std::uint8_t { separated, touching, overlapping, unknown };
 
 enum class Precision : std::uint8_t { float32, float64 };
 
-// Numbers that were not asked for, or are not known, are NaN.
+// Fields that the task does not need, or that are not known, are NaN.
 struct Outcome {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   Answer answer = Answer::unknown;
   Status status = Status::unsupported;
   double distance = none;  // metres; > 0 the gap, < 0 minus the penetration depth
-  double lower = none;     // certified bounds on the signed distance, where the algorithm has them
+  double lower = none;     // certified bounds on the signed distance, if the algorithm has them
   double upper = none;
-  // Unit vector from a to b in the world. Apart: along the shortest connection. Overlapping: moving
-  // b by depth * normal separates the bodies.
+  // Unit vector from a to b in the world. Separated: along the shortest connection. Overlapping:
+  // moving b by depth * normal separates the bodies.
   Vec3d normal = Vec3d::Constant(none);
-  // Witness points in the world: on a and on b; apart, the closest points; overlapping, the points
-  // with witness_a - witness_b = depth * normal.
+  // Witness points in the world, on a and on b. Separated: the closest points. Overlapping: the
+  // points with witness_a - witness_b = depth * normal.
   Vec3d witness_a = Vec3d::Constant(none);
   Vec3d witness_b = Vec3d::Constant(none);
   std::int32_t iterations = -1;     // -1: not counted

@@ -1,4 +1,5 @@
-// The box that a structure with fixed bounds is given: around everything, with room to move.
+// World bounds for structures that need fixed ones: a box around everything, with room to move. Used
+// by the broad phases of Bullet, FCL and ODE.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +12,17 @@
 
 namespace touchstone {
 
-// Of positive and finite extent on each axis (metres).
+// A box of positive and finite extent on each axis (metres).
 struct World {
   std::array<double, 3> min{-1, -1, -1};
   std::array<double, 3> max{1, 1, 1};
 
-  // Twice as wide as the boxes together, and no axis thinner than a thousandth of the widest: a
-  // flat scene keeps its room too. Empty boxes do not count; without any, two metres a side.
+  // Returns a box twice as wide as the boxes together, with no axis thinner than a thousandth of
+  // the widest, so that a flat scene has room too. Empty boxes are ignored; without any other the
+  // box is two metres wide.
   static World around(std::span<const Aabb> boxes);
 
-  // Strictly inside.
+  // True if the box is strictly inside.
   bool holds(const Aabb& box) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!(box.min[axis] > min[axis] && box.max[axis] < max[axis])) return false;
@@ -45,7 +47,7 @@ inline World World::around(std::span<const Aabb> boxes) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double& low = bounds.min[axis];
     double& high = bounds.max[axis];
-    // The last two keep room above the rounding of coordinates, and above zero.
+    // The last two terms keep the room above the rounding of coordinates, and above zero.
     const double room = std::max(
         {(high - low) / 2, widest / 1000, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-20});
     low -= room;
