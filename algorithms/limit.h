@@ -11,8 +11,8 @@
 
 namespace touchstone {
 
-// Not a broad phase, since it is given the pairs. Its time is that of a radix sort of a 32-bit key
-// for each box, of gathering the boxes in that order, and of writing the pairs.
+// It is not a broad phase, since the pairs are given. Its time is that of a radix sort of a 32-bit
+// key for each box, of gathering the boxes in that order, and of writing the pairs.
 class BroadPhaseLimit {
  public:
   virtual ~BroadPhaseLimit() = default;

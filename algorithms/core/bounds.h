@@ -7,8 +7,8 @@
 
 namespace touchstone {
 
-// Both boxes hold every point of the body, whatever the rounding: the extents are computed in
-// double, widened by a bound on the error of that computation, and rounded outward to float. The
+// The two boxes below contain every point of the body, whatever the rounding: extents are computed
+// in double, widened by a bound on the error of that computation, and rounded outward to float. The
 // box of a half-space is bounded only on an axis along which its normal lies.
 
 // Returns the least such box, up to rounding.
