@@ -1,5 +1,5 @@
-// World bounds for structures that need fixed ones: a box around everything, with room to move. Used
-// by the broad phases of Bullet, FCL and ODE.
+// World bounds for structures that need fixed ones: a box around everything, with room to move.
+// Used by the broad phases of Bullet, FCL and ODE.
 #pragma once
 
 #include <algorithm>
