@@ -1,6 +1,7 @@
 // The outcome of a narrow-phase query. Everything may include this.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -40,6 +41,12 @@ struct Outcome {
   std::int32_t iterations = -1;     // -1: not counted
   std::int32_t support_calls = -1;  // -1: not counted
 };
+// Kernels that answer several pairs at once (kernels/batch) write the status together with the
+// answer before it, and the twelve numbers from the distance to the second witness point in a row.
+static_assert(offsetof(Outcome, status) == offsetof(Outcome, answer) + 1);
+static_assert(offsetof(Outcome, normal) == offsetof(Outcome, distance) + 3 * sizeof(double));
+static_assert(offsetof(Outcome, witness_a) == offsetof(Outcome, normal) + 3 * sizeof(double));
+static_assert(offsetof(Outcome, witness_b) == offsetof(Outcome, witness_a) + 3 * sizeof(double));
 
 std::string_view to_string(Task task);
 std::string_view to_string(Answer answer);

@@ -5,6 +5,8 @@
 #include <array>
 #include <limits>
 
+#include "algorithms/oracle/certificates/certificate.h"
+
 namespace touchstone::oracle {
 namespace {
 

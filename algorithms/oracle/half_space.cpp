@@ -39,10 +39,10 @@ long align(Integer& x, long e, Integer& y, long f) {
 }
 
 // Measures from the half-space's plane to the nearest point of the body.
-Measure above_plane(const Body& body, const Body& half_space, GridPair& pair,
-                    const Filters& filters, Certificate* certificate) {
+ExactMeasure above_plane(const Body& body, const Body& half_space, GridPair& pair,
+                         const Filters& filters, Certificate* certificate) {
   const ExactHalfSpace plane = exact_half_space(half_space);
-  Measure measure;
+  ExactMeasure measure;
   if (is_zero(plane.normal)) {
     measure.core_lower = SignedRoot::infinity(-1);
     measure.core_upper = SignedRoot::infinity(1);
@@ -82,9 +82,9 @@ Measure above_plane(const Body& body, const Body& half_space, GridPair& pair,
 }
 
 // Two half-spaces can be separated, or moved apart, only if their normals are opposite.
-Measure between_planes(const Body& a, const Body& b, Certificate* certificate) {
+ExactMeasure between_planes(const Body& a, const Body& b, Certificate* certificate) {
   const ExactHalfSpace plane_a = exact_half_space(a), plane_b = exact_half_space(b);
-  Measure measure;
+  ExactMeasure measure;
   const Integer against = -dot(plane_a.normal, plane_b.normal);
   if (is_zero(plane_a.normal) || is_zero(plane_b.normal)) {
     measure.core_lower = SignedRoot::infinity(-1);
@@ -154,11 +154,11 @@ ExactHalfSpace exact_half_space(const Body& body) {
   return plane;
 }
 
-Measure measure_half_space(const Body& a, const Body& b, GridPair& pair, const Filters& filters,
-                           Certificate* certificate) {
+ExactMeasure measure_half_space(const Body& a, const Body& b, GridPair& pair,
+                                const Filters& filters, Certificate* certificate) {
   if (is_half_space(a) && is_half_space(b)) return between_planes(a, b, certificate);
   if (is_half_space(b)) return above_plane(a, b, pair, filters, certificate);
-  Measure measure = above_plane(b, a, pair, filters, certificate);
+  ExactMeasure measure = above_plane(b, a, pair, filters, certificate);
   measure.normal = -measure.normal;
   if (certificate != nullptr) {
     certificate->b.swap(certificate->a);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "algorithms/oracle/certificates/certificate.h"
+#include "algorithms/oracle/exact_measure.h"
 #include "algorithms/oracle/grid_pair.h"
-#include "algorithms/oracle/oracle.h"
 
 namespace touchstone::oracle {
 
@@ -18,7 +18,7 @@ ExactHalfSpace exact_half_space(const Body& body);
 
 // Sets core_lower, core_upper and normal of the result. At least one of the bodies must be a
 // half-space. `pair` is scratch memory.
-Measure measure_half_space(const Body& a, const Body& b, GridPair& pair, const Filters& filters,
-                           Certificate* certificate);
+ExactMeasure measure_half_space(const Body& a, const Body& b, GridPair& pair,
+                                const Filters& filters, Certificate* certificate);
 
 }  // namespace touchstone::oracle

@@ -47,9 +47,9 @@ struct Oracle::Workspace {
   GridPair pair;
   Expander expander;
 
-  Measure measure(const Body& a, const Body& b, Certificate* certificate);
-  void measure_apart(const ExactSearch& search, Measure& measure, Certificate* certificate);
-  void measure_around(const ExactSimplex& simplex, Measure& measure, Certificate* certificate);
+  ExactMeasure measure(const Body& a, const Body& b, Certificate* certificate);
+  void measure_apart(const ExactSearch& search, ExactMeasure& measure, Certificate* certificate);
+  void measure_around(const ExactSimplex& simplex, ExactMeasure& measure, Certificate* certificate);
   SignedRoot lower_along(const Direction& direction);
   void write_closest(const ExactSimplex& simplex, Certificate& certificate);
 };
@@ -79,7 +79,7 @@ Answer Oracle::verdict(const Body& a, const Body& b) {
     if (search.decided) return Answer::separated;
     if (!pair.is_curved() && !balls) return Answer::separated;
   }
-  Measure measure;
+  ExactMeasure measure;
   if (search.plane.contains_origin) {
     work.measure_around(search.simplex, measure, nullptr);
   } else {
@@ -105,7 +105,7 @@ SignedRoot Oracle::Workspace::lower_along(const Direction& direction) {
   return pair.in_metres(-above.sign(), above * above, length);
 }
 
-void Oracle::Workspace::measure_apart(const ExactSearch& search, Measure& measure,
+void Oracle::Workspace::measure_apart(const ExactSearch& search, ExactMeasure& measure,
                                       Certificate* certificate) {
   const NearestPlane& plane = search.plane;
   const ExactSimplex& simplex = search.simplex;
@@ -124,7 +124,7 @@ void Oracle::Workspace::measure_apart(const ExactSearch& search, Measure& measur
   write_closest(simplex, *certificate);
 }
 
-void Oracle::Workspace::measure_around(const ExactSimplex& simplex, Measure& measure,
+void Oracle::Workspace::measure_around(const ExactSimplex& simplex, ExactMeasure& measure,
                                        Certificate* certificate) {
   expander.expand(pair, simplex, ExpansionGoal::depth);
   const Direction& least = expander.least();
@@ -148,8 +148,8 @@ void Oracle::Workspace::measure_around(const ExactSimplex& simplex, Measure& mea
   for (DifferencePoint& p : certificate->surface.points) p = {of_a.number(p.a), of_b.number(p.b)};
 }
 
-Measure Oracle::Workspace::measure(const Body& a, const Body& b, Certificate* certificate) {
-  Measure measure;
+ExactMeasure Oracle::Workspace::measure(const Body& a, const Body& b, Certificate* certificate) {
+  ExactMeasure measure;
   using Core = Solid::Core;
   if (a.solid->core == Core::halfspace || b.solid->core == Core::halfspace) {
     measure = measure_half_space(a, b, pair, filters, certificate);
@@ -185,6 +185,10 @@ Measure Oracle::Workspace::measure(const Body& a, const Body& b, Certificate* ce
 }
 
 Measure Oracle::measure(const Body& a, const Body& b) { return workspace_->measure(a, b, nullptr); }
+
+ExactMeasure Oracle::measure_exactly(const Body& a, const Body& b) {
+  return workspace_->measure(a, b, nullptr);
+}
 
 Measure Oracle::prove(const Body& a, const Body& b, Certificate& certificate) {
   certificate = {};

@@ -5,17 +5,18 @@
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/outcome.h"
-#include "algorithms/oracle/certificates/certificate.h"
 #include "algorithms/oracle/numbers/filters.h"
 #include "algorithms/oracle/solid.h"
 
 namespace touchstone::oracle {
 
+struct Certificate;
+struct ExactMeasure;
+
 // The signed distance of a pair.
 struct Measure {
-  Answer answer = Answer::unknown;    // unknown: the enclosure contains zero (curved cores only)
-  SignedRoot core_lower, core_upper;  // the cores' signed distance; see certificate.h
-  bool exact = false;                 // core_lower == core_upper
+  Answer answer = Answer::unknown;  // unknown: the enclosure contains zero (curved cores only)
+  bool exact = false;               // the cores' signed distance is known exactly
   // Enclosure of the bodies' signed distance in metres: > 0 is the gap, < 0 is minus the depth. If
   // the answer is exact these are the adjacent doubles on both sides of it.
   double lower = 0, upper = 0;
@@ -43,6 +44,8 @@ class Oracle {
   // Returns the exact signed distance if both cores are polytopes or half-spaces, otherwise an
   // enclosure.
   Measure measure(const Body& a, const Body& b);
+  // Like `measure`, with the cores' signed distance, for which exact_measure.h is needed.
+  ExactMeasure measure_exactly(const Body& a, const Body& b);
   // Like `measure`, and writes the proof. `certificate.answer` is the verdict.
   Measure prove(const Body& a, const Body& b, Certificate& certificate);
 

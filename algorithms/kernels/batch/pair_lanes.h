@@ -15,9 +15,9 @@
 
 namespace touchstone {
 
-// Numbers of a pose are loaded four at a time, those of an outcome written so.
+// The numbers of a pose are loaded four at a time. Those of an outcome are written so; outcome.h
+// states its layout.
 static_assert(sizeof(Pose) == 12 * sizeof(double));
-static_assert(offsetof(Outcome, witness_b) == offsetof(Outcome, distance) + 9 * sizeof(double));
 
 template <class Scalar>
 struct PairTable {

@@ -7,7 +7,7 @@
 //          2. Pairs whose bounding balls are apart are separated (not for distance).
 //          3. intersect: run GJK's fast iteration; accept a support plane, a tetrahedron around the
 //             origin or a point within the radii that holds by more than
-//             SupportPair::proven_rounding.
+//             proven_rounding.h.
 //          4. Otherwise run GJK's distance loop; it may prove the verdict in the same ways.
 //          5. From the last direction and simplex, compute an interval of the signed distance in
 //             long double with all rounding bounded (proven_gap, proven_support).
@@ -33,6 +33,7 @@
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/certified/proven_gap.h"
 #include "algorithms/narrow_phase/certified/proven_height.h"
+#include "algorithms/narrow_phase/certified/proven_rounding.h"
 #include "algorithms/oracle/answer.h"
 
 namespace touchstone {
@@ -152,16 +153,15 @@ bool Certified::filter(const PlacedBody& a, const PlacedBody& b, Task task, Outc
   }
   Pair pair(a.shape.support(), a.pose, b.shape.support(), b.pose);
   const bool decided =
-      pair.is_in_range() && ((task == Task::intersect && walk_decides(pair, outcome)) ||
-                             approach_decides(pair, a, b, task, outcome));
+      is_in_range(pair) && ((task == Task::intersect && walk_decides(pair, outcome)) ||
+                            approach_decides(pair, a, b, task, outcome));
   outcome.support_calls = pair.support_calls();
   return decided;
 }
 
 // Returns true if a point of the difference is certainly nearer to the origin than the radii.
 bool is_within_radius(const Pair& pair, const Simplex<double>& simplex) {
-  return pair.radius() > Pair::proven_rounding &&
-         off_core(simplex) + Pair::proven_rounding < pair.radius();
+  return pair.radius() > proven_rounding && off_core(simplex) + proven_rounding < pair.radius();
 }
 
 // Tries the verdict of GJK's fast iteration.
@@ -170,7 +170,7 @@ bool Certified::walk_decides(Pair& pair, Outcome& outcome) const {
   outcome.iterations = found.iterations;
   switch (found.end) {
     case WalkEnd::apart:
-      return found.lower > pair.radius() + Pair::proven_rounding && say(Answer::separated, outcome);
+      return found.lower > pair.radius() + proven_rounding && say(Answer::separated, outcome);
     case WalkEnd::inside: return say(Answer::overlapping, outcome);
     default: break;
   }
@@ -194,7 +194,7 @@ bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBo
     return task != Task::penetration && simplex.size == 4 && is_surely_inside(simplex) &&
            say(Answer::overlapping, outcome);
   }
-  if (task == Task::penetration && found.lower > pair.radius() + Pair::proven_rounding) {
+  if (task == Task::penetration && found.lower > pair.radius() + proven_rounding) {
     return say(Answer::separated, outcome);
   }
   if (task != Task::penetration && is_within_radius(pair, simplex)) {

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "algorithms/oracle/certificates/certificate_check.h"
+#include "algorithms/oracle/exact_measure.h"
 #include "tests/algorithms/oracle/reference.h"
 #include "tests/algorithms/oracle/samples.h"
 
@@ -74,24 +75,26 @@ bool is_above(double x, const mpq_class& cores, const mpq_class& radii) {
   return of_cores * abs(of_cores) >= cores;
 }
 
-// Checks every property of an answer that holds for all bodies. Returns the measure with its proof.
-Measure expect_sound(Oracle& oracle, const Sample& sample) {
+// Checks every property of an answer that holds for all bodies. Returns the measure after checking
+// its proof.
+ExactMeasure expect_sound(Oracle& oracle, const Sample& sample) {
   const Body a = sample.a.body(), b = sample.b.body();
   Certificate certificate;
-  const Measure measure = oracle.prove(a, b, certificate);
+  const Measure proven = oracle.prove(a, b, certificate);
   EXPECT_EQ(fault(certificate, a, b), "");
+  const ExactMeasure measure = oracle.measure_exactly(a, b);
   EXPECT_EQ(certificate.answer, measure.answer);
   EXPECT_EQ(certificate.lower, measure.core_lower);
   EXPECT_EQ(certificate.upper, measure.core_upper);
   EXPECT_LE(measure.core_lower, measure.core_upper);
   EXPECT_LE(measure.lower, measure.upper);
-  const Measure again = oracle.measure(a, b);
-  EXPECT_EQ(again.core_lower, measure.core_lower);
-  EXPECT_EQ(again.core_upper, measure.core_upper);
-  EXPECT_EQ(again.answer, measure.answer);
-  EXPECT_EQ(again.lower, measure.lower);
-  EXPECT_EQ(again.upper, measure.upper);
-  EXPECT_EQ(again.normal, measure.normal);
+  for (const Measure& again : {proven, oracle.measure(a, b)}) {
+    EXPECT_EQ(again.answer, measure.answer);
+    EXPECT_EQ(again.exact, measure.exact);
+    EXPECT_EQ(again.lower, measure.lower);
+    EXPECT_EQ(again.upper, measure.upper);
+    EXPECT_EQ(again.normal, measure.normal);
+  }
   return measure;
 }
 
@@ -107,12 +110,12 @@ TEST_P(ExactRegime, IsProvenAndAgreesWithTheReferences) {
     const Sample sample = regime.make(random, i);
     SCOPED_TRACE(std::to_string(i) + describe(sample));
     const Body a = sample.a.body(), b = sample.b.body();
-    const Measure measure = expect_sound(oracle, sample);
+    const ExactMeasure measure = expect_sound(oracle, sample);
     EXPECT_TRUE(measure.exact);
     EXPECT_EQ(measure.core_lower, measure.core_upper);
     EXPECT_EQ(oracle.verdict(a, b), measure.answer);
     EXPECT_EQ(oracle.verdict(b, a), measure.answer);
-    EXPECT_EQ(oracle.measure(b, a).core_lower, measure.core_lower);
+    EXPECT_EQ(oracle.measure_exactly(b, a).core_lower, measure.core_lower);
     ++answers[static_cast<std::size_t>(measure.answer)];
 
     const mpq_class cores = reference::signed_square(measure.core_lower);
@@ -168,13 +171,13 @@ TEST(Oracle, EnclosesCurvedBodies) {
     const Sample sample = curved_sample(random, i);
     SCOPED_TRACE(std::to_string(i) + describe(sample));
     const Body a = sample.a.body(), b = sample.b.body();
-    const Measure measure = expect_sound(oracle, sample);
+    const ExactMeasure measure = expect_sound(oracle, sample);
     EXPECT_EQ(oracle.verdict(a, b), measure.answer);
     ++answers[static_cast<std::size_t>(measure.answer)];
     const double width = (measure.upper - measure.lower) / size_of(sample);
     EXPECT_LT(width, 1e-6);
     narrow += width < 1e-10 ? 1 : 0;
-    const Measure reverse = oracle.measure(b, a);
+    const ExactMeasure reverse = oracle.measure_exactly(b, a);
     EXPECT_LE(reverse.core_lower, measure.core_upper);
     EXPECT_LE(measure.core_lower, reverse.core_upper);
   }
@@ -191,7 +194,7 @@ TEST(Oracle, MeasuresHalfspaces) {
   for (int i = 0; i < count && !HasFailure(); ++i) {
     const Sample sample = halfspace_sample(random, i);
     SCOPED_TRACE(std::to_string(i) + describe(sample));
-    const Measure measure = expect_sound(oracle, sample);
+    const ExactMeasure measure = expect_sound(oracle, sample);
     EXPECT_EQ(oracle.verdict(sample.a.body(), sample.b.body()), measure.answer);
     const bool curved = sample.a.solid->is_curved() || sample.b.solid->is_curved();
     EXPECT_TRUE(measure.exact || curved);

@@ -1,14 +1,14 @@
 // The oracle's answer for a case.
 #pragma once
 
-#include "algorithms/oracle/oracle.h"
+#include "algorithms/oracle/exact_measure.h"
 #include "harness/files/cases.h"
 
 namespace touchstone {
 
-inline oracle::Measure exact_measure(oracle::Oracle& oracle, const Case& c) {
+inline oracle::ExactMeasure exact_measure(oracle::Oracle& oracle, const Case& c) {
   const oracle::Solid a(c.shape_a), b(c.shape_b);
-  return oracle.measure(oracle::Body(a, c.pose_a), oracle::Body(b, c.pose_b));
+  return oracle.measure_exactly(oracle::Body(a, c.pose_a), oracle::Body(b, c.pose_b));
 }
 
 inline Answer exact_verdict(oracle::Oracle& oracle, const Case& c) {

@@ -50,12 +50,12 @@ TEST(Metamorphic, VariantsHaveTheSameExactAnswer) {
   for (const Regime& regime : regimes()) {
     for (std::uint64_t i = 0; i < 8; ++i) {
       const Case c = make(regime, 21, i);
-      const oracle::Measure exact = exact_measure(oracle, c);
+      const oracle::ExactMeasure exact = exact_measure(oracle, c);
       ++answers[exact.answer];
       Random random(5, i);
       for (const Variant& variant : variants(c, random)) {
         ++kinds[variant.name.substr(0, 5)];
-        const oracle::Measure measure = exact_measure(oracle, variant.transformed);
+        const oracle::ExactMeasure measure = exact_measure(oracle, variant.transformed);
         const std::string& id = variant.transformed.id;
         EXPECT_EQ(id, c.id + "/" + variant.name);
         if (!exact.exact || !measure.exact) {
