@@ -8,13 +8,14 @@
 #include "algorithms/kernels/gjk/gjk_iteration_levels.inl"
 
 namespace touchstone {
+
 // The determinants of the corners by threes, each with the origin, keep their signs. Let corners p,
-// q, s be no longer than m and off by r = 107 u (proven in certified/proven_rounding.h; u is half of
-// epsilon). Their determinant changes by no more than r (|p x q| + |q x s| + |s x p|) + 3 r^2 m +
-// r^3, which is less than 3 r m^2 + 3 r^2 m + r^3. It is off by 50 u m^3 of its own rounding; no determinant
-// exceeds m^3. So 512 u m^2 (1 + m) suffices. If the origin is near a face that bound is far too
-// large. Then the products themselves are taken, which are off by 16 u m^2 of their own rounding,
-// all three.
+// q, s be no longer than m and off by r = 107 u (proven in certified/proven_rounding.h; u is half
+// of epsilon). Their determinant changes by no more than r (|p x q| + |q x s| + |s x p|) + 3 r^2 m
+// + r^3, which is less than 3 r m^2 + 3 r^2 m + r^3. It is off by 50 u m^3 of its own rounding; no
+// determinant exceeds m^3. So 512 u m^2 (1 + m) suffices. If the origin is near a face that bound
+// is far too large. Then the products themselves are taken, which are off by 16 u m^2 of their own
+// rounding, all three.
 template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex) {
   constexpr Scalar u = std::numeric_limits<Scalar>::epsilon() / 2;

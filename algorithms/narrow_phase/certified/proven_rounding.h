@@ -7,10 +7,10 @@
 
 namespace touchstone {
 
-// For poses with any matrix: let u be half of epsilon, M a core's matrix and v a point
-// of the core, both as stored; (..)_i is a component, |..| applies to each. The unit is above the
-// offset and the reach of both bodies, so (|M| |v|)_i <= sqrt(3), and its sum with the components
-// of a unit vector n is at most 3. For a support point w = p - q and any direction n:
+// The bound holds for poses with any matrix. Let u be half of epsilon, M a core's matrix and v a
+// point of the core, both as stored; (..)_i is a component, |..| applies to each. The unit is above
+// the offset and the reach of both bodies, so (|M| |v|)_i <= sqrt(3), and its sum with the
+// components of a unit vector n is at most 3. For a support point w = p - q and any direction n:
 //                                              each component      along n
 //   stored v (hulls: centre subtracted)         sqrt(3) u           3 u   a body
 //   ... or computed v of a curved core           6 sqrt(3) u        in `furthest`

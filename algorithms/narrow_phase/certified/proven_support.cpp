@@ -24,7 +24,8 @@ double round_down(Wide x) {
 }
 double round_up(Wide x) { return -round_down(-x); }
 
-// The vertices that are furthest along g up to the rounding of doubles, and some that are not.
+// Lists every vertex that may be furthest along g, given the rounding of doubles. It may list
+// others.
 void find_furthest(const std::vector<Vec3d>& vertices, const Vec3d& g, const Vec3d& reach,
                    std::vector<double>& values, std::vector<std::uint32_t>& furthest) {
   values.resize(vertices.size());
