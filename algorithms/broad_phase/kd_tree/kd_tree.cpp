@@ -2,8 +2,8 @@
 // are passed down as a list, and leaves are tested a vector at a time.
 // Paper:   Serpa, Rodrigues, "Flexible Use of Temporal and Spatial Reasoning for Fast and Scalable
 //          CPU Broad-Phase Collision Detection Using KD-Trees", Computer Graphics Forum 2019.
-// Steps:   1. Split the bodies by their centres down to leaves of 32; bodies larger than half of a
-//             node's cell stay at the node (kd_bodies.cpp).
+// Steps:   1. Split the bodies by their centres down to leaves of 32; the few that are larger than
+//             half of a node's cell stay at the node (kd_bodies.cpp).
 //          2. Compute the bounds of each node from its bodies and its children (kd_nodes.cpp).
 //          3. In an update keep the tree and repeat step 2; start at step 1 when the bounds of the
 //             leaves have grown by a quarter, or bodies come or go.
