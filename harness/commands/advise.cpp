@@ -27,7 +27,7 @@ struct Options {
 
 void say(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
-// The exit status of one scene.
+// Advises on one scene. Returns the exit status.
 int advise(const AdviceTask& task, const std::filesystem::path& folder, int draws,
            VerificationRows* rows) {
   const Representing ours = representing();
@@ -66,7 +66,7 @@ int advise(Options& options) {
     task.budget = options.budget;
     folder = trade_folder(options.out, task.request.name);
   }
-  // What is no scene is told before hours of work.
+  // A file that is no scene is reported before hours of work.
   for (const AdviceTask& task : tasks) TradeScene(task.request, representing());
   std::filesystem::create_directories(folder);
   std::optional<VerificationRows> rows;
@@ -87,10 +87,8 @@ int advise(Options& options) {
 
 }  // namespace
 
-void add_advise(CommandLine& line) {
+void add_advise(Arguments command) {
   auto options = std::make_shared<Options>();
-  Arguments command = line.add_command(
-      "advise", "The cheapest configuration for a scene that is right enough, by measuring");
   const Option scene =
       command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json");
   Option list = command.text("--list", options->list, "File of scenes, each with its own error");

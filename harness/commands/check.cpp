@@ -1,4 +1,4 @@
-// touchstone check: every algorithm graded against exact answers.
+// touchstone check: grades every algorithm against exact answers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Options {
   CheckRequest request;
 };
 
-// The regimes of these names and of these groups; all where neither is asked for.
+// Returns the regimes of these names and of these groups, or all where both are empty.
 std::vector<const Regime*> chosen_regimes(const std::string& names, const std::string& groups) {
   std::vector<std::string> wanted, wanted_groups;
   if (!names.empty()) wanted = split_names(names);
@@ -92,11 +92,9 @@ int check(Options& options, const std::string& command) {
 
 }  // namespace
 
-void add_check(CommandLine& line) {
+void add_check(Arguments command) {
   const auto options = std::make_shared<Options>();
   CheckRequest& request = options->request;
-  Arguments command = line.add_command(
-      "check", "Grade every algorithm against exact answers, in regimes that are hard");
   add_case_options(command, request, options->narrow, options->out, "check", "check");
   command.text("--broad", options->broad, "Broad phases: names, all, ours, peers, none")
       .show_default();

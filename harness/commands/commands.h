@@ -1,32 +1,36 @@
-// The commands of the program. Each adds itself and its options to the command line.
+// The commands of the program. Each adds its options and its job.
 #pragma once
 
 namespace touchstone {
 
-class CommandLine;
+class Arguments;
 
 // The exit status of the program.
 enum ExitStatus : int {
   exit_done = 0,
-  exit_measured_wrong = 1,  // done, and something measured is wrong
+  exit_measured_wrong = 1,  // the job is done, and a measured answer is wrong
   exit_bad_request = 2,     // the request or an input file is wrong (InputError)
-  exit_undecided = 3,       // `compare` alone: too few samples, or too much noise, to tell
+  exit_undecided = 3,       // `compare` alone: the samples are too few or too noisy
 };
 
-void add_list(CommandLine& line);
-void add_query(CommandLine& line);
-void add_manifold(CommandLine& line);
-void add_pairs(CommandLine& line);
-void add_check(CommandLine& line);
-void add_soak(CommandLine& line);
-void add_stress(CommandLine& line);
-void add_run(CommandLine& line);
-void add_compare(CommandLine& line);
-void add_tables(CommandLine& line);
-void add_draw(CommandLine& line);
-void add_record(CommandLine& line);
-void add_trade(CommandLine& line);
-void add_advise(CommandLine& line);
-void add_represent(CommandLine& line);
+// The commands of the executable `touchstone`.
+void add_run(Arguments command);
+void add_compare(Arguments command);
+void add_tables(Arguments command);
+void add_list(Arguments command);
+void add_query(Arguments command);
+void add_pairs(Arguments command);
+
+// The commands of the executable `touchstone_more`.
+void add_check(Arguments command);
+void add_soak(Arguments command);
+void add_stress(Arguments command);
+void add_manifold(Arguments command);
+void add_draw(Arguments command);
+void add_record(Arguments command);
+void add_trade(Arguments command);
+void add_advise(Arguments command);
+void add_represent(Arguments command);
+void add_run_trade(Arguments command);  // `run` for a file with a table [trade]
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-// touchstone compare: is B slower than A?
+// touchstone compare: says whether B is slower than A.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,7 +74,7 @@ void write(const std::vector<ComparedCell>& cells, double threshold, const std::
   csv.close();
 }
 
-// The whole judgement of A and B, printed; the exit status.
+// Prints the judgement of A and B. Returns the exit status.
 int judge(const Options& options, const Results& a, const Results& b,
           const std::vector<ComparedCell>& cells) {
   print("A and B differ in", remarks(a, b));
@@ -114,7 +114,7 @@ int compare_files(const Options& options) {
 Results run(const std::string& program, const std::string& campaign,
             const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  std::filesystem::remove(folder / "raw.csv");  // of an earlier comparison, perhaps not finished
+  std::filesystem::remove(folder / "raw.csv");  // a rest of an earlier comparison
   const std::filesystem::path log = folder / "output.txt";
   const int status = run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
   if (status != exit_done && status != exit_measured_wrong) {
@@ -149,7 +149,7 @@ int compare_programs(const Options& options) {
     }
   }
   for (std::size_t i = 0; i < a.size(); ++i) {
-    // Both ran on this machine; what its files say of it must agree all the same.
+    // Both ran on this machine, but their files must agree on it too.
     const std::vector<std::string> reasons = obstacles(a[i], b[i], !options.any_machine);
     if (!reasons.empty()) return not_comparable(reasons);
   }
@@ -158,10 +158,8 @@ int compare_programs(const Options& options) {
 
 }  // namespace
 
-void add_compare(CommandLine& line) {
+void add_compare(Arguments command) {
   auto options = std::make_shared<Options>();
-  Arguments command = line.add_command(
-      "compare", "Compare two results, or two builds of this program: is B slower than A?");
   command.texts("results", options->files,
                 "A and B: results folders, or raw.csv files. With --exe: a campaign file "
                 "(default: datasets/campaigns/compare.toml)");
@@ -170,7 +168,7 @@ void add_compare(CommandLine& line) {
           .texts("--exe", options->programs,
                  "A program to run; given twice, A and B, whose runs of the campaign are "
                  "interleaved")
-          .once_each();  // what follows the second is the campaign
+          .once_each();  // the word behind the second program is the campaign
   command.number("--threshold", options->threshold, "A slower B is a regression beyond this part")
       .positive()
       .show_default();

@@ -1,4 +1,4 @@
-// touchstone draw: a picture of a scene's frame.
+// touchstone draw: draws a frame of a scene.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -88,9 +88,8 @@ void draw(const Options& options) {
 
 }  // namespace
 
-void add_draw(CommandLine& line) {
+void add_draw(Arguments command) {
   auto options = std::make_shared<Options>();
-  Arguments command = line.add_command("draw", "Draw a frame of a scene as a PNG");
   command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
       .required();
   command.text("--out", options->out, "The picture, .png")

@@ -1,4 +1,4 @@
-// list: what there is, and what is not built and why.
+// touchstone list: lists all algorithms, with the reasons of those that are not built.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -99,9 +99,8 @@ std::string as_table(const std::vector<Listed>& all) {
 
 }  // namespace
 
-void add_list(CommandLine& line) {
+void add_list(Arguments command) {
   const auto format = std::make_shared<std::string>("table");
-  Arguments command = line.add_command("list", "List the algorithms, built or not");
   command.text("--format", *format, "How to print them").among({"table", "csv"}).show_default();
   command.job([format] {
     const std::vector<Listed> all = all_algorithms();

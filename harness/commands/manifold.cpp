@@ -1,4 +1,4 @@
-// manifold: cases through contact manifolds, one point a row, and how good they are.
+// touchstone manifold: asks contact manifolds for the points of cases, and grades them.
 #include <fmt/format.h>
 
 #include <limits>
@@ -34,7 +34,7 @@ struct ManifoldOptions {
   double time_limit = 5;  // seconds a query
 };
 
-// A case, and what it is counted under.
+// A case, with the family that it is counted in.
 struct Asked {
   Case pair;
   std::string family;
@@ -44,7 +44,7 @@ struct Asked {
 struct Contestant {
   const ManifoldEntry* entry;
   Precision scalar;
-  std::vector<Manifold> manifolds;  // of each case; `unsupported` where it does not take such pairs
+  std::vector<Manifold> manifolds;  // one a case; `unsupported` for kinds it lacks
 
   std::string name() const { return fmt::format("{} {}", entry->info.name, to_string(scalar)); }
 };
@@ -66,7 +66,7 @@ std::vector<Asked> read_or_make_cases(const ManifoldOptions& options) {
   return asked;
 }
 
-// In a child process; the failures go to the terminal.
+// Asks in a child process. Prints the failures.
 void ask(Contestant& contestant, const std::vector<Asked>& asked, double time_limit) {
   const ManifoldEntry& entry = *contestant.entry;
   contestant.manifolds.resize(asked.size());
@@ -105,7 +105,7 @@ void write_points(const std::string& file, const std::vector<Asked>& asked,
   for (std::size_t i = 0; i < asked.size(); ++i) {
     for (const Contestant& contestant : contestants) {
       const Manifold& manifold = contestant.manifolds[i];
-      // Without points one row says so.
+      // A manifold without points has one row too.
       for (int k = 0; k < std::max(1, manifold.count); ++k) {
         csv.field(asked[i].pair.id).field(contestant.entry->info.name);
         csv.field(to_string(contestant.scalar)).field(to_string(manifold.answer));
@@ -222,10 +222,8 @@ int manifold(const ManifoldOptions& options) {
 
 }  // namespace
 
-void add_manifold(CommandLine& line) {
+void add_manifold(Arguments command) {
   const auto options = std::make_shared<ManifoldOptions>();
-  Arguments command =
-      line.add_command("manifold", "The contact points of bodies that lie on each other");
   command.text("CASES", options->cases, "Cases: JSON, one object a line");
   command
       .number("--settled", options->settled,

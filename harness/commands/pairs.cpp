@@ -1,4 +1,5 @@
-// pairs: boxes through broad phases, one frame and algorithm a row.
+// touchstone pairs: gives the boxes of a file to broad phases, and writes a row for each frame and
+// algorithm.
 #include <fmt/format.h>
 #include <sys/types.h>
 
@@ -34,18 +35,18 @@ struct PairsOptions {
   double time_limit = std::numeric_limits<double>::infinity();  // seconds a frame
 };
 
-// What an algorithm did with a frame.
+// An algorithm's result of a frame.
 struct Result {
   Status status = Status::crashed;
-  bool known = false;  // what follows
+  bool known = false;  // the members below are known
   std::size_t pairs = 0;
   std::uint64_t hash = 0;
   double seconds = 0;
-  off_t kept_at = 0;  // where its pairs are in the temporary file
-  int error = 0;      // errno, where the pairs could not be kept
+  off_t kept_at = 0;  // the place of its pairs in the temporary file
+  int error = 0;      // errno of a failure to keep the pairs
 };
 
-// One algorithm on its way through the frames, in a child process.
+// One algorithm, which goes through the frames in a child process.
 class Contender {
  public:
   Contender(const BroadPhaseEntry& entry, const std::vector<BoxFrame>& frames,
@@ -59,7 +60,7 @@ class Contender {
   const std::string& name() const { return entry_.info.name; }
   const Result& result(std::size_t frame) const { return results_[frame]; }
 
-  // A frame that crashes the algorithm or takes too long is lost; the one behind it is built anew.
+  // A frame that crashes the algorithm or takes too long is lost; the next one is built anew.
   void run() {
     const IsolationLimits limits = {.item_seconds = options_.time_limit,
                                     .memory = IsolationLimits::no_limit};
@@ -78,7 +79,7 @@ class Contender {
     });
   }
 
-  // The pairs of the frame, sorted.
+  // Returns the sorted pairs of the frame.
   std::vector<IndexPair> kept_pairs(std::size_t frame) {
     const Result& result = results_[frame];
     std::vector<IndexPair> all(result.pairs);
@@ -95,7 +96,7 @@ class Contender {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  // What there is in the child, which has threads of its own.
+  // The state of the child process, which has threads of its own.
   struct Worker {
     Executor executor;
     std::unique_ptr<BroadPhase> broad_phase;
@@ -123,7 +124,7 @@ class Contender {
   }
 
   void keep(const PairSink& sink, Result& result) {
-    // Behind what an earlier child wrote, all of it or part of it.
+    // The place is behind all that an earlier child wrote, even in part.
     bool good = fseeko(kept_.get(), 0, SEEK_END) == 0;
     result.kept_at = ftello(kept_.get());
     for (const PairBuffer& chunk : sink.chunks()) {
@@ -199,7 +200,7 @@ void pairs(const PairsOptions& options) {
       write_row(csv, frames[i], *contender, contender->result(i), options.threads);
     }
   }
-  csv.flush();  // a full disk is to be found before either file is there
+  csv.flush();  // finds a full disk before either file is there
   if (!options.pairs.empty()) {
     CsvWriter pairs_csv(options.pairs, {"frame", "algorithm", "a", "b"});
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -218,9 +219,8 @@ void pairs(const PairsOptions& options) {
 
 }  // namespace
 
-void add_pairs(CommandLine& line) {
+void add_pairs(Arguments command) {
   const auto options = std::make_shared<PairsOptions>();
-  Arguments command = line.add_command("pairs", "Find the pairs of boxes that overlap");
   command
       .text("FILE", options->file,
             "Boxes: CSV (frame,id,min_x,min_y,min_z,max_x,max_y,max_z), or a Broadmark "

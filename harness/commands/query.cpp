@@ -1,4 +1,4 @@
-// query: cases through narrow phases, one answer a row.
+// touchstone query: asks narrow phases about cases, and writes a row for each answer.
 #include <fmt/format.h>
 
 #include <array>
@@ -29,13 +29,13 @@ struct QueryOptions {
   double time_limit = 5;  // seconds a query
 };
 
-// One algorithm's outcomes for all cases.
+// The outcomes of one algorithm for all cases.
 struct Answers {
   const NarrowPhaseEntry* entry;
   std::vector<Outcome> outcomes;
 };
 
-// All cases that the algorithm takes, in a child process; the failures go to the terminal.
+// Asks about all cases that the algorithm takes, in a child process. Prints the failures.
 Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
             const QueryOptions& options) {
   Answers answers = {&entry, std::vector<Outcome>(cases.size())};
@@ -85,7 +85,7 @@ void write_row(CsvWriter& csv, const Case& c, const Answers& answers, const Outc
   csv.end_row();
 }
 
-// How often each algorithm gave which answer with which status.
+// Prints the number of each answer and each status of every algorithm.
 void print_summary(const std::vector<Answers>& all) {
   fmt::print("{:<28} {:>9} {:>8} {:>11} {:>7}  {}\n", "algorithm", "separated", "touching",
              "overlapping", "unknown", "status");
@@ -134,10 +134,9 @@ void query(const QueryOptions& options) {
 
 }  // namespace
 
-void add_query(CommandLine& line) {
+void add_query(Arguments command) {
   const auto options = std::make_shared<QueryOptions>();
   NarrowPhaseSettings& settings = options->settings;
-  Arguments command = line.add_command("query", "Ask narrow phases about pairs of bodies");
   command.text("CASES", options->cases, "Cases: JSON, one object a line").required();
   command.text("--narrow", options->narrow, "Narrow phases: names joined by commas, or all")
       .required();

@@ -1,4 +1,4 @@
-// record: the boxes of a scene, frame by frame, as a file that other programs can read.
+// touchstone record: writes the boxes of a scene, frame by frame, for other programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ void record_csv(ScenePlayer& player, const std::filesystem::path& file) {
   csv.close();
 }
 
-// Broadmark's file also has a box of the world: here the one around all boxes of all frames.
+// Broadmark's file also has a box of the world. Ours encloses all boxes of all frames.
 void record_aabbs(ScenePlayer& player, const std::string& name, const std::filesystem::path& file) {
   BoxRecording recording;
   recording.scene = name;
@@ -83,9 +83,8 @@ void record(const RecordOptions& options) {
 
 }  // namespace
 
-void add_record(CommandLine& line) {
+void add_record(Arguments command) {
   const auto options = std::make_shared<RecordOptions>();
-  Arguments command = line.add_command("record", "Write a scene's boxes as a recording");
   command.text("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc) or .aabbs")
       .required();
   command

@@ -1,5 +1,5 @@
-// touchstone represent: what stands for a scene's bodies, from coarse to fine, and how far off it
-// is.
+// touchstone represent: makes proxies of a scene's bodies, from coarse to fine, and measures their
+// errors.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ struct Measured {
   RepresentationError error;
   std::size_t parts = 0, vertices = 0;
   double seconds = 0;
-  std::string words;  // why there is none
+  std::string words;  // the reason why there is none
 };
 
 Measured measure(const Shape& shape, const Mesh* mesh, const Representation& r) {
@@ -75,16 +75,16 @@ Measured measure(const Shape& shape, const Mesh* mesh, const Representation& r) 
   return m;
 }
 
-// Of one representation over all shapes.
+// The errors of one representation over all shapes.
 struct Summary {
-  std::vector<double> volume, hausdorff;  // parts of the volume, where there is one; of the size
+  std::vector<double> volume, hausdorff;  // shares of the volume; shares of the size
   std::size_t missing = 0, flat = 0, parts = 0;
   double seconds = 0;
 };
 
 std::string shown(double value) { return fmt::format("{:.4g}", value); }
 
-// Mean, the least value that at least 99 in 100 do not exceed, and the greatest.
+// Adds the mean, the 99th percentile and the greatest value.
 void add_cells(std::vector<double> values, std::vector<std::string>& row) {
   if (values.empty()) {
     row.insert(row.end(), {"", "", ""});
@@ -173,10 +173,8 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_represent(CommandLine& line) {
+void add_represent(Arguments command) {
   auto options = std::make_shared<Options>();
-  Arguments command = line.add_command(
-      "represent", "What stands for a scene's bodies, from ball to mesh, and how far off it is");
   command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
   command
       .texts("--forms", options->forms,

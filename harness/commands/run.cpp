@@ -1,4 +1,4 @@
-// touchstone run: the main job.
+// touchstone run: measures a campaign.
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,8 +10,9 @@
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/program.h"
 #include "harness/commands/shared_options.h"
-#include "harness/commands/trade.h"
+#include "harness/files/toml_table.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
 #include "harness/stats/published_check.h"
@@ -33,7 +34,7 @@ struct Options {
   int frames = -1;
   double tolerance = 0, time_limit = 10;
   bool product = false, rebuild = false, warm = false;
-  // How to go about it.
+  // The way in which it is measured.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
 };
 
@@ -71,7 +72,7 @@ Campaign campaign_of(const Options& options) {
   return campaign;
 }
 
-// What would be measured, without measuring it.
+// Prints what a run would measure, without measuring it.
 void print_plan(const Campaign& campaign) {
   double seconds = 0;
   double check_seconds = 0;
@@ -99,19 +100,18 @@ RunStart start_of(const Options& options) {
   return options.overwrite ? RunStart::overwrite : RunStart::fresh;
 }
 
-// A file of a trade instead of a campaign: no option but --out is for it.
+// The file is one of a trade instead of a campaign, which has no option but --out.
 int run_trade_file(const Options& options) {
   if (options.resume || options.overwrite || options.strict || options.noisy || options.dry_run) {
     throw InputError(options.campaign +
                      " has a table [trade]; expected no option but --out with such a file");
   }
-  TradeRequest request = read_trade(options.campaign);
-  const std::filesystem::path folder = trade_folder(options.out, request.name);
-  return run_trade(std::move(request), folder, true);
+  hand_over();
 }
 
 int run(const Options& options) {
-  if (!options.campaign.empty() && is_trade_file(options.campaign)) return run_trade_file(options);
+  if (!options.campaign.empty() && has_key(options.campaign, "trade"))
+    return run_trade_file(options);
   const Campaign campaign = campaign_of(options);
   const std::filesystem::path folder = results_folder(options.out, campaign.name);
   if (options.dry_run) {
@@ -150,10 +150,8 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_run(CommandLine& line) {
+void add_run(Arguments command) {
   auto options = std::make_shared<Options>();
-  Arguments command = line.add_command(
-      "run", "Run a campaign: every scene through every algorithm, compared and timed");
   const Option campaign = command.text(
       "campaign", options->campaign, "Campaign file (.toml); without one, the standard comparison");
   command.text("--out", options->out,

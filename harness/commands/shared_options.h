@@ -1,5 +1,4 @@
-// What several commands share: options with their checks and texts, names of results folders, the
-// choice of algorithms.
+// Options, results folders and choices of algorithms that several commands share.
 #pragma once
 
 #include <filesystem>

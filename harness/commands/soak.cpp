@@ -1,4 +1,4 @@
-// touchstone soak: verdicts by the million against exact ones.
+// touchstone soak: counts verdicts by the million against exact ones.
 #include "harness/check/soak.h"
 
 #include <fmt/format.h>
@@ -53,11 +53,9 @@ int soak(Options& options) {
 
 }  // namespace
 
-void add_soak(CommandLine& line) {
+void add_soak(Arguments command) {
   const auto options = std::make_shared<Options>();
   SoakRequest& request = options->request;
-  Arguments command = line.add_command(
-      "soak", "Count verdicts by the million against exact ones, in regimes that are hard");
   add_case_options(command, request, options->narrow, options->out, "soak", "soak");
   command.number("--pairs", request.pairs, "Pairs in all, spread over the regimes")
       .within(1, 1'000'000'000'000)

@@ -1,4 +1,4 @@
-// touchstone stress: how far each algorithm can be trusted, axis by axis.
+// touchstone stress: finds how far each algorithm can be trusted, axis by axis.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -67,7 +67,7 @@ int stress(Options& options, const std::string& command) {
   if (options.quick) request.cases = quick_cases;
   request.out = results_folder(options.out, "stress");
   if (!options.page.empty()) {
-    // It may lie in the folder that the sweep is about to make.
+    // The page may lie in the folder that the sweep is about to make.
     std::error_code ignored;
     std::filesystem::create_directories(request.out, ignored);
     check_output(options.page);
@@ -91,12 +91,9 @@ int stress(Options& options, const std::string& command) {
 
 }  // namespace
 
-void add_stress(CommandLine& line) {
+void add_stress(Arguments command) {
   const auto options = std::make_shared<Options>();
   StressRequest& request = options->request;
-  Arguments command = line.add_command(
-      "stress",
-      "Drive every narrow phase to where it breaks: scale, proportions, distance, gap, ...");
   add_case_options(command, request, options->narrow, options->out, "stress", "sweep");
   command.text("--axes", options->axes, "Axes: names joined by commas (default: all)");
   const Option cases =

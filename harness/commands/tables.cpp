@@ -1,4 +1,4 @@
-// touchstone tables: the tables of a results folder, and whether they hold here.
+// touchstone tables: writes the tables of a results folder, or checks whether they hold here.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ int write(const Results& results, const std::filesystem::path& folder, const Opt
   return exit_done;
 }
 
-// Runs the reference's campaign with this program, in its own process as a user would; the folder.
+// Runs the reference's campaign with this program in a process of its own. Returns the folder.
 std::filesystem::path run_again(const std::filesystem::path& reference, const Options& options) {
   const std::filesystem::path source(source_folder);
   std::filesystem::path campaign = options.campaign;
@@ -54,7 +54,7 @@ std::filesystem::path run_again(const std::filesystem::path& reference, const Op
   }
   const std::filesystem::path out = results_folder(options.out, "tables");
   std::filesystem::create_directories(out);
-  std::filesystem::remove(out / "raw.csv");  // of an earlier check, perhaps not finished
+  std::filesystem::remove(out / "raw.csv");  // a rest of an earlier check
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
              (out / "output.txt").string());
   const int status = run_and_wait(
@@ -127,11 +127,8 @@ int tables(const Options& options) {
 
 }  // namespace
 
-void add_tables(CommandLine& line) {
+void add_tables(Arguments command) {
   auto options = std::make_shared<Options>();
-  Arguments command = line.add_command(
-      "tables",
-      "Write the tables of a results folder, or see whether those of a reference hold here");
   command.text("results", options->results,
                "Results folder, or raw.csv: its tables are written beside it. Without one, "
                "the campaign of the reference is run again and checked");

@@ -1,4 +1,4 @@
-// touchstone trade: speed against accuracy on one scene.
+// touchstone trade: measures speed against accuracy on one scene.
 #include "harness/commands/trade.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/figures.h"
@@ -78,10 +78,8 @@ void take_measure(const std::string& name, TradeRequest& request) {
   }
 }
 
-void add_trade(CommandLine& line) {
+void add_trade(Arguments command) {
   auto options = std::make_shared<Options>();
-  Arguments command = line.add_command(
-      "trade", "Speed against accuracy on a scene: every configuration, and the Pareto front");
   command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
   command.text(
       "--out", options->out,
@@ -95,6 +93,16 @@ void add_trade(CommandLine& line) {
     request.name = request.scene.stem().string();
     take_measure(options->error, request);
     return run_trade(request, trade_folder(options->out, request.name), !options->plain);
+  });
+}
+
+void add_run_trade(Arguments command) {
+  auto options = std::make_shared<Options>();
+  command.text("campaign", options->scene, "A file with a table [trade]").required();
+  command.text("--out", options->out, "Folder (default: results/local/trade-NAME in the project)");
+  command.job([options] {
+    const TradeRequest request = read_trade(options->scene);
+    return run_trade(request, trade_folder(options->out, request.name), true);
   });
 }
 

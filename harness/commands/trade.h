@@ -1,4 +1,4 @@
-// What the commands about trades share.
+// Functions that the commands about trades share.
 #pragma once
 
 #include <filesystem>
@@ -13,17 +13,17 @@ namespace touchstone {
 // The library's own representations.
 inline Representing representing() { return {represent, representation_error}; }
 
-// Where results go: what was asked for, or results/local/trade-NAME.
+// Returns `out`, or results/local/trade-NAME where it is empty.
 std::filesystem::path trade_folder(const std::string& out, const std::string& name);
 
-// Measures, writes, prints and draws. The exit status.
+// Measures, writes, prints and draws. Returns the exit status.
 int run_trade(TradeRequest request, const std::filesystem::path& folder, bool with_figure);
 
-// Options for the question, the scene and the time.
+// Adds the options for the question, the scene and the time.
 void add_trade_axes(Arguments& command, TradeRequest& request);
-// --error, whose value take_measure reads.
+// Adds --error, whose value take_measure reads.
 void add_error_measure(Arguments& command, std::string& name);
-// The measure of this name; empty: the task's own.
+// Sets the measure of this name, or the task's own where it is empty.
 void take_measure(const std::string& name, TradeRequest& request);
 
 }  // namespace touchstone

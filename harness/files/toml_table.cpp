@@ -50,6 +50,10 @@ toml::table parse_toml(const std::filesystem::path& path) {
   }
 }
 
+bool has_key(const std::filesystem::path& file, std::string_view key) {
+  return parse_toml(file).contains(key);
+}
+
 void TomlTable::fail_at(const toml::node& node, std::string_view key,
                         const std::string& message) const {
   const std::string place = where_.empty() ? std::string(key) : fmt::format("{}: {}", where_, key);

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "harness/files/toml_table.h"
+
 namespace touchstone {
 namespace {
 

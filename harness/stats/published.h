@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/files/toml_table.h"
-
 namespace touchstone {
+
+class TomlTable;
 
 struct PublishedClaim {
   enum class Kind : std::uint8_t {

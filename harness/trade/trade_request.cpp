@@ -177,8 +177,6 @@ std::string describe(const TradeGrid& grid) {
 
 }  // namespace
 
-bool is_trade_file(const std::filesystem::path& file) { return parse_toml(file).contains("trade"); }
-
 TradeRequest read_trade(const std::filesystem::path& file) {
   const toml::table root = parse_toml(file);
   TomlTable top(root, file.string(), "");

@@ -26,8 +26,6 @@ struct TradeRequest {
   std::vector<TradeGrid> grids;
 };
 
-// Whether the file is for read_trade: it has a table [trade]. InputError where it is no TOML.
-bool is_trade_file(const std::filesystem::path& file);
 // The keys are documented in datasets/README.md. Throws InputError with file, line and what was
 // expected.
 TradeRequest read_trade(const std::filesystem::path& file);

@@ -8,16 +8,13 @@
 namespace touchstone {
 namespace {
 
-// A Python with matplotlib; empty where there is none.
-std::string python() {
-  for (const std::string name : {"/usr/bin/python3", "python3"}) {
-    if (std::system((name + " -c 'import matplotlib' 2>/dev/null").c_str()) == 0) return name;
-  }
-  return "";
-}
+// Runs the first Python with matplotlib.
+const std::string python = std::string(project_folder) + "/plots/python";
+
+bool has_matplotlib() { return run_shell(python + " -c ''").status == 0; }
 
 Ran plot(const std::string& arguments) {
-  return run_shell(python() + " -B " + std::string(project_folder) +
+  return run_shell(python + " -B " + std::string(project_folder) +
                    "/plots/plot.py --program " TOUCHSTONE_PROGRAM " " + arguments);
 }
 
@@ -48,7 +45,7 @@ FakeRun varied_run() {
 }
 
 TEST(Plots, EveryFigureInTheSameBytesTwice) {
-  if (python().empty()) GTEST_SKIP() << "no matplotlib";
+  if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
   const std::string results = varied_run().write(folder.path() / "r").string();
   for (const char* out : {"one", "two"}) {
@@ -66,7 +63,7 @@ TEST(Plots, EveryFigureInTheSameBytesTwice) {
 }
 
 TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
-  if (python().empty()) GTEST_SKIP() << "no matplotlib";
+  if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
   const std::string sweep = (folder.path() / "sweep").string();
   const Ran made = run_program("stress --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
@@ -82,7 +79,7 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
 }
 
 TEST(Plots, BadRequestsAreTold) {
-  if (python().empty()) GTEST_SKIP() << "no matplotlib";
+  if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
   const std::string none = (folder.path() / "none").string();
   Ran ran = plot(none);

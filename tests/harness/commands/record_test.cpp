@@ -18,7 +18,7 @@ class Record : public testing::Test {
 
   static int status_of(std::vector<std::string> arguments) {
     CommandLine line("");
-    add_record(line);
+    add_record(line.add_command("record", ""));
     arguments.insert(arguments.begin(), "record");
     return line.run(arguments);
   }

@@ -30,7 +30,7 @@ class Represent : public testing::Test {
   std::string out() const { return (folder_.path() / "errors.csv").string(); }
   int status_of(std::vector<std::string> arguments) {
     CommandLine line("");
-    add_represent(line);
+    add_represent(line.add_command("represent", ""));
     arguments.insert(arguments.begin(), {"represent", scene_.string(), "--out", out()});
     return line.run(arguments);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "harness/files/toml_table.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/trade/trade_scenes.h"
 
@@ -47,7 +48,7 @@ narrow = "gjk"
 tolerances = [1e-3, 1e-9]
 max_iterations = [1, 8]
 )");
-  EXPECT_TRUE(is_trade_file(file));
+  EXPECT_TRUE(has_key(file, "trade"));
   const TradeRequest request = read_trade(file);
   EXPECT_EQ(request.seed, 7u);
   EXPECT_EQ(request.task, Task::penetration);
