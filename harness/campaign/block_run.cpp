@@ -48,12 +48,12 @@ BlockRun::BlockRun(const RunContext& context, const BlockInput& input,
 }
 
 void BlockRun::take_over(const RawRow& row) {
-  if (row.lost() || row.status == status_wrong) {
+  if (row.lost() || row.wrong()) {
     for (std::size_t i = 0; i < out_.size(); ++i) {
       const Contestant& contestant = schedule_.contestants[i];
       // A failure of the check pass is one of a set, and the schedule knows it.
       if (row.process >= 0 && contestant.label() == label_of(row) &&
-          contestant.twin == (row.twin == 1)) {
+          contestant.twin == row.is_twin()) {
         out_[i] = 1;
       }
     }
@@ -193,7 +193,7 @@ void BlockRun::verify(Worker& worker, std::size_t c, int process,
       if (reply && matches(*reply, c, s, request)) continue;
       RawRow row = row_of(c, s, frame);
       row.process = process;
-      add(reply ? leave(std::move(row), c, status_wrong,
+      add(reply ? leave(std::move(row), c, RowStatus::wrong,
                         fmt::format("another answer at {} threads than in the check at one",
                                     context_->block->threads),
                         "", false)

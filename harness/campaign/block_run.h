@@ -67,7 +67,7 @@ class BlockRun {
   bool matches(const SampleReply& reply, std::size_t contestant, std::size_t set,
                const SampleRequest& request) const;
   // Marks it as out of the block.
-  Taken leave(RawRow row, std::size_t contestant, std::string_view status, const std::string& what,
+  Taken leave(RawRow row, std::size_t contestant, RowStatus status, const std::string& what,
               const std::string& words, bool known);
   Taken lose(RawRow row, std::size_t contestant, const IsolationFailure& failure);
   void add(Taken taken);

@@ -44,22 +44,22 @@ RawRow BlockRun::row_of(std::size_t c, std::size_t s, std::size_t frame) const {
   RawRow row = contestant.broad != nullptr
                    ? context_->row(frame, *contestant.broad, Phase::find_pairs)
                    : context_->row(frame, *contestant.narrow);
-  if (contestant.twin) row.twin = 1;
+  if (contestant.twin) row.twin = true;
   if (set.narrow != nullptr) {
     row.broad = set.narrow->broad;
-    row.task = to_string(set.narrow->task);
+    row.task = set.narrow->task;
     row.pair_kind = set.narrow->kind_name();
   }
   return row;
 }
 
-BlockRun::Taken BlockRun::leave(RawRow row, std::size_t c, std::string_view status,
+BlockRun::Taken BlockRun::leave(RawRow row, std::size_t c, RowStatus status,
                                 const std::string& what, const std::string& words, bool known) {
   const Contestant& contestant = schedule_.contestants[c];
   out_[c] = 1;
   workers_[c].reset();
   std::string where = context_->place(static_cast<std::size_t>(row.frame));
-  if (!row.narrow.empty()) where += fmt::format(", {}, {}", row.pair_kind, row.task);
+  if (!row.narrow.empty()) where += fmt::format(", {}, {}", row.pair_kind, to_string(*row.task));
   Departure departure = context_->departure(contestant.info(), contestant.label(), where);
   departure.known = known;
   departure.what = what + "; left out from here on";
@@ -70,7 +70,7 @@ BlockRun::Taken BlockRun::leave(RawRow row, std::size_t c, std::string_view stat
 
 BlockRun::Taken BlockRun::lose(RawRow row, std::size_t c, const IsolationFailure& failure) {
   const bool late = failure.state == ItemState::timed_out;
-  return leave(std::move(row), c, to_string(late ? Status::timed_out : Status::crashed),
+  return leave(std::move(row), c, late ? RowStatus::timed_out : RowStatus::crashed,
                failure.reason(), failure.words, late);
 }
 
@@ -95,8 +95,8 @@ BlockRun::Taken BlockRun::sample(const Place& place, std::size_t c, std::uint32_
     return lose(std::move(row), c, failure);
   }
   if (!matches(*reply, c, place.set, request)) {
-    return leave(std::move(row), c, status_wrong, "another answer in a sample than in the check",
-                 "", false);
+    return leave(std::move(row), c, RowStatus::wrong,
+                 "another answer in a sample than in the check", "", false);
   }
   row.pair_count = reply->pairs;
   row.peak_kb = reply->peak_kb;
@@ -116,13 +116,12 @@ BlockRun::Taken BlockRun::sample(const Place& place, std::size_t c, std::uint32_
     row.outcome_hash = to_hex(reply->outcome_hash);
     row.iterations = reply->iterations;
     row.support_calls = reply->support_calls;
-    row.status =
-        to_string(checked.gave_up                                          ? Status::not_converged
-                  : schedule_.contestants[c].info().origin == Origin::ours ? Status::ok
-                                                                           : Status::not_reported);
+    row.status = checked.gave_up                                          ? RowStatus::not_converged
+                 : schedule_.contestants[c].info().origin == Origin::ours ? RowStatus::ok
+                                                                          : RowStatus::not_reported;
     return {{row}, {}};
   }
-  row.status = to_string(reply->status);
+  row.status = row_status(reply->status);
   RawRow prepare = row_of(c, place.set, frame);
   prepare.kind = row.kind;
   prepare.process = row.process;

@@ -17,15 +17,15 @@
 
 namespace touchstone {
 
-// How broad and narrow phases are put together.
+// Combination of broad and narrow phases.
 enum class Pairing : std::uint8_t {
   separate,  // each narrow phase once a frame, on the true pairs
   product,   // each narrow phase on the pairs of each broad phase, as that one reports them
 };
 
-// Which cells a rule is about: those of which all that it names holds.
+// A rule applies to the cells that match everything it names.
 struct CampaignRule {
-  std::optional<std::string> broad, narrow;  // a rule that names one is about no cell of the other
+  std::optional<std::string> broad, narrow;  // a rule that names one matches no cell of the other
   std::optional<std::string> scene;          // its name, which may leave out the gap
   std::optional<Precision> scalar;
   std::optional<Task> task;
@@ -64,12 +64,12 @@ struct CampaignGroup {
   std::vector<std::optional<Isa>> isa = {std::nullopt};
   bool rebuild = false;  // every frame is built anew instead of updated
   std::vector<const BroadPhaseEntry*> broad;
-  bool limit = false;  // what no broad phase can do without is measured beside them
+  bool limit = false;  // the lower bound (algorithms/limit.h) is measured beside the others
   std::vector<NarrowChoice> narrow;
   std::vector<Task> tasks = {Task::intersect};
   Pairing pairing = Pairing::separate;
   std::vector<CampaignRule> include, exclude;
-  // Seconds, for one frame of one algorithm; then it is left out of the block.
+  // Seconds for one frame; an algorithm that takes longer is left out of the block.
   double time_limit = 10;
   std::size_t memory_limit = std::size_t{4} << 30;  // bytes that one algorithm may take
   // Repetition ends where the half-width of every ratio's interval is at most `width`, or these
@@ -90,17 +90,17 @@ struct Campaign {
   Published published;
 };
 
-// Reads a campaign file: the keys are documented in datasets/README.md. Keys at the top level are
-// defaults of each [[group]]; scenes are relative to the file. Throws InputError with file, line
-// and what was expected.
+// Reads a campaign file: datasets/README.md documents the keys. Keys at the top level are defaults
+// of each [[group]]; scenes are relative to the file. Throws InputError with file, line and what
+// was expected.
 Campaign read_campaign(const std::filesystem::path& file);
 
-// What decides a campaign's measurements: its name, seed and content, each scene's hash, the
-// program's, and the facts.
+// Facts that decide a campaign's measurements: its name, seed and content, the hashes of its scenes
+// and of the program, and the machine.
 std::vector<std::pair<std::string, std::string>> campaign_facts(
     const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes);
 
-// All that decides what is measured, as one text: the same for equal campaigns only.
+// The campaign's settings as one text, which is the same for equal campaigns only.
 std::string description(const Campaign& campaign);
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-// The yardstick of algorithms/limit.h as a contestant of a block.
+// The lower bound of algorithms/limit.h as a contestant of a block.
 #pragma once
 
 #include "algorithms/broad_phase.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace touchstone {
@@ -14,30 +15,32 @@ RawRow RunContext::row(std::size_t frame) const {
   row.scene_hash = scene_hash;
   row.seed = block->overrides.seed;
   row.bodies = static_cast<std::int64_t>(scene->size());
-  row.boxes = to_string(block->boxes);
+  row.boxes = block->boxes;
   row.frame = static_cast<std::int64_t>(frame);
   row.threads = block->threads;
-  row.isa = to_string(isa());
-  if (block->isa) row.isa_limit = to_string(*block->isa);
+  row.isa = isa();
+  row.isa_limit = block->isa;
   return row;
 }
 
 RawRow RunContext::row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const {
   RawRow result = row(frame);
   result.broad = entry.info.name;
+  result.origin = &entry == limit ? RowOrigin::limit : row_origin(entry.info.origin);
   result.phase = phase;
-  result.status = to_string(Status::ok);
-  if (block->group->rebuild) result.rebuild = 1;
+  result.status = RowStatus::ok;
+  if (block->group->rebuild) result.rebuild = true;
   return result;
 }
 
 RawRow RunContext::row(std::size_t frame, const NarrowChoice& choice) const {
   RawRow result = row(frame);
   result.narrow = choice.entry->info.name;
-  result.scalar = to_string(choice.settings.scalar);
+  result.origin = row_origin(choice.entry->info.origin);
+  result.scalar = choice.settings.scalar;
   result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
   result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
-  if (choice.warm) result.warm = 1;
+  if (choice.warm) result.warm = true;
   result.phase = Phase::narrow;
   return result;
 }
@@ -80,6 +83,11 @@ bool RunContext::admits(const NarrowChoice& choice, const std::string& broad, Ta
 
 std::string RunContext::place(std::size_t frame) const {
   return fmt::format("{}, {} bodies, frame {}", scene->name, scene->size(), frame);
+}
+
+std::string RunContext::file_name(std::string text) {
+  std::ranges::replace(text, ' ', '_');
+  return text;
 }
 
 Departure RunContext::departure(const AlgorithmInfo& info, std::string label,

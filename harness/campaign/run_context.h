@@ -1,4 +1,4 @@
-// What the parts of a run share about the block at hand.
+// Data on the current block that the parts of a run share.
 #pragma once
 
 #include <cstdint>
@@ -33,25 +33,27 @@ struct RunContext {
   const Block* block = nullptr;
   const Scene* scene = nullptr;
   std::string scene_hash;
-  std::filesystem::path reproductions;  // the folder for files that show a departure; empty: none
+  std::filesystem::path reproductions;  // folder for files that show a discrepancy; empty: none
   Findings* findings = nullptr;
   std::span<const Block> blocks = {};      // all of the campaign, by their numbers
-  const BroadPhaseEntry* limit = nullptr;  // the yardstick, where the campaign asks for it
+  const BroadPhaseEntry* limit = nullptr;  // the lower bound, where the campaign asks for it
 
   // A row with the columns that the block decides.
   RawRow row(std::size_t frame) const;
-  // The same for an algorithm.
+  // A row of an algorithm.
   RawRow row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const;
   RawRow row(std::size_t frame, const NarrowChoice& choice) const;
-  // The broad phases of the group that its rules let take part, the yardstick last.
+  // The broad phases of the group that its rules admit, the lower bound last.
   std::vector<const BroadPhaseEntry*> broad() const;
-  // Whether the campaign's rules let it take part.
+  // True where the campaign's rules let it take part.
   bool admits(const BroadPhaseEntry& entry) const;
   bool admits(const NarrowChoice& choice, const std::string& broad, Task task,
               const std::string& pair_kind) const;
   // "home, 85 bodies, frame 3"
   std::string place(std::size_t frame) const;
-  // A departure of this algorithm in this block.
+  // The text with '_' for each blank: names of scenes may have some.
+  static std::string file_name(std::string text);
+  // A discrepancy of this algorithm in this block.
   Departure departure(const AlgorithmInfo& info, std::string label, std::string where) const;
 };
 

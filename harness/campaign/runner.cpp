@@ -16,6 +16,7 @@
 #include "harness/campaign/check_pass/check_narrow.h"
 #include "harness/campaign/check_pass/check_price.h"
 #include "harness/campaign/limit_entry.h"
+#include "harness/campaign/run_folder.h"
 #include "harness/process/child_process.h"
 #include "harness/record/machine.h"
 
@@ -89,7 +90,7 @@ class IsaGuard {
   Isa before_;
 };
 
-// A start is warm by the frame before.
+// A warm start needs a frame before.
 void expect_frames(const Block& block, const Scene& scene) {
   const bool warm = std::ranges::any_of(block.group->narrow, &NarrowChoice::warm);
   if (!warm || scene.frames > 1 || !scene.recording.empty()) return;
@@ -143,7 +144,7 @@ bool has_narrow(const RunContext& context) {
   return !context.block->group->narrow.empty() && context.scene->recording.empty();
 }
 
-// Whether narrow phases are asked about what each broad phase finds.
+// True where narrow phases are asked about the pairs that each broad phase finds.
 bool finds_pairs(const RunContext& context) {
   return context.block->group->pairing == Pairing::product && context.scene->pairs.empty();
 }
@@ -159,8 +160,8 @@ std::vector<std::vector<IndexPair>> true_pairs(const BlockInput& input) {
   return pairs;
 }
 
-// Checks the broad phases and gives what narrow phases are asked. Rows go to `context.findings`.
-// `again`: they are known, and only the pairs that were found are wanted.
+// Checks the broad phases and returns the pairs for the narrow phases. Rows go to
+// `context.findings`. `again`: the rows are known, and only the pairs are wanted.
 NarrowInput check_broad_phases(const RunContext& context, const BlockInput& input, bool again) {
   const CampaignGroup& group = *context.block->group;
   const bool narrow = has_narrow(context);
@@ -180,7 +181,7 @@ NarrowInput check_broad_phases(const RunContext& context, const BlockInput& inpu
   return sets;
 }
 
-void run_block(RunContext context, bool checked, Progress& progress, ResultFiles& files) {
+void run_block(RunContext context, bool checked, Progress& progress, RunFolder& files) {
   const IsaGuard guard(*context.block);
   const Stopwatch watch;
   const double budget = context.block->group->seconds;
@@ -197,13 +198,13 @@ void run_block(RunContext context, bool checked, Progress& progress, ResultFiles
   } else {
     narrow = check_broad_phases(context, input, false);
     NarrowCheck(context, input, narrow.checked).run();
-    files.write_new(*context.findings);
+    files.commit(*context.findings);
   }
   const CheckTable table(context.findings->rows(), context.number, input.frames.size());
   BlockRun run(context, input, narrow.measured, table,
                make_schedule(context, input, narrow.measured, table));
   run.run([&] {
-    files.write_new(*context.findings);
+    files.commit(*context.findings);
     progress.part(std::min(watch.seconds() / budget, 1.0));
     return interrupt == 0;
   });
@@ -212,12 +213,12 @@ void run_block(RunContext context, bool checked, Progress& progress, ResultFiles
 }  // namespace
 
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                       RunStart start) {
+                       FolderStart start) {
   expect_one_thread();
   const std::vector<Block> blocks = blocks_of(campaign);
   const Scenes scenes(blocks);
   RunResult result;
-  ResultFiles files(folder, campaign_facts(campaign, scenes.hashes()), start, result.findings);
+  RunFolder files(folder, campaign_facts(campaign, scenes.hashes()), start, result.findings);
   if (files.was_finished()) return result;
   const auto& rows = result.findings.rows();
   const std::int64_t at = rows.empty() ? -1 : rows.back().block;  // where it stopped
@@ -239,6 +240,33 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
   }
   if (!result.interrupted) files.finish();
   return result;
+}
+
+Findings check_campaign(const Campaign& campaign) {
+  expect_one_thread();
+  const std::vector<Block> blocks = blocks_of(campaign);
+  const Scenes scenes(blocks);
+  Findings findings;
+  for (std::size_t number = 0; number < blocks.size(); ++number) {
+    const Block& block = blocks[number];
+    const Scenes::Loaded& loaded = scenes.of(block);
+    RunContext context{campaign.name,
+                       campaign.seed,
+                       static_cast<std::int64_t>(number),
+                       &block,
+                       &loaded.scene,
+                       loaded.hash,
+                       {},
+                       &findings,
+                       blocks};
+    const IsaGuard guard(block);
+    const BlockInput input(loaded.scene, block.boxes, has_narrow(context));
+    const BroadPhaseEntry limit = limit_entry(input);
+    if (block.group->limit) context.limit = &limit;
+    const NarrowInput narrow = check_broad_phases(context, input, false);
+    NarrowCheck(context, input, narrow.checked).run();
+  }
+  return findings;
 }
 
 std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
@@ -270,7 +298,7 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     std::vector<std::string> listed = broad;
     if (group.limit && !broad.empty()) listed.emplace_back(stats::limit_label);
     add("broad phases", listed);
-    // Without narrow phases the first frames tell what all of them take.
+    // Without narrow phases the first frames give the time of all.
     const bool has_pairs = has_narrow(context);
     Scene scene = loaded.scene;
     const auto frames = static_cast<std::size_t>(

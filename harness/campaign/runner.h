@@ -8,7 +8,7 @@
 
 #include "harness/campaign/campaign.h"
 #include "harness/record/findings.h"
-#include "harness/record/result_files.h"
+#include "harness/record/result_folder.h"
 
 namespace touchstone {
 
@@ -24,7 +24,10 @@ struct RunResult {
 // kept, to be resumed. The caller is the only thread of its process (std::logic_error): workers are
 // forked from it, so that no Executor of more than one thread has been used in it.
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                       RunStart start = RunStart::fresh);
+                       FolderStart start = FolderStart::fresh);
+
+// The check pass of every block alone: the campaign's answers, without samples and files.
+Findings check_campaign(const Campaign& campaign);
 
 // What run_campaign would do, and for how long, by trials of a few frames and pairs.
 struct PlannedBlock {

@@ -7,23 +7,12 @@ namespace {
 
 stats::Noise noise(bool noisy) { return noisy ? stats::Noise::kept : stats::Noise::left_out; }
 
-stats::Part part_of(Phase phase) {
-  switch (phase) {
-    case Phase::build: return stats::Part::build;
-    case Phase::update: return stats::Part::update;
-    case Phase::find_pairs: return stats::Part::find_pairs;
-    case Phase::convert: return stats::Part::convert;
-    case Phase::narrow: break;
-  }
-  return stats::Part::narrow;
-}
-
 }  // namespace
 
 void SetTimes::add(const RawRow& row) {
   if (row.kind != RowKind::sample || !(row.seconds >= 0) || row.square < 0) return;
   std::string label = label_of(row);
-  if (row.twin == 1) {
+  if (row.is_twin()) {
     baseline_ = label;
     label = twin_of(label);
   }
@@ -34,7 +23,7 @@ void SetTimes::add(const RawRow& row) {
   sample.position = row.position;
   sample.units = static_cast<double>(row.narrow.empty() ? row.frames : row.pair_count);
   sample.noisy = !row.noise.empty() && row.noise != "canary";
-  stats::add_phase(contestants_[label], part_of(row.phase), sample, row.seconds);
+  stats::add_phase(contestants_[label], row.phase, sample, row.seconds);
 }
 
 std::vector<std::string> SetTimes::labels() const {

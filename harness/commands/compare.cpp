@@ -14,6 +14,8 @@
 #include "harness/files/csv.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
+#include "harness/record/machine.h"
+#include "harness/record/result_folder.h"
 #include "harness/stats/comparison.h"
 
 namespace touchstone {
@@ -138,6 +140,11 @@ int compare_programs(const Options& options) {
                                    : options.files[0];
   const std::filesystem::path out = results_folder(options.out, "compare");
   if (!std::ifstream(campaign)) throw InputError(campaign, 0, "cannot be read");
+  ResultFolder folder({.folder = out,
+                       .files = {},
+                       .identity = machine_facts(),
+                       .start = FolderStart::overwrite,
+                       .work = "comparison"});
   std::vector<Results> a, b;
   for (int i = 0; i < options.runs; ++i) {
     // A B, B A, A B, ...: a machine that grows slower or faster is fair to both.
@@ -146,8 +153,10 @@ int compare_programs(const Options& options) {
       (is_a ? a : b)
           .push_back(run(options.programs[is_a ? 0 : 1], campaign,
                          out / (is_a ? "a" : "b") / std::to_string(i + 1)));
+      folder.commit();
     }
   }
+  folder.finish();
   for (std::size_t i = 0; i < a.size(); ++i) {
     // Both ran on this machine, but their files must agree on it too.
     const std::vector<std::string> reasons = obstacles(a[i], b[i], !options.any_machine);

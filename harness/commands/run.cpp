@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
-#include "harness/campaign/report.h"
+#include "harness/base/markdown.h"
 #include "harness/campaign/runner.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
@@ -16,6 +15,7 @@
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
 #include "harness/stats/published_check.h"
+#include "harness/stats/summary.h"
 
 namespace touchstone {
 namespace {
@@ -36,6 +36,8 @@ struct Options {
   bool product = false, rebuild = false, warm = false;
   // The way in which it is measured.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
+  bool tables = false;
+  double depth_error = stats::usual_depth_error;
 };
 
 Campaign campaign_of(const Options& options) {
@@ -95,9 +97,9 @@ void print_plan(const Campaign& campaign) {
       blocks.size(), cells, check_seconds, seconds);
 }
 
-RunStart start_of(const Options& options) {
-  if (options.resume) return RunStart::resume;
-  return options.overwrite ? RunStart::overwrite : RunStart::fresh;
+FolderStart start_of(const Options& options) {
+  if (options.resume) return FolderStart::resume;
+  return options.overwrite ? FolderStart::overwrite : FolderStart::fresh;
 }
 
 // The file is one of a trade instead of a campaign, which has no option but --out.
@@ -107,6 +109,23 @@ int run_trade_file(const Options& options) {
                      " has a table [trade]; expected no option but --out with such a file");
   }
   hand_over();
+}
+
+// Writes tables.md and prints the summary, or all tables where they are asked for.
+void report(const Campaign& campaign, const RunResult& result, const std::filesystem::path& folder,
+            const Options& options) {
+  const stats::Noise noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out;
+  const stats::Results results = stats::read_results(folder);
+  const stats::Tables tables = stats::make_tables(results, noise, options.depth_error);
+  const std::string text = stats::tables_markdown(tables);
+  stats::write_text(folder / "tables.md", text);
+  if (options.tables) fmt::print("{}\n{}\n", text, departures_text(result.findings));
+  if (!campaign.published.source.empty() && !result.interrupted) {
+    const auto rows = stats::check_published(campaign.published, results, noise);
+    stats::write_published(campaign.published, rows, folder);
+    if (options.tables) fmt::print("{}\n", stats::published_text(campaign.published, rows));
+  }
+  fmt::print("{}", stats::summary(results, tables, result.findings.departures(), folder));
 }
 
 int run(const Options& options) {
@@ -125,20 +144,7 @@ int run(const Options& options) {
     }
   }
   const RunResult result = run_campaign(campaign, folder, start_of(options));
-  const ReportStyle style = {.page_width = page_width(), .noisy = options.noisy};
-  for (const std::string& text :
-       {broad_table(result.findings, style), narrow_tables(result.findings, style),
-        measurement_notes(result.findings, style), departures(result.findings)}) {
-    if (!text.empty()) fmt::print("{}\n", text);
-  }
-  if (!campaign.published.source.empty() && !result.interrupted) {
-    const auto rows =
-        stats::check_published(campaign.published, stats::read_results(folder),
-                               options.noisy ? stats::Noise::kept : stats::Noise::left_out);
-    stats::write_published(campaign.published, rows, folder);
-    fmt::print("{}\n", stats::published_text(campaign.published, rows));
-  }
-  fmt::print("{} rows in {}\n", result.findings.rows().size(), (folder / "raw.csv").string());
+  report(campaign, result, folder, options);
   if (result.interrupted) {
     fmt::print(stderr,
                "touchstone: interrupted; what was measured until then is kept, and --resume goes "
@@ -164,6 +170,9 @@ void add_run(Arguments command) {
       .excludes(resume);
   command.flag("--strict", options->strict, "Refuse to measure on a machine that is busy");
   command.flag("--noisy", options->noisy, "Let the tables count rounds that the machine disturbed");
+  command.flag("--tables", options->tables,
+               "Print all tables, which are in tables.md, before the summary");
+  add_depth_error(command, options->depth_error);
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";

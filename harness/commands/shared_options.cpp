@@ -39,6 +39,14 @@ Option add_time_limit(Arguments& command, double& seconds, const std::string& he
   return command.number("--time-limit", seconds, help).positive();
 }
 
+Option add_depth_error(Arguments& command, double& error) {
+  return command
+      .number("--depth-error", error,
+              "Greatest error of a distance or depth that is right, as a part of the pair's size")
+      .positive()
+      .show_default();
+}
+
 Option add_threads(Arguments& command, int& threads, const std::string& help) {
   return command.number("--threads", threads, help).within(1, 1024).show_default();
 }

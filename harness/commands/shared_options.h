@@ -25,6 +25,8 @@ void add_scene_overrides(Arguments& command, SceneOverrides& overrides);
 // --time-limit in seconds.
 Option add_time_limit(Arguments& command, double& seconds,
                       const std::string& help = "Seconds that a query may take");
+// --depth-error of tables.
+Option add_depth_error(Arguments& command, double& error);
 // --threads of an executor.
 Option add_threads(Arguments& command, int& threads, const std::string& help = "Threads");
 

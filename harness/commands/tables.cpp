@@ -5,8 +5,11 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "algorithms/core/isa.h"
+#include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/text_table.h"
 #include "harness/commands/arguments.h"
@@ -24,14 +27,29 @@ using namespace stats;
 
 struct Options {
   std::string results, reference, out, campaign;
-  double band = 1.5;
+  double band = 1.5, depth_error = usual_depth_error;
   bool check = false, noisy = false;
 };
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
 
+template <class Entry>
+std::optional<RowOrigin> origin_among(std::span<const Entry> entries, const std::string& name) {
+  const auto at =
+      std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
+  if (at == entries.end()) return std::nullopt;
+  return row_origin(at->info.origin);
+}
+
+// For results of before the column `origin`.
+std::optional<RowOrigin> origin_of(bool narrow, const std::string& name) {
+  if (!narrow && name == limit_label) return RowOrigin::limit;
+  return narrow ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
+}
+
 int write(const Results& results, const std::filesystem::path& folder, const Options& options) {
-  const Tables tables = make_tables(results, options.noisy ? Noise::kept : Noise::left_out);
+  const Tables tables =
+      make_tables(results, options.noisy ? Noise::kept : Noise::left_out, options.depth_error);
   std::filesystem::create_directories(folder);
   write_tables(tables, options.band, folder);
   fmt::print("{} times, {} ratios, {} winners, {} exponents in {}\n", tables.times.size(),
@@ -96,15 +114,16 @@ int check(const std::filesystem::path& reference, const std::filesystem::path& r
   const auto count = [&](Holds state) {
     return std::ranges::count(found.cells, state, &CheckedCell::state);
   };
-  fmt::print("{} cells: {} pass, {} fail, {} undecided; {} answers changed, {} not looked at\n",
-             found.cells.size(), count(Holds::pass), count(Holds::fail), count(Holds::undecided),
-             found.changed.size(), found.left_out.size());
+  fmt::print(
+      "{} cells: {} pass, {} faster, {} fail, {} undecided; {} answers changed, {} not looked at\n",
+      found.cells.size(), count(Holds::pass), count(Holds::faster), count(Holds::fail),
+      count(Holds::undecided), found.changed.size(), found.left_out.size());
   return count(Holds::fail) > 0 || !found.changed.empty() ? exit_measured_wrong : exit_done;
 }
 
 int tables(const Options& options) {
   if (!options.check && options.reference.empty() && !options.results.empty()) {
-    return write(read_results(options.results),
+    return write(read_results(options.results, origin_of),
                  options.out.empty() ? std::filesystem::is_directory(options.results)
                                            ? std::filesystem::path(options.results)
                                            : std::filesystem::path(options.results).parent_path()
@@ -148,12 +167,15 @@ void add_tables(Arguments command) {
               "factor at both ends")
       .within_real(1, 1e6)
       .show_default();
+  add_depth_error(command, options->depth_error);
   command.flag("--noisy", options->noisy,
                "Keep the rounds that were measured under noise; they are left out otherwise");
   command.footer(
       "A check looks at hashes, pair counts, contact counts and work counters first: they must be\n"
       "the same to the digit. Then a cell passes where the interval of its ratio lies within the\n"
-      "stated band, and fails where it lies wholly outside; absolute times count for nothing.\n\n"
+      "stated band, and fails where it lies wholly outside; absolute times count for nothing.\n"
+      "Ratios are to a library where there is one; an algorithm of ours that is faster against it\n"
+      "than stated does not fail.\n\n"
       "Exit status:\n"
       "  0  written; or nothing failed\n"
       "  1  at least one cell failed, or answers are not the same\n"

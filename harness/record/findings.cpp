@@ -1,6 +1,10 @@
 #include "harness/record/findings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace touchstone {
 
@@ -19,30 +23,24 @@ bool Findings::ours_are_wrong() const {
   return std::ranges::any_of(departures_, [](const Departure& d) { return d.ours && !d.known; });
 }
 
-std::vector<std::string> departure_header() {
-  return {"block", "row", "algorithm", "ours", "known", "where", "what", "reproduction"};
-}
-
-void write(CsvWriter& file, const Departure& departure) {
-  file.field(departure.block).field(departure.row).field(departure.algorithm);
-  file.field(departure.ours ? 1 : 0).field(departure.known ? 1 : 0);
-  file.field(departure.where).field(departure.what).field(departure.reproduction);
-  file.end_row();
-}
-
-std::vector<Departure> read_departures(const std::filesystem::path& file) {
-  std::vector<Departure> departures;
-  CsvReader(file, departure_header()).read([&](const CsvReader::Row& row) {
-    departures.push_back({.block = row.integer(0),
-                          .row = row.integer(1),
-                          .algorithm = std::string(row.text(2)),
-                          .ours = row.integer(3) != 0,
-                          .known = row.integer(4) != 0,
-                          .where = std::string(row.text(5)),
-                          .what = std::string(row.text(6)),
-                          .reproduction = std::string(row.text(7))});
-  });
-  return departures;
+std::string departures_text(const Findings& findings) {
+  // One line for each algorithm and manner; the first case stands for the others.
+  std::map<std::pair<std::string, bool>, std::vector<const Departure*>> by_algorithm;
+  for (const Departure& departure : findings.departures()) {
+    by_algorithm[{departure.algorithm, departure.known}].push_back(&departure);
+  }
+  std::string text;
+  for (const auto& [key, list] : by_algorithm) {
+    const Departure& first = *list.front();
+    text += fmt::format("{}{}: {}\n    on {}\n", first.algorithm,
+                        first.known  ? ""
+                        : first.ours ? " (OURS)"
+                                     : " (peer)",
+                        first.what, first.where);
+    if (list.size() > 1) text += fmt::format("    and {} more like it\n", list.size() - 1);
+    if (!first.reproduction.empty()) text += fmt::format("    shown by {}\n", first.reproduction);
+  }
+  return text.empty() ? text : "Departures\n\n" + text;
 }
 
 }  // namespace touchstone

@@ -1,39 +1,38 @@
-// What a campaign found: everything that the tables and the exit status are made from.
+// The findings of a campaign: the rows and discrepancies that tables and exit status come from.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "harness/record/raw_row.h"
+#include "harness/record/row.h"
 
 namespace touchstone {
 
-// A departure of one algorithm from what it should have found, on one frame or window.
+// A discrepancy: one algorithm on one frame or window found something else than it should.
 struct Departure {
   std::int64_t block = 0;
   std::int64_t row = -1;  // of raw.csv, from 0; -1: not added yet
   std::string algorithm;
   bool ours = false;
-  bool known = false;  // the registry names it as a known defect, or the algorithm as approximate
-  std::string where;   // scene, bodies, frame, and pair kind
-  std::string what;    // in words
-  std::string reproduction;  // the file that shows it; empty where none was written
+  bool known = false;        // a known defect in the registry, or approximate by design
+  std::string where;         // scene, bodies, frame, and pair kind
+  std::string what;          // in words
+  std::string reproduction;  // the file that shows it again; empty where there is none
 };
 
 class Findings {
  public:
   void add(RawRow row) { rows_.push_back(std::move(row)); }
-  // What the row that was added last tells of, unless it names another; the same is told once.
+  // Adds a discrepancy of the row that was added last, unless it names another; each only once.
   void add(Departure departure);
 
   const std::vector<RawRow>& rows() const { return rows_; }
   const std::vector<Departure>& departures() const { return departures_; }
 
-  // True when one of our own algorithms departed in a way that is not known and accepted.
+  // True where an algorithm of ours has a discrepancy that is not known and accepted.
   bool ours_are_wrong() const;
 
  private:
@@ -41,9 +40,22 @@ class Findings {
   std::vector<Departure> departures_;
 };
 
-// departures.csv
-std::vector<std::string> departure_header();
-void write(CsvWriter& file, const Departure& departure);
-std::vector<Departure> read_departures(const std::filesystem::path& file);
+// A paragraph for each algorithm, with its first discrepancy and the file that shows it. Empty where
+// there is none.
+std::string departures_text(const Findings& findings);
+
+// A row of departures.csv.
+template <row_of<Departure> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("block", row.block, "Number of the block in the campaign.");
+  visit("row", with_sign(row.row), "Place in raw.csv, from 0, of the row that shows it.");
+  visit("algorithm", row.algorithm, "The algorithm's label, as in the tables.");
+  visit("ours", row.ours, "1 for an algorithm of ours.");
+  visit("known", row.known, "1 where the discrepancy is a known defect, or approximate by design.");
+  visit("where", row.where, "Scene, bodies, frame and pair kind.");
+  visit("what", row.what, "The discrepancy in words.");
+  visit("reproduction", row.reproduction,
+        "The file that shows it again; empty where there is none.");
+}
 
 }  // namespace touchstone

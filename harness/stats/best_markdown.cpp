@@ -34,7 +34,7 @@ std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
          body + "\n";
 }
 
-std::string narrow_best_table(const std::vector<NarrowBestRow>& rows) {
+std::string narrow_best_table(const std::vector<NarrowBestRow>& rows, double depth_error) {
   std::string body;
   const auto error = [](const NarrowBestRow::Best& best) {
     return std::isnan(best.worst_error) ? std::string("-")
@@ -56,10 +56,10 @@ std::string narrow_best_table(const std::vector<NarrowBestRow>& rows) {
   if (body.empty()) return body;
   return fmt::format(
              "## Speed and error of the best narrow phases\n\nNanoseconds a query; ratios are of "
-             "the other's time over that of ours. Right is who has no wrong\nanswer and no "
-             "distance or depth off by more than {} of the pair's size; errors are the greatest, "
-             "as parts of it.\n\n",
-             NarrowBestRow::right_error) +
+             "the other's time over that of ours. Right is an algorithm\nwith no wrong answer and "
+             "no distance or depth off by more than {} of the pair's size; errors are the "
+             "greatest,\nas parts of it.\n\n",
+             depth_error) +
          markdown_header(
              {"input", "ours", "right peer", "fastest peer", "ours, ns", "error", "right peer, ns",
               "error", "/ ours", "95 % interval", "fastest peer, ns", "wrong", "error", "/ ours"},

@@ -9,6 +9,6 @@
 namespace touchstone::stats {
 
 std::string broad_best_table(const std::vector<BroadBestRow>& rows);
-std::string narrow_best_table(const std::vector<NarrowBestRow>& rows);
+std::string narrow_best_table(const std::vector<NarrowBestRow>& rows, double depth_error);
 
 }  // namespace touchstone::stats

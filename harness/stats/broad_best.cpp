@@ -12,8 +12,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr MedianInterval none = {nan, nan, nan, 0};
 
-bool is_of_bullet_or_fcl(const std::string& label) {
-  return label.starts_with("bullet-") || label.starts_with("fcl-");
+bool is_of_bullet_or_fcl(const Contestant& contestant) {
+  return contestant.label.starts_with("bullet-") || contestant.label.starts_with("fcl-");
 }
 
 }  // namespace
@@ -22,10 +22,9 @@ std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const 
   std::vector<BroadBestRow> rows;
   for (const SampleSet& set : results.sets) {
     if (set.key.narrow()) continue;
-    const auto is_one_of_ours = [&](const std::string& label) { return is_ours(set.key, label); };
-    const Contestant* const ours = fastest_right(set, noise, is_one_of_ours);
+    const Contestant* const ours = fastest_right(set, noise, &Contestant::is_ours);
     if (ours == nullptr) continue;
-    const auto best = [&](const std::function<bool(const std::string&)>& takes_part) {
+    const auto best = [&](const std::function<bool(const Contestant&)>& takes_part) {
       const Contestant* const other = fastest_right(set, noise, takes_part);
       if (other == nullptr) return BroadBestRow::Best{"", nan, none};
       const TimeRow* const time = find_row(tables.times, set.key, other->label);
@@ -34,9 +33,8 @@ std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const 
     };
     BroadBestRow& row = rows.emplace_back();
     row.key = set.key;
-    row.ours = best(is_one_of_ours);
-    row.peer = best(
-        [&](const std::string& label) { return !is_one_of_ours(label) && label != limit_label; });
+    row.ours = best(&Contestant::is_ours);
+    row.peer = best([](const Contestant& c) { return !c.is_ours() && c.label != limit_label; });
     row.bullet_or_fcl = best(is_of_bullet_or_fcl);
     const Contestant* const limit = set.find(limit_label);
     row.over_limit = limit == nullptr ? none : ratio_between(set, *ours, *limit, noise).ratio;

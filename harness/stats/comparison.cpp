@@ -129,11 +129,11 @@ std::optional<Change> change(const Check& a, const Check& b) {
 // The same of the work. A build that cannot count something says nothing about it; and what a peer
 // asks of the heap is up to the versions of the libraries below it.
 std::optional<Change> changed_work(const Check& a, const Check& b, bool ours) {
-  for (std::size_t i = 0; i < work_names.size(); ++i) {
+  for (std::size_t i = 0; i < work_count; ++i) {
     const auto work = static_cast<Work>(i);
     const bool of_heap = work == Work::allocations || work == Work::allocated_bytes;
     if (a.work[i] == b.work[i] || a.work[i] < 0 || b.work[i] < 0 || (of_heap && !ours)) continue;
-    std::string name = work_names[i];
+    std::string name(to_string(work));
     std::ranges::replace(name, '_', ' ');
     return Change{name, std::to_string(a.work[i]), std::to_string(b.work[i])};
   }
@@ -259,18 +259,18 @@ std::vector<std::string> changed_answers(const Results& a, const Results& b, Com
   std::vector<std::string> lines;
   for_each_common(a, b, [&](const SampleSet& set, const Contestant& in_a, const Contestant& in_b) {
     const std::string where = fmt::format("{} in {}", in_a.label, set.key.words());
-    if (in_a.failure.empty() && !in_b.failure.empty()) {
-      lines.push_back(fmt::format("{}: {} in {}", where, in_b.failure, names.b));
+    if (!in_a.failure && in_b.failure) {
+      lines.push_back(fmt::format("{}: {} in {}", where, to_string(*in_b.failure), names.b));
       return;
     }
-    std::map<std::pair<std::int64_t, Part>, const Check*> by_frame;
-    for (const Check& check : in_b.checks) by_frame[{check.frame, check.part}] = &check;
+    std::map<std::pair<std::int64_t, Phase>, const Check*> by_frame;
+    for (const Check& check : in_b.checks) by_frame[{check.frame, check.phase}] = &check;
     for (const Check& check : in_a.checks) {
-      const auto at = by_frame.find({check.frame, check.part});
+      const auto at = by_frame.find({check.frame, check.phase});
       if (at == by_frame.end()) continue;
       std::optional<Change> found = change(check, *at->second);
       if (!found && what == Compared::answers_and_work) {
-        found = changed_work(check, *at->second, is_ours(set.key, in_a.label));
+        found = changed_work(check, *at->second, in_a.is_ours());
       }
       if (!found) continue;
       lines.push_back(fmt::format("{}, frame {}: {} {} in {}, {} in {}", where, check.frame,
@@ -286,7 +286,7 @@ std::vector<ComparedCell> compare(const Results& a, const Results& b, Noise nois
   for_each_common(a, b, [&](const SampleSet& set, const Contestant& in_a, const Contestant& in_b) {
     const std::vector<double> of_a = logs(by_square(in_a, noise));
     const std::vector<double> of_b = logs(by_square(in_b, noise));
-    if (of_a.empty() && of_b.empty() && !in_a.failure.empty()) return;  // has no times
+    if (of_a.empty() && of_b.empty() && in_a.failure) return;  // has no times
     MedianInterval ratio = exponential(shift(of_a, of_b, confidence));
     if (ratio.n < fewest_squares) ratio.low = ratio.high = std::nan("");
     cells.push_back(
@@ -308,7 +308,7 @@ std::vector<ComparedCell> compare_runs(std::span<const Results> a, std::span<con
       if (!std::isnan(run_b)) of_b.push_back(run_b);
       if (!std::isnan(run_a + run_b)) ratios.push_back(run_b - run_a);
     }
-    if (of_a.empty() && of_b.empty() && !in_a.failure.empty()) return;
+    if (of_a.empty() && of_b.empty() && in_a.failure) return;
     cells.push_back({set.key, in_a.label, exponential(median_interval(ratios, confidence)),
                      mann_whitney(of_a, of_b), 1, of_a.size(), of_b.size()});
   });

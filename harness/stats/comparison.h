@@ -31,34 +31,34 @@ enum class Verdict : std::uint8_t {
 std::string_view to_string(Verdict verdict);
 Verdict verdict(const ComparedCell& cell, double threshold);
 
-// What the two results are called in what is told of them.
+// Names of the two results in messages.
 struct ResultNames {
   std::string a = "A", b = "B";
 };
 
-// What A has and B has not, each a line for the user.
+// Cells of A that B lacks, each a line for the user.
 struct Missing {
   std::vector<std::string> scenes;  // the same scene has another hash in B
   std::vector<std::string> cells;   // B did not run it
 };
 Missing missing(const Results& a, const Results& b, const ResultNames& names = {});
 
-// Why times of A and B may not be compared, each a line; empty where they may. `machines`: whether
-// to look at the machines too.
+// Reasons why times of A and B may not be compared, each a line; empty where they may. `machines`:
+// the machines must be the same too.
 std::vector<std::string> obstacles(const Results& a, const Results& b, bool machines);
 
-// What differs and may explain a difference in time: compiler, flags, library versions, commit,
+// Differences that may explain a difference in time: compiler, flags, library versions, commit,
 // algorithms that only B has.
 std::vector<std::string> remarks(const Results& a, const Results& b);
 
-// Where B found other pairs or another number of contacts than A did, or failed where A did not,
-// a line for each contestant of a set: a regression, however fast it is. Work counters tell two
-// versions of an algorithm apart, and must be the same where one is run again.
+// A line for each contestant of a set for which B found other pairs or another number of contacts
+// than A, or failed where A did not: a regression, however fast it is. Work counters differ between
+// versions of an algorithm, and must be the same where one version is run again.
 enum class Compared : std::uint8_t { answers, answers_and_work };
 std::vector<std::string> changed_answers(const Results& a, const Results& b, Compared what,
                                          const ResultNames& names = {});
 
-// Every cell that both have times of. A and B ran one after the other: nothing is paired, the
+// Every cell for which both have times. A and B ran one after the other: nothing is paired, the
 // interval is that of the Mann-Whitney test.
 std::vector<ComparedCell> compare(const Results& a, const Results& b, Noise noise);
 

@@ -12,7 +12,7 @@ const Contestant* fastest(const SampleSet& set, Noise noise,
   const Contestant* best = nullptr;
   double least = std::numeric_limits<double>::quiet_NaN();
   for (const Contestant& contestant : set.contestants) {
-    if (!contestant.failure.empty() || !takes_part(contestant)) continue;
+    if (contestant.failure || !takes_part(contestant)) continue;
     const double ratio = median(paired_log_ratios(contestant, set.baseline(), noise));
     if (std::isnan(ratio) || ratio >= least) continue;
     least = ratio;
@@ -22,9 +22,9 @@ const Contestant* fastest(const SampleSet& set, Noise noise,
 }
 
 const Contestant* fastest_right(const SampleSet& set, Noise noise,
-                                const std::function<bool(const std::string&)>& takes_part) {
+                                const std::function<bool(const Contestant&)>& takes_part) {
   return fastest(set, noise, [&](const Contestant& contestant) {
-    return takes_part(contestant.label) && !is_wrong(set, contestant);
+    return takes_part(contestant) && !is_wrong(set, contestant);
   });
 }
 

@@ -1,4 +1,4 @@
-// Who is first in a set.
+// The fastest contestant of a set.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 
 namespace touchstone::stats {
 
-// The fastest of those that take part, by what each has to the baseline in its own squares; those
-// that failed are left out. Null where there is none.
+// The fastest of those that take part, by the ratio of each to the baseline in its own squares;
+// those that failed are left out. Null where there is none.
 const Contestant* fastest(const SampleSet& set, Noise noise,
                           const std::function<bool(const Contestant&)>& takes_part);
 
-// The same of those that answer right.
+// The fastest of those that take part and answer right.
 const Contestant* fastest_right(const SampleSet& set, Noise noise,
-                                const std::function<bool(const std::string&)>& takes_part);
+                                const std::function<bool(const Contestant&)>& takes_part);
 
 // The row of this set and label; null where there is none.
 template <class Row>

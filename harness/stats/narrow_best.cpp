@@ -21,13 +21,10 @@ std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, cons
     };
     const auto is_right = [&](const Contestant& contestant) {
       const AgreementRow* const row = agreement(contestant);
-      return row != nullptr && row->wrong == 0 && !(row->worst_error > NarrowBestRow::right_error);
-    };
-    const auto is_one_of_ours = [&](const Contestant& contestant) {
-      return is_ours(set.key, contestant.label);
+      return row != nullptr && row->wrong == 0 && !(row->worst_error > tables.depth_error);
     };
     const Contestant* const ours = fastest(set, noise, [&](const Contestant& contestant) {
-      return is_one_of_ours(contestant) && is_right(contestant);
+      return contestant.is_ours() && is_right(contestant);
     });
     if (ours == nullptr) continue;
     const auto best = [&](const Contestant* contestant) {
@@ -50,10 +47,10 @@ std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, cons
     row.key = set.key;
     row.ours = best(ours);
     row.right_peer = best(fastest(set, noise, [&](const Contestant& contestant) {
-      return !is_one_of_ours(contestant) && is_right(contestant);
+      return !contestant.is_ours() && is_right(contestant);
     }));
-    row.any_peer = best(fastest(
-        set, noise, [&](const Contestant& contestant) { return !is_one_of_ours(contestant); }));
+    row.any_peer = best(
+        fastest(set, noise, [&](const Contestant& contestant) { return !contestant.is_ours(); }));
   }
   return rows;
 }

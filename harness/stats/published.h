@@ -1,4 +1,4 @@
-// What a publication reports of the cells of a campaign, to be put beside what is measured.
+// Published results on the cells of a campaign, to be put beside those measured here.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct PublishedClaim {
 
 struct Published {
   std::string source;  // empty: the campaign reproduces nothing
-  std::string note;    // what a reader has to know to compare
+  std::string note;    // remarks that a comparison needs
   std::vector<PublishedClaim> claims;
 };
 

@@ -1,4 +1,4 @@
-// What a publication reports, beside what was measured here.
+// Published results beside those measured here.
 #pragma once
 
 #include <filesystem>

@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <tuple>
 
-#include "algorithms/core/outcome.h"
-#include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
-#include "harness/record/raw_row.h"
 #include "harness/stats/statistics.h"
 
 namespace touchstone::stats {
@@ -20,95 +16,29 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<std::string> required = {
-    "campaign",      "scene",        "scene_hash",    "bodies",    "boxes",   "frame", "broad",
-    "narrow",        "scalar",       "task",          "tolerance", "threads", "isa",   "pair_kind",
-    "phase",         "seconds",      "pair_count",    "pair_hash", "status",  "kind",  "block",
-    "process",       "square",       "round",         "position",  "frames",  "twin",  "noise",
-    "contact_count", "outcome_hash", "disagreements", "failures"};
-const std::vector<std::string> optional = {"seed",
-                                           "stop",
-                                           "duality_gap",
-                                           "compared",
-                                           "worst_error",
-                                           "iterations",
-                                           "iterations_squared",
-                                           "support_calls",
-                                           "box_tests",
-                                           "node_visits",
-                                           "candidates",
-                                           "bytes",
-                                           "allocations",
-                                           "allocated_bytes",
-                                           "rebuild",
-                                           "isa_limit",
-                                           "warm"};
+// The counters of a row, in the order of Work.
+constexpr std::array<std::int64_t RawRow::*, work_count> work_fields = {
+    &RawRow::iterations, &RawRow::iterations_squared, &RawRow::support_calls,
+    &RawRow::box_tests,  &RawRow::node_visits,        &RawRow::candidates,
+    &RawRow::bytes,      &RawRow::allocations,        &RawRow::allocated_bytes};
 
-// A row's fields by the columns' names.
-class Fields {
- public:
-  Fields() {
-    for (const auto* list : {&required, &optional}) {
-      for (const std::string& name : *list) place_.emplace(name, place_.size());
-    }
-  }
-  void at(const CsvReader::Row& row) { row_ = &row; }
-  std::string text(const char* name) const { return std::string(row_->text(place(name))); }
-  bool has(const char* name) const { return !row_->text(place(name)).empty(); }
-  // -1 where the field is empty.
-  std::int64_t count(const char* name) const {
-    return has(name) ? needed_count(name) : std::int64_t{-1};
-  }
-  std::int64_t needed_count(const char* name, std::int64_t least = 0) const {
-    const std::int64_t value = row_->integer(place(name));
-    if (value < least) {
-      fail(name, fmt::format("expected a whole number of at least {}", least));
-    }
-    return value;
-  }
-  double seconds() const {
-    if (!has("seconds")) return nan;
-    const double value = row_->number(place("seconds"));
-    if (!(value >= 0) || std::isinf(value)) fail("seconds", "expected seconds of at least 0");
-    return value;
-  }
-  double number(const char* name) const {
-    return has(name) ? row_->number(place(name)) : Outcome::none;
-  }
-  [[noreturn]] void fail(const char* name, const std::string& expected) const {
-    row_->fail(fmt::format("column {}: found '{}'; {}", name, text(name), expected));
-  }
-
- private:
-  std::size_t place(const char* name) const { return place_.at(name); }
-  std::map<std::string, std::size_t> place_;
-  const CsvReader::Row* row_ = nullptr;
-};
-
-Part part_of(const Fields& row) {
-  const std::string phase = row.text("phase");
-  for (std::size_t i = 0; i < part_names.size(); ++i) {
-    if (phase == part_names[i]) return static_cast<Part>(i);
-  }
-  row.fail("phase", "expected build, update, find_pairs, narrow or convert");
-}
-
-// In a set's last row: the run told its baseline from the twin.
+// The noise of a set's last row where the run could tell its baseline from the twin.
 constexpr std::string_view canary = "canary";
 
-bool failed(const std::string& status) {
-  return status == to_string(Status::crashed) || status == to_string(Status::timed_out) ||
-         status == to_string(Status::unsupported) || status == "wrong";
+bool is_failure(std::optional<RowStatus> status) {
+  return status == RowStatus::crashed || status == RowStatus::timed_out ||
+         status == RowStatus::unsupported || status == RowStatus::wrong;
 }
 
 class Reader {
  public:
+  explicit Reader(const OriginOf& origin_of) : origin_of_(origin_of) {}
+
   Results read(const std::filesystem::path& file) {
     results_.file = file;
-    Fields row;
-    CsvReader(file, required, optional).read([&](const CsvReader::Row& raw) {
-      row.at(raw);
-      take(row);
+    reader_of<RawRow>(file).read([&](const CsvReader::Row& fields) {
+      fields_ = &fields;
+      take(read_row<RawRow>(fields));
     });
     // A file that was cut may end with a set's twin alone.
     std::erase_if(results_.sets, [](const SampleSet& set) { return set.contestants.empty(); });
@@ -116,109 +46,122 @@ class Reader {
   }
 
  private:
-  void take(const Fields& row) {
-    const std::string kind = row.text("kind");
-    if (kind != "check" && kind != "sample") row.fail("kind", "expected check or sample");
-    if (results_.campaign.empty()) results_.campaign = row.text("campaign");
-    if (row.has("isa")) results_.isa.insert(row.text("isa"));
+  [[noreturn]] void fail(std::string_view column, const std::string& expected) const {
+    std::size_t at = 0;
+    while (fields_->name(at) != column) ++at;
+    fields_->fail(
+        fmt::format("column {}: found '{}'; expected {}", column, fields_->text(at), expected));
+  }
+  void expect_least(std::string_view column, std::int64_t value, std::int64_t least) const {
+    if (value < least) fail(column, fmt::format("a whole number of at least {}", least));
+  }
+
+  void take(const RawRow& row) {
+    if (results_.campaign.empty()) results_.campaign = row.campaign;
+    if (row.isa) results_.isa.emplace(to_string(*row.isa));
     SampleSet& set = set_of(row);
-    const std::int64_t frame = row.needed_count("frame");
-    if (row.has("stop")) set.stop = row.text("stop");
-    if (row.text("noise").ends_with(canary)) set.suspect = true;
+    expect_least("frame", row.frame, 0);
+    if (!row.stop.empty()) set.stop = row.stop;
+    if (row.noise.ends_with(canary)) set.suspect = true;
     Contestant& contestant = contestant_of(set, row);
-    const std::string status = row.text("status");
-    if (failed(status)) contestant.failure = status;
-    if (kind == "check") {
-      Check check;
-      check.frame = frame;
-      check.part = part_of(row);
-      check.status = status;
-      check.pair_hash = row.text("pair_hash");
-      check.outcome_hash = row.text("outcome_hash");
-      check.pair_count = row.count("pair_count");
-      check.seconds = row.number("seconds");
-      check.worst_error = row.number("worst_error");
-      check.contact_count = row.count("contact_count");
-      check.disagreements = row.count("disagreements");
-      check.failures = row.count("failures");
-      check.compared = row.count("compared");
-      for (std::size_t i = 0; i < work_names.size(); ++i) check.work[i] = row.count(work_names[i]);
-      contestant.checks.push_back(std::move(check));
-    } else {
-      take_sample(contestant, row, set.key.narrow());
+    if (is_failure(row.status)) contestant.failure = row.status;
+    if (row.kind == RowKind::sample) {
+      take_sample(contestant, row);
+      return;
     }
+    Check check;
+    check.frame = row.frame;
+    check.phase = row.phase;
+    check.status = row.status;
+    check.pair_hash = row.pair_hash;
+    check.outcome_hash = row.outcome_hash;
+    check.pair_count = row.pair_count;
+    check.seconds = row.seconds;
+    check.worst_error = row.worst_error;
+    check.contact_count = row.contact_count;
+    check.disagreements = row.disagreements;
+    check.failures = row.failures;
+    check.compared = row.compared;
+    for (std::size_t i = 0; i < work_fields.size(); ++i) check.work[i] = row.*work_fields[i];
+    contestant.checks.push_back(std::move(check));
   }
 
   // Rows of one sample are together, a phase each.
-  static void take_sample(Contestant& contestant, const Fields& row, bool narrow) {
-    const Part part = part_of(row);
-    const double seconds = row.seconds();
-    if (std::isnan(seconds)) return;  // a failure, which the status tells
+  void take_sample(Contestant& contestant, const RawRow& row) const {
+    if (std::isnan(row.seconds)) return;  // a failure, as the status says
+    if (!(row.seconds >= 0) || std::isinf(row.seconds)) fail("seconds", "seconds of at least 0");
+    expect_least("process", row.process, 0);
+    expect_least("square", row.square, 0);
+    expect_least("round", row.round, 0);
+    expect_least("position", row.position, 0);
+    const std::int64_t units = row.is_narrow() ? row.pair_count : row.frames;
+    expect_least(row.is_narrow() ? "pair_count" : "frames", units, 1);
     Sample sample;
-    sample.process = row.needed_count("process");
-    sample.square = row.needed_count("square");
-    sample.round = row.needed_count("round");
-    sample.position = row.needed_count("position");
-    sample.units = static_cast<double>(row.needed_count(narrow ? "pair_count" : "frames", 1));
-    sample.noisy = row.has("noise") && row.text("noise") != canary;
-    add_phase(contestant, part, sample, seconds);
+    sample.process = row.process;
+    sample.square = row.square;
+    sample.round = row.round;
+    sample.position = row.position;
+    sample.units = static_cast<double>(units);
+    sample.noisy = !row.noise.empty() && row.noise != canary;
+    add_phase(contestant, row.phase, sample, row.seconds);
   }
 
-  SampleSet& set_of(const Fields& row) {
+  SampleSet& set_of(const RawRow& row) {
+    expect_least("bodies", row.bodies, 0);
+    expect_least("threads", row.threads, 0);
     SetKey key;
-    key.scene = row.text("scene");
-    key.scene_hash = row.text("scene_hash");
-    key.bodies = row.needed_count("bodies");
-    key.boxes = row.text("boxes");
-    key.seed = row.text("seed");
-    key.threads = row.needed_count("threads");
-    key.isa_limit = row.text("isa_limit");
-    if (row.has("narrow")) {
-      key.task = row.text("task");
-      if (key.task.empty()) row.fail("task", "expected the task of the narrow phase");
-      key.pair_kind = row.text("pair_kind");
-      key.pairs_of = row.text("broad");
+    key.scene = row.scene;
+    key.scene_hash = row.scene_hash;
+    key.bodies = row.bodies;
+    key.boxes = to_string(row.boxes);
+    if (row.seed >= 0) key.seed = std::to_string(row.seed);
+    key.threads = row.threads;
+    if (row.isa_limit) key.isa_limit = to_string(*row.isa_limit);
+    if (row.is_narrow()) {
+      if (!row.task) fail("task", "the task of the narrow phase");
+      key.task = to_string(*row.task);
+      key.pair_kind = row.pair_kind;
+      key.pairs_of = row.broad;
     } else {
-      key.rebuild = row.text("rebuild") == "1";
+      key.rebuild = row.is_rebuilt();
     }
     const auto [at, is_new] = places_.try_emplace(key, results_.sets.size());
     if (is_new) results_.sets.emplace_back().key = key;
     return results_.sets[at->second];
   }
 
-  static Contestant& contestant_of(SampleSet& set, const Fields& row) {
-    std::string label = row.text("broad");
-    if (set.key.narrow()) {
-      label = narrow_label(row.text("narrow"), row.text("scalar"), row.number("tolerance"),
-                           row.number("duality_gap"), row.text("warm") == "1");
+  Contestant& contestant_of(SampleSet& set, const RawRow& row) const {
+    const std::string label = label_of(row);
+    if (label.empty()) fail("broad", "an algorithm here or in column narrow");
+    Contestant* found = &set.twin;
+    if (!row.is_twin()) {
+      const auto at = std::ranges::find(set.contestants, label, &Contestant::label);
+      found = at != set.contestants.end() ? &*at : &set.contestants.emplace_back();
     }
-    if (label.empty()) row.fail("broad", "expected an algorithm here or in column narrow");
-    const std::string twin = row.text("twin");
-    if (!twin.empty() && twin != "0" && twin != "1") row.fail("twin", "expected 1 or nothing");
-    if (twin == "1") {
-      set.twin.label = label;
-      return set.twin;
+    found->label = label;
+    if (!found->origin) {
+      found->origin = row.origin;
+      if (!row.origin && origin_of_) {
+        found->origin = origin_of_(row.is_narrow(), row.is_narrow() ? row.narrow : row.broad);
+      }
     }
-    const auto at = std::ranges::find(set.contestants, label, &Contestant::label);
-    if (at != set.contestants.end()) return *at;
-    set.contestants.emplace_back().label = label;
-    return set.contestants.back();
+    return *found;
   }
 
+  const OriginOf& origin_of_;
+  const CsvReader::Row* fields_ = nullptr;  // at hand
   Results results_;
   std::map<SetKey, std::size_t> places_;
 };
 
 }  // namespace
 
-bool is_ours(const SetKey& key, const std::string& label) {
-  const std::string name = label.substr(0, label.find(' '));
-  const auto ours = [&](const auto& entries) {
-    return std::ranges::any_of(entries, [&](const auto& entry) {
-      return entry.info.name == name && entry.info.origin == Origin::ours;
-    });
-  };
-  return key.narrow() ? ours(narrow_phases()) : ours(broad_phases());
+std::string_view to_string(Work work) {
+  constexpr std::array<std::string_view, work_count> names = {
+      "iterations", "iterations_squared", "support_calls",
+      "box_tests",  "node_visits",        "candidates",
+      "bytes",      "allocations",        "allocated_bytes"};
+  return names[static_cast<std::size_t>(work)];
 }
 
 std::string SetKey::words() const {
@@ -233,11 +176,11 @@ std::string SetKey::words() const {
   return text;
 }
 
-void add_phase(Contestant& contestant, Part part, Sample sample, double seconds) {
+void add_phase(Contestant& contestant, Phase phase, Sample sample, double seconds) {
   const auto place = [](const Sample& s) {
     return std::tuple(s.process, s.square, s.round, s.position);
   };
-  const auto at = static_cast<std::size_t>(part);
+  const auto at = static_cast<std::size_t>(phase);
   std::vector<Sample>& samples = contestant.samples;
   const bool is_new = samples.empty() || place(samples.back()) != place(sample) ||
                       !std::isnan(samples.back().parts[at]);
@@ -267,8 +210,7 @@ const Contestant& SampleSet::baseline() const {
        {twin.label, std::string(key.narrow() ? "gjk double" : "sweep-and-prune")}) {
     if (const Contestant* found = find(label)) return *found;
   }
-  const auto ours =
-      std::ranges::find_if(contestants, [&](const Contestant& c) { return is_ours(key, c.label); });
+  const auto ours = std::ranges::find_if(contestants, &Contestant::is_ours);
   return ours == contestants.end() ? contestants.front() : *ours;
 }
 
@@ -277,10 +219,10 @@ const SampleSet* Results::find(const SetKey& key) const {
   return at == sets.end() ? nullptr : &*at;
 }
 
-Results read_results(const std::filesystem::path& folder_or_file) {
+Results read_results(const std::filesystem::path& folder_or_file, const OriginOf& origin_of) {
   const bool folder = std::filesystem::is_directory(folder_or_file);
   const std::filesystem::path file = folder ? folder_or_file / "raw.csv" : folder_or_file;
-  Results results = Reader().read(file);
+  Results results = Reader(origin_of).read(file);
   const std::filesystem::path machine = file.parent_path() / "machine.csv";
   if (std::filesystem::exists(machine)) {
     CsvReader(machine, {"name", "value"}).read([&](const CsvReader::Row& row) {

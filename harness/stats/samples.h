@@ -5,12 +5,16 @@
 #include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "harness/record/raw_row.h"
 #include "harness/stats/statistics.h"
 
 namespace touchstone::stats {
@@ -34,17 +38,14 @@ struct SetKey {
   std::string words() const;  // "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"
 };
 
-// `convert` is a part of build or update, told by checks and not by samples.
-enum class Part : std::uint8_t { build, update, find_pairs, narrow, convert };
-inline constexpr std::array<const char*, 5> part_names = {"build", "update", "find_pairs", "narrow",
-                                                          "convert"};
+inline constexpr std::size_t phase_count = enumerators<Phase>.size();
 
 // One contestant's work on the same run of frames: its phases together. Seconds, NaN for a part
 // that it did not have.
 struct Sample {
   std::int64_t process = 0, square = 0, round = 0, position = 0;
-  std::array<double, part_names.size()> parts;
-  double units = 0;  // frames of a broad phase, queries of a narrow one
+  std::array<double, phase_count> parts;  // by phase
+  double units = 0;                       // frames of a broad phase, queries of a narrow one
   bool noisy = false;
 
   double seconds() const;  // all parts; NaN where nothing was timed
@@ -62,43 +63,43 @@ enum class Work : std::uint8_t {
   allocations,
   allocated_bytes
 };
-inline constexpr std::array<const char*, 9> work_names = {
-    "iterations", "iterations_squared", "support_calls",  "box_tests", "node_visits", "candidates",
-    "bytes",      "allocations",        "allocated_bytes"};
+std::string_view to_string(Work work);
+inline constexpr std::size_t work_count = enumerators<Work>.size();
 
 // The verified answer to one frame. Counts of -1 are not known.
 struct Check {
   std::int64_t frame = 0;
-  Part part = Part::build;
+  Phase phase = Phase::build;
   double seconds = 0;      // no sample: NaN where it failed
   double worst_error = 0;  // of a distance or depth; NaN where there is none
-  std::string status, pair_hash, outcome_hash;
+  std::optional<RowStatus> status;
+  std::string pair_hash, outcome_hash;
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
                compared = -1;
-  std::array<std::int64_t, work_names.size()> work = unknown_work();
+  std::array<std::int64_t, work_count> work = unknown_work();
 
   std::int64_t count(Work of) const { return work[static_cast<std::size_t>(of)]; }
 
  private:
-  static constexpr std::array<std::int64_t, work_names.size()> unknown_work() {
-    std::array<std::int64_t, work_names.size()> none{};
+  static constexpr std::array<std::int64_t, work_count> unknown_work() {
+    std::array<std::int64_t, work_count> none{};
     none.fill(-1);
     return none;
   }
 };
 
-// Stands in a table for what no broad phase can do without (algorithms/limit.h): not one of the
-// contestants, though it was measured like them.
+// Label of the lower bound of a broad phase, which is measured like a contestant.
 inline constexpr const char* limit_label = "limit";
 
-// Whether the registry knows it as one of ours.
-bool is_ours(const SetKey& key, const std::string& label);
-
 struct Contestant {
-  std::string label;  // "sweep-and-prune", "gjk double 1e-06"
+  std::string label;                // "sweep-and-prune", "gjk double 1e-06"
+  std::optional<RowOrigin> origin;  // empty where an older file does not say
   std::vector<Sample> samples;
   std::vector<Check> checks;
-  std::string failure;  // crashed, timed_out, unsupported, wrong; empty where none
+  // Set where the status of a row is crashed, timed_out, unsupported or wrong.
+  std::optional<RowStatus> failure;
+
+  bool is_ours() const { return origin == RowOrigin::ours; }
 };
 
 struct SampleSet {
@@ -126,13 +127,16 @@ struct Results {
   const SampleSet* find(const SetKey& key) const;
 };
 
+// Gives the origin of an algorithm by its name, for files that have no column `origin`.
+using OriginOf = std::function<std::optional<RowOrigin>(bool narrow, const std::string& name)>;
+
 // Reads a raw.csv, or the one of a folder, and the machine.csv beside it. InputError with file and
 // line.
-Results read_results(const std::filesystem::path& folder_or_file);
+Results read_results(const std::filesystem::path& folder_or_file, const OriginOf& origin_of = {});
 
-// Adds a phase's seconds to the sample that it is of: phases of one sample come one after the
-// other. `sample` tells which, without its parts.
-void add_phase(Contestant& contestant, Part part, Sample sample, double seconds);
+// Adds a phase's seconds to its sample: the phases of one sample come one after the other. `sample`
+// identifies it, without its parts.
+void add_phase(Contestant& contestant, Phase phase, Sample sample, double seconds);
 
 // Seconds a frame or a query, of each square: the median over the square's rounds. Noisy rounds are
 // left out unless they are asked for.

@@ -4,11 +4,11 @@
 
 #include "harness/files/csv.h"
 #include "harness/stats/comparison.h"
+#include "harness/stats/tables.h"
 
 namespace touchstone::stats {
 namespace {
 
-constexpr double confidence = 0.95;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // The cells as the table states them, without those of the canaries.
@@ -46,6 +46,7 @@ std::string_view to_string(Holds holds) {
   switch (holds) {
     case Holds::pass: return "pass";
     case Holds::fail: return "FAIL";
+    case Holds::faster: return "faster";
     case Holds::undecided: return "undecided";
   }
   return "?";
@@ -68,19 +69,24 @@ TableCheck check_tables(const std::filesystem::path& reference, const Results& h
   for (std::string& line : changed_answers(stated, here, Compared::answers_and_work, names)) {
     check.changed.push_back(std::move(line));
   }
-  for (CheckedCell& cell : read_bands(reference / "ratios.csv")) {
+  const std::filesystem::path bands = reference / "library_ratios.csv";
+  for (CheckedCell& cell :
+       read_bands(std::filesystem::exists(bands) ? bands : reference / "ratios.csv")) {
     const SampleSet* const set = here.find(cell.key);
     const Contestant* const contestant = set == nullptr ? nullptr : set->find(cell.label);
     const Contestant* const baseline = set == nullptr ? nullptr : set->find(cell.baseline);
     cell.ratio = {nan, nan, nan, 0};
     if (contestant != nullptr && baseline != nullptr) {
-      cell.ratio = exponential(
-          median_interval(paired_log_ratios(*contestant, *baseline, noise), confidence));
+      cell.ratio = ratio_between(*set, *contestant, *baseline, noise).ratio;
     }
     const SampleSet* const set_there = stated.find(cell.key);
     const bool suspect =
         (set != nullptr && set->suspect) || (set_there != nullptr && set_there->suspect);
     if (!suspect) cell.state = holds(cell.ratio, cell.band_low, cell.band_high);
+    if (cell.state == Holds::fail && cell.ratio.high < cell.band_low && contestant->is_ours() &&
+        baseline->origin == RowOrigin::peer) {
+      cell.state = Holds::faster;
+    }
     check.cells.push_back(std::move(cell));
   }
   return check;

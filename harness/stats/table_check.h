@@ -1,4 +1,4 @@
-// Whether what a table says holds in other results too.
+// Checks whether the ratios of a table hold in other results too.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,10 @@
 
 namespace touchstone::stats {
 
-// Pass: the ratio's interval lies within the stated band. Fail: it lies wholly outside. Undecided:
-// it does neither, or there is no interval, or no band, or the set is suspect here or there.
-enum class Holds : std::uint8_t { pass, fail, undecided };
+// Pass: the ratio's interval lies within the stated band. Fail: it lies wholly outside. Faster: it
+// lies wholly below, and an algorithm of ours is compared with a library. Undecided: none of these,
+// or there is no interval, or no band, or the set is suspect here or there.
+enum class Holds : std::uint8_t { pass, fail, faster, undecided };
 std::string_view to_string(Holds holds);
 Holds holds(const MedianInterval& ratio, double band_low, double band_high);
 
@@ -28,13 +29,13 @@ struct CheckedCell {
 struct TableCheck {
   // Hashes, pair counts, contact counts and work counters that are not the same to the digit.
   std::vector<std::string> changed;
-  // What could not be looked at: an algorithm that is not built here, a scene that was left out.
+  // Not looked at: an algorithm that is not built here, a scene that was left out.
   std::vector<std::string> left_out;
   std::vector<CheckedCell> cells;
 };
 
-// The stated bands are those of ratios.csv in the reference's folder, in which raw.csv and
-// machine.csv stand too. InputError with file and line.
+// The stated bands are those of library_ratios.csv in the reference's folder, or of ratios.csv
+// where it has no such file; raw.csv and machine.csv stand there too. InputError with file and line.
 TableCheck check_tables(const std::filesystem::path& reference, const Results& here, Noise noise);
 
 }  // namespace touchstone::stats

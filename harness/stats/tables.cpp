@@ -4,25 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-
-#include "algorithms/registry.h"
-
 namespace touchstone::stats {
 namespace {
 
 constexpr double confidence = 0.95;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-template <class Entry>
-std::string origin_among(std::span<const Entry> entries, const std::string& name) {
-  const auto at =
-      std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
-  return at == entries.end() ? "" : std::string(to_string(at->info.origin));
-}
-
-std::string origin_of(const SetKey& key, const std::string& label) {
-  const std::string name = label.substr(0, label.find(' '));
-  return key.narrow() ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
+std::string origin_of(const Contestant& contestant) {
+  return contestant.origin ? std::string(to_string(*contestant.origin)) : std::string();
 }
 
 std::vector<double> values_of(const std::map<SquareKey, double>& squares) {
@@ -48,15 +37,33 @@ void correct(std::vector<Row>& rows, const auto& counts) {
   for (Row& row : rows) row.p_corrected = counts(row) ? corrected[next++] : row.p;
 }
 
+std::optional<AgreementRow> agreement_row(const SampleSet& set, const Contestant& contestant) {
+  if (!set.key.narrow()) return std::nullopt;
+  AgreementRow row{set.key, contestant.label, origin_of(contestant)};
+  for (const Check& check : contestant.checks) {
+    if (check.pair_count < 0) continue;
+    const std::int64_t wrong = std::max<std::int64_t>(check.disagreements, 0);
+    const std::int64_t failed = std::max<std::int64_t>(check.failures, 0);
+    const std::int64_t compared = check.compared >= 0 ? check.compared : check.pair_count - failed;
+    row.queries += check.pair_count;
+    row.wrong += wrong;
+    row.failed += failed;
+    row.right += std::max<std::int64_t>(compared - wrong, 0);
+    row.worst_error = std::fmax(row.worst_error, check.worst_error);
+  }
+  row.unanswered = std::max<std::int64_t>(row.queries - row.right - row.wrong - row.failed, 0);
+  return row.queries > 0 ? std::optional(row) : std::nullopt;
+}
+
 TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise) {
   TimeRow row;
   row.key = set.key;
   row.label = contestant.label;
-  row.origin = origin_of(set.key, contestant.label);
+  row.origin = origin_of(contestant);
   row.seconds = median_interval(values_of(by_square(contestant, noise)), confidence);
   row.minimum = nan;
   std::vector<double> all;
-  std::array<std::vector<double>, part_names.size()> parts;
+  std::array<std::vector<double>, phase_count> parts;
   for (const Sample& sample : contestant.samples) {
     ++row.samples;
     row.noisy += sample.noisy;
@@ -70,14 +77,19 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
     }
   }
   for (const Check& check : contestant.checks) {
-    if (check.part == Part::convert) {
-      parts[static_cast<std::size_t>(Part::convert)].push_back(check.seconds);
+    if (check.phase == Phase::convert) {
+      parts[static_cast<std::size_t>(Phase::convert)].push_back(check.seconds);
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) row.parts[i] = median(std::move(parts[i]));
   for (const double z : modified_z(all)) row.outliers += std::abs(z) > outlier_z;
   row.wrong = is_wrong(set, contestant);
-  row.failure = contestant.failure;
+  row.worst_error = worst_error(contestant);
+  if (const auto agreement = agreement_row(set, contestant)) {
+    row.queries = agreement->queries;
+    row.unknown = agreement->failed + agreement->unanswered;
+  }
+  if (contestant.failure) row.failure = to_string(*contestant.failure);
   return row;
 }
 
@@ -94,19 +106,45 @@ RatioRow ratio_row(const SampleSet& set, const Contestant& a, const Contestant& 
           set.suspect};
 }
 
+// The first library of the set that was timed and answers right; null where there is none.
+const Contestant* library_of(const SampleSet& set, double depth_error) {
+  for (const Contestant& contestant : set.contestants) {
+    if (contestant.origin == RowOrigin::peer && !contestant.samples.empty() &&
+        !contestant.failure && !is_wrong(set, contestant) &&
+        !(worst_error(contestant) > depth_error)) {
+      return &contestant;
+    }
+  }
+  return nullptr;
+}
+
+// Ratios to a library, or to the set's baseline where it has no library.
+void add_library_ratios(const SampleSet& set, Noise noise, double depth_error,
+                        std::vector<RatioRow>& rows) {
+  const Contestant* const library = library_of(set, depth_error);
+  const Contestant& base = library == nullptr ? set.baseline() : *library;
+  for (const Contestant& contestant : set.contestants) {
+    if (&contestant == &base || contestant.samples.empty()) continue;
+    const TestedRatio tested = ratio_between(set, contestant, base, noise);
+    rows.push_back(
+        {set.key, contestant.label, base.label, false, tested.ratio, tested.p, 1, set.suspect});
+  }
+}
+
 // The log ratios of a contestant to the baseline: how those that were never in one square meet.
 std::vector<double> to_baseline(const SampleSet& set, const Contestant& contestant, Noise noise) {
   return paired_log_ratios(contestant, set.baseline(), noise);
 }
 
-std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise) {
+std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise, double depth_error) {
   struct Entry {
     const Contestant* contestant;
     double ratio;  // log, to the baseline
   };
   std::vector<Entry> entries;
   for (const Contestant& contestant : set.contestants) {
-    if (is_wrong(set, contestant) || !contestant.failure.empty()) continue;
+    if (is_wrong(set, contestant) || contestant.failure) continue;
+    if (worst_error(contestant) > depth_error) continue;
     if (!set.key.narrow() && contestant.label == limit_label) continue;
     const double ratio = median(to_baseline(set, contestant, noise));
     if (!std::isnan(ratio)) entries.push_back({&contestant, ratio});
@@ -191,27 +229,10 @@ std::vector<SpeedUpRow> speed_up_rows(const Results& results, Noise noise) {
   return rows;
 }
 
-std::optional<AgreementRow> agreement_row(const SampleSet& set, const Contestant& contestant) {
-  AgreementRow row{set.key, contestant.label, origin_of(set.key, contestant.label)};
-  for (const Check& check : contestant.checks) {
-    if (check.pair_count < 0) continue;
-    const std::int64_t wrong = std::max<std::int64_t>(check.disagreements, 0);
-    const std::int64_t failed = std::max<std::int64_t>(check.failures, 0);
-    const std::int64_t compared = check.compared >= 0 ? check.compared : check.pair_count - failed;
-    row.queries += check.pair_count;
-    row.wrong += wrong;
-    row.failed += failed;
-    row.right += std::max<std::int64_t>(compared - wrong, 0);
-    row.worst_error = std::fmax(row.worst_error, check.worst_error);
-  }
-  row.unanswered = std::max<std::int64_t>(row.queries - row.right - row.wrong - row.failed, 0);
-  return row.queries > 0 ? std::optional(row) : std::nullopt;
-}
-
 std::optional<WorkRow> work_row(const SampleSet& set, const Contestant& contestant) {
   const bool narrow = set.key.narrow();
-  WorkRow row{set.key, contestant.label, origin_of(set.key, contestant.label)};
-  std::array<double, work_names.size()> sums;
+  WorkRow row{set.key, contestant.label, origin_of(contestant)};
+  std::array<double, work_count> sums;
   sums.fill(nan);
   for (const Check& check : contestant.checks) {
     if (check.pair_count >= 0) {  // rows of a build or an update have none
@@ -272,8 +293,15 @@ TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Conte
   return {exponential(found.value), found.p};
 }
 
-Tables make_tables(const Results& results, Noise noise) {
+double worst_error(const Contestant& contestant) {
+  double worst = nan;
+  for (const Check& check : contestant.checks) worst = std::fmax(worst, check.worst_error);
+  return worst;
+}
+
+Tables make_tables(const Results& results, Noise noise, double depth_error) {
   Tables tables;
+  tables.depth_error = depth_error;
   tables.campaign = results.campaign;
   for (const char* name : {"processor", "cores_online", "memory", "governor", "kernel", "compiler",
                            "flags", "instructions_in_use", "commit", "tree"}) {
@@ -288,15 +316,16 @@ Tables make_tables(const Results& results, Noise noise) {
         tables.ratios.push_back(ratio_row(set, contestant, base, false, noise));
       }
       if (auto row = work_row(set, contestant)) tables.work.push_back(*std::move(row));
-      if (!set.key.narrow()) continue;
       if (auto row = agreement_row(set, contestant)) tables.agreement.push_back(*std::move(row));
     }
     if (!set.twin.samples.empty()) {
       tables.ratios.push_back(ratio_row(set, set.twin, base, true, noise));
     }
-    if (auto row = winner_row(set, noise)) tables.winners.push_back(*std::move(row));
+    add_library_ratios(set, noise, depth_error, tables.library_ratios);
+    if (auto row = winner_row(set, noise, depth_error)) tables.winners.push_back(*std::move(row));
   }
   correct(tables.ratios, [](const RatioRow& row) { return !row.canary; });
+  correct(tables.library_ratios, [](const RatioRow&) { return true; });
   correct(tables.winners, [](const WinnerRow&) { return true; });
   tables.exponents = exponent_rows(tables.times);
   tables.speed_ups = speed_up_rows(results, noise);

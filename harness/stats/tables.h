@@ -15,14 +15,17 @@ namespace touchstone::stats {
 // One contestant of one set.
 struct TimeRow {
   SetKey key;
-  std::string label, origin;  // ours, peer, oracle; empty where the registry knows it not
-  bool per_query = false;     // the times are of a query, not of a frame
-  MedianInterval seconds;     // over the squares
-  double minimum = 0;         // of all samples, noisy ones too: noise only adds
-  std::array<double, part_names.size()> parts;  // medians of the phases, NaN where there is none
+  std::string label, origin;              // ours, peer, oracle, limit; empty: not known
+  bool per_query = false;                 // the times are of a query, not of a frame
+  MedianInterval seconds;                 // over the squares
+  double minimum = 0;                     // of all samples, noisy ones too: noise only adds
+  std::array<double, phase_count> parts;  // medians of the phases, NaN where there is none
   std::int64_t samples = 0, noisy = 0, outliers = 0;
-  bool wrong = false;   // departs from the pairs or answers of the others
-  std::string failure;  // crashed, timed_out, unsupported
+  bool wrong = false;   // other pairs than there are, or an answer on the wrong side of contact
+  std::string failure;  // crashed, timed_out, unsupported, wrong
+  // Narrow phases, over all verified frames.
+  std::int64_t queries = 0, unknown = 0;  // unknown: failed, or without an answer
+  double worst_error = std::numeric_limits<double>::quiet_NaN();  // see AgreementRow
 };
 
 // A contestant's time over the baseline's. The twin's row is the canary: its true ratio is 1.
@@ -35,7 +38,8 @@ struct RatioRow {
   bool suspect = false;           // see SampleSet
 };
 
-// The fastest of those that answer right, against the next.
+// The fastest of those that answer right, against the next. A distance or depth is right within the
+// stated error.
 struct WinnerRow {
   SetKey key;
   std::string winner, runner_up;
@@ -103,9 +107,9 @@ struct BroadBestRow {
 };
 
 // The fastest of ours among the narrow phases of a set, against the others, with their errors.
-// Right is who has no wrong answer and no distance or depth off by more than right_error.
+// An algorithm is right that has no wrong answer and no distance or depth off by more than the
+// stated error.
 struct NarrowBestRow {
-  static constexpr double right_error = 1e-3;  // a part of the pair's size
   struct Best {
     std::string label;                                          // empty where there is none
     double seconds = std::numeric_limits<double>::quiet_NaN();  // a query
@@ -118,11 +122,17 @@ struct NarrowBestRow {
   Best right_peer, any_peer;
 };
 
+// The greatest error of a distance or depth that counts as right, as a part of the pair's size.
+inline constexpr double usual_depth_error = 1e-3;
+
 struct Tables {
   std::string campaign;
+  double depth_error = usual_depth_error;
   std::vector<std::string> machine;  // what tells the machine, "processor: ..."
   std::vector<TimeRow> times;
   std::vector<RatioRow> ratios;
+  // The same to a library, in sets that have one: progress of ours does not change what it is.
+  std::vector<RatioRow> library_ratios;
   std::vector<WinnerRow> winners;
   std::vector<ExponentRow> exponents;
   std::vector<SpeedUpRow> speed_ups;
@@ -141,23 +151,27 @@ struct TestedRatio {
 TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
                           Noise noise);
 
-Tables make_tables(const Results& results, Noise noise);
+Tables make_tables(const Results& results, Noise noise, double depth_error = usual_depth_error);
 
 // Need the other tables of the same results.
 std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const Tables& tables);
 std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, const Tables& tables);
 
-// Whether a contestant found other pairs than the rest, or gave an answer that the exact one
+// True where a contestant found other pairs than the rest, or gave an answer that the exact one
 // contradicts.
 bool is_wrong(const SampleSet& set, const Contestant& contestant);
+
+// The greatest error of a distance or depth over the verified frames, as a part of the pair's size;
+// NaN where there is none.
+double worst_error(const Contestant& contestant);
 
 // All tables, as Markdown.
 std::string tables_markdown(const Tables& tables);
 
-// Writes tables.md and times.csv, ratios.csv, winners.csv, exponents.csv, speed_ups.csv,
-// agreement.csv, work.csv, broad_best.csv, narrow_best.csv into the folder. `band`: ratios.csv
-// states for each cell the band within which its ratio holds: the interval, widened by this factor
-// at both ends. InputError where a file cannot be written.
+// Writes tables.md and times.csv, ratios.csv, library_ratios.csv, winners.csv, exponents.csv,
+// speed_ups.csv, agreement.csv, work.csv, broad_best.csv, narrow_best.csv into the folder. `band`:
+// the files of ratios state for each cell the band within which it holds: the interval, widened by
+// this factor at both ends. InputError where a file cannot be written.
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder);
 
 }  // namespace touchstone::stats

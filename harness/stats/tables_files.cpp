@@ -41,6 +41,20 @@ class TableFile {
   CsvWriter csv_;
 };
 
+void write_ratios(const std::vector<RatioRow>& rows, double band,
+                  const std::filesystem::path& file) {
+  TableFile ratios(file, {"algorithm", "baseline", "canary", "ratio", "ratio_low", "ratio_high",
+                          "squares", "p", "p_corrected", "band_low", "band_high", "suspect"});
+  for (const RatioRow& row : rows) {
+    CsvWriter& csv = ratios.row(row.key).field(row.label).field(row.baseline);
+    csv.field(int{row.canary}).field(row.ratio.median).field(row.ratio.low).field(row.ratio.high);
+    csv.field(row.ratio.n).field(row.p).field(row.p_corrected);
+    csv.field(row.ratio.low / band).field(row.ratio.high * band);
+    csv.field(int{row.suspect}).end_row();
+  }
+  ratios.close();
+}
+
 void write_broad_best(const std::vector<BroadBestRow>& rows, const std::filesystem::path& file) {
   TableFile best(file, {"ours",
                         "ours_seconds",
@@ -115,17 +129,8 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
     csv.field(int{row.wrong}).field(row.failure).end_row();
   }
   times.close();
-  TableFile ratios(folder / "ratios.csv",
-                   {"algorithm", "baseline", "canary", "ratio", "ratio_low", "ratio_high",
-                    "squares", "p", "p_corrected", "band_low", "band_high", "suspect"});
-  for (const RatioRow& row : tables.ratios) {
-    CsvWriter& csv = ratios.row(row.key).field(row.label).field(row.baseline);
-    csv.field(int{row.canary}).field(row.ratio.median).field(row.ratio.low).field(row.ratio.high);
-    csv.field(row.ratio.n).field(row.p).field(row.p_corrected);
-    csv.field(row.ratio.low / band).field(row.ratio.high * band);
-    csv.field(int{row.suspect}).end_row();
-  }
-  ratios.close();
+  write_ratios(tables.ratios, band, folder / "ratios.csv");
+  write_ratios(tables.library_ratios, band, folder / "library_ratios.csv");
   TableFile winners(folder / "winners.csv",
                     {"winner", "runner_up", "ratio", "ratio_low", "ratio_high", "squares", "p",
                      "p_corrected", "suspect"});

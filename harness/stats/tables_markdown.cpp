@@ -14,9 +14,12 @@ namespace {
 
 std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
 
-std::string remark(const TimeRow& row) {
+std::string remark(const TimeRow& row, double depth_error) {
   std::vector<std::string> words;
   if (row.wrong) words.emplace_back("**wrong on some**");
+  if (row.worst_error > depth_error)
+    words.push_back(fmt::format("**off by {:.1g}**", row.worst_error));
+  if (row.unknown > 0) words.push_back(fmt::format("{} of {} unknown", row.unknown, row.queries));
   if (!row.failure.empty()) words.push_back(row.failure);
   if (row.noisy > 0) words.push_back(fmt::format("{} of {} noisy", row.noisy, row.samples));
   if (row.outliers > 0) words.push_back(fmt::format("{} outliers", row.outliers));
@@ -46,7 +49,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     std::vector<std::string> cells = {row.label, cell(row.seconds.median * scale),
                                       interval_cell(row.seconds, scale), cell(row.minimum * scale)};
     if (broad) {
-      for (const Part part : {Part::build, Part::update, Part::convert, Part::find_pairs}) {
+      for (const Phase part : {Phase::build, Phase::update, Phase::convert, Phase::find_pairs}) {
         cells.push_back(cell(row.parts[static_cast<std::size_t>(part)] * scale));
       }
     }
@@ -58,7 +61,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
       cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-", "-"});
     }
     cells.push_back(std::to_string(row.seconds.n));
-    cells.push_back(remark(row));
+    cells.push_back(remark(row, tables.depth_error));
     body += markdown_row(cells);
     if (const RatioRow* const twin = ratio_of(row.label, true)) {
       const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
@@ -188,7 +191,7 @@ std::string tables_markdown(const Tables& tables) {
     all += "\n";
   }
   all += broad_best_table(tables.broad_best);
-  all += narrow_best_table(tables.narrow_best);
+  all += narrow_best_table(tables.narrow_best, tables.depth_error);
   if (!tables.exponents.empty()) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
     all += markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts",
@@ -219,15 +222,20 @@ std::string tables_markdown(const Tables& tables) {
     all += "\n";
   }
   if (!tables.agreement.empty()) {
-    all += "## Agreement with the exact answers\n\n";
+    all += fmt::format(
+        "## Agreement with the exact answers\n\nRight and wrong are sides of contact. The worst "
+        "error is that of a distance or depth, as a part of the\npair's size; **more than {}** is "
+        "no agreement, and wins no table.\n\n",
+        tables.depth_error);
     all += markdown_header(
         {"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered", "worst error"},
         2);
     for (const AgreementRow& row : by_task(tables.agreement)) {
-      all += markdown_row({row.key.task, row.label, std::to_string(row.queries),
-                           std::to_string(row.right), std::to_string(row.wrong),
-                           std::to_string(row.failed), std::to_string(row.unanswered),
-                           cell(row.worst_error)});
+      all += markdown_row(
+          {row.key.task, row.label, std::to_string(row.queries), std::to_string(row.right),
+           std::to_string(row.wrong), std::to_string(row.failed), std::to_string(row.unanswered),
+           row.worst_error > tables.depth_error ? fmt::format("**{:.4g}**", row.worst_error)
+                                                : cell(row.worst_error)});
     }
     all += "\n";
   }

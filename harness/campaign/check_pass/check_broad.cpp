@@ -22,7 +22,7 @@ constexpr double seconds_to_verify = 5e-6;
 constexpr double longest_grace = 2;     // seconds, for what others take the processor for
 constexpr double longest_to_count = 3;  // seconds of all frames: allocations are counted below
 
-// What the child finds in one frame.
+// The child's findings in one frame.
 struct ChildAnswer {
   SampleReply reply;
   PairFaults faults;
@@ -60,14 +60,15 @@ std::vector<BroadSampler::FrameAllocations> count_allocations(const BlockInput& 
 }
 
 // A broad phase takes at least in proportion to the number of boxes: one that was over its limit
-// with fewer of the same scene will be over this one too. Says so; empty where it is to be tried.
+// with fewer of the same scene will be over this one too. Returns the reason; empty where it is to
+// be tried.
 std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& entry) {
   const RawRow here = context.row(0, entry, Phase::find_pairs);
   for (const RawRow& row : context.findings->rows()) {
     if (row.block < 0 || row.block >= context.number ||
         std::cmp_greater_equal(row.block, context.blocks.size()) || row.kind != RowKind::check ||
         row.process >= 0 || row.broad != here.broad || !row.narrow.empty() ||
-        row.status != to_string(Status::timed_out)) {
+        row.status != RowStatus::timed_out) {
       continue;
     }
     const Block& before = context.blocks[static_cast<std::size_t>(row.block)];
@@ -89,7 +90,8 @@ std::string write_frames(const RunContext& context, const BlockInput& input,
   if (context.reproductions.empty()) return "";
   const std::filesystem::path file =
       context.reproductions /
-      fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name, context.scene->size(), frame);
+      context.file_name(fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name,
+                                    context.scene->size(), frame));
   // The frame before comes too: an update may be what went wrong.
   std::vector<std::vector<Aabb>> frames;
   if (frame > 0) frames.push_back(input.frames[frame - 1].boxes);
@@ -110,7 +112,7 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
   const auto leave = [&](std::size_t frame, Status status, const std::string& why,
                          const std::string& words) {
     RawRow row = context.row(frame, entry, Phase::find_pairs);
-    row.status = to_string(status);
+    row.status = row_status(status);
     row.words = one_line(words);
     context.findings->add(std::move(row));
     Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
@@ -160,7 +162,7 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
                           kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
       }
       answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
-      // What others took the processor for is not held against it.
+      // Time in which other processes had the processor does not count.
       if (answer.reply.prepare + answer.reply.query - waited > group.time_limit) {
         too_slow[0] = frame + 1;
       }
@@ -195,13 +197,13 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     prepare.allocated_bytes = allocations[frame].prepare.bytes;
     RawRow query = context.row(frame, entry, Phase::find_pairs);
     query.seconds = answer.reply.query;
-    query.status = to_string(answer.reply.status);
+    query.status = row_status(answer.reply.status);
     query.pair_count = answer.reply.pairs;
     query.pair_hash = to_hex(answer.reply.pair_hash);
     query.take(answer.reply.work);
     query.allocations = allocations[frame].query.calls;
     query.allocated_bytes = allocations[frame].query.bytes;
-    if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = status_wrong;
+    if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = RowStatus::wrong;
     context.findings->add(std::move(prepare));
     if (answer.reply.convert >= 0) {
       RawRow convert = context.row(frame, entry, Phase::convert);

@@ -21,7 +21,7 @@ constexpr double setup_seconds = 60;
 constexpr std::size_t outcomes_at_once = 250'000;  // about 50 MB
 constexpr double longest_to_count = 10;  // seconds of a batch: allocations are counted below
 
-// What the child tells of one piece; the outcomes themselves are elsewhere.
+// The child's sums over one piece; the outcomes themselves are elsewhere.
 struct ChildAnswer {
   double seconds = 0;
   std::uint64_t outcome_hash = 0;
@@ -76,7 +76,7 @@ RawRow NarrowCheck::row(const Piece& piece, const NarrowChoice& choice) const {
   const NarrowSet& set = sets_[piece.set];
   RawRow result = context_->row(piece.frame, choice);
   result.broad = set.broad;
-  result.task = to_string(set.task);
+  result.task = set.task;
   result.pair_kind = set.kind_name();
   return result;
 }
@@ -94,7 +94,7 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
     }
     RawRow unsupported = row(piece, choice);
     unsupported.pair_count = static_cast<std::int64_t>(group(piece).size());
-    unsupported.status = to_string(Status::unsupported);
+    unsupported.status = RowStatus::unsupported;
     context_->findings->add(std::move(unsupported));
   }
   if (pieces.empty()) return;
@@ -135,7 +135,7 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
     if (out_.contains(key)) continue;
     const auto& reference = batch.references[piece.reference];
     if (report.states[item] != ItemState::done) {
-      // Of a child that could not even be set up, the one failure stands for all that is left.
+      // A child whose setup failed reports one failure for all remaining pieces.
       while (failure + 1 < report.failures.end() && failure->item < item) ++failure;
       out_.insert(key);
       lose(piece, choice, reference,
@@ -194,7 +194,7 @@ void NarrowCheck::take(const Piece& piece, const NarrowChoice& choice,
   result.worst_disagreement = faults.worst;
   if (faults.values > 0) result.worst_error = faults.worst_value_error;
   result.failures = faults.failed + faults.unanswered;
-  result.status = to_string(status_of(faults, choice.entry->info.origin));
+  result.status = row_status(status_of(faults, choice.entry->info.origin));
   context_->findings->add(std::move(result));
   if (faults.disagree > 0) report(piece, choice, faults);
 }
@@ -221,7 +221,7 @@ void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
   if (at != outcomes.end()) {
     faults.worst_pair = static_cast<std::size_t>(at - outcomes.begin());
   } else {
-    // Each pair alone is answered: it is all of them together that are not.
+    // Each pair alone is answered; only all of them together are not.
     (status == Status::crashed ? faults.crashed : faults.timed_out) =
         static_cast<std::int64_t>(outcomes.size());
     faults.worst_pair.reset();
@@ -229,7 +229,7 @@ void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
   RawRow result = row(piece, choice);
   result.pair_count = static_cast<std::int64_t>(outcomes.size());
   result.failures = faults.crashed + faults.timed_out;
-  result.status = to_string(status);
+  result.status = row_status(status);
   result.words = one_line(words);
   context_->findings->add(std::move(result));
   report(piece, choice, faults);
@@ -278,9 +278,10 @@ std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choi
       .pose_b = poses[b]};
   const std::filesystem::path file =
       context_->reproductions /
-      fmt::format("{}-{}{}-{}-{}-{}.jsonl", choice.entry->info.name,
-                  to_string(choice.settings.scalar), choice.warm ? "-warm" : "",
-                  to_string(sets_[piece.set].task), sets_[piece.set].kind_name(), reproduction.id);
+      context_->file_name(fmt::format("{}-{}{}-{}-{}-{}.jsonl", choice.entry->info.name,
+                                      to_string(choice.settings.scalar), choice.warm ? "-warm" : "",
+                                      to_string(sets_[piece.set].task),
+                                      sets_[piece.set].kind_name(), reproduction.id));
   std::filesystem::create_directories(context_->reproductions);
   std::ofstream stream(file);
   stream << to_json(reproduction) << '\n';

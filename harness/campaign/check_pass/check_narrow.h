@@ -23,8 +23,8 @@ class NarrowCheck {
   NarrowCheck(const RunContext& context, const BlockInput& input, std::span<const NarrowSet> sets);
 
   // Takes every algorithm's answers for every set and writes a row for each frame. Each algorithm
-  // runs in a child process; what crashes or hangs on the pairs of a set is asked about them again
-  // one by one, to find the pair, and is then left out of that set.
+  // runs in a child process. One that crashes or hangs on the pairs of a set is asked again pair by
+  // pair, to find the pair, and is then left out of that set.
   void run();
 
  private:
@@ -61,7 +61,7 @@ class NarrowCheck {
   const BlockInput* input_;
   std::span<const NarrowSet> sets_;
   std::set<Key> out_;       // crashed, hung or too slow on such pairs: no longer run
-  std::set<Key> reported_;  // a departure is told once a block
+  std::set<Key> reported_;  // a discrepancy is reported once a block
 };
 
 }  // namespace touchstone

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t tried_frames = 2;  // one is built, one an update
 constexpr std::size_t tried_pairs = 48;  // of a set, from all frames
 
-// What a block's check does, with findings of its own and no file.
+// A block's check with findings of its own and without files.
 struct Trial {
   Findings findings;
   RunContext context;

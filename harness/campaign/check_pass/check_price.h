@@ -1,4 +1,4 @@
-// How long the check pass of a block will take.
+// Cost estimate of a block's check pass.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ std::string set_key(const NarrowSet& set) {
 }
 
 std::string set_key(const RawRow& row) {
-  return row.narrow.empty() ? "" : key(row.broad, row.task, row.pair_kind);
+  return row.narrow.empty() ? "" : key(row.broad, to_string(*row.task), row.pair_kind);
 }
 
 double Checked::greatest_seconds() const { return seconds.empty() ? 0 : std::ranges::max(seconds); }
@@ -32,7 +32,7 @@ CheckTable::CheckTable(std::span<const RawRow> rows, std::int64_t block, std::si
   for (const RawRow& row : rows) {
     if (row.block != block || row.kind != RowKind::check || row.process >= 0) continue;
     if (row.phase == Phase::convert) continue;  // a part of the build or the update
-    if (row.status == to_string(Status::unsupported)) continue;
+    if (row.status == RowStatus::unsupported) continue;
     const auto frame = static_cast<std::size_t>(row.frame);
     if (frame >= frames) continue;
     Checked& checked = table_[{label_of(row), set_key(row)}];
@@ -42,13 +42,13 @@ CheckTable::CheckTable(std::span<const RawRow> rows, std::int64_t block, std::si
       checked.seconds.resize(frames);
       checked.disagreements.resize(frames);
     }
-    if (row.lost() || row.status == status_wrong) checked.out = true;
+    if (row.lost() || row.wrong()) checked.out = true;
     if (row.seconds >= 0) checked.seconds[frame] += row.seconds;
     if (row.pair_count >= 0) checked.pairs[frame] = row.pair_count;
     const std::string& hash = row.narrow.empty() ? row.pair_hash : row.outcome_hash;
     if (!hash.empty()) checked.hash[frame] = from_hex(hash);
     if (row.disagreements >= 0) checked.disagreements[frame] = row.disagreements;
-    checked.gave_up = checked.gave_up || row.status == to_string(Status::not_converged);
+    checked.gave_up = checked.gave_up || row.status == RowStatus::not_converged;
   }
 }
 

@@ -1,5 +1,4 @@
-// What the check pass of a block found, as its rows tell it: what a run that goes on after a stop
-// needs is read from the same rows.
+// The findings of a block's check pass, from its rows. A run that is resumed reads the same rows.
 #pragma once
 
 #include <cstdint>
@@ -33,10 +32,10 @@ struct Checked {
 
 class CheckTable {
  public:
-  // Of the rows of this block's check pass.
+  // Takes the rows of this block's check pass.
   CheckTable(std::span<const RawRow> rows, std::int64_t block, std::size_t frames);
-  // Null: never given such pairs. The pairs of a broad phase that found the true ones are checked
-  // as these.
+  // Null where the algorithm was never given such pairs. A broad phase that found the true pairs
+  // has no entry of its own: its pairs are checked as the true ones.
   const Checked* find(const std::string& label, const NarrowSet* set) const;
 
  private:

@@ -12,12 +12,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "harness/campaign/report.h"
 #include "harness/campaign/runner.h"
 #include "harness/campaign/schedule.h"
 #include "harness/campaign/set_times.h"
 #include "harness/stats/samples.h"
+#include "harness/stats/summary.h"
 #include "tests/harness/campaign/fakes.h"
+#include "tests/harness/campaign/stopped_run.h"
 
 namespace touchstone {
 namespace {
@@ -48,19 +49,19 @@ struct Harm {
                    fake("fine", good)};
     result = run_campaign(fakes.campaign(6), fakes.out());
     for (const RawRow& row : result.findings.rows()) {
-      if (row.status != "ok" && row.broad == "bad") lost.push_back(row);
+      if (row.status != RowStatus::ok && row.broad == "bad") lost.push_back(row);
       if (row.kind == RowKind::sample && row.phase == Phase::find_pairs && row.seconds > 0) {
-        ++samples[row.broad + (row.twin == 1 ? " twin" : "")];
+        ++samples[row.broad + (row.is_twin() ? " twin" : "")];
       }
       if (row.broad != "bad") {
-        EXPECT_EQ(row.status, "ok") << row.broad;
+        EXPECT_EQ(row.status, RowStatus::ok) << row.broad;
       }
     }
     EXPECT_EQ(lost.size(), 1u);
     if (!lost.empty()) {
-      EXPECT_EQ(lost[0].status, status);
+      EXPECT_EQ(to_string(*lost[0].status), status);
     }
-    EXPECT_EQ(result.findings.departures().size(), 1u) << departures(result.findings);
+    EXPECT_EQ(result.findings.departures().size(), 1u) << departures_text(result.findings);
     const int rounds = 6 * (when > FakeCampaign::frames ? 4 : 3);
     EXPECT_EQ(samples["good"], rounds);
     EXPECT_EQ(samples["good twin"], rounds);
@@ -152,7 +153,7 @@ TEST(Contestants, AnotherAnswerInAWorkerThanInTheCheckIsWrong) {
   int wrong = 0;
   for (const RawRow& row : result.findings.rows()) {
     if (row.broad != "wide") continue;
-    wrong += row.status == status_wrong;
+    wrong += row.status == RowStatus::wrong;
     EXPECT_EQ(row.kind, RowKind::check);
   }
   EXPECT_EQ(wrong, 1);
@@ -169,19 +170,19 @@ TEST(Contestants, WhatARoundToldGoesWithItWhenItIsMeasuredAgain) {
   ASSERT_EQ(first.findings.departures().size(), 1u);
   const auto row = static_cast<std::size_t>(first.findings.departures()[0].row);
   ASSERT_LT(row, first.findings.rows().size());
-  EXPECT_EQ(first.findings.rows()[row].status, "crashed");
-  EXPECT_EQ(read_departures(fakes.out() / "departures.csv").size(), 1u);
+  EXPECT_EQ(first.findings.rows()[row].status, RowStatus::crashed);
+  EXPECT_EQ(read_rows<Departure>(fakes.out() / "departures.csv").size(), 1u);
 
   // As if it had been stopped in that round.
   const std::string raw = fakes.folder.read("out/raw.csv");
-  fakes.folder.write("out/raw.csv", raw.substr(0, raw.find('\n', raw.find(",crashed,")) + 1));
-  std::string machine = fakes.folder.read("out/machine.csv");
-  machine.replace(machine.find("finished,yes"), 12, "finished,no");
-  fakes.folder.write("out/machine.csv", machine);
-  const RunResult again = run_campaign(fakes.campaign(6), fakes.out(), RunStart::resume);
-  for (const RawRow& one : again.findings.rows()) EXPECT_EQ(one.status, "ok");
-  EXPECT_TRUE(again.findings.departures().empty()) << departures(again.findings);
-  EXPECT_TRUE(read_departures(fakes.out() / "departures.csv").empty());
+  // It was the first round after the check.
+  const std::size_t crash = raw.find(",crashed,");
+  stop_run(fakes.out(), raw.find('\n', raw.rfind(",check,", crash)) + 1,
+           raw.find('\n', crash) + 1);
+  const RunResult again = run_campaign(fakes.campaign(6), fakes.out(), FolderStart::resume);
+  for (const RawRow& one : again.findings.rows()) EXPECT_EQ(one.status, RowStatus::ok);
+  EXPECT_TRUE(again.findings.departures().empty()) << departures_text(again.findings);
+  EXPECT_TRUE(read_rows<Departure>(fakes.out() / "departures.csv").empty());
 }
 
 TEST(Contestants, WhereAWholeGroupIsGoneTheOthersStopAllTheSame) {
@@ -311,9 +312,9 @@ TEST_F(ExactTimes, ATwinThatTakesLongerMakesTheSetSuspect) {
   int flagged = 0;
   for (const RawRow& row : result.findings.rows()) flagged += !row.noise.empty();
   EXPECT_EQ(flagged, 1);
-  EXPECT_THAT(measurement_notes(result.findings, {}),
-              testing::HasSubstr("not to be trusted in\n  block 0, broad phases"));
   const stats::Results read = stats::read_results(fakes_.out());
+  EXPECT_THAT(stats::summary(read, stats::make_tables(read, stats::Noise::left_out), {}, ""),
+              testing::HasSubstr("in 1 of 1 sets the baseline could be told from itself"));
   ASSERT_EQ(read.sets.size(), 1u);
   EXPECT_TRUE(read.sets[0].suspect);
 }

@@ -12,11 +12,13 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/campaign/runner.h"
+#include "tests/harness/campaign/stopped_run.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
@@ -39,21 +41,22 @@ class Resume : public testing::Test {
   std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
 
   // Rows by what tells them apart, with how often each is there.
-  using Key = std::tuple<RowKind, std::int64_t, std::string, std::string, std::string, std::int64_t,
+  using Key = std::tuple<RowKind, std::int64_t, std::string, std::optional<Task>, std::string, bool,
                          std::int64_t, std::int64_t, std::int64_t, std::int64_t, Phase, bool>;
   static std::map<Key, int> keys(const std::filesystem::path& out) {
     std::map<Key, int> keys;
-    for (const RawRow& row : read_raw_rows(out / "raw.csv")) {
+    for (const RawRow& row : read_rows<RawRow>(out / "raw.csv")) {
       const std::int64_t frame = row.kind == RowKind::check ? row.frame : -1;
-      ++keys[{row.kind, row.block, label_of(row), row.task, row.pair_kind, row.twin, row.process,
-              row.square, row.round * 100 + row.position, frame, row.phase, row.stop.empty()}];
+      ++keys[{row.kind, row.block, label_of(row), row.task, row.pair_kind, row.is_twin(),
+              row.process, row.square, row.round * 100 + row.position, frame, row.phase,
+              row.stop.empty()}];
     }
     return keys;
   }
 
   // The run in a process of its own: its status as waitpid tells it. `seconds` < 0: not killed.
   int run_apart(
-      const std::string& name, RunStart start, double seconds,
+      const std::string& name, FolderStart start, double seconds,
       const std::function<void()>& prepare = [] {}) const {
     const pid_t child = fork();
     if (child == 0) {
@@ -77,7 +80,7 @@ class Resume : public testing::Test {
   }
 
   void kill_and_resume(int kills) {
-    ASSERT_EQ(run_apart("whole", RunStart::fresh, -1), 0);
+    ASSERT_EQ(run_apart("whole", FolderStart::fresh, -1), 0);
     const auto expected = keys(out("whole"));
     ASSERT_GT(expected.size(), 400u);
     Random random(7);
@@ -85,8 +88,8 @@ class Resume : public testing::Test {
     int runs = 0;
     for (; killed < kills && runs < 10 * kills; ++runs) {
       const bool any = std::filesystem::exists(out("cut") / "machine.csv");
-      const int status =
-          run_apart("cut", any ? RunStart::resume : RunStart::fresh, random.uniform(0.01, 0.4));
+      const int status = run_apart("cut", any ? FolderStart::resume : FolderStart::fresh,
+                                   random.uniform(0.01, 0.4));
       if (WIFSIGNALED(status)) ++killed;
       if (status != 0) continue;
       EXPECT_EQ(keys(out("cut")), expected) << "after " << killed << " kills";
@@ -94,7 +97,7 @@ class Resume : public testing::Test {
     }
     EXPECT_EQ(killed, kills);
     if (std::filesystem::exists(out("cut") / "machine.csv")) {
-      ASSERT_EQ(run_apart("cut", RunStart::resume, -1), 0);
+      ASSERT_EQ(run_apart("cut", FolderStart::resume, -1), 0);
       EXPECT_EQ(keys(out("cut")), expected);
     }
   }
@@ -105,7 +108,7 @@ class Resume : public testing::Test {
 TEST_F(Resume, AfterEveryKillAllRowsAreThereOnce) { kill_and_resume(10); }
 
 TEST_F(Resume, AfterAFullDiskAllRowsAreThereOnce) {
-  ASSERT_EQ(run_apart("whole", RunStart::fresh, -1), 0);
+  ASSERT_EQ(run_apart("whole", FolderStart::fresh, -1), 0);
   const auto size = std::filesystem::file_size(out("whole") / "raw.csv");
   for (const double part : {0.02, 0.3, 0.8}) {
     const auto limit_files = [&] {
@@ -114,8 +117,8 @@ TEST_F(Resume, AfterAFullDiskAllRowsAreThereOnce) {
       const rlimit limit{most, most};
       setrlimit(RLIMIT_FSIZE, &limit);
     };
-    EXPECT_EQ(WEXITSTATUS(run_apart("full", RunStart::overwrite, -1, limit_files)), 2);
-    ASSERT_EQ(run_apart("full", RunStart::resume, -1), 0);
+    EXPECT_EQ(WEXITSTATUS(run_apart("full", FolderStart::overwrite, -1, limit_files)), 2);
+    ASSERT_EQ(run_apart("full", FolderStart::resume, -1), 0);
     EXPECT_EQ(keys(out("full")), keys(out("whole")));
   }
 }
@@ -124,19 +127,15 @@ class ResumeStopped : public Resume {
  protected:
   // Cuts a finished run back to an unfinished one.
   ResumeStopped() {
-    EXPECT_EQ(run_apart("out", RunStart::fresh, -1), 0);
+    EXPECT_EQ(run_apart("out", FolderStart::fresh, -1), 0);
     expected_ = keys(out("out"));
-    std::string machine = folder_.read("out/machine.csv");
-    machine.replace(machine.find("finished,yes"), 12, "finished,no");
-    folder_.write("out/machine.csv", machine);
-    const std::string raw = folder_.read("out/raw.csv");
-    folder_.write("out/raw.csv", raw.substr(0, raw.size() * 6 / 10));
+    stop_run(out("out"), 0.6);
   }
   std::map<Key, int> expected_;
 };
 
 TEST_F(ResumeStopped, ALineThatWasCutOffIsDropped) {
-  run_campaign(campaign(), out("out"), RunStart::resume);
+  run_campaign(campaign(), out("out"), FolderStart::resume);
   EXPECT_EQ(keys(out("out")), expected_);
 }
 
@@ -145,14 +144,14 @@ TEST_F(ResumeStopped, AFreshRunDoesNotOverwriteIt) {
   EXPECT_THAT(input_fault([&] { run_campaign(campaign(), out("out")); }),
               testing::HasSubstr("--resume"));
   EXPECT_EQ(folder_.read("out/raw.csv"), before);
-  run_campaign(campaign(), out("out"), RunStart::overwrite);
+  run_campaign(campaign(), out("out"), FolderStart::overwrite);
   EXPECT_EQ(keys(out("out")), expected_);
   run_campaign(campaign(), out("out"));  // it was finished
 }
 
 TEST_F(ResumeStopped, AnotherCampaignSceneOrMachineIsRefused) {
   const auto fault = [&] {
-    return input_fault([&] { run_campaign(campaign(), out("out"), RunStart::resume); });
+    return input_fault([&] { run_campaign(campaign(), out("out"), FolderStart::resume); });
   };
   const std::string text = folder_.read("c.toml");
   folder_.write("c.toml", text + "width = 0.05\n");
@@ -172,16 +171,16 @@ TEST_F(ResumeStopped, AnotherCampaignSceneOrMachineIsRefused) {
 }
 
 TEST_F(Resume, AFolderWithoutARunIsRefused) {
-  EXPECT_THAT(input_fault([&] { run_campaign(campaign(), out("none"), RunStart::resume); }),
+  EXPECT_THAT(input_fault([&] { run_campaign(campaign(), out("none"), FolderStart::resume); }),
               testing::HasSubstr("machine.csv"));
 }
 
 TEST_F(Resume, AFinishedRunIsLeftAsItIs) {
-  ASSERT_EQ(run_apart("out", RunStart::fresh, -1), 0);
+  ASSERT_EQ(run_apart("out", FolderStart::fresh, -1), 0);
   const std::string before = folder_.read("out/raw.csv");
-  const RunResult result = run_campaign(campaign(), out("out"), RunStart::resume);
+  const RunResult result = run_campaign(campaign(), out("out"), FolderStart::resume);
   EXPECT_EQ(folder_.read("out/raw.csv"), before);
-  EXPECT_EQ(result.findings.rows().size(), read_raw_rows(out("out") / "raw.csv").size());
+  EXPECT_EQ(result.findings.rows().size(), read_rows<RawRow>(out("out") / "raw.csv").size());
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <set>
 
 #include "harness/base/error.h"
-#include "harness/campaign/report.h"
 #include "harness/files/csv.h"
 #include "harness/record/raw_row.h"
+#include "harness/stats/summary.h"
 #include "harness/stats/tables.h"
 #include "tests/harness/temporary_folder.h"
 
@@ -37,8 +37,8 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
       "broad = ['naive', 'uniform-grid']\nnarrow = ['gjk', 'sat']\n"
       "scalars = 'double'\ntasks = ['intersect', 'penetration']\nsquares = 6");
   const RunResult result = run_campaign(c, out());
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
-  const std::vector<RawRow> rows = read_raw_rows(out() / "raw.csv");
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
+  const std::vector<RawRow> rows = read_rows<RawRow>(out() / "raw.csv");
   EXPECT_EQ(rows.size(), result.findings.rows().size());
   std::map<Phase, int> checks, samples;
   std::map<std::int64_t, std::set<std::string>> hashes;
@@ -46,7 +46,7 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
   int stops = 0;
   for (const RawRow& row : rows) {
     ++(row.kind == RowKind::check ? checks : samples)[row.phase];
-    EXPECT_TRUE(row.status == "unsupported" || row.seconds > 0);
+    EXPECT_TRUE(row.status == RowStatus::unsupported || row.seconds > 0);
     EXPECT_EQ(row.kind == RowKind::sample, row.square >= 0);
     if (row.kind == RowKind::sample) processes[label_of(row)].insert(row.process);
     if (row.kind == RowKind::check && row.phase == Phase::find_pairs) {
@@ -81,16 +81,17 @@ TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
       "[[group]]\nbroad = 'ours'\nnarrow = ['gjk', 'closed-form']\nscalars = 'double'\n"
       "[[group]]\nbroad = 'packed-rtree'\nnarrow = 'ours'\n");
   const RunResult result = run_campaign(c, out());
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
   std::map<std::string, std::set<std::string>> by_cell;
   std::set<std::string> combinations;
   for (const RawRow& row : result.findings.rows()) {
-    EXPECT_NE(row.status, status_wrong) << label_of(row);
+    EXPECT_NE(row.status, RowStatus::wrong) << label_of(row);
     if (row.kind == RowKind::sample && row.phase == Phase::narrow) {
       combinations.insert(row.broad + " " + row.narrow);
     }
     if (row.kind != RowKind::check || row.pair_hash.empty()) continue;
-    by_cell[row.broad + row.narrow + row.scalar + row.task + row.boxes + row.pair_kind +
+    by_cell[row.broad + row.narrow + (row.is_narrow() ? label_of(row) : "") +
+            std::string(row.task ? to_string(*row.task) : "") + row.pair_kind +
             std::to_string(row.frame)]
         .insert(row.pair_hash + row.outcome_hash);
   }
@@ -106,7 +107,7 @@ TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
       << "generator = 'uniform'\ncount = 120\noverlaps = 4\nframes = 7\nchurn = 0.1\n"
          "teleports = 0.1\nmoving = 0.5\n";
   const RunResult result = run_campaign(c, out());
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
   std::map<std::int64_t, std::set<std::string>> hashes;
   std::map<std::int64_t, std::set<std::string>> found_by;
   for (const RawRow& row : result.findings.rows()) {
@@ -135,28 +136,29 @@ TEST_F(Runner, RebuildsHoldsInstructionsDownAndMeasuresTheLimit) {
   const Isa before = isa();
   const RunResult result = run_campaign(c, out());
   EXPECT_EQ(isa(), before);
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures(result.findings);
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
   std::map<std::string, std::map<std::string, int>> samples;
-  for (const RawRow& row : read_raw_rows(out() / "raw.csv")) {
-    EXPECT_EQ(row.status, "ok");
-    EXPECT_EQ(row.isa, row.isa_limit.empty() ? to_string(before) : "baseline");
+  for (const RawRow& row : read_rows<RawRow>(out() / "raw.csv")) {
+    EXPECT_EQ(row.status, RowStatus::ok);
+    EXPECT_EQ(row.isa, row.isa_limit ? Isa::baseline : before);
     if (row.kind != RowKind::sample) continue;
     EXPECT_EQ(row.process, 0);
     EXPECT_EQ(row.round, 0);
-    EXPECT_NE(row.phase, row.rebuild == 1 ? Phase::update : Phase::build);
-    if (row.phase != Phase::find_pairs || row.twin == 1) continue;
-    ++samples[row.isa_limit + (row.rebuild == 1 ? " rebuilt" : "")][row.broad];
+    EXPECT_NE(row.phase, row.is_rebuilt() ? Phase::update : Phase::build);
+    if (row.phase != Phase::find_pairs || row.is_twin()) continue;
+    ++samples[std::string(row.isa_limit ? "limited" : "") + (row.is_rebuilt() ? " rebuilt" : "")]
+             [row.broad];
   }
   ASSERT_EQ(samples.size(), 4u);
   const std::map<std::string, int> each = {{"naive", 6}, {"sweep-and-prune", 6}, {"limit", 6}};
   for (const auto& [block, counts] : samples) EXPECT_EQ(counts, each) << block;
-  const std::string table = broad_table(result.findings, {.page_width = 200, .noisy = true});
-  EXPECT_THAT(table, testing::HasSubstr("baseline rebuilt"));
-  EXPECT_THAT(table, testing::ContainsRegex("limit +[0-9]"));
   // Four sets, not one.
   const stats::Results read = stats::read_results(out());
   EXPECT_EQ(read.sets.size(), 4u);
   const stats::Tables tables = stats::make_tables(read, stats::Noise::kept);
+  const std::string text = stats::tables_markdown(tables);
+  EXPECT_THAT(text, testing::HasSubstr("baseline instructions, rebuilt"));
+  EXPECT_THAT(text, testing::ContainsRegex("[|] limit [|] [0-9]"));
   for (const auto& row : tables.winners) EXPECT_NE(row.winner, "limit");
   ASSERT_EQ(tables.broad_best.size(), 4u);
   for (const auto& row : tables.broad_best) {
@@ -177,7 +179,7 @@ TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
   int tried = 0, left_out = 0;
   for (const RawRow& row : none.findings.rows()) {
     if (!row.lost()) continue;
-    EXPECT_EQ(row.status, "timed_out");
+    EXPECT_EQ(row.status, RowStatus::timed_out);
     ++(row.words.empty() ? tried : left_out);
     if (row.words.empty()) continue;
     EXPECT_EQ(row.words, "not tried: over the limit of 1e-09 s with 100 bodies");
@@ -198,11 +200,11 @@ TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
 TEST_F(Runner, TablesNameEveryAlgorithm) {
   const Campaign c = campaign("broad = 'ours'\nnarrow = 'ours'\nseconds = 0.5");
   const RunResult result = run_campaign(c, out());
-  const ReportStyle style = {.page_width = 120, .noisy = true};
-  const std::string broad = broad_table(result.findings, style);
-  const std::string narrow = narrow_tables(result.findings, style);
+  const stats::Results read = stats::read_results(out());
+  const stats::Tables tables = stats::make_tables(read, stats::Noise::kept);
+  const std::string text = stats::tables_markdown(tables);
   for (const BroadPhaseEntry* entry : c.groups[0].broad) {
-    EXPECT_THAT(broad, testing::HasSubstr(entry->info.name));
+    EXPECT_THAT(text, testing::HasSubstr("| " + entry->info.name + " |"));
   }
   // Those that take a pair of kinds that the scene has.
   constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::box, ShapeKind::hull};
@@ -213,12 +215,15 @@ TEST_F(Runner, TablesNameEveryAlgorithm) {
         takes_some = takes_some || offers(*choice.entry, a, b, Task::intersect);
       }
     }
-    EXPECT_EQ(narrow.find(choice.entry->info.name) != std::string::npos, takes_some)
+    EXPECT_EQ(text.find("| " + choice.label() + " |") != std::string::npos, takes_some)
         << choice.entry->info.name;
   }
-  EXPECT_THAT(broad, testing::ContainsRegex("[*=][0-9]"));
-  EXPECT_THAT(broad, testing::HasSubstr("all 3 frames"));
-  EXPECT_THAT(narrow, testing::HasSubstr("agreement with exact"));
+  EXPECT_THAT(text, testing::HasSubstr("## Winner against runner-up"));
+  EXPECT_THAT(text, testing::HasSubstr("## Agreement with the exact answers"));
+  const std::string summary = stats::summary(read, tables, result.findings.departures(), out());
+  EXPECT_LE(std::ranges::count(summary, '\n'), stats::most_summary_lines) << summary;
+  EXPECT_THAT(summary, testing::HasSubstr("scene, broad phases"));
+  EXPECT_THAT(summary, testing::HasSubstr("scene, intersect"));
 }
 
 TEST_F(Runner, LeavesNothingBehindWhenASceneIsWrong) {
@@ -232,10 +237,10 @@ TEST_F(Runner, LeavesOutWhatIsTooSlowAndSaysSo) {
   const Campaign c = campaign("broad = 'naive'\nnarrow = 'none'\ntime_limit = 1e-9");
   const RunResult result = run_campaign(c, out());
   int lost = 0;
-  for (const RawRow& row : result.findings.rows()) lost += row.status == "timed_out";
+  for (const RawRow& row : result.findings.rows()) lost += row.status == RowStatus::timed_out;
   EXPECT_EQ(lost, 1);
   EXPECT_FALSE(result.findings.ours_are_wrong());
-  EXPECT_THAT(departures(result.findings), testing::HasSubstr("over the limit"));
+  EXPECT_THAT(departures_text(result.findings), testing::HasSubstr("over the limit"));
 }
 
 TEST_F(Runner, RulesLeaveCellsOut) {
@@ -246,7 +251,7 @@ TEST_F(Runner, RulesLeaveCellsOut) {
   const RunResult result = run_campaign(c, out());
   std::set<std::string> cells;
   for (const RawRow& row : result.findings.rows()) {
-    if (row.status == "unsupported") continue;
+    if (row.status == RowStatus::unsupported) continue;
     cells.insert(label_of(row) + " " + std::to_string(row.bodies) + " " + row.pair_kind);
   }
   EXPECT_TRUE(cells.contains("naive 30 "));

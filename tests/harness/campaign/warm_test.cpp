@@ -155,15 +155,15 @@ TEST_F(Warm, StandsBesideColdOnesInRowsAndTables) {
   std::map<std::string, std::int64_t> supports, queries;
   std::map<std::string, int> checks, samples;
   for (const RawRow& row : result.findings.rows()) {
-    EXPECT_EQ(row.warm == 1, label_of(row).ends_with(" warm"));
-    EXPECT_NE(row.status, "wrong");
+    EXPECT_EQ(row.is_warm(), label_of(row).ends_with(" warm"));
+    EXPECT_NE(row.status, RowStatus::wrong);
     EXPECT_LE(row.disagreements, 0);
     if (row.kind == RowKind::check) {
       ++checks[label_of(row)];
     } else {
       ++samples[label_of(row)];
       EXPECT_GE(row.frame, 1);
-      if (row.task == "distance" && row.pair_kind == "hull-hull") {
+      if (row.task == Task::distance && row.pair_kind == "hull-hull") {
         supports[label_of(row)] += row.support_calls;
         queries[label_of(row)] += row.pair_count;
       }
@@ -205,8 +205,8 @@ TEST_F(Warm, TakesPairsThatComeAndGo) {
   int rows = 0;
   for (const RawRow& row : result.findings.rows()) {
     if (row.narrow.empty()) continue;
-    EXPECT_NE(row.status, "wrong");
-    rows += row.warm == 1 && row.kind == RowKind::sample;
+    EXPECT_NE(row.status, RowStatus::wrong);
+    rows += row.is_warm() && row.kind == RowKind::sample;
   }
   EXPECT_GT(rows, 0);
   EXPECT_TRUE(result.findings.departures().empty());

@@ -110,7 +110,7 @@ TEST(Conversion, IsTimedApartInTheCheck) {
   const RunResult result = run_campaign(fakes.campaign(1), fakes.out());
   int rows = 0;
   for (const RawRow& row : result.findings.rows()) {
-    EXPECT_NE(row.status, "wrong") << row.broad;
+    EXPECT_NE(row.status, RowStatus::wrong) << row.broad;
     if (row.phase != Phase::convert) continue;
     ++rows;
     EXPECT_EQ(row.kind, RowKind::check);
@@ -142,7 +142,7 @@ TEST(WorkColumns, ACrashWhileCountingLeavesThemEmpty) {
     if (row.kind != RowKind::check || row.broad != "silent" || row.process >= 0) continue;
     checked = true;
     if (row.phase != Phase::find_pairs) continue;
-    EXPECT_EQ(row.status, "ok");
+    EXPECT_EQ(row.status, RowStatus::ok);
     if (row.frame == FakeCampaign::frames - 1) {
       EXPECT_EQ(row.allocations, -1);
     }

@@ -25,6 +25,12 @@ struct FakeContestant {
   std::string worst_error = {};  // of each of its check rows
 };
 
+inline const char* origin_of(const std::string& name) {
+  if (name == "limit") return "limit";
+  const bool peer = name.starts_with("bullet-") || name.starts_with("fcl-") || name == "some-peer";
+  return peer ? "peer" : "ours";
+}
+
 struct FakeBlock {
   std::string scene = "uniform", scene_hash = "0123456789abcdef";
   int bodies = 1000;
@@ -52,7 +58,7 @@ struct FakeRun {
         "isa,pair_kind,phase,seconds,pair_count,pair_hash,contact_count,outcome_hash,"
         "disagreements,failures,status,kind,block,process,square,round,position,frames,twin,noise,"
         "stop,iterations,support_calls,box_tests,node_visits,candidates,bytes,allocations,"
-        "allocated_bytes,worst_error\n";
+        "allocated_bytes,worst_error,origin\n";
     std::mt19937_64 random(seed);
     std::normal_distribution<double> draw(0, 1);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -60,11 +66,12 @@ struct FakeRun {
       const bool narrow = !block.task.empty();
       const auto row = [&](const FakeContestant& c, int frame, const char* phase, double seconds,
                            const std::string& rest) {
-        text += fmt::format("fake,{},{},{},tight,{},{},{},{},{},,{},{},{},{},{},{}\n", block.scene,
-                            block.scene_hash, block.bodies, frame, narrow ? "" : c.name,
-                            narrow ? c.name : "", narrow ? "double" : "", block.task, block.threads,
-                            isa, block.pair_kind, phase,
-                            std::isnan(seconds) ? std::string() : fmt::format("{}", seconds), rest);
+        text += fmt::format("fake,{},{},{},tight,{},{},{},{},{},,{},{},{},{},{},{},{}\n",
+                            block.scene, block.scene_hash, block.bodies, frame,
+                            narrow ? "" : c.name, narrow ? c.name : "", narrow ? "double" : "",
+                            block.task, block.threads, isa, block.pair_kind, phase,
+                            std::isnan(seconds) ? std::string() : fmt::format("{}", seconds), rest,
+                            origin_of(c.name));
       };
       for (int frame = 0; frame < frames; ++frame) {
         for (const FakeContestant& c : block.contestants) {

@@ -85,9 +85,9 @@ TEST_F(Samples, FailuresAreRemembered) {
   FakeRun run = fake_run();
   run.blocks[0].contestants[1].status = "crashed";
   const Results results = read(run);
-  EXPECT_EQ(results.sets[0].contestants[1].failure, "crashed");
+  EXPECT_EQ(results.sets[0].contestants[1].failure, RowStatus::crashed);
   EXPECT_TRUE(results.sets[0].contestants[1].samples.empty());
-  EXPECT_EQ(results.sets[0].contestants[0].failure, "");
+  EXPECT_EQ(results.sets[0].contestants[0].failure, std::nullopt);
 }
 
 TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
@@ -101,7 +101,7 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
     return folder_.without_path(input_fault([&] { read_results(file); }));
   };
   EXPECT_THAT(fault("ok,check", "ok,chequed"),
-              HasSubstr("raw.csv:2: column kind: found 'chequed'; expected check or sample"));
+              HasSubstr("raw.csv:2: column kind: found 'chequed'; expected one of check, sample"));
   EXPECT_THAT(fault(",find_pairs,", ",find,"), HasSubstr("raw.csv:2: column phase: found 'find'"));
   EXPECT_THAT(fault(",find_pairs,0.001,", ",find_pairs,-1,"), testing::IsEmpty());  // not read
   EXPECT_THAT(
@@ -114,7 +114,7 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
   EXPECT_THAT(fault("1000", "many"), HasSubstr("raw.csv:2: column bodies: found 'many'"));
   folder_.write("raw.csv", raw.substr(0, raw.size() - 30));
   EXPECT_THAT(folder_.without_path(input_fault([&] { read_results(folder_.path()); })),
-              HasSubstr("expected 42, as in the header"));
+              HasSubstr("expected 43, as in the header"));
   EXPECT_THAT(input_fault([&] { read_results(folder_.path() / "none"); }),
               HasSubstr("No such file"));
 }

@@ -1,4 +1,5 @@
 #include "harness/stats/tables.h"
+#include "harness/stats/summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -368,8 +369,45 @@ TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
   run.blocks[0].scene_hash = "1";
   EXPECT_THAT(check(run).changed, ElementsAre(HasSubstr("scene uniform with 1000 bodies")));
 
-  folder_.write("reference/ratios.csv", "scene\nuniform\n");
+  folder_.write("reference/library_ratios.csv", "scene\nuniform\n");
   EXPECT_THAT(input_fault([&] { check(fake_run()); }), HasSubstr("ratios.csv:1: no column"));
+}
+
+TEST_F(TablesOf, ALibraryIsTheBaselineOfAReference) {
+  FakeRun run = fake_run();
+  run.blocks.resize(1);
+  run.blocks[0].contestants = {
+      {"sweep-and-prune", 1e-3}, {"uniform-grid", 2e-3}, {"bullet-tree", 4e-3}};
+  const auto reference = write(run, "reference");
+  const Tables tables = make_tables(read_results(reference), Noise::left_out);
+  for (const RatioRow& row : tables.library_ratios) EXPECT_EQ(row.baseline, "bullet-tree");
+  write_tables(tables, 1.2, reference);
+  // The measured baseline is twice as fast: its ratio is better, and no other changes.
+  run.blocks[0].contestants[0].seconds *= 0.5;
+  const TableCheck found =
+      check_tables(reference, read_results(write(run, "here")), Noise::left_out);
+  ASSERT_EQ(found.cells.size(), 2u);
+  EXPECT_EQ(found.cells[0].state, Holds::faster);
+  EXPECT_EQ(found.cells[1].state, Holds::pass);
+}
+
+TEST_F(TablesOf, ADepthBeyondTheStatedErrorWinsNothing) {
+  FakeRun run = fake_run();
+  run.blocks.erase(run.blocks.begin());
+  run.blocks[0].task = "penetration";
+  run.blocks[0].contestants = {
+      {"gjk", 100e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "1e-6"},
+      {"mpr", 130e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "1e-5"},
+      {"bullet-mpr", 50e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "0.6"}};
+  const Results results = read_results(write(run, "r"));
+  const Tables strict = make_tables(results, Noise::left_out);
+  EXPECT_EQ(strict.winners.at(0).winner, "gjk double");
+  EXPECT_THAT(tables_markdown(strict), HasSubstr("**off by 0.6**"));
+  EXPECT_THAT(summary(results, strict, {}, "r"),
+              HasSubstr("bullet-mpr double: distance or depth off by up to 0.6 of the size"));
+  const Tables loose = make_tables(results, Noise::left_out, 0.7);
+  EXPECT_EQ(loose.winners.at(0).winner, "bullet-mpr double");
+  EXPECT_THAT(summary(results, loose, {}, "r"), HasSubstr("No algorithm was wrong."));
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+// The folder of a run: its findings as raw.csv and departures.csv.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "harness/record/findings.h"
+#include "harness/record/result_folder.h"
+
+namespace touchstone {
+
+// A unit is a block's check pass, a worker's first pass, or a round.
+class RunFolder {
+ public:
+  // Fills the findings from the folder where the run is resumed.
+  RunFolder(std::filesystem::path folder, Facts facts, FolderStart start, Findings& findings);
+
+  bool was_finished() const { return folder_.was_finished(); }
+  // Appends what is new in the findings, as a unit; without anything new does nothing.
+  void commit(const Findings& findings);
+  void finish() { folder_.finish(); }
+
+ private:
+  ResultFolder folder_;
+  std::size_t rows_ = 0, departures_ = 0;  // written
+};
+
+}  // namespace touchstone

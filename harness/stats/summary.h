@@ -1,0 +1,21 @@
+// The end of a run in a few lines, for the screen: winners, faults, files.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "harness/record/findings.h"
+#include "harness/stats/tables.h"
+
+namespace touchstone::stats {
+
+inline constexpr std::size_t most_summary_lines = 25;
+
+// The fastest of ours against the fastest library for each group of scenes, with the ratio and its
+// 95 % interval; algorithms that were wrong, and by how much; where the files are. At most
+// most_summary_lines lines.
+std::string summary(const Results& results, const Tables& tables,
+                    std::span<const Departure> departures, const std::filesystem::path& folder);
+
+}  // namespace touchstone::stats
