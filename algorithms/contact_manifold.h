@@ -59,9 +59,9 @@ class ContactManifold {
   // Prepares the shapes, as NarrowPhase::bind does.
   virtual void bind(std::span<const Shape> shapes) = 0;
 
-  // Writes the whole of manifolds[i] for each pair i. The batch is that of a narrow phase; its task
-  // is ignored. Bodies that overlap have at least one point. If rounding hides whether they do, the
-  // answer is unknown, and there may be points of zero depth. Never throws on finite input.
+  // Writes the whole of manifolds[i] for each pair i. The batch is that of a narrow phase. Bodies
+  // that overlap have at least one point. If rounding hides whether they do, the answer is unknown,
+  // and there may be points of zero depth. Never throws on finite input.
   virtual void solve(const PairBatch& batch, std::span<Manifold> manifolds) = 0;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
+#include "algorithms/core/body_pairs.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
@@ -28,11 +29,11 @@ struct NarrowPhaseSettings {
   // is the algorithm's own. A query that needs more returns not_converged.
   std::optional<int> max_iterations = {};
   // A stopping criterion in place of the tolerance, for algorithms with
-  // NarrowPhaseEntry::stops_by_duality_gap: the Frank-Wolfe duality gap 2 x . (x - s) of |x|^2
-  // (square metres) at which a distance is found, where x is the nearest point of the difference so
-  // far and s the newest support point (Montaut et al., RSS 2022, sec. III). It is absolute, so it
-  // allows a greater error in the distance the nearer the bodies are; published counts of
-  // iterations use this criterion.
+  // Traits::stops_by_duality_gap: the Frank-Wolfe duality gap 2 x . (x - s) of |x|^2 (square
+  // metres) at which a distance is found, where x is the nearest point of the difference so far and
+  // s the newest support point (Montaut et al., RSS 2022, sec. III). It is absolute, so it allows a
+  // greater error in the distance the nearer the bodies are; published counts of iterations use
+  // this criterion.
   std::optional<double> duality_gap = {};
 };
 
@@ -43,20 +44,17 @@ struct PairMemory {
   alignas(64) std::array<std::byte, 64> bytes{};
 };
 
-// Pairs of one combination of kinds, kind_a <= kind_b. Pair i consists of bodies first[i] and
-// second[i]; body k has the shape shapes[shape_of[k]] of the bound ones, and the pose poses[k].
+// Pairs of one combination of kinds, kind_a <= kind_b. Body k has the shape shapes[shape_of[k]] of
+// the bound ones.
 struct PairBatch {
-  Task task;
   ShapeKind kind_a, kind_b;
-  std::span<const std::uint32_t> first, second;
-  std::span<const std::uint32_t> shape_of;
-  std::span<const Pose> poses;
+  BodyPairs pairs;
   // Pair i has memory[memory_of[i]], last written by the same algorithm with the same shapes bound.
   // Both spans are empty if every query starts cold.
   std::span<PairMemory> memory = {};
   std::span<const std::uint32_t> memory_of = {};
 
-  std::size_t size() const { return first.size(); }
+  std::size_t size() const { return pairs.first.size(); }
 };
 
 // One instance for each worker, never shared between threads.
@@ -72,7 +70,18 @@ class NarrowPhase {
   // Writes outcomes[i] for each pair i; fields that the task does not need stay as they are. Poses
   // are converted to the algorithm's own scalar and types here, so the conversion is timed with the
   // query. Never throws on finite input: a failure is a status.
-  virtual void solve(const PairBatch& batch, std::span<Outcome> outcomes) = 0;
+  virtual void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) = 0;
+};
+
+// What a harness has to know of an algorithm to ask it and to judge its answers.
+struct Traits {
+  // True if it answers for more than the body, as SAT over face normals only does, so that
+  // "overlapping" is no promise. Its disagreements count as the price of its speed, not as faults.
+  bool approximate = false;
+  // The depth is that of some separating translation: an upper bound, in general not the least.
+  bool depth_is_bound = false;
+  bool stops_by_duality_gap = false;  // honours NarrowPhaseSettings::duality_gap
+  bool starts_warm = false;           // reads and writes PairMemory if there is some
 };
 
 struct NarrowPhaseEntry {
@@ -82,13 +91,7 @@ struct NarrowPhaseEntry {
   // True for the kinds of pairs that it supports, kind_a <= kind_b; null means all. solve never
   // gets other pairs: their outcome is `unsupported`.
   bool (*supports)(ShapeKind kind_a, ShapeKind kind_b, Task task) = nullptr;
-  // True if it answers for more than the body, as SAT over face normals only does, so that
-  // "overlapping" is no promise. Its disagreements count as the price of its speed, not as faults.
-  bool approximate = false;
-  // The depth is that of some separating translation: an upper bound, in general not the least.
-  bool depth_is_bound = false;
-  bool stops_by_duality_gap = false;  // honours NarrowPhaseSettings::duality_gap
-  bool starts_warm = false;           // reads and writes PairMemory if there is some
+  Traits traits = {};
   // The encoding in which it gets a pair of these kinds, kind_a <= kind_b; null means as given, in
   // both scalars. Its errors are stated against the exact answer for that encoding, and for the
   // pair.

@@ -57,30 +57,29 @@ class Gjk final : public NarrowPhase {
     ahead_.bind(shapes_);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
-                 batch.task == Task::distance);
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin(batch.pairs, task == Task::distance);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       ahead_.before(i);
-      const std::uint32_t a = batch.first[i];
-      const std::uint32_t b = batch.second[i];
-      const SupportShape<Scalar>& shape_a = shapes_[batch.shape_of[a]];
-      const SupportShape<Scalar>& shape_b = shapes_[batch.shape_of[b]];
-      const Pose& pose_a = batch.poses[a];
-      const Pose& pose_b = batch.poses[b];
+      const std::uint32_t a = batch.pairs.first[i];
+      const std::uint32_t b = batch.pairs.second[i];
+      const SupportShape<Scalar>& shape_a = shapes_[batch.pairs.shape_of[a]];
+      const SupportShape<Scalar>& shape_b = shapes_[batch.pairs.shape_of[b]];
+      const Pose& pose_a = batch.pairs.poses[a];
+      const Pose& pose_b = batch.pairs.poses[b];
       if (batch.kind_a == ShapeKind::halfspace) {
-        solve_halfspaces(shape_a, pose_a, shape_b, pose_b, batch.task, outcomes[i]);
+        solve_halfspaces(shape_a, pose_a, shape_b, pose_b, task, outcomes[i]);
       } else if (batch.kind_b == ShapeKind::halfspace) {
-        solve_halfspace(shape_a, pose_a, shape_b, pose_b, batch.task, outcomes[i]);
+        solve_halfspace(shape_a, pose_a, shape_b, pose_b, task, outcomes[i]);
       } else if (!warm_ || batch.memory.empty()) {
-        query_.solve(shape_a, pose_a, shape_b, pose_b, batch.task, nullptr, outcomes[i]);
+        query_.solve(shape_a, pose_a, shape_b, pose_b, task, nullptr, outcomes[i]);
       } else {
         PairMemory& memory = batch.memory[batch.memory_of[i]];
         static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
                       std::is_trivially_copyable_v<WarmStart>);
         WarmStart start;
         std::memcpy(&start, memory.bytes.data(), sizeof start);
-        query_.solve(shape_a, pose_a, shape_b, pose_b, batch.task, &start, outcomes[i]);
+        query_.solve(shape_a, pose_a, shape_b, pose_b, task, &start, outcomes[i]);
         std::memcpy(memory.bytes.data(), &start, sizeof start);
       }
     }
@@ -108,8 +107,7 @@ NarrowPhaseEntry entry(AlgorithmInfo info, bool starts_warm,
   return {.info = std::move(info),
           .tasks = {Task::intersect, Task::distance, Task::penetration},
           .scalars = {Precision::float32, Precision::float64},
-          .stops_by_duality_gap = true,
-          .starts_warm = starts_warm,
+          .traits = {.stops_by_duality_gap = true, .starts_warm = starts_warm},
           .make = make};
 }
 

@@ -73,21 +73,21 @@ class Mpr final : public NarrowPhase {
     ahead_.bind(shapes_);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses}, true);
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin(batch.pairs, true);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       ahead_.before(i);
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const SupportShape<Scalar>& a = shapes_[batch.shape_of[first]];
-      const SupportShape<Scalar>& b = shapes_[batch.shape_of[second]];
-      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const SupportShape<Scalar>& a = shapes_[batch.pairs.shape_of[first]];
+      const SupportShape<Scalar>& b = shapes_[batch.pairs.shape_of[second]];
+      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
       if (batch.kind_b == ShapeKind::halfspace) {
         const auto solve_plane =
             batch.kind_a == batch.kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
-        solve_plane(a, pose_a, b, pose_b, batch.task, outcomes[i]);
+        solve_plane(a, pose_a, b, pose_b, task, outcomes[i]);
       } else {
         SupportPair<Scalar> pair(a, pose_a, b, pose_b);
-        solve_pair(pair, max_iterations_, tolerance_, batch.task, outcomes[i]);
+        solve_pair(pair, max_iterations_, tolerance_, task, outcomes[i]);
       }
     }
   }
@@ -113,7 +113,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_mpr() {
                                 "Programming Gems 7, 2008"},
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
-           .depth_is_bound = true,
+           .traits = {.depth_is_bound = true},
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32)
                return std::make_unique<Mpr<float>>(settings);

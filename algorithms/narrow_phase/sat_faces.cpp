@@ -34,9 +34,9 @@ class SatFaces final : public NarrowPhase {
  public:
   void bind(std::span<const Shape> shapes) override { shapes_.bind(shapes); }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, std::size_t i) {
-      solve_pair(pair, batch.task, outcomes[i]);
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    shapes_.solve(task, batch, outcomes, [&](const PolytopePair<Scalar>& pair, std::size_t i) {
+      solve_pair(pair, task, outcomes[i]);
     });
   }
 
@@ -70,8 +70,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_sat_faces() {
        .tasks = {Task::intersect, Task::penetration},
        .scalars = {Precision::float32, Precision::float64},
        .supports = are_flat_sided,
-       .approximate = true,
-       .depth_is_bound = true,
+       .traits = {.approximate = true, .depth_is_bound = true},
        .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
          if (settings.scalar == Precision::float32) return std::make_unique<SatFaces<float>>();
          return std::make_unique<SatFaces<double>>();

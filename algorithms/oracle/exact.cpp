@@ -34,12 +34,13 @@ class Exact final : public NarrowPhase {
     for (const Shape& shape : shapes) solids_.emplace_back(shape);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const auto body = [&](std::uint32_t k) {
-        return Body(solids_[batch.shape_of[k]], batch.poses[k]);
+        return Body(solids_[batch.pairs.shape_of[k]], batch.pairs.poses[k]);
       };
-      oracle::answer(oracle_, body(batch.first[i]), body(batch.second[i]), batch.task, outcomes[i]);
+      oracle::answer(oracle_, body(batch.pairs.first[i]), body(batch.pairs.second[i]), task,
+                     outcomes[i]);
     }
   }
 

@@ -216,14 +216,14 @@ class BulletNarrowPhase final : public NarrowPhase {
     }
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const Pose& at_a = batch.poses[first];
-      const Pose& at_b = batch.poses[second];
-      Query query{batch.task,
-                  bodies_[batch.shape_of[first]],
-                  bodies_[batch.shape_of[second]],
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const Pose& at_a = batch.pairs.poses[first];
+      const Pose& at_b = batch.pairs.poses[second];
+      Query query{task,
+                  bodies_[batch.pairs.shape_of[first]],
+                  bodies_[batch.pairs.shape_of[second]],
                   {},
                   Vec3d::Zero()};
       const Vec3d offset = offset_between(at_a, query.a.centre, at_b, query.b.centre, query.origin);

@@ -70,15 +70,15 @@ class BulletManifold final : public ContactManifold {
 
   void solve(const PairBatch& batch, std::span<Manifold> manifolds) override {
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const Body& a = bodies_[batch.shape_of[first]];
-      const Body& b = bodies_[batch.shape_of[second]];
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const Body& a = bodies_[batch.pairs.shape_of[first]];
+      const Body& b = bodies_[batch.pairs.shape_of[second]];
       manifolds[i] = {};
       if (!Algorithm::takes(a) || !Algorithm::takes(b)) {
         manifolds[i].status = Status::degenerate;
         continue;
       }
-      const Pose &at_a = batch.poses[first], &at_b = batch.poses[second];
+      const Pose &at_a = batch.pairs.poses[first], &at_b = batch.pairs.poses[second];
       Vec3d origin;
       const Vec3d offset = offset_between(at_a, a.centre, at_b, b.centre, origin);
       place(object_a_, a, at_a, Vec3d::Zero());

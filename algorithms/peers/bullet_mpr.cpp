@@ -103,7 +103,7 @@ std::vector<NarrowPhaseEntry> peers_bullet_mpr() {
        .tasks = {Task::intersect, Task::penetration},
        .scalars = bullet::scalars(),
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
-       .depth_is_bound = true,
+       .traits = {.depth_is_bound = true},
        .encoding = bullet::encoding,
        .make = bullet::make_mpr}};
 }

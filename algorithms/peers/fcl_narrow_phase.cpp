@@ -193,25 +193,26 @@ class Fcl final : public NarrowPhase {
     }
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     with_kind(batch.kind_a, [&]<ShapeKind kind_a>() {
       with_kind(batch.kind_b, [&]<ShapeKind kind_b>() {
-        if constexpr (kind_a <= kind_b) solve_kinds<kind_a, kind_b>(batch, outcomes);
+        if constexpr (kind_a <= kind_b) solve_kinds<kind_a, kind_b>(task, batch, outcomes);
       });
     });
   }
 
  private:
   template <ShapeKind kind_a, ShapeKind kind_b>
-  void solve_kinds(const PairBatch& batch, std::span<Outcome> outcomes) {
-    set_tolerance(solver_, default_tolerance(batch.task));
+  void solve_kinds(Task task, const PairBatch& batch, std::span<Outcome> outcomes) {
+    set_tolerance(solver_, default_tolerance(task));
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const std::uint32_t shape_a = batch.shape_of[first], shape_b = batch.shape_of[second];
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const std::uint32_t shape_a = batch.pairs.shape_of[first],
+                          shape_b = batch.pairs.shape_of[second];
       const auto& a = static_cast<const FclShape<S, kind_a>&>(*shapes_[shape_a]);
       const auto& b = static_cast<const FclShape<S, kind_b>&>(*shapes_[shape_b]);
-      const fcl::Transform3<S> pose_a = to_fcl<S>(batch.poses[first]);
-      const fcl::Transform3<S> pose_b = to_fcl<S>(batch.poses[second]);
+      const fcl::Transform3<S> pose_a = to_fcl<S>(batch.pairs.poses[first]);
+      const fcl::Transform3<S> pose_b = to_fcl<S>(batch.pairs.poses[second]);
       if (tolerance_) {
         set_tolerance(solver_,
                       static_cast<S>(*tolerance_ * (reaches_[shape_a] + reaches_[shape_b])));
@@ -219,7 +220,7 @@ class Fcl final : public NarrowPhase {
       Outcome& outcome = outcomes[i];
       outcome.status = Status::not_reported;
       try {
-        switch (batch.task) {
+        switch (task) {
           case Task::intersect:
             outcome.answer = solver_.shapeIntersect(a, pose_a, b, pose_b, nullptr)
                                  ? Answer::overlapping
@@ -325,7 +326,7 @@ std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
        .tasks = tasks,
        .scalars = scalars,
        .supports = supports,
-       .depth_is_bound = true,
+       .traits = {.depth_is_bound = true},
        .encoding = quaternion_encoding,
        .make = make_libccd},
       {.info = {.name = "fcl-indep",

@@ -158,24 +158,24 @@ class Libccd final : public NarrowPhase {
     }
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     ccd_t ccd;
     CCD_INIT(&ccd);
     ccd.support1 = support_of(batch.kind_a);
     ccd.support2 = support_of(batch.kind_b);
     ccd.center1 = center;
     ccd.center2 = center;
-    const long limit = support_limit(batch.task);
+    const long limit = support_limit(task);
     // GJK gets one iteration more than allowed, so that using it is detected. MPR reaches its own
     // cap only if its direction is NaN, which no support point can end.
     ccd.max_iterations =
         static_cast<unsigned long>(method_ == Method::mpr ? limit : max_iterations_ + 1);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       Query query{.limit = 2 * limit};
-      const Body a = body(batch, batch.first[i], &query);
-      const Body b = body(batch, batch.second[i], &query);
+      const Body a = body(batch, batch.pairs.first[i], &query);
+      const Body b = body(batch, batch.pairs.second[i], &query);
       if (tolerance_) set_tolerance(ccd, *tolerance_ * size(batch, i));
-      if (batch.task == Task::intersect) {
+      if (task == Task::intersect) {
         intersect(ccd, a, b, outcomes[i]);
       } else {
         penetration(ccd, a, b, outcomes[i]);
@@ -196,13 +196,14 @@ class Libccd final : public NarrowPhase {
   }
 
   Body body(const PairBatch& batch, std::uint32_t id, Query* query) const {
-    const std::uint32_t shape = batch.shape_of[id];
-    return {&shapes_[shape], &batch.poses[id], centers_[shape], query};
+    const std::uint32_t shape = batch.pairs.shape_of[id];
+    return {&shapes_[shape], &batch.pairs.poses[id], centers_[shape], query};
   }
 
   // The sum of the bodies' reaches, each from its origin (metres).
   double size(const PairBatch& batch, std::size_t i) const {
-    return reaches_[batch.shape_of[batch.first[i]]] + reaches_[batch.shape_of[batch.second[i]]];
+    return reaches_[batch.pairs.shape_of[batch.pairs.first[i]]] +
+           reaches_[batch.pairs.shape_of[batch.pairs.second[i]]];
   }
 
   static void set_tolerance(ccd_t& ccd, double length) {
@@ -301,7 +302,7 @@ std::vector<NarrowPhaseEntry> peers_libccd_narrow_phase() {
        .tasks = {intersect, penetration},
        .scalars = scalars,
        .supports = supports,
-       .depth_is_bound = true,
+       .traits = {.depth_is_bound = true},
        .make = make_mpr},
   };
 }

@@ -95,8 +95,8 @@ class Mujoco final : public NarrowPhase {
     model_.mesh_graphadr = mesh_graph_.data();
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    const bool rounds = encoding(batch.kind_a, batch.kind_b, batch.task, Precision::float64) ==
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    const bool rounds = encoding(batch.kind_a, batch.kind_b, task, Precision::float64) ==
                         Encoding::float32_relative;
     // The table holds each pair only in the order of MuJoCo's types.
     const mjtGeom type_a = type_of(batch.kind_a), type_b = type_of(batch.kind_b);
@@ -104,9 +104,9 @@ class Mujoco final : public NarrowPhase {
     const mjfCollision collide =
         mjCOLLISIONFUNC[std::min(type_a, type_b)][std::max(type_a, type_b)];
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
-      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
+      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
       Vec3d origin;
       const Vec3d offset = offset_between(pose_a, centres_[a], pose_b, centres_[b], origin);
       if (tolerance_) {
@@ -121,7 +121,7 @@ class Mujoco final : public NarrowPhase {
       }
       const int count =
           collide(&model_, &data_, contacts_.data(), swapped ? 1 : 0, swapped ? 0 : 1, 0);
-      report(std::span(contacts_).first(static_cast<std::size_t>(count)), swapped, batch.task,
+      report(std::span(contacts_).first(static_cast<std::size_t>(count)), swapped, task,
              outcomes[i]);
     }
   }
@@ -217,7 +217,7 @@ std::vector<NarrowPhaseEntry> peers_mujoco_narrow_phase() {
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float64},
            .supports = supports,
-           .depth_is_bound = true,
+           .traits = {.depth_is_bound = true},
            .encoding = encoding,
            .make = make}};
 }

@@ -32,16 +32,16 @@ class OdeContacts final : public ContactManifold {
 
   void solve(const PairBatch& batch, std::span<Manifold> manifolds) override {
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const ode::Placement at_a(batch.poses[first]), at_b(batch.poses[second]);
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const ode::Placement at_a(batch.pairs.poses[first]), at_b(batch.pairs.poses[second]);
       std::array<dContactGeom, Manifold::most_points> contacts;
       dVector3 normal;
       dReal depth = 0;
       int code = 0;
       const int count =
-          dBoxBox(at_a.position, at_a.rotation, sides_[batch.shape_of[first]].data(), at_b.position,
-                  at_b.rotation, sides_[batch.shape_of[second]].data(), normal, &depth, &code,
-                  Manifold::most_points, contacts.data(), sizeof contacts[0]);
+          dBoxBox(at_a.position, at_a.rotation, sides_[batch.pairs.shape_of[first]].data(),
+                  at_b.position, at_b.rotation, sides_[batch.pairs.shape_of[second]].data(), normal,
+                  &depth, &code, Manifold::most_points, contacts.data(), sizeof contacts[0]);
       Manifold& manifold = manifolds[i];
       manifold = {};
       manifold.status = Status::not_reported;

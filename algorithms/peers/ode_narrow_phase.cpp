@@ -84,12 +84,12 @@ class OdeNarrowPhase final : public NarrowPhase {
     }
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     const bool boxes = batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box;
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
-      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
+      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
       std::array<dContactGeom, 8> contacts;
       if (boxes) {
         const ode::Placement at_a(pose_a), at_b(pose_b);
@@ -100,15 +100,14 @@ class OdeNarrowPhase final : public NarrowPhase {
             dBoxBox(at_a.position, at_a.rotation, sides_[a].data(), at_b.position, at_b.rotation,
                     sides_[b].data(), normal, &depth, &code, static_cast<int>(contacts.size()),
                     contacts.data(), sizeof contacts[0]);
-        report(count > 0, to_vector(normal), depth, batch.task, outcomes[i]);
+        report(count > 0, to_vector(normal), depth, task, outcomes[i]);
       } else {
         const dGeomID geom_a = geoms_[0][a].get(), geom_b = geoms_[1][b].get();
         place(geom_a, shapes_[a], pose_a);
         place(geom_b, shapes_[b], pose_b);
         const int count = dCollide(geom_a, geom_b, 1, contacts.data(), sizeof contacts[0]);
         // A contact's normal points from b into a.
-        report(count > 0, -to_vector(contacts[0].normal), contacts[0].depth, batch.task,
-               outcomes[i]);
+        report(count > 0, -to_vector(contacts[0].normal), contacts[0].depth, task, outcomes[i]);
       }
     }
   }
@@ -154,7 +153,7 @@ std::vector<NarrowPhaseEntry> peers_ode_narrow_phase() {
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {scalar},
            .supports = supports,
-           .depth_is_bound = true,
+           .traits = {.depth_is_bound = true},
            .encoding = encoding,
            .make = make}};
 }

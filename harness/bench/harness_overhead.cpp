@@ -33,7 +33,7 @@ class NoBroadPhase final : public BroadPhase {
 class NoNarrowPhase final : public NarrowPhase {
  public:
   void bind(std::span<const Shape>) override {}
-  void solve(const PairBatch&, std::span<Outcome>) override {}
+  void solve(Task, const PairBatch&, std::span<Outcome>) override {}
 };
 
 struct Stage {

@@ -97,11 +97,11 @@ void count_under_valgrind([[maybe_unused]] const std::string& filter) {
     const auto algorithm = subject.entry->make({.scalar = subject.scalar});
     algorithm->bind(pairs.shapes);
     std::vector<Outcome> outcomes(PlacedPairs::count);
-    const PairBatch batch = pairs.batch(subject.task, 0, PlacedPairs::count);
-    algorithm->solve(batch, outcomes);  // allocations that happen once
+    const PairBatch batch = pairs.batch(0, PlacedPairs::count);
+    algorithm->solve(subject.task, batch, outcomes);  // allocations that happen once
     CALLGRIND_START_INSTRUMENTATION;
     CALLGRIND_ZERO_STATS;
-    algorithm->solve(batch, outcomes);
+    algorithm->solve(subject.task, batch, outcomes);
     names.push_back(subject.name());
     CALLGRIND_DUMP_STATS_AT(names.back().c_str());
     CALLGRIND_STOP_INSTRUMENTATION;

@@ -25,7 +25,7 @@ void solve(benchmark::State& state, const NarrowSubject& subject) {
   std::vector<Outcome> outcomes(PlacedPairs::count);
   std::size_t begin = 0, asked = 0;
   while (state.KeepRunningBatch(batch_size)) {
-    algorithm->solve(pairs.batch(subject.task, begin, batch_size),
+    algorithm->solve(subject.task, pairs.batch(begin, batch_size),
                      std::span(outcomes).subspan(begin, batch_size));
     begin = (begin + batch_size) % PlacedPairs::count;
     asked = std::max(asked, begin == 0 ? PlacedPairs::count : begin);

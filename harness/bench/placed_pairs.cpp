@@ -160,14 +160,13 @@ PlacedPairs::PlacedPairs(const FamilyPair& families, const PairRegime& regime)
   }
 }
 
-PairBatch PlacedPairs::batch(Task task, std::size_t begin, std::size_t size) const {
-  return {.task = task,
-          .kind_a = kind_a,
+PairBatch PlacedPairs::batch(std::size_t begin, std::size_t size) const {
+  return {.kind_a = kind_a,
           .kind_b = kind_b,
-          .first = std::span(first).subspan(begin, size),
-          .second = std::span(second).subspan(begin, size),
-          .shape_of = shape_of,
-          .poses = poses};
+          .pairs = {.first = std::span(first).subspan(begin, size),
+                    .second = std::span(second).subspan(begin, size),
+                    .shape_of = shape_of,
+                    .poses = poses}};
 }
 
 const PlacedPairs& placed_pairs(const FamilyPair& families, const PairRegime& regime) {

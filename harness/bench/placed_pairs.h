@@ -62,7 +62,7 @@ struct PlacedPairs {
   PlacedPairs(const FamilyPair& families, const PairRegime& regime);
 
   // A batch of `size` pairs from `begin` on.
-  PairBatch batch(Task task, std::size_t begin, std::size_t size) const;
+  PairBatch batch(std::size_t begin, std::size_t size) const;
 };
 
 // The pairs are made when first requested, and kept.

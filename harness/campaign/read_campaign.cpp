@@ -144,7 +144,7 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
   const std::vector<bool> starts = warm_starts(settings);
   std::vector<NarrowChoice> choices;
   for (const NarrowPhaseEntry* entry : algorithms(settings, "narrow", narrow_phases())) {
-    if (duality_gap && !entry->stops_by_duality_gap) {
+    if (duality_gap && !entry->traits.stops_by_duality_gap) {
       gap_holder.fail("duality_gap",
                       fmt::format("given with '{}', which does not stop by it; "
                                   "expected only {}",
@@ -158,9 +158,9 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
                                       .max_iterations = max_iterations,
                                       .duality_gap = duality_gap};
         // What knows no other start is cold, once.
-        if (!entry->starts_warm) choices.push_back({entry, own});
+        if (!entry->traits.starts_warm) choices.push_back({entry, own});
         for (const bool warm : starts) {
-          if (entry->starts_warm) choices.push_back({entry, own, warm});
+          if (entry->traits.starts_warm) choices.push_back({entry, own, warm});
         }
       }
     }

@@ -70,7 +70,7 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
 inline std::string names_stopping_by_duality_gap() {
   std::string names;
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
-    if (entry.stops_by_duality_gap) names += (names.empty() ? "" : ", ") + entry.info.name;
+    if (entry.traits.stops_by_duality_gap) names += (names.empty() ? "" : ", ") + entry.info.name;
   }
   return names;
 }

@@ -167,13 +167,14 @@ class Job {
           ++count.flips;
           worse = gap / scale > count.worst_flip;
           count.worst_flip = std::max(count.worst_flip, gap / scale);
-          beyond = beyond || (gap / scale >= margins.verdict && !algorithm.approximate);
+          beyond = beyond || (gap / scale >= margins.verdict && !algorithm.traits.approximate);
         }
       } else if (asks_for_distance(original.task, outcome.answer) &&
                  std::isfinite(outcome.distance) && std::isfinite(turned_back.distance)) {
         const double difference = std::abs(outcome.distance - turned_back.distance) / scale;
         count.worst_difference = std::max(count.worst_difference, difference);
-        const bool any_depth = original.task == Task::penetration && algorithm.depth_is_bound;
+        const bool any_depth =
+            original.task == Task::penetration && algorithm.traits.depth_is_bound;
         beyond = beyond || (difference > 2 * margins.length && !any_depth);
       }
     }

@@ -75,7 +75,7 @@ std::string lengths(const CheckReport& report, const GroupedCounts& grouped) {
                 "stuck", "excess", "off body", "bounds", "NaN"}};
   for (const auto& [label, totals] : grouped.totals()) {
     const AnswerCount& a = totals.answers;
-    const bool is_bound = report.request->narrow[label.entry]->depth_is_bound;
+    const bool is_bound = report.request->narrow[label.entry]->traits.depth_is_bound;
     rows.push_back({grouped.name(label), digits(a.distance), digits(a.distance_end),
                     (is_bound ? "<= " : "") + digits(a.too_deep), digits(a.too_shallow),
                     digits(a.depth_end), digits(a.does_not_separate), digits(a.excess),

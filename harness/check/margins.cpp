@@ -39,7 +39,8 @@ std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& an
   Remarks remarks(answer.scale);
   if (grade.verdict == Verdict::crashed) remarks.add("crashed");
   if (grade.verdict == Verdict::timed_out) remarks.add("no answer in time");
-  if (grade.verdict == Verdict::silent_error && !(entry.approximate && is_contact(answer.answer))) {
+  if (grade.verdict == Verdict::silent_error &&
+      !(entry.traits.approximate && is_contact(answer.answer))) {
     remarks.test(is_contact(answer.answer) ? "called overlapping, and apart"
                                            : "called separated, and overlapping",
                  grade.margin, margins.verdict);
@@ -47,7 +48,7 @@ std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& an
   remarks.test("the certified bounds miss the exact value", grade.bounds_error, margins.verdict);
   remarks.test("the distance is wrong", std::abs(grade.distance_error), margins.length);
   remarks.test("the depth is too small", -grade.depth_error, margins.length);
-  if (!entry.depth_is_bound) {
+  if (!entry.traits.depth_is_bound) {
     remarks.test("the depth is too great", grade.depth_error, margins.length);
   }
   if (answer.task == Task::penetration) {

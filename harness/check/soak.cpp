@@ -81,7 +81,7 @@ class Cases {
       const std::shared_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
       algorithm->bind(shapes_);
       return [&, algorithm](std::size_t item) {
-        algorithm->solve(batch_of(asked[item]), outcomes.span().subspan(item, 1));
+        algorithm->solve(Task::intersect, batch_of(asked[item]), outcomes.span().subspan(item, 1));
       };
     });
     SoakCount count;
@@ -98,13 +98,12 @@ class Cases {
 
  private:
   PairBatch batch_of(std::size_t i) const {
-    return {.task = Task::intersect,
-            .kind_a = cases_[i].shape_a.kind,
+    return {.kind_a = cases_[i].shape_a.kind,
             .kind_b = cases_[i].shape_b.kind,
-            .first = std::span(bodies_).subspan(2 * i, 1),
-            .second = std::span(bodies_).subspan(2 * i + 1, 1),
-            .shape_of = bodies_,
-            .poses = poses_};
+            .pairs = {.first = std::span(bodies_).subspan(2 * i, 1),
+                      .second = std::span(bodies_).subspan(2 * i + 1, 1),
+                      .shape_of = bodies_,
+                      .poses = poses_}};
   }
 
   // Against what the algorithm is given.
@@ -310,7 +309,7 @@ void SoakCount::add(const SoakCount& other) {
 bool SoakResult::ours_are_wrong(const SoakRequest& request) const {
   return std::ranges::any_of(counts, [&](const auto& item) {
     const NarrowPhaseEntry& entry = *request.narrow[std::get<0>(item.first)];
-    return entry.info.origin == Origin::ours && !entry.approximate &&
+    return entry.info.origin == Origin::ours && !entry.traits.approximate &&
            (item.second.silent > 0 || item.second.lost > 0);
   });
 }

@@ -53,7 +53,7 @@ std::vector<BodyState> states_of(const Scene& scene, const ScenePlayer& player) 
   narrow->bind(scene.shapes);
   for (const PairGroup& group : group_by_kind(pairs, scene.shapes, shape_of)) {
     std::vector<Outcome> outcomes(group.size());
-    narrow->solve(group.batch(Task::intersect, shape_of, player.poses(), 0, group.size()),
+    narrow->solve(Task::intersect, group.batch(shape_of, player.poses(), 0, group.size()),
                   outcomes);
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (outcomes[i].answer != Answer::overlapping && outcomes[i].answer != Answer::touching)

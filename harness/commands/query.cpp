@@ -108,7 +108,7 @@ void print_summary(const std::vector<Answers>& all) {
 void query(const QueryOptions& options) {
   const auto entries = select(narrow_phases(), split_names(options.narrow), "narrow phase");
   for (const NarrowPhaseEntry* entry : entries) {
-    if (!options.settings.duality_gap || entry->stops_by_duality_gap) continue;
+    if (!options.settings.duality_gap || entry->traits.stops_by_duality_gap) continue;
     throw InputError(
         fmt::format("--duality-gap was given for '{}', which does not stop by it; "
                     "expected only {}",

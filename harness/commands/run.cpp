@@ -64,7 +64,8 @@ Campaign campaign_of(const Options& options) {
       NarrowPhaseSettings settings{.scalar = scalar};
       if (options.tolerance > 0) settings.tolerance = options.tolerance;
       group.narrow.push_back({entry, settings});
-      if (options.warm && entry->starts_warm) group.narrow.push_back({entry, settings, true});
+      if (options.warm && entry->traits.starts_warm)
+        group.narrow.push_back({entry, settings, true});
     }
   }
   group.tasks = options.tasks;

@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make,
+void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make, Task task,
                    const PairBatch& batch, std::span<Outcome> outcomes, double time_limit,
                    std::size_t memory_limit) {
   SharedArray<Outcome> shared(batch.size());
@@ -22,9 +22,9 @@ void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make,
         return;
       }
       PairBatch one = batch;
-      one.first = batch.first.subspan(i, 1);
-      one.second = batch.second.subspan(i, 1);
-      algorithm->solve(one, shared.span().subspan(i, 1));
+      one.pairs.first = batch.pairs.first.subspan(i, 1);
+      one.pairs.second = batch.pairs.second.subspan(i, 1);
+      algorithm->solve(task, one, shared.span().subspan(i, 1));
     };
   });
   std::ranges::copy(shared.span(), outcomes.begin());

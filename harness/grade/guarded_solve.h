@@ -14,7 +14,7 @@ namespace touchstone {
 // shapes bound. A query that kills the child gets the status crashed; one that takes longer than
 // `time_limit` seconds gets timed_out, and so does what is left when all queries together have
 // taken that long. After three lost queries the rest shares the status of the last.
-void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make,
+void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make, Task task,
                    const PairBatch& batch, std::span<Outcome> outcomes, double time_limit,
                    std::size_t memory_limit);
 

@@ -11,16 +11,15 @@ std::string PairGroup::name() const {
   return fmt::format("{}-{}", to_string(kind_a), to_string(kind_b));
 }
 
-PairBatch PairGroup::batch(Task task, std::span<const std::uint32_t> shape_of,
-                           std::span<const Pose> poses, std::size_t begin, std::size_t end) const {
+PairBatch PairGroup::batch(std::span<const std::uint32_t> shape_of, std::span<const Pose> poses,
+                           std::size_t begin, std::size_t end) const {
   const std::size_t count = end - begin;
-  return {.task = task,
-          .kind_a = kind_a,
+  return {.kind_a = kind_a,
           .kind_b = kind_b,
-          .first = std::span(first).subspan(begin, count),
-          .second = std::span(second).subspan(begin, count),
-          .shape_of = shape_of,
-          .poses = poses};
+          .pairs = {.first = std::span(first).subspan(begin, count),
+                    .second = std::span(second).subspan(begin, count),
+                    .shape_of = shape_of,
+                    .poses = poses}};
 }
 
 std::vector<PairGroup> group_by_kind(std::span<const IndexPair> pairs,

@@ -21,7 +21,7 @@ struct PairGroup {
   std::size_t size() const { return first.size(); }
   std::string name() const;  // "box-sphere"
   // Pairs [begin, end) of the group as a batch.
-  PairBatch batch(Task task, std::span<const std::uint32_t> shape_of, std::span<const Pose> poses,
+  PairBatch batch(std::span<const std::uint32_t> shape_of, std::span<const Pose> poses,
                   std::size_t begin, std::size_t end) const;
 };
 

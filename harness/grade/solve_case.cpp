@@ -32,15 +32,11 @@ Outcome BoundCase::solve(Task task) {
   const bool swap = needs_swap(shapes_[0].kind, shapes_[1].kind);
   const std::span<const std::uint32_t> a(&bodies[swap ? 1 : 0], 1);
   const std::span<const std::uint32_t> b(&bodies[swap ? 0 : 1], 1);
-  const PairBatch batch = {.task = task,
-                           .kind_a = shapes_[a[0]].kind,
+  const PairBatch batch = {.kind_a = shapes_[a[0]].kind,
                            .kind_b = shapes_[b[0]].kind,
-                           .first = a,
-                           .second = b,
-                           .shape_of = bodies,
-                           .poses = poses_};
+                           .pairs = {.first = a, .second = b, .shape_of = bodies, .poses = poses_}};
   Outcome outcome;
-  narrow_phase_->solve(batch, {&outcome, 1});
+  narrow_phase_->solve(task, batch, {&outcome, 1});
   return asked_for(swap ? swapped(outcome) : outcome, task);
 }
 

@@ -27,13 +27,9 @@ Manifold solve_manifold(const ManifoldEntry& entry, const ManifoldSettings& sett
   const bool swap = needs_swap(c.shape_a.kind, c.shape_b.kind);
   const std::span<const std::uint32_t> a(&bodies[swap ? 1 : 0], 1);
   const std::span<const std::uint32_t> b(&bodies[swap ? 0 : 1], 1);
-  const PairBatch batch = {.task = Task::penetration,
-                           .kind_a = shapes[a[0]].kind,
+  const PairBatch batch = {.kind_a = shapes[a[0]].kind,
                            .kind_b = shapes[b[0]].kind,
-                           .first = a,
-                           .second = b,
-                           .shape_of = bodies,
-                           .poses = poses};
+                           .pairs = {.first = a, .second = b, .shape_of = bodies, .poses = poses}};
   Manifold manifold;
   const std::unique_ptr<ContactManifold> algorithm = entry.make(settings);
   algorithm->bind(shapes);

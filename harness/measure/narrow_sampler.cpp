@@ -50,8 +50,7 @@ std::vector<NarrowSampler::Chunk> NarrowSampler::cut(const NarrowSet& set,
     for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task) {
       const std::size_t end = std::min(begin + pairs_a_task, group.size());
       chunks.push_back(
-          {group.batch(set.task, input_->shape_of, input_->frames[frame].poses, begin, end),
-           total + begin});
+          {group.batch(input_->shape_of, input_->frames[frame].poses, begin, end), total + begin});
     }
     total += group.size();
   }
@@ -70,8 +69,9 @@ std::vector<std::size_t> NarrowSampler::tasks_of(std::span<const Chunk> chunks) 
   return tasks;
 }
 
-void NarrowSampler::solve(const PairBatch& batch, std::span<Outcome> outcomes, int worker) {
-  instances_[static_cast<std::size_t>(worker)]->solve(batch, outcomes);
+void NarrowSampler::solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes,
+                          int worker) {
+  instances_[static_cast<std::size_t>(worker)]->solve(task, batch, outcomes);
 }
 
 double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size_t> frames) {
@@ -81,7 +81,8 @@ double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size
   const auto work = [&](std::size_t task, int worker) {
     for (std::size_t i = tasks[task]; i < tasks[task + 1]; ++i) {
       const Chunk& chunk = chunks[i];
-      solve(chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()), worker);
+      solve(set.task, chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()),
+            worker);
     }
   };
   const Stopwatch watch;
@@ -98,11 +99,10 @@ NarrowSampler::Warm& NarrowSampler::warm(std::uint32_t set) {
   return *warm;
 }
 
-PairBatch NarrowSampler::batch(Warm& warm, Task task, std::size_t frame, std::size_t begin,
+PairBatch NarrowSampler::batch(Warm& warm, std::size_t frame, std::size_t begin,
                                std::size_t end) const {
   const WarmPairs::Frame& pairs = warm.pairs.frame(frame);
-  PairBatch batch =
-      pairs.pairs.batch(task, input_->shape_of, input_->frames[frame].poses, begin, end);
+  PairBatch batch = pairs.pairs.batch(input_->shape_of, input_->frames[frame].poses, begin, end);
   batch.memory = warm.memory;
   batch.memory_of = std::span(pairs.slots).subspan(begin, end - begin);
   return batch;
@@ -121,7 +121,7 @@ double NarrowSampler::play(Warm& warm, Task task, std::span<const std::size_t> f
       const WarmPairs::Frame& frame = warm.pairs.frame(frames[i]);
       const std::size_t begin = frame.begins[part], end = frame.begins[part + 1];
       if (begin == end) continue;
-      solve(batch(warm, task, frames[i], begin, end),
+      solve(task, batch(warm, frames[i], begin, end),
             outcomes.subspan(firsts[i] + begin, end - begin), worker);
     }
   };
@@ -204,11 +204,12 @@ Allocations NarrowSampler::count_allocations(const SampleRequest& request) {
   if (starts_warm_) {
     Warm& kept = warm(request.set);
     before = kept.memory;
-    chunks = {{batch(kept, sets_[request.set].task, frame, 0, outcomes_.size()), 0}};
+    chunks = {{batch(kept, frame, 0, outcomes_.size()), 0}};
   }
   const AllocationCount counted;
   for (const Chunk& chunk : chunks) {
-    solve(chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()), 0);
+    solve(sets_[request.set].task, chunk.batch,
+          std::span(outcomes_).subspan(chunk.first, chunk.batch.size()), 0);
   }
   const Allocations allocations = counted.so_far();
   if (starts_warm_) warm(request.set).memory = std::move(before);

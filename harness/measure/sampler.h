@@ -115,7 +115,7 @@ class NarrowSampler final : public Sampler {
     std::ptrdiff_t at = -1;          // the frame that was answered last; -1: none
   };
   std::vector<std::size_t> frames_of(const SampleRequest& request) const;
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes, int worker);
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes, int worker);
 
   // Cuts the pairs of the frames.
   std::vector<Chunk> cut(const NarrowSet& set, std::span<const std::size_t> frames) const;
@@ -125,8 +125,7 @@ class NarrowSampler final : public Sampler {
 
   Warm& warm(std::uint32_t set);
   // Pairs [begin, end) of the frame, as WarmPairs has them.
-  PairBatch batch(Warm& warm, Task task, std::size_t frame, std::size_t begin,
-                  std::size_t end) const;
+  PairBatch batch(Warm& warm, std::size_t frame, std::size_t begin, std::size_t end) const;
   // Answers frames that follow one another, and the one before; seconds.
   double play(Warm& warm, Task task, std::span<const std::size_t> frames,
               std::span<Outcome> outcomes);

@@ -8,9 +8,9 @@
 #include <span>
 #include <type_traits>
 
+#include "algorithms/core/body_pairs.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
-#include "algorithms/kernels/batch/body_pairs.h"
 #include "algorithms/kernels/simd/real_lanes.h"
 
 namespace touchstone {

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "algorithms/kernels/batch/body_pairs.h"
+#include "algorithms/core/body_pairs.h"
 #include "algorithms/kernels/batch/prefetch.h"
 #include "algorithms/kernels/minkowski/support_shape.h"
 

@@ -37,14 +37,14 @@ class PolytopeShapes {
   // solve_pair(const PolytopePair<Scalar>&, i) for each other pair, where i is its place in the
   // batch.
   template <class Batch, class SolvePair>
-  void solve(const Batch& batch, std::span<Outcome> outcomes, const SolvePair& solve_pair) const {
+  void solve(Task task, const Batch& batch, std::span<Outcome> outcomes,
+             const SolvePair& solve_pair) const {
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
-      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
+      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
       if (batch.kind_b == ShapeKind::halfspace) {
-        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task,
-                        outcomes[i]);
+        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, outcomes[i]);
       } else {
         solve_pair(PolytopePair<Scalar>(polytopes_[a], pose_a, polytopes_[b], pose_b), i);
       }

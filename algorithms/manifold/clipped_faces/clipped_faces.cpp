@@ -85,7 +85,7 @@ class ClippedFaces final : public ContactManifold {
     if (boxes) find_box_depths(batch);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       manifolds[i] = {};
-      const Placed a = place(batch, batch.first[i]), b = place(batch, batch.second[i]);
+      const Placed a = place(batch, batch.pairs.first[i]), b = place(batch, batch.pairs.second[i]);
       if (batch.kind_b == ShapeKind::halfspace) {
         solve_plane(a, b, manifolds[i]);
       } else if (boxes) {
@@ -111,8 +111,8 @@ class ClippedFaces final : public ContactManifold {
   static constexpr Scalar least_digits = sizeof(Scalar) == 8 ? Scalar(1e-9) : Scalar(1e-4);
 
   Placed place(const PairBatch& batch, std::uint32_t body) const {
-    const std::uint32_t shape = batch.shape_of[body];
-    return {shapes_[shape], batch.poses[body], shape};
+    const std::uint32_t shape = batch.pairs.shape_of[body];
+    return {shapes_[shape], batch.pairs.poses[body], shape};
   }
 
   void find_box_depths(const PairBatch& batch);
@@ -194,10 +194,10 @@ void ClippedFaces<Scalar>::find_box_depths(const PairBatch& batch) {
   outcomes_.assign(batch.size(), {});
   left_.resize(batch.size());
   const std::size_t left =
-      box_lanes_.solve({batch.first, batch.second, batch.shape_of, batch.poses}, Task::penetration,
-                       outcomes_, left_.data());
+      box_lanes_.solve(batch.pairs, Task::penetration, outcomes_, left_.data());
   for (std::size_t k = 0; k < left; ++k) {
-    const Placed a = place(batch, batch.first[left_[k]]), b = place(batch, batch.second[left_[k]]);
+    const Placed a = place(batch, batch.pairs.first[left_[k]]),
+                 b = place(batch, batch.pairs.second[left_[k]]);
     const PolytopePair<Scalar> pair(polytopes_[a.index], a.pose, polytopes_[b.index], b.pose);
     int tested = 0;
     const Axis<Scalar> best = pair.far_apart() ? Axis<Scalar>{} : box_axis(pair, tested);

@@ -98,28 +98,25 @@ class Certified final : public NarrowPhase {
     ahead_.bind(shapes_, &Prepared::support);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
-                 batch.task == Task::distance);
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    ahead_.begin(batch.pairs, task == Task::distance);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       ahead_.before(i);
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const PlacedBody a{shapes_[batch.shape_of[first]], batch.poses[first]};
-      const PlacedBody b{shapes_[batch.shape_of[second]], batch.poses[second]};
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const PlacedBody a{shapes_[batch.pairs.shape_of[first]], batch.pairs.poses[first]};
+      const PlacedBody b{shapes_[batch.pairs.shape_of[second]], batch.pairs.poses[second]};
       Outcome& outcome = outcomes[i];
       outcome.iterations = outcome.support_calls = 0;
-      const bool decided = batch.kind_a == ShapeKind::halfspace ? false
-                           : batch.kind_b == ShapeKind::halfspace
-                               ? on_plane(a, b, batch.task, outcome)
-                               : filter(a, b, batch.task, outcome);
+      const bool decided = batch.kind_a == ShapeKind::halfspace   ? false
+                           : batch.kind_b == ShapeKind::halfspace ? on_plane(a, b, task, outcome)
+                                                                  : filter(a, b, task, outcome);
       if (decided) continue;
       outcome.support_calls = -1;
-      oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, batch.task,
-                     outcome);
+      oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, task, outcome);
       // The enclosure of round cores deep in each other may be wide: a bound instead of a depth.
       const double size = std::max(a.shape.size(), b.shape.size());
       const bool curved = a.shape.solid.is_curved() || b.shape.solid.is_curved();
-      if (batch.task == Task::penetration && curved &&
+      if (task == Task::penetration && curved &&
           outcome.upper - outcome.lower > least_digits * size) {
         outcome.status = Status::not_converged;
       }

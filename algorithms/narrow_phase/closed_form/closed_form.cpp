@@ -152,32 +152,32 @@ class ClosedForm final : public NarrowPhase {
     round_lanes_.bind(shapes);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    const BodyPairs pairs{batch.first, batch.second, batch.shape_of, batch.poses};
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    const BodyPairs& pairs = batch.pairs;
     const bool boxes = batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box;
     const bool round = RoundPairLanes<Scalar>::takes(batch.kind_a, batch.kind_b);
     if (!boxes && !round) {
-      for (std::size_t i = 0; i < batch.size(); ++i) solve_one(batch, i, outcomes[i]);
+      for (std::size_t i = 0; i < batch.size(); ++i) solve_one(task, batch, i, outcomes[i]);
       return;
     }
     left_.resize(batch.size());
-    const std::size_t left = boxes ? box_lanes_.solve(pairs, batch.task, outcomes, left_.data())
-                                   : round_lanes_.solve(batch.kind_a, batch.kind_b, pairs,
-                                                        batch.task, outcomes, left_.data());
-    for (std::size_t k = 0; k < left; ++k) solve_one(batch, left_[k], outcomes[left_[k]]);
+    const std::size_t left =
+        boxes ? box_lanes_.solve(pairs, task, outcomes, left_.data())
+              : round_lanes_.solve(batch.kind_a, batch.kind_b, pairs, task, outcomes, left_.data());
+    for (std::size_t k = 0; k < left; ++k) solve_one(task, batch, left_[k], outcomes[left_[k]]);
   }
 
  private:
-  void solve_one(const PairBatch& batch, std::size_t i, Outcome& outcome) const {
-    const std::uint32_t first = batch.first[i], second = batch.second[i];
-    const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
-    const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+  void solve_one(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) const {
+    const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+    const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
+    const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
     if (batch.kind_b == ShapeKind::halfspace) {
-      solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, batch.task, outcome);
+      solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, outcome);
     } else if (batch.kind_a == ShapeKind::box) {
-      solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, batch.task, outcome);
+      solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, task, outcome);
     } else {
-      solve_round(shapes_[a], pose_a, shapes_[b], pose_b, batch.task, outcome);
+      solve_round(shapes_[a], pose_a, shapes_[b], pose_b, task, outcome);
     }
   }
 

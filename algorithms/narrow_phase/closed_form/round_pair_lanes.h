@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/core/body_pairs.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/shape.h"
-#include "algorithms/kernels/batch/body_pairs.h"
 
 namespace touchstone {
 

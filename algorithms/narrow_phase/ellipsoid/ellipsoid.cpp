@@ -56,20 +56,20 @@ class EllipsoidPlanes final : public NarrowPhase {
     balls_ = make_support_shapes<Scalar>(shapes);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.first[i], second = batch.second[i];
-      const std::uint32_t a = batch.shape_of[first], b = batch.shape_of[second];
-      const Pose &pose_a = batch.poses[first], &pose_b = batch.poses[second];
+      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+      const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
+      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
       Outcome& outcome = outcomes[i];
       outcome.iterations = 0;
-      if (batch.task != Task::distance && balls_are_apart(balls_[a], pose_a, balls_[b], pose_b)) {
+      if (task != Task::distance && balls_are_apart(balls_[a], pose_a, balls_[b], pose_b)) {
         outcome.answer = Answer::separated;
         outcome.status = Status::ok;
         continue;
       }
       const EllipsoidPair<Scalar> pair(shapes_[a], pose_a, shapes_[b], pose_b);
-      switch (batch.task) {
+      switch (task) {
         case Task::intersect: decide(pair, outcome); break;
         case Task::distance: solve_distance(pair, pose_a.translation, outcome); break;
         case Task::penetration: solve_depth(pair, pose_a.translation, outcome); break;

@@ -50,20 +50,20 @@ class GjkInLanes final : public NarrowPhase {
     lanes_.bind(shapes, shapes_);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     left_.resize(std::max(left_.size(), batch.size()));
-    const std::size_t count = lanes_.solve(batch.kind_a, batch.kind_b,
-                                           {batch.first, batch.second, batch.shape_of, batch.poses},
-                                           {.task = batch.task,
+    const std::size_t count = lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs,
+                                           {.task = task,
                                             .tolerance = query_.tolerance(true),
                                             .most_iterations = settings_.gjk_cap,
                                             .most_expansions = settings_.epa_cap},
                                            outcomes, left_.data());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = left_[k];
-      const std::uint32_t a = batch.first[i], b = batch.second[i];
-      query_.solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]],
-                   batch.poses[b], batch.task, nullptr, outcomes[i]);
+      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
+      query_.solve(shapes_[batch.pairs.shape_of[a]], batch.pairs.poses[a],
+                   shapes_[batch.pairs.shape_of[b]], batch.pairs.poses[b], task, nullptr,
+                   outcomes[i]);
     }
   }
 

@@ -17,8 +17,8 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/core/body_pairs.h"
 #include "algorithms/core/outcome.h"
-#include "algorithms/kernels/batch/body_pairs.h"
 #include "algorithms/kernels/minkowski/support_shape.h"
 #include "algorithms/kernels/simd/real_lanes.h"
 

@@ -53,31 +53,31 @@ class GjkTemplated final : public NarrowPhase {
     ahead_.bind(shapes_);
   }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     if (batch.kind_b == ShapeKind::halfspace) {
-      solve_with_halfspaces(batch, outcomes);
+      solve_with_halfspaces(task, batch, outcomes);
       return;
     }
     query_.walk_by(walks_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
-    ahead_.begin({batch.first, batch.second, batch.shape_of, batch.poses},
-                 batch.task == Task::distance);
+    ahead_.begin(batch.pairs, task == Task::distance);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       ahead_.before(i);
-      const std::uint32_t a = batch.first[i], b = batch.second[i];
-      query_.solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]],
-                   batch.poses[b], batch.task, nullptr, outcomes[i]);
+      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
+      query_.solve(shapes_[batch.pairs.shape_of[a]], batch.pairs.poses[a],
+                   shapes_[batch.pairs.shape_of[b]], batch.pairs.poses[b], task, nullptr,
+                   outcomes[i]);
     }
   }
 
  private:
   // Half-spaces are ordered last, so b is one.
-  void solve_with_halfspaces(const PairBatch& batch, std::span<Outcome> outcomes) const {
+  void solve_with_halfspaces(Task task, const PairBatch& batch, std::span<Outcome> outcomes) const {
     const auto solve =
         batch.kind_a == ShapeKind::halfspace ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t a = batch.first[i], b = batch.second[i];
-      solve(shapes_[batch.shape_of[a]], batch.poses[a], shapes_[batch.shape_of[b]], batch.poses[b],
-            batch.task, outcomes[i]);
+      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
+      solve(shapes_[batch.pairs.shape_of[a]], batch.pairs.poses[a],
+            shapes_[batch.pairs.shape_of[b]], batch.pairs.poses[b], task, outcomes[i]);
     }
   }
 
@@ -109,7 +109,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_gjk_templated() {
                                 "objects\", GDC 2001"},
            .tasks = {Task::intersect, Task::distance, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
-           .stops_by_duality_gap = true,
+           .traits = {.stops_by_duality_gap = true},
            .make = make}};
 }
 

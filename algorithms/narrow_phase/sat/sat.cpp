@@ -44,8 +44,8 @@ class Sat final : public NarrowPhase {
  public:
   void bind(std::span<const Shape> shapes) override { shapes_.bind(shapes); }
 
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
-    shapes_.solve(batch, outcomes, [&](const PolytopePair<Scalar>& pair, std::size_t i) {
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    shapes_.solve(task, batch, outcomes, [&](const PolytopePair<Scalar>& pair, std::size_t i) {
       Axis<Scalar> best;
       tested_ = 0;
       gave_up_ = false;
@@ -58,7 +58,7 @@ class Sat final : public NarrowPhase {
         outcomes[i].answer = Answer::unknown;
         outcomes[i].status = Status::capacity;
       } else {
-        pair.report(best, batch.task, true, outcomes[i]);
+        pair.report(best, task, true, outcomes[i]);
       }
       outcomes[i].iterations = tested_;
     });
@@ -201,7 +201,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_sat() {
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
            .supports = are_flat_sided,
-           .starts_warm = true,
+           .traits = {.starts_warm = true},
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32) return std::make_unique<Sat<float>>();
              return std::make_unique<Sat<double>>();

@@ -210,8 +210,8 @@ void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
     return algorithm;
   };
   const CampaignGroup& settings = *context_->block->group;
-  solve_guarded(make,
-                group(piece).batch(set.task, input_->shape_of, input_->frames[piece.frame].poses, 0,
+  solve_guarded(make, set.task,
+                group(piece).batch(input_->shape_of, input_->frames[piece.frame].poses, 0,
                                    group(piece).size()),
                 outcomes, settings.time_limit, settings.memory_limit);
   OutcomeFaults faults = check_outcomes(outcomes, reference, set.task, choice.settings.scalar);
@@ -243,7 +243,7 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
   Departure departure = context_->departure(info, choice.label(),
                                             fmt::format("{}, {}, {}", context_->place(piece.frame),
                                                         set.kind_name(), to_string(set.task)));
-  departure.known = departure.known || choice.entry->approximate;
+  departure.known = departure.known || choice.entry->traits.approximate;
   if (faults.crashed > 0) {
     departure.what = fmt::format("{} of {} queries crashed", faults.crashed, group(piece).size());
   } else if (faults.timed_out > 0) {
@@ -257,7 +257,7 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
                     faults.disagree, faults.compared, Reference::name(), faults.worst,
                     group(piece).first[i], group(piece).second[i]);
   }
-  if (choice.entry->approximate) departure.what += "; approximate by design";
+  if (choice.entry->traits.approximate) departure.what += "; approximate by design";
   if (choice.warm) departure.what += "; warm: the file has the bodies, not what was in memory";
   if (!info.known_defect.empty()) departure.what += "; known defect: " + info.known_defect;
   if (faults.worst_pair) departure.reproduction = write_case(piece, choice, *faults.worst_pair);

@@ -9,7 +9,7 @@ namespace touchstone {
 namespace {
 
 bool is_excused(const NarrowPhaseEntry& entry, const GradedAnswer& answer) {
-  return entry.approximate && is_contact(answer.answer);
+  return entry.traits.approximate && is_contact(answer.answer);
 }
 
 // Of the numbers but the bounds; NaN where none is graded.
@@ -20,7 +20,7 @@ double number_error(const NarrowPhaseEntry& entry, const GradedAnswer& answer, c
   };
   add(std::abs(grade.distance_error));
   add(-grade.depth_error);
-  if (!entry.depth_is_bound) add(grade.depth_error);
+  if (!entry.traits.depth_is_bound) add(grade.depth_error);
   if (answer.task == Task::penetration) add(grade.separation_error);
   return worst;
 }

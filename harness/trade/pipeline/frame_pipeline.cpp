@@ -208,13 +208,13 @@ void FramePipeline::solve() {
       for (Outcome& outcome : outcomes) outcome.distance = Outcome::none;
     }
     narrow_[takes_[piece.batch]][static_cast<std::size_t>(worker)]->solve(
-        {.task = task_,
-         .kind_a = batch.kind_a,
+        task_,
+        {.kind_a = batch.kind_a,
          .kind_b = batch.kind_b,
-         .first = std::span(batch.first).subspan(piece.begin, count),
-         .second = std::span(batch.second).subspan(piece.begin, count),
-         .shape_of = stand_ins_->shape_of,
-         .poses = poses},
+         .pairs = {.first = std::span(batch.first).subspan(piece.begin, count),
+                   .second = std::span(batch.second).subspan(piece.begin, count),
+                   .shape_of = stand_ins_->shape_of,
+                   .poses = poses}},
         outcomes);
   });
   // Of several parts an answer is made here; of one part the outcome is the answer.

@@ -97,13 +97,13 @@ std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& 
   for (const KindBatches::Batch& batch : batches.batches()) {
     if (batch.size() == 0) continue;
     std::vector<Outcome> outcomes(batch.size());
-    certified_[static_cast<std::size_t>(worker)]->solve({.task = Task::distance,
-                                                         .kind_a = batch.kind_a,
+    certified_[static_cast<std::size_t>(worker)]->solve(Task::distance,
+                                                        {.kind_a = batch.kind_a,
                                                          .kind_b = batch.kind_b,
-                                                         .first = batch.first,
-                                                         .second = batch.second,
-                                                         .shape_of = shape_of,
-                                                         .poses = part_poses},
+                                                         .pairs = {.first = batch.first,
+                                                                   .second = batch.second,
+                                                                   .shape_of = shape_of,
+                                                                   .poses = part_poses}},
                                                         outcomes);
     for (const Outcome& outcome : outcomes) {
       if (outcome.answer == Answer::touching || outcome.answer == Answer::overlapping) {

@@ -42,14 +42,12 @@ int main() {
   const std::vector<std::uint32_t> first = {pairs[0].a}, second = {pairs[0].b};
   const std::vector<std::uint32_t> shape_of(poses.size(), 0);
   Outcome outcome;
-  narrow_phase->solve({.task = Task::distance,
-                       .kind_a = ShapeKind::hull,
-                       .kind_b = ShapeKind::hull,
-                       .first = first,
-                       .second = second,
-                       .shape_of = shape_of,
-                       .poses = poses},
-                      {&outcome, 1});
+  narrow_phase->solve(
+      Task::distance,
+      {.kind_a = ShapeKind::hull,
+       .kind_b = ShapeKind::hull,
+       .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = poses}},
+      {&outcome, 1});
   // The edges x + y = 1 and x + y = 1.5 in the plane z = 0.
   const double distance = 0.5 / std::sqrt(2.0);
   if (outcome.answer != Answer::separated || std::abs(outcome.distance - distance) > 1e-9) {

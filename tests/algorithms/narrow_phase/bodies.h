@@ -201,14 +201,12 @@ inline Outcome ask(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& set
   std::array<Outcome, 1> outcomes;
   const auto algorithm = entry.make(settings);
   algorithm->bind(shapes);
-  algorithm->solve({.task = task,
-                    .kind_a = shapes[0].kind,
-                    .kind_b = shapes[1].kind,
-                    .first = first,
-                    .second = second,
-                    .shape_of = shape_of,
-                    .poses = poses},
-                   outcomes);
+  algorithm->solve(
+      task,
+      {.kind_a = shapes[0].kind,
+       .kind_b = shapes[1].kind,
+       .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = poses}},
+      outcomes);
   Outcome outcome = outcomes[0];
   if (swap) {
     outcome.normal = -outcome.normal;

@@ -119,7 +119,7 @@ void expect_overlap(const Subject& subject, Task task, const Outcome& outcome, c
   if (task != Task::penetration) return expect_nothing_but_the_answer(outcome);
   EXPECT_NEAR(outcome.normal.norm(), 1, 1e-6);
   EXPECT_LT(outcome.distance, 0);
-  if (subject.entry->approximate) return;
+  if (subject.entry->traits.approximate) return;
   const double tolerance = subject.is_double() ? 1e-5 : 1e-3;
   // Moved by the depth along the normal, the bodies are apart: b's lowest is a's highest.
   if (b.kind != ShapeKind::halfspace) {
@@ -172,7 +172,7 @@ TEST_P(EveryNarrowPhase, AnswersEasyPairs) {
               right += of_common.answer == Answer::overlapping ? 1 : 0;
               if (!subject.ours()) continue;
               // A face of each may lie between them without being a face normal of either.
-              if (!subject.entry->approximate || of_apart.answer == Answer::separated) {
+              if (!subject.entry->traits.approximate || of_apart.answer == Answer::separated) {
                 expect_apart(subject, task, of_apart, u, p, p + 0.5 * u);
               }
               const double most = b.kind == ShapeKind::halfspace
@@ -273,7 +273,7 @@ TEST_P(EveryNarrowPhase, AgreesWithTheBruteForce) {
           ++gave_up;
           continue;
         }
-        if (subject.entry->approximate && outcome.answer == Answer::overlapping) {
+        if (subject.entry->traits.approximate && outcome.answer == Answer::overlapping) {
           if (!std::isnan(outcome.distance)) {
             EXPECT_LE(outcome.lower, truth + margin);
           }
@@ -364,10 +364,10 @@ TEST_P(EveryNarrowPhase, ClimbsTheLadderOfGaps) {
             SCOPED_TRACE(std::string(rung.name) + " " + std::string(to_string(a.kind)) + "-" +
                          std::string(to_string(b.kind)) + " " + std::string(to_string(task)) +
                          " gap " + std::to_string(sign) + "e-" + std::to_string(step));
-            if (subject.entry->approximate && truth > 0) continue;
+            if (subject.entry->traits.approximate && truth > 0) continue;
             EXPECT_EQ(outcome.answer, truth > 0 ? Answer::separated : Answer::overlapping);
             EXPECT_EQ(outcome.status, Status::ok);
-            if (!std::isnan(outcome.distance) && !subject.entry->approximate) {
+            if (!std::isnan(outcome.distance) && !subject.entry->traits.approximate) {
               EXPECT_LE(outcome.lower, truth + margin);
               EXPECT_LE(outcome.distance, truth + (subject.is_double() ? 1e-9 : 2e-5));
             }

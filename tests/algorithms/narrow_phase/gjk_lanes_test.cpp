@@ -65,7 +65,7 @@ TEST(GjkLanes, TakeAnEmptyBatch) {
   const Pairs pairs = hard_pairs(12, {ShapeKind::box, ShapeKind::box}, Sort::plain, 2);
   const auto algorithm = entry().make(settings_of(Precision::float64));
   algorithm->bind(pairs.shapes);
-  algorithm->solve(pairs.batch(Task::distance, 0, 0), {});
+  algorithm->solve(Task::distance, pairs.batch(0, 0), {});
 }
 
 TEST(GjkLanes, HaveTheSameBitsAtEveryLevel) {

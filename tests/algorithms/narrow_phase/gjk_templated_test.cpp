@@ -97,7 +97,7 @@ std::vector<Outcome> solve_with(const NarrowPhaseEntry& entry, const NarrowPhase
   const auto algorithm = entry.make(settings);
   algorithm->bind(pairs.shapes);
   std::vector<Outcome> outcomes(pairs.size());
-  algorithm->solve(pairs.batch(task, 0, pairs.size()), outcomes);
+  algorithm->solve(task, pairs.batch(0, pairs.size()), outcomes);
   return outcomes;
 }
 

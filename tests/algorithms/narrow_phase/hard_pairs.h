@@ -39,14 +39,13 @@ struct Pairs {
     }
   }
   std::size_t size() const { return first.size(); }
-  PairBatch batch(Task task, std::size_t begin, std::size_t count) const {
-    return {.task = task,
-            .kind_a = shapes[0].kind,
+  PairBatch batch(std::size_t begin, std::size_t count) const {
+    return {.kind_a = shapes[0].kind,
             .kind_b = shapes[1].kind,
-            .first = std::span(first).subspan(begin, count),
-            .second = std::span(second).subspan(begin, count),
-            .shape_of = shape_of,
-            .poses = poses};
+            .pairs = {.first = std::span(first).subspan(begin, count),
+                      .second = std::span(second).subspan(begin, count),
+                      .shape_of = shape_of,
+                      .poses = poses}};
   }
 };
 
@@ -166,7 +165,7 @@ inline std::vector<Outcome> solve(const NarrowPhaseEntry& entry, Precision scala
   std::vector<Outcome> outcomes(pairs.size());
   for (std::size_t begin = 0; begin < pairs.size(); begin += batch_size) {
     const std::size_t count = std::min(batch_size, pairs.size() - begin);
-    algorithm->solve(pairs.batch(task, begin, count), std::span(outcomes).subspan(begin, count));
+    algorithm->solve(task, pairs.batch(begin, count), std::span(outcomes).subspan(begin, count));
   }
   return outcomes;
 }

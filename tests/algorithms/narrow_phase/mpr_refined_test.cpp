@@ -210,7 +210,7 @@ TEST_P(MprRefined, HoldsItsBoundsForRoundBodies) {
 // somewhere else.
 TEST_P(MprRefined, IsNeverWorseWarm) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("mpr-refined");
-  ASSERT_TRUE(entry.starts_warm);
+  ASSERT_TRUE(entry.traits.starts_warm);
   Random random(15);
   int common = 0, apart = 0, better = 0;
   long calls_warm = 0, calls_cold = 0;
@@ -235,18 +235,15 @@ TEST_P(MprRefined, IsNeverWorseWarm) {
       const double touching = depth_along(from, {shapes[0], poses[0]}, {shapes[1], poses[1]});
       poses[1].translation = touching * (1 - 0.2 * std::sin(0.2 * frame)) * from;
       for (const Task task : {Task::penetration, Task::intersect}) {
-        PairBatch batch{.task = task,
-                        .kind_a = ShapeKind::hull,
-                        .kind_b = ShapeKind::hull,
-                        .first = first,
-                        .second = second,
-                        .shape_of = shape_of,
-                        .poses = poses};
+        PairBatch batch{
+            .kind_a = ShapeKind::hull,
+            .kind_b = ShapeKind::hull,
+            .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = poses}};
         std::array<Outcome, 1> of_cold, of_warm;
-        cold->solve(batch, of_cold);
+        cold->solve(task, batch, of_cold);
         batch.memory = memories[task == Task::intersect ? 0 : 1];
         batch.memory_of = memory_of;
-        warm->solve(batch, of_warm);
+        warm->solve(task, batch, of_warm);
         const Outcome &c = of_cold[0], &w = of_warm[0];
         SCOPED_TRACE(std::to_string(scene) + " " + std::to_string(frame));
         EXPECT_TRUE(w.answer == c.answer || c.answer == Answer::unknown);

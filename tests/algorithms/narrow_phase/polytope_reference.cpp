@@ -255,13 +255,13 @@ Outcome query(NarrowPhase& algorithm, Task task, const Body& a, const Body& b) {
   const std::span<const std::uint32_t> bodies(numbers);
   algorithm.bind(shapes);
   Outcome outcome;
-  algorithm.solve({.task = task,
-                   .kind_a = first.shape.kind,
+  algorithm.solve(task,
+                  {.kind_a = first.shape.kind,
                    .kind_b = second.shape.kind,
-                   .first = bodies.subspan(0, 1),
-                   .second = bodies.subspan(1, 1),
-                   .shape_of = bodies,
-                   .poses = poses},
+                   .pairs = {.first = bodies.subspan(0, 1),
+                             .second = bodies.subspan(1, 1),
+                             .shape_of = bodies,
+                             .poses = poses}},
                   {&outcome, 1});
   if (swapped) {
     outcome.normal = -outcome.normal;

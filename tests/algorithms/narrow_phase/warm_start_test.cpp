@@ -105,18 +105,15 @@ Outcome ask(NarrowPhase& algorithm, Task task, const Pair& pair, PairMemory* mem
   const std::array<std::uint32_t, 2> shape_of{0, 1};
   const std::array<std::uint32_t, 1> first{0}, second{1}, slot{0};
   std::array<Outcome, 1> outcomes;
-  PairBatch batch{.task = task,
-                  .kind_a = pair.shapes[0].kind,
-                  .kind_b = pair.shapes[1].kind,
-                  .first = first,
-                  .second = second,
-                  .shape_of = shape_of,
-                  .poses = pair.poses};
+  PairBatch batch{
+      .kind_a = pair.shapes[0].kind,
+      .kind_b = pair.shapes[1].kind,
+      .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = pair.poses}};
   if (memory != nullptr) {
     batch.memory = {memory, 1};
     batch.memory_of = slot;
   }
-  algorithm.solve(batch, outcomes);
+  algorithm.solve(task, batch, outcomes);
   return outcomes[0];
 }
 
@@ -162,8 +159,10 @@ Tally play(const NarrowPhaseEntry& entry, Precision scalar, Task task,
       const oracle::Measure truth = oracle.measure({a, pair.poses[0]}, {b, pair.poses[1]});
       const Outcome of_cold = ask(*cold, task, pair, nullptr);
       const Outcome of_warm = ask(*warm, task, pair, &pair.memory);
-      grade(of_cold, truth, task, entry.depth_is_bound, 4 * pair.size, error, "cold, " + what);
-      grade(of_warm, truth, task, entry.depth_is_bound, 4 * pair.size, error, "warm, " + what);
+      grade(of_cold, truth, task, entry.traits.depth_is_bound, 4 * pair.size, error,
+            "cold, " + what);
+      grade(of_warm, truth, task, entry.traits.depth_is_bound, 4 * pair.size, error,
+            "warm, " + what);
       tally.failed_cold += of_cold.status != Status::ok;
       tally.failed_warm += of_warm.status != Status::ok;
       tally.separated += of_warm.answer == Answer::separated;
@@ -176,7 +175,7 @@ Tally play(const NarrowPhaseEntry& entry, Precision scalar, Task task,
 std::vector<const NarrowPhaseEntry*> warm_ones() {
   std::vector<const NarrowPhaseEntry*> entries;
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
-    if (entry.starts_warm && is_built(entry.info)) entries.push_back(&entry);
+    if (entry.traits.starts_warm && is_built(entry.info)) entries.push_back(&entry);
   }
   return entries;
 }

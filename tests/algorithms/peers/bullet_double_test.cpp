@@ -63,8 +63,8 @@ struct Pairs {
     for (std::uint32_t i = 0; i < 2 * count; ++i) shape_of.push_back(i);
   }
 
-  PairBatch batch(Task task) const {
-    return {task, shapes[0].kind, shapes[1].kind, first, second, shape_of, poses};
+  PairBatch batch() const {
+    return {shapes[0].kind, shapes[1].kind, {first, second, shape_of, poses}};
   }
   std::unique_ptr<NarrowPhase> make(const NarrowPhaseEntry& entry, Precision scalar) const {
     std::unique_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
@@ -73,7 +73,7 @@ struct Pairs {
   }
   std::vector<Outcome> ask(const NarrowPhaseEntry& entry, Precision scalar, Task task) const {
     std::vector<Outcome> outcomes(count);
-    make(entry, scalar)->solve(batch(task), outcomes);
+    make(entry, scalar)->solve(task, batch(), outcomes);
     return outcomes;
   }
   Case as_case(std::size_t i) const {
@@ -125,7 +125,7 @@ TEST_F(BulletDouble, NeitherBuildDisturbsTheOther) {
       for (const Precision scalar : {Precision::float32, Precision::float64}) {
         auto& outcomes = alone[scalar == Precision::float64];
         outcomes.resize(Pairs::count);
-        solve_guarded([&] { return pairs.make(*entry, scalar); }, pairs.batch(task), outcomes, 60,
+        solve_guarded([&] { return pairs.make(*entry, scalar); }, task, pairs.batch(), outcomes, 60,
                       std::size_t{4} << 30);
       }
       if (task != Task::intersect) {
@@ -136,11 +136,11 @@ TEST_F(BulletDouble, NeitherBuildDisturbsTheOther) {
       std::array<std::vector<Outcome>, 2> mixed;
       for (auto& outcomes : mixed) outcomes.resize(Pairs::count);
       for (std::size_t i = 0; i < Pairs::count; ++i) {
-        PairBatch one = pairs.batch(task);
-        one.first = one.first.subspan(i, 1);
-        one.second = one.second.subspan(i, 1);
-        single->solve(one, std::span(mixed[0]).subspan(i, 1));
-        twice->solve(one, std::span(mixed[1]).subspan(i, 1));
+        PairBatch one = pairs.batch();
+        one.pairs.first = one.pairs.first.subspan(i, 1);
+        one.pairs.second = one.pairs.second.subspan(i, 1);
+        single->solve(task, one, std::span(mixed[0]).subspan(i, 1));
+        twice->solve(task, one, std::span(mixed[1]).subspan(i, 1));
       }
       EXPECT_EQ(differing(alone[0], mixed[0]), 0u);
       EXPECT_EQ(differing(alone[1], mixed[1]), 0u);

@@ -136,7 +136,7 @@ Outcome ask(const NarrowPhaseEntry& entry, Precision scalar, Task task, Pair pai
   const auto algorithm = entry.make(settings);
   algorithm->bind(shapes);
   std::vector<Outcome> outcomes(1);
-  algorithm->solve({task, pair.a.kind, pair.b.kind, first, second, shape_of, poses}, outcomes);
+  algorithm->solve(task, {pair.a.kind, pair.b.kind, {first, second, shape_of, poses}}, outcomes);
   return outcomes[0];
 }
 
@@ -363,9 +363,8 @@ TEST_P(BulletNarrowPhaseTest, LeavesAloneWhatIsNotAsked) {
   std::vector<Outcome> outcomes(2);
   outcomes[0].distance = 42;
   outcomes[0].normal = outcomes[0].witness_b = Vec3d(1, 2, 3);
-  const PairBatch batch = {Task::intersect, ShapeKind::box, ShapeKind::box, first,
-                           second,          shape_of,       poses};
-  algorithm->solve(batch, outcomes);
+  const PairBatch batch = {ShapeKind::box, ShapeKind::box, {first, second, shape_of, poses}};
+  algorithm->solve(Task::intersect, batch, outcomes);
   EXPECT_EQ(outcomes[0].answer, Answer::overlapping);
   EXPECT_EQ(outcomes[1].answer, Answer::overlapping);
   EXPECT_EQ(outcomes[0].distance, 42);

@@ -205,14 +205,12 @@ TEST_F(LibccdTest, AnswersABatchInItsOrder) {
   const auto algorithm = mpr_->make(Ask{.tolerance = 1e-9}.settings());
   algorithm->bind(shapes);
   std::vector<Outcome> outcomes(3);
-  algorithm->solve({.task = Task::penetration,
-                    .kind_a = ShapeKind::sphere,
-                    .kind_b = ShapeKind::box,
-                    .first = first,
-                    .second = second,
-                    .shape_of = shape_of,
-                    .poses = poses},
-                   outcomes);
+  algorithm->solve(
+      Task::penetration,
+      {.kind_a = ShapeKind::sphere,
+       .kind_b = ShapeKind::box,
+       .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = poses}},
+      outcomes);
   EXPECT_EQ(outcomes[0].answer, Answer::separated);
   EXPECT_EQ(outcomes[1].answer, Answer::overlapping);
   EXPECT_EQ(outcomes[2].answer, Answer::separated);

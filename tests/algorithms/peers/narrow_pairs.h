@@ -280,14 +280,12 @@ inline Outcome ask(const NarrowPhaseEntry& entry, Task task, const Placed& a, co
   const std::unique_ptr<NarrowPhase> algorithm = entry.make(how.settings());
   algorithm->bind(shapes);
   Outcome outcome;
-  algorithm->solve({.task = task,
-                    .kind_a = a.shape.kind,
-                    .kind_b = b.shape.kind,
-                    .first = all.first(1),
-                    .second = all.last(1),
-                    .shape_of = all,
-                    .poses = poses},
-                   {&outcome, 1});
+  algorithm->solve(
+      task,
+      {.kind_a = a.shape.kind,
+       .kind_b = b.shape.kind,
+       .pairs = {.first = all.first(1), .second = all.last(1), .shape_of = all, .poses = poses}},
+      {&outcome, 1});
   return outcome;
 }
 

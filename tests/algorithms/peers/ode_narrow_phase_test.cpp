@@ -82,14 +82,12 @@ TEST_F(OdeNarrowPhaseTest, BodiesMayShareAShape) {
     const auto algorithm = entry_->make({.scalar = entry_->scalars.front()});
     algorithm->bind(shapes);
     std::array<Outcome, 2> outcomes;
-    algorithm->solve({.task = Task::intersect,
-                      .kind_a = kind,
-                      .kind_b = kind,
-                      .first = first,
-                      .second = second,
-                      .shape_of = shape_of,
-                      .poses = poses},
-                     outcomes);
+    algorithm->solve(
+        Task::intersect,
+        {.kind_a = kind,
+         .kind_b = kind,
+         .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = poses}},
+        outcomes);
     EXPECT_EQ(outcomes[0].answer, Answer::overlapping);
     EXPECT_EQ(outcomes[1].answer, Answer::separated);
   }

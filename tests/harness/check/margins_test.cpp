@@ -44,7 +44,7 @@ TEST_F(Beyond, SidesOfContact) {
 }
 
 TEST_F(Beyond, AnApproximateAlgorithmMaySayOverlappingOnly) {
-  entry.approximate = true;
+  entry.traits.approximate = true;
   answer.end_to_end.verdict = Verdict::silent_error;
   answer.end_to_end.margin = 1;
   EXPECT_EQ(beyond(), "");
@@ -69,7 +69,7 @@ TEST_F(Beyond, DistancesAndDepths) {
 }
 
 TEST_F(Beyond, ADepthThatIsABoundMayBeTooGreat) {
-  entry.depth_is_bound = true;
+  entry.traits.depth_is_bound = true;
   answer.end_to_end.depth_error = 1;
   EXPECT_EQ(beyond(), "");
   answer.end_to_end.depth_error = -1.1e-8;

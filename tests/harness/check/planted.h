@@ -22,13 +22,13 @@ class Planted final : public NarrowPhase {
  public:
   explicit Planted(Harm harm, int microseconds) : harm_(harm), microseconds_(microseconds) {}
   void bind(std::span<const Shape> shapes) override { shapes_ = shapes; }
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const Pose& a = batch.poses[batch.first[i]];
-      const Pose& b = batch.poses[batch.second[i]];
+      const Pose& a = batch.pairs.poses[batch.pairs.first[i]];
+      const Pose& b = batch.pairs.poses[batch.pairs.second[i]];
       const Vec3d between = b.translation - a.translation;
-      const double radii = shapes_[batch.shape_of[batch.first[i]]].radius +
-                           shapes_[batch.shape_of[batch.second[i]]].radius;
+      const double radii = shapes_[batch.pairs.shape_of[batch.pairs.first[i]]].radius +
+                           shapes_[batch.pairs.shape_of[batch.pairs.second[i]]].radius;
       Outcome& out = outcomes[i];
       out.distance = between.norm() - radii;
       out.answer = out.distance > 0 ? Answer::separated : Answer::overlapping;

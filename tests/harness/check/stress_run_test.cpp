@@ -42,7 +42,7 @@ RegimeCase draw_balls(RegimeDraw& draw) {
 class Busy final : public NarrowPhase {
  public:
   void bind(std::span<const Shape>) override {}
-  void solve(const PairBatch&, std::span<Outcome> outcomes) override {
+  void solve(Task, const PairBatch&, std::span<Outcome> outcomes) override {
     for (volatile int forever = 1; forever == 1;) {
     }
     outcomes[0] = {};
@@ -168,12 +168,12 @@ TEST_F(StressRun, AHangThatIsBusyOrAsleepEndsAtItsLimit) {
 
 TEST_F(StressRun, ApproximateAndBoundsAreJudgedAsTheyState) {
   NarrowPhaseEntry approximate = planted<Harm::wrong_side>("bad", Origin::ours);
-  approximate.approximate = true;
+  approximate.traits.approximate = true;
   const StressRequest request = request_for({&approximate});
   // Those that are apart and called overlapping are excused; the others are not.
   EXPECT_EQ(count(run_stress(request), StressOutcome::silent), 12);
   NarrowPhaseEntry bound = planted<Harm::wrong_depth>("bad", Origin::ours);
-  bound.depth_is_bound = true;
+  bound.traits.depth_is_bound = true;
   const StressRequest with_bound = request_for({&bound});
   EXPECT_EQ(count(run_stress(with_bound), StressOutcome::silent), 4);  // the distances
 }

@@ -15,9 +15,9 @@ using namespace touchstone;
 class Misbehaving final : public NarrowPhase {
  public:
   void bind(std::span<const Shape>) override {}
-  void solve(const PairBatch& batch, std::span<Outcome> outcomes) override {
+  void solve(Task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      switch (batch.first[i]) {
+      switch (batch.pairs.first[i]) {
         case 1: std::raise(SIGSEGV); break;
         case 2: throw std::runtime_error("no");
         case 3: pause(); break;
@@ -25,7 +25,7 @@ class Misbehaving final : public NarrowPhase {
       }
       outcomes[i].answer = Answer::separated;
       outcomes[i].status = Status::ok;
-      outcomes[i].distance = batch.second[i];
+      outcomes[i].distance = batch.pairs.second[i];
     }
   }
 };
@@ -33,11 +33,10 @@ class Misbehaving final : public NarrowPhase {
 std::vector<Outcome> solve(const std::vector<std::uint32_t>& behaviour, double limit) {
   std::vector<std::uint32_t> second(behaviour.size());
   for (std::uint32_t i = 0; i < second.size(); ++i) second[i] = i;
-  const PairBatch batch{
-      Task::distance, ShapeKind::sphere, ShapeKind::sphere, behaviour, second, {}, {}};
+  const PairBatch batch{ShapeKind::sphere, ShapeKind::sphere, {behaviour, second, {}, {}}};
   std::vector<Outcome> outcomes(behaviour.size());
-  solve_guarded([] { return std::make_unique<Misbehaving>(); }, batch, outcomes, limit,
-                std::size_t{1} << 30);
+  solve_guarded([] { return std::make_unique<Misbehaving>(); }, Task::distance, batch, outcomes,
+                limit, std::size_t{1} << 30);
   return outcomes;
 }
 

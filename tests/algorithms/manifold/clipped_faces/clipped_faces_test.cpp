@@ -47,13 +47,12 @@ Manifold manifold_of(const Body& a, const Body& b, Precision scalar = Precision:
   const std::array shapes = {a.shape, b.shape};
   const std::array poses = {a.pose, b.pose};
   constexpr std::array<std::uint32_t, 2> bodies = {0, 1};
-  const PairBatch batch = {.task = Task::penetration,
-                           .kind_a = a.shape.kind,
+  const PairBatch batch = {.kind_a = a.shape.kind,
                            .kind_b = b.shape.kind,
-                           .first = std::span(bodies).first(1),
-                           .second = std::span(bodies).last(1),
-                           .shape_of = bodies,
-                           .poses = poses};
+                           .pairs = {.first = std::span(bodies).first(1),
+                                     .second = std::span(bodies).last(1),
+                                     .shape_of = bodies,
+                                     .poses = poses}};
   Manifold manifold;
   manifold.count = 3;  // is written over
   const auto algorithm = entry->make({.scalar = scalar});
