@@ -73,7 +73,7 @@ class NarrowPhase {
   virtual void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) = 0;
 };
 
-// What a harness has to know of an algorithm to ask it and to judge its answers.
+// The properties of an algorithm that a harness must know to call it and to judge its answers.
 struct Traits {
   // True if it answers for more than the body, as SAT over face normals only does, so that
   // "overlapping" is no promise. Its disagreements count as the price of its speed, not as faults.
