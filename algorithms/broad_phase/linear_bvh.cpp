@@ -23,12 +23,14 @@
 //          overlap. About 70 bytes a body.
 #include <atomic>
 #include <bit>
+#include <functional>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/aabb_measure.h"
 #include "algorithms/kernels/boxes/group_scan.h"
 #include "algorithms/kernels/bvh/hilbert_sort.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
@@ -53,26 +55,14 @@ class LinearBvh final : public BroadPhase {
   }
 
   Status find_pairs(PairSink& sink) override {
-    const std::size_t tasks = block_count(leaves_.size(), leaves_a_task);
-    sink.start(tasks);
-    const auto search = [&](std::size_t task, int worker) {
-      const std::size_t last = std::min((task + 1) * leaves_a_task, leaves_.size());
-      Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
-      for (std::size_t leaf = task * leaves_a_task; leaf < last; ++leaf) {
-        pair_leaf(leaf, scratch, sink.chunk(task));
-      }
-    };
-    executor_.run(tasks, std::cref(search));
+    search_groups(executor_, leaves_.size(), leaves_a_task, scratch_, sink,
+                  std::bind_front(&LinearBvh::pair_leaf, this));
     return Status::ok;
   }
 
   BroadPhaseWork work() const override {
     Scratch scratch;
-    PairBuffer pairs;
-    for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-      pairs.clear();
-      pair_leaf(leaf, scratch, pairs);
-    }
+    count_groups(leaves_.size(), scratch, std::bind_front(&LinearBvh::pair_leaf, this));
     scratch.group.work.bytes = sum_held_bytes(order_, boxes_, leaves_, nodes_, arrivals_);
     return scratch.group.work;
   }
@@ -87,7 +77,7 @@ class LinearBvh final : public BroadPhase {
   static constexpr int leaf_number_bits = 28;
   static constexpr std::size_t most_levels = HilbertSort::key_bits + leaf_number_bits;
 
-  using Lanes = box_lanes::baseline::Lanes;
+  using Lanes = simd::baseline::Simd<float>;
   using Corner = std::array<float, 4>;  // three coordinates and one unused: a vector's worth
 
   // Node i splits between leaves i and i + 1.
@@ -163,9 +153,7 @@ class LinearBvh final : public BroadPhase {
 
   double spread() const {
     double sum = 0;
-    for (const Aabb& leaf : leaves_) {
-      for (std::size_t axis = 0; axis < 3; ++axis) sum += double{leaf.max[axis]} - leaf.min[axis];
-    }
+    for (const Aabb& leaf : leaves_) sum += sum_of_sides(leaf);
     return sum;
   }
 
@@ -180,8 +168,8 @@ class LinearBvh final : public BroadPhase {
     Corner low{}, high{};
     std::copy_n(leaves_[leaf].min.begin(), 3, low.begin());
     std::copy_n(leaves_[leaf].max.begin(), 3, high.begin());
-    const Lanes::Floats own_low = Lanes::load(low.data());
-    const Lanes::Floats own_high = Lanes::load(high.data());
+    const Lanes::Vector own_low = Lanes::load(low.data());
+    const Lanes::Vector own_high = Lanes::load(high.data());
     std::array<std::uint32_t, most_levels + 1> open;  // the traversal replaces a node by its two
                                                       // children
     std::size_t count = 0;
@@ -194,7 +182,7 @@ class LinearBvh final : public BroadPhase {
         ++scratch.group.work.box_tests;
         const auto within = Lanes::less_equal(Lanes::load(node.low[side].data()), own_high);
         const auto near = Lanes::less_equal(within, own_low, Lanes::load(node.high[side].data()));
-        if ((Lanes::bits(near) & 7) != 7) continue;
+        if ((Lanes::to_bits(near) & 7) != 7) continue;
         const std::uint32_t child = node.child[side];
         if ((child & leaf_bit) != 0) {
           scratch.partners.push_back(places_of(child & ~leaf_bit));

@@ -42,7 +42,7 @@ class PackedRTree final : public BroadPhase {
   void build(std::span<const Aabb> boxes) override {
     order_.make(executor_, boxes);
     fit(boxes);
-    spread_ = pyramid_.spread();
+    spread_ = tree_.spread();
   }
 
   void update(const FrameChange& change) override {
@@ -50,48 +50,36 @@ class PackedRTree final : public BroadPhase {
     if (change.moved.empty()) return;
     fit(change.boxes);
     // The negation makes a NaN, from bounds that overflow, rebuild the order.
-    if (!(pyramid_.spread() <= 1.25 * spread_)) build(change.boxes);
+    if (!(tree_.spread() <= 1.25 * spread_)) build(change.boxes);
   }
 
   Status find_pairs(PairSink& sink) override {
-    const std::size_t groups = order_.empty() ? 0 : pyramid_.groups();
-    sink.start(block_count(groups, groups_a_task));
-    const auto search = [&](std::size_t task, int worker) {
-      RTreeScratch& scratch = scratch_[static_cast<std::size_t>(worker)];
-      const std::size_t last = std::min((task + 1) * groups_a_task, groups);
-      for (std::size_t group = task * groups_a_task; group < last; ++group) {
-        pair_group(pyramid_, group, scratch, sink.chunk(task));
-      }
-    };
-    executor_.run(block_count(groups, groups_a_task), std::cref(search));
+    search_groups(executor_, groups(), groups_a_task, scratch_, sink,
+                  std::bind_front(pair_group, std::cref(tree_)));
     return Status::ok;
   }
 
   BroadPhaseWork work() const override {
     RTreeScratch scratch;
-    PairBuffer pairs;
-    const std::size_t groups = order_.empty() ? 0 : pyramid_.groups();
-    for (std::size_t group = 0; group < groups; ++group) {
-      pairs.clear();
-      pair_group(pyramid_, group, scratch, pairs);
-    }
-    scratch.work.bytes = sum_held_bytes(order_, pyramid_);
+    count_groups(groups(), scratch, std::bind_front(pair_group, std::cref(tree_)));
+    scratch.work.bytes = sum_held_bytes(order_, tree_);
     return scratch.work;
   }
 
  private:
   static constexpr std::size_t groups_a_task = 4;
 
+  std::size_t groups() const { return order_.empty() ? 0 : tree_.groups(); }
   void fit(std::span<const Aabb> boxes) {
     if (order_.empty()) return;
-    order_.gather(executor_, boxes, pyramid_.boxes());
-    pyramid_.fit(executor_);
+    order_.gather(executor_, boxes, tree_.boxes());
+    tree_.fit(executor_);
   }
 
   Executor& executor_;
   std::vector<RTreeScratch> scratch_;
   HilbertSort order_;
-  ImplicitRTree pyramid_;
+  ImplicitRTree tree_;
   double spread_ = 0;  // spread of the blocks when the order was made
 };
 

@@ -48,7 +48,7 @@ class UniformGrid final : public BroadPhase {
     write_entries(boxes);
     radix_sort_(executor_, entries_, shift_[2] + std::bit_width(space_.last[2]),
                 [](const Entry& entry) { return entry.cell; });
-    list_crowds(boxes);
+    list_dense_cells(boxes);
     gather(boxes);
   }
 
@@ -97,8 +97,8 @@ class UniformGrid final : public BroadPhase {
                   });
     }
     add_scan(large_rows(arrays_.size()), {0, arrays_.size()});
-    sum.bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, crowds_, crowd_sort_,
-                               arrays_, marks_, wants_);
+    sum.bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, dense_cells_,
+                               dense_sort_, arrays_, marks_, wants_);
     return sum;
   }
 
@@ -109,7 +109,7 @@ class UniformGrid final : public BroadPhase {
   static constexpr std::size_t rows_a_task = 512;
   static constexpr std::size_t columns_a_task = 8192;
   static constexpr std::uint32_t all_axes = 7;
-  static constexpr std::size_t least_crowd = 512;
+  static constexpr std::size_t least_dense = 512;
   static constexpr int no_axis = -1;
 
   struct Entry {
@@ -202,14 +202,14 @@ class UniformGrid final : public BroadPhase {
   }
 
   // Finds cells with many entries, and sorts each by its boxes' minima on an axis.
-  void list_crowds(std::span<const Aabb> boxes) {
-    crowds_.clear();
+  void list_dense_cells(std::span<const Aabb> boxes) {
+    dense_cells_.clear();
     visit_dense_cells(
-        {0, entries_.size()}, least_crowd, [&](std::size_t i) { return entries_[i].cell; },
+        {0, entries_.size()}, least_dense, [&](std::size_t i) { return entries_[i].cell; },
         [&](IndexRange run) {
           const auto entries = std::span(entries_).subspan(run.first, run.last - run.first);
           const auto id = [](const Entry& entry) { return entry.id; };
-          crowds_.push_back({run, crowd_sort_(executor_, boxes, entries, id)});
+          dense_cells_.push_back({run, dense_sort_(executor_, boxes, entries, id)});
         });
   }
 
@@ -245,14 +245,14 @@ class UniformGrid final : public BroadPhase {
     const auto places = [&](std::size_t from, std::size_t to) {
       return IndexRange{large_.size() + from, large_.size() + to};
     };
-    auto crowd = std::ranges::upper_bound(crowds_, first, {}, &Crowd::last);
+    auto dense_cell = std::ranges::upper_bound(dense_cells_, first, {}, &DenseCell::last);
     while (first < last) {
       std::size_t end = first + 1;
       int axis = no_axis;
-      if (crowd != crowds_.end() && crowd->run.first <= first) {
-        end = crowd->run.last;
-        axis = crowd->axis;
-        ++crowd;
+      if (dense_cell != dense_cells_.end() && dense_cell->run.first <= first) {
+        end = dense_cell->run.last;
+        axis = dense_cell->axis;
+        ++dense_cell;
       }
       while (end < entries_.size() && entries_[end].cell == entries_[first].cell) ++end;
       visit(places(first, std::min(end, last)), places(first, end), axis);
@@ -260,7 +260,7 @@ class UniformGrid final : public BroadPhase {
     }
   }
 
-  struct Crowd {
+  struct DenseCell {
     IndexRange run;
     int axis;
     std::size_t last() const { return run.last; }
@@ -277,8 +277,8 @@ class UniformGrid final : public BroadPhase {
   std::vector<Entry> entries_;  // sorted by cell
   std::vector<std::uint32_t> large_;
   RadixSort<Entry> radix_sort_;
-  std::vector<Crowd> crowds_;
-  DenseCellSort<Entry> crowd_sort_;
+  std::vector<DenseCell> dense_cells_;
+  DenseCellSort<Entry> dense_sort_;
   AabbSoA arrays_;
   std::vector<std::uint32_t> marks_, wants_;
 };

@@ -38,9 +38,8 @@
 #include <cstring>
 #include <type_traits>
 
-#include "algorithms/kernels/batch/shape_prefetch.h"
+#include "algorithms/kernels/batch/for_each_pair.h"
 #include "algorithms/kernels/gjk/gjk_query.h"
-#include "algorithms/kernels/minkowski/halfspace.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -58,31 +57,24 @@ class Gjk final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    ahead_.begin(batch.pairs, task == Task::distance);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      ahead_.before(i);
-      const std::uint32_t a = batch.pairs.first[i];
-      const std::uint32_t b = batch.pairs.second[i];
-      const SupportShape<Scalar>& shape_a = shapes_[batch.pairs.shape_of[a]];
-      const SupportShape<Scalar>& shape_b = shapes_[batch.pairs.shape_of[b]];
-      const Pose& pose_a = batch.pairs.poses[a];
-      const Pose& pose_b = batch.pairs.poses[b];
-      if (batch.kind_a == ShapeKind::halfspace) {
-        solve_halfspaces(shape_a, pose_a, shape_b, pose_b, task, outcomes[i]);
-      } else if (batch.kind_b == ShapeKind::halfspace) {
-        solve_halfspace(shape_a, pose_a, shape_b, pose_b, task, outcomes[i]);
-      } else if (!warm_ || batch.memory.empty()) {
-        query_.solve(shape_a, pose_a, shape_b, pose_b, task, nullptr, outcomes[i]);
-      } else {
-        PairMemory& memory = batch.memory[batch.memory_of[i]];
-        static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
-                      std::is_trivially_copyable_v<WarmStart>);
-        WarmStart start;
-        std::memcpy(&start, memory.bytes.data(), sizeof start);
-        query_.solve(shape_a, pose_a, shape_b, pose_b, task, &start, outcomes[i]);
-        std::memcpy(memory.bytes.data(), &start, sizeof start);
-      }
-    }
+    for_each_pair(batch.pairs, shapes_, ahead_, task == Task::distance,
+                  [&](std::size_t i, const SupportShape<Scalar>& a, const Pose& pose_a,
+                      const SupportShape<Scalar>& b, const Pose& pose_b) {
+                    if (solve_if_halfspace(batch.kind_a, batch.kind_b, a, pose_a, b, pose_b, task,
+                                           outcomes[i])) {
+                      return;
+                    }
+                    if (!warm_ || batch.memory.empty()) {
+                      return query_.solve(a, pose_a, b, pose_b, task, nullptr, outcomes[i]);
+                    }
+                    PairMemory& memory = batch.memory[batch.memory_of[i]];
+                    static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
+                                  std::is_trivially_copyable_v<WarmStart>);
+                    WarmStart start;
+                    std::memcpy(&start, memory.bytes.data(), sizeof start);
+                    query_.solve(a, pose_a, b, pose_b, task, &start, outcomes[i]);
+                    std::memcpy(memory.bytes.data(), &start, sizeof start);
+                  });
   }
 
  private:

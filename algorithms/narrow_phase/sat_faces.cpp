@@ -7,7 +7,7 @@
 //             stop at an axis that separates (kernels/sat/separating_axis).
 //          4. If a body has no faces, test the line of the centres.
 //          5. Report the greatest gap: positive is separated, negative is minus the depth, with the
-//             closest points of the supporting features (kernels/sat/common_point).
+//             closest points of the supporting features (kernels/sat/witness_points).
 // Departs: takes any two convex polytopes. Flat hulls, segments and points have the faces of a
 //          prism or box without thickness. Stops at the first axis that separates.
 // Answers: `separated` is proven. `overlapping` means that no face normal separates; bodies that
@@ -69,7 +69,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_sat_faces() {
                             "face normals only"},
        .tasks = {Task::intersect, Task::penetration},
        .scalars = {Precision::float32, Precision::float64},
-       .supports = are_flat_sided,
+       .supports = are_polytopes,
        .traits = {.approximate = true, .depth_is_bound = true},
        .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
          if (settings.scalar == Precision::float32) return std::make_unique<SatFaces<float>>();

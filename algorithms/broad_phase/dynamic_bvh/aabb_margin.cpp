@@ -58,14 +58,6 @@ Aabb AabbMargin::around(const Aabb& box) const {
   return grown;
 }
 
-bool AabbMargin::holds(const Aabb& fat, const Aabb& box) {
-  bool within = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    within &= fat.min[axis] <= box.min[axis] && box.max[axis] <= fat.max[axis];
-  }
-  return within;
-}
-
 std::size_t AabbMargin::measure(std::span<const Aabb> boxes, std::span<const std::uint32_t> moved,
                                 const Bvh16& before) {
   margin_ = 0;

@@ -18,8 +18,6 @@ class AabbMargin {
  public:
   // Returns the box with the margin on all sides.
   Aabb around(const Aabb& box) const;
-  // Returns true while the body's box is inside its fat box.
-  static bool holds(const Aabb& fat, const Aabb& box);
 
   // Sets the margin to several frames of motion of nine in ten of the moved bodies that a margin
   // can serve. Returns the number of moved bodies that it cannot serve, because they would leave it

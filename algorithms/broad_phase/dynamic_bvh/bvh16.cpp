@@ -8,16 +8,18 @@
 #include "algorithms/broad_phase/dynamic_bvh/surface_area.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/core/parallel_blocks.h"
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/aabb_measure.h"
+#include "algorithms/kernels/boxes/aabb_simd.h"
 #include "algorithms/kernels/boxes/group_scan.h"
 
 namespace touchstone {
 namespace {
 
-using box_lanes::Columns;
-using box_lanes::columns_of;
+using aabb_simd::Columns;
+using aabb_simd::columns_of;
 
-#define TOUCHSTONE_LOOPS "algorithms/broad_phase/dynamic_bvh/bvh16.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/broad_phase/dynamic_bvh/bvh16.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 auto descend_of_level() {
@@ -132,10 +134,7 @@ Aabb Bvh16::bounds_of_leaf(std::size_t leaf) const {
 
 double Bvh16::spread() const {
   double sum = 0;
-  for (std::size_t leaf = 0; leaf < leaves_; ++leaf) {
-    const Aabb bounds = bounds_of_leaf(leaf);
-    for (std::size_t axis = 0; axis < 3; ++axis) sum += double{bounds.max[axis]} - bounds.min[axis];
-  }
+  for (std::size_t leaf = 0; leaf < leaves_; ++leaf) sum += sum_of_sides(bounds_of_leaf(leaf));
   return sum;
 }
 

@@ -1,15 +1,5 @@
 // Part of dynamic-bvh: the loops of bvh16.h. bvh16.cpp includes them once for each level of vector
-// instructions, inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its
-// attribute.
-
-TOUCHSTONE_TARGET inline Row row_of(const Aabb& box) {
-  Row row;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    row.min[axis] = Lanes::broadcast(box.min[axis]);
-    row.max[axis] = Lanes::broadcast(box.max[axis]);
-  }
-  return row;
-}
+// instructions, inside that level's namespace.
 
 // Writes the ids of these nodes' children that overlap the box, and returns their number.
 TOUCHSTONE_TARGET std::size_t descend(const Columns& boxes, const Aabb& box,
@@ -19,11 +9,7 @@ TOUCHSTONE_TARGET std::size_t descend(const Columns& boxes, const Aabb& box,
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t first = std::size_t{nodes[i]} * Bvh16::fan;
-    unsigned lanes = 0;
-    for (std::size_t part = 0; part < Bvh16::fan; part += Lanes::width) {
-      lanes |= overlaps(row, boxes, first + part) << part;
-    }
-    found += Lanes::compress(lanes, boxes.ids + first, children + found);
+    found += Lanes::compress(overlaps16(row, boxes, first), boxes.ids + first, children + found);
   }
   return found;
 }
@@ -32,8 +18,8 @@ TOUCHSTONE_TARGET std::size_t descend(const Columns& boxes, const Aabb& box,
 TOUCHSTONE_TARGET Aabb bounds16(const Columns& boxes, std::size_t first) {
   Aabb bounds{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    bounds.min[axis] = Lanes::least16(boxes.min[axis] + first);
-    bounds.max[axis] = Lanes::greatest16(boxes.max[axis] + first);
+    bounds.min[axis] = Lanes::reduce_min16(boxes.min[axis] + first);
+    bounds.max[axis] = Lanes::reduce_max16(boxes.max[axis] + first);
   }
   return bounds;
 }

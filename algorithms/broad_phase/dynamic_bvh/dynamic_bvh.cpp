@@ -32,6 +32,7 @@
 #include "algorithms/broad_phase/dynamic_bvh/hilbert_rtree.h"
 #include "algorithms/broad_phase/dynamic_bvh/pair_cache.h"
 #include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_measure.h"
 
 namespace touchstone {
 namespace {
@@ -60,7 +61,7 @@ class DynamicBvh final : public BroadPhase {
   static constexpr std::size_t scattered = 5;
   static constexpr std::size_t least_frames = 3;  // least age of a load that pays for its margin
   static constexpr std::size_t most_pairs_a_body = 64;
-  static constexpr std::size_t crowd_wait = 32;  // frames
+  static constexpr std::size_t dense_wait = 32;  // frames
   // Bits of a body's state.
   static constexpr std::uint8_t is_leaver = 1;
   static constexpr std::uint8_t is_mover = 2;
@@ -158,7 +159,7 @@ bool DynamicBvh::list_leavers(std::span<const std::uint32_t> moved) {
   leavers_.clear();
   if (moved.size() <= count_ / scattered) {
     for (const std::uint32_t id : moved) {
-      if (!AabbMargin::holds(fat_box_of(id), boxes_[id])) leavers_.push_back(id);
+      if (!contains(fat_box_of(id), boxes_[id])) leavers_.push_back(id);
     }
   } else {
     mark_leavers();
@@ -178,7 +179,7 @@ void DynamicBvh::mark_leavers() {
     for (std::size_t place = first * Bvh16::fan; place < last * Bvh16::fan; ++place) {
       const std::uint32_t id = tree.boxes().ids()[place];
       if (!tree.is_leaf(place / Bvh16::fan) || id == Bvh16::nobody) continue;
-      if (!AabbMargin::holds(tree.box_at(place), boxes_[id])) state_[id] |= is_leaver;
+      if (!contains(tree.box_at(place), boxes_[id])) state_[id] |= is_leaver;
     }
   };
   for_each_block(executor_, tree.nodes(), nodes_a_task, mark);
@@ -238,7 +239,7 @@ Status DynamicBvh::find_pairs(PairSink& sink) {
 void DynamicBvh::keep_pairs(PairSink& sink) {
   const std::size_t count = sink.size();
   if (count > most_pairs_a_body * count_ || count > PairCache::most / 2) {
-    wait_ = crowd_wait;
+    wait_ = dense_wait;
     return drop_apart(sink);
   }
   pairs_.refill(executor_, sink, boxes_.size());

@@ -28,32 +28,23 @@ bool HilbertRTree::is_good() {
   return is_new_ || spread <= 1.25 * spread_at_sort_;
 }
 
-void HilbertRTree::search(std::size_t task, HilbertRTreeScratch& scratch, PairBuffer& out) const {
-  const std::size_t last = std::min((task + 1) * leaves_a_task, tree_.leaves());
-  for (std::size_t leaf = task * leaves_a_task; leaf < last; ++leaf) {
-    tree_.find_partners(leaf, scratch.tree, scratch.group.work);
-    scan_group(tree_.boxes(), tree_.places_of(leaf), tree_.bounds_of_leaf(leaf),
-               scratch.tree.partners, scratch.group, out);
-  }
+void HilbertRTree::pair_leaf(std::size_t leaf, HilbertRTreeScratch& scratch,
+                             PairBuffer& out) const {
+  tree_.find_partners(leaf, scratch.tree, scratch.group.work);
+  scan_group(tree_.boxes(), tree_.places_of(leaf), tree_.bounds_of_leaf(leaf),
+             scratch.tree.partners, scratch.group, out);
 }
 
 void HilbertRTree::find_pairs(PairSink& sink) {
   for (HilbertRTreeScratch& scratch : scratch_) tree_.make_room(scratch.tree);
-  sink.start(tasks());
-  const auto body = [&](std::size_t task, int worker) {
-    search(task, scratch_[static_cast<std::size_t>(worker)], sink.chunk(task));
-  };
-  executor_.run(tasks(), std::cref(body));
+  search_groups(executor_, leaves(), leaves_a_task, scratch_, sink,
+                std::bind_front(&HilbertRTree::pair_leaf, this));
 }
 
 BroadPhaseWork HilbertRTree::work() const {
   HilbertRTreeScratch scratch;
   tree_.make_room(scratch.tree);
-  PairBuffer pairs;
-  for (std::size_t task = 0; task < tasks(); ++task) {
-    pairs.clear();
-    search(task, scratch, pairs);
-  }
+  count_groups(leaves(), scratch, std::bind_front(&HilbertRTree::pair_leaf, this));
   return scratch.group.work;
 }
 

@@ -81,12 +81,10 @@ class HilbertRTree {
                    });
     tree_.load(executor_, is_to_change);
   }
-  std::size_t tasks() const {
-    return tree_.loaded() == 0 ? 0 : block_count(tree_.leaves(), leaves_a_task);
-  }
+  std::size_t leaves() const { return tree_.loaded() == 0 ? 0 : tree_.leaves(); }
   void sort_if_needed(std::span<const Aabb> boxes);
   bool is_good();
-  void search(std::size_t task, HilbertRTreeScratch& scratch, PairBuffer& out) const;
+  void pair_leaf(std::size_t leaf, HilbertRTreeScratch& scratch, PairBuffer& out) const;
 
   Executor& executor_;
   std::vector<HilbertRTreeScratch> scratch_;

@@ -8,12 +8,12 @@
 
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/core/parallel_blocks.h"
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
 
-#define TOUCHSTONE_LOOPS "algorithms/broad_phase/dynamic_bvh/pair_cache.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/broad_phase/dynamic_bvh/pair_cache.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 auto copy_pairs_of_level() {

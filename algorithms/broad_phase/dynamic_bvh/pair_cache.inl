@@ -1,6 +1,5 @@
 // Part of dynamic-bvh: the loop of pair_cache.h. pair_cache.cpp includes it once for each level of
-// vector instructions, inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET
-// its attribute.
+// vector instructions, inside that level's namespace.
 
 // Copies the pairs whose bits are set, 64 a word, and returns their end. It writes up to eight
 // more.
@@ -19,7 +18,7 @@ TOUCHSTONE_TARGET IndexPair* copy_pairs(const IndexPair* pairs, const std::uint6
       unsigned lanes = (bits | bits << 4) & 0x0f0f;
       lanes = (lanes | lanes << 2) & 0x3333;
       lanes = 3 * ((lanes | lanes << 1) & 0x5555);
-      to += Lanes::compress(lanes, &pairs[part].a, &to->a) / 2;
+      to += Simd<float>::compress(lanes, &pairs[part].a, &to->a) / 2;
     }
   }
   return to;

@@ -17,7 +17,7 @@ void GridLevels::sort(Executor& executor, std::span<const Aabb> boxes,
   make_levels(executor, boxes, ids);
   sort_items(executor, boxes, ids);
   for (std::size_t level = 0; level < levels_.size(); ++level) {
-    split_crowds(executor, boxes, level);
+    split_dense_cells(executor, boxes, level);
   }
   index_cells(executor);
 }
@@ -28,8 +28,8 @@ void GridLevels::make_levels(Executor& executor, std::span<const Aabb> boxes,
   cells_ = 0;
   if (ids.empty()) return;
   const BoxSample sample = sample_boxes(boxes, ids);
-  const BoxMeasures measures = measure_boxes(executor, boxes, ids, measures_);
-  const double crowd = crowding(boxes, ids, sample);
+  const MagnitudeHistogram measures = magnitude_histogram(executor, boxes, ids, measures_);
+  const double clustering = clustering_of(boxes, ids, sample);
   axes_ = {0, 1, 2};
   const auto cells_wide = [&](std::size_t axis) {
     return (sample.high[axis] - sample.low[axis]) / sample.side[axis];
@@ -41,7 +41,7 @@ void GridLevels::make_levels(Executor& executor, std::span<const Aabb> boxes,
   });
   // Classes are formed from the smallest magnitude up. A class closes when it has enough members;
   // the largest boxes get a class of their own, however few they are.
-  BoxMeasure open;
+  MagnitudeBin open;
   std::size_t place = 0;
   for (std::size_t i = 0; i < box_magnitudes; ++i) {
     level_of_[i] = static_cast<std::uint8_t>(levels_.size());
@@ -49,7 +49,8 @@ void GridLevels::make_levels(Executor& executor, std::span<const Aabb> boxes,
     const bool last = i + 1 == box_magnitudes;
     if (open.members == 0) continue;
     if (!last && (open.members < least_members || levels_.size() + 1 == most_classes)) continue;
-    const double groups = std::max(1.0, static_cast<double>(open.members) * crowd / bodies_a_cube_);
+    const double groups =
+        std::max(1.0, static_cast<double>(open.members) * clustering / bodies_a_cube_);
     Level level{.grid = {axes_, open.side, sample.low, sample.high, groups},
                 .boxes = {place, place + open.members}};
     take_cells(level);
@@ -75,49 +76,51 @@ void GridLevels::sort_items(Executor& executor, std::span<const Aabb> boxes,
 }
 
 // Makes levels of a level's dense cells and inserts them after it; these may have dense cells too.
-void GridLevels::split_crowds(Executor& executor, std::span<const Aabb> boxes, std::size_t level) {
-  list_crowds(boxes, levels_[level].boxes);
-  if (crowds_.empty()) return;
+void GridLevels::split_dense_cells(Executor& executor, std::span<const Aabb> boxes,
+                                   std::size_t level) {
+  list_dense_cells(boxes, levels_[level].boxes);
+  if (dense_cells_.empty()) return;
   IndexRange& own = levels_[level].boxes;
   const auto begin = items_.begin();
   before_.assign(begin + own.first, begin + own.last);
   const auto before = [&](std::size_t place) { return before_.begin() + (place - own.first); };
   std::size_t next = own.first;
   auto end = begin + own.first;
-  for (const Level& crowd : crowds_) {
-    end = std::copy(before(next), before(crowd.boxes.first), end);
-    next = crowd.boxes.last;
+  for (const Level& dense_cell : dense_cells_) {
+    end = std::copy(before(next), before(dense_cell.boxes.first), end);
+    next = dense_cell.boxes.last;
   }
   end = std::copy(before(next), before_.end(), end);
   const auto kept = static_cast<std::size_t>(end - begin);
-  for (Level& crowd : crowds_) {
-    crowd_.assign(before(crowd.boxes.first), before(crowd.boxes.last));
-    crowd.boxes = {static_cast<std::size_t>(end - begin), 0};
-    crowd.boxes.last = crowd.boxes.first + crowd_.size();
-    take_cells(crowd);
-    sort_crowd(executor, boxes, crowd);
-    end = std::copy(crowd_.begin(), crowd_.end(), end);
+  for (Level& dense_cell : dense_cells_) {
+    dense_cell_.assign(before(dense_cell.boxes.first), before(dense_cell.boxes.last));
+    dense_cell.boxes = {static_cast<std::size_t>(end - begin), 0};
+    dense_cell.boxes.last = dense_cell.boxes.first + dense_cell_.size();
+    take_cells(dense_cell);
+    sort_dense_cell(executor, boxes, dense_cell);
+    end = std::copy(dense_cell_.begin(), dense_cell_.end(), end);
   }
   own.last = kept;
-  levels_.insert(levels_.begin() + level + 1, crowds_.begin(), crowds_.end());
+  levels_.insert(levels_.begin() + level + 1, dense_cells_.begin(), dense_cells_.end());
 }
 
-void GridLevels::list_crowds(std::span<const Aabb> boxes, IndexRange range) {
-  crowds_.clear();
+void GridLevels::list_dense_cells(std::span<const Aabb> boxes, IndexRange range) {
+  dense_cells_.clear();
   visit_dense_cells(
-      range, least_crowd, [&](std::size_t i) { return cell(i); },
-      [&](IndexRange crowd) {
-        const Level level = level_of_crowd(boxes, crowd);
-        if (level.grid.cells() >= least_cells) crowds_.push_back(level);
+      range, least_dense, [&](std::size_t i) { return cell(i); },
+      [&](IndexRange dense_cell) {
+        const Level level = level_of_dense_cell(boxes, dense_cell);
+        if (level.grid.cells() >= least_cells) dense_cells_.push_back(level);
       });
 }
 
-GridLevels::Level GridLevels::level_of_crowd(std::span<const Aabb> boxes, IndexRange crowd) const {
-  BoxMeasure measure;
+GridLevels::Level GridLevels::level_of_dense_cell(std::span<const Aabb> boxes,
+                                                  IndexRange dense_cell) const {
+  MagnitudeBin measure;
   Aabb bounds = Aabb::empty();
   std::array<double, 3> low, high;
   high.fill(std::numeric_limits<double>::lowest());
-  for (std::size_t i = crowd.first; i < crowd.last; ++i) {
+  for (std::size_t i = dense_cell.first; i < dense_cell.last; ++i) {
     const Aabb& box = boxes[id(i)];
     measure.add(box);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -128,20 +131,21 @@ GridLevels::Level GridLevels::level_of_crowd(std::span<const Aabb> boxes, IndexR
     }
   }
   const double groups = static_cast<double>(measure.members) / bodies_a_cube_;
-  return {.grid = {axes_, measure.side, low, high, groups}, .boxes = crowd, .bounds = bounds};
+  return {.grid = {axes_, measure.side, low, high, groups}, .boxes = dense_cell, .bounds = bounds};
 }
 
-void GridLevels::sort_crowd(Executor& executor, std::span<const Aabb> boxes, const Level& level) {
+void GridLevels::sort_dense_cell(Executor& executor, std::span<const Aabb> boxes,
+                                 const Level& level) {
   const std::uint64_t ids = (std::uint64_t{1} << id_bits_) - 1;
-  for (std::uint64_t& own : crowd_) {
+  for (std::uint64_t& own : dense_cell_) {
     const auto body = static_cast<std::uint32_t>(own & ids);
     own = item(level, boxes[body], body);
   }
-  if (crowd_.size() < 2048) {
-    std::ranges::sort(crowd_);
+  if (dense_cell_.size() < 2048) {
+    std::ranges::sort(dense_cell_);
     return;
   }
-  crowd_sort_(executor, crowd_, static_cast<int>(std::bit_width(level.grid.cells())),
+  dense_sort_(executor, dense_cell_, static_cast<int>(std::bit_width(level.grid.cells())),
               [bits = id_bits_, first = level.first_cell](std::uint64_t item) {
                 return (item >> bits) - first;
               });
@@ -183,8 +187,9 @@ void GridLevels::index_cells(Executor& executor) {
 }
 
 std::size_t GridLevels::held_bytes() const {
-  return static_cast<std::size_t>(sum_held_bytes(measures_, levels_, items_, radix_sort_, crowds_,
-                                                 before_, crowd_, crowd_sort_, index_));
+  return static_cast<std::size_t>(sum_held_bytes(measures_, levels_, items_, radix_sort_,
+                                                 dense_cells_, before_, dense_cell_, dense_sort_,
+                                                 index_));
 }
 
 }  // namespace touchstone

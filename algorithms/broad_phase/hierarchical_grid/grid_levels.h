@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/broad_phase/hierarchical_grid/box_measures.h"
+#include "algorithms/broad_phase/hierarchical_grid/magnitude_histogram.h"
 #include "algorithms/broad_phase/hierarchical_grid/serpentine_grid.h"
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor.h"
@@ -67,7 +67,7 @@ class GridLevels {
   // A class with fewer members joins the next larger one.
   static constexpr std::size_t least_members = 64;
   // A cell with this many boxes is dense; it is split if its own grid has at least `least_cells`.
-  static constexpr std::size_t least_crowd = 256;
+  static constexpr std::size_t least_dense = 256;
   static constexpr std::uint64_t least_cells = 64;
   static constexpr Aabb everywhere{
       {std::numeric_limits<float>::lowest(), std::numeric_limits<float>::lowest(),
@@ -87,14 +87,14 @@ class GridLevels {
                    std::span<const std::uint32_t> ids);
   void sort_items(Executor& executor, std::span<const Aabb> boxes,
                   std::span<const std::uint32_t> ids);
-  void split_crowds(Executor& executor, std::span<const Aabb> boxes, std::size_t level);
-  void list_crowds(std::span<const Aabb> boxes, IndexRange range);
-  Level level_of_crowd(std::span<const Aabb> boxes, IndexRange crowd) const;
-  void sort_crowd(Executor& executor, std::span<const Aabb> boxes, const Level& level);
+  void split_dense_cells(Executor& executor, std::span<const Aabb> boxes, std::size_t level);
+  void list_dense_cells(std::span<const Aabb> boxes, IndexRange range);
+  Level level_of_dense_cell(std::span<const Aabb> boxes, IndexRange dense_cell) const;
+  void sort_dense_cell(Executor& executor, std::span<const Aabb> boxes, const Level& level);
   void index_cells(Executor& executor);
 
   double bodies_a_cube_ = 1;
-  std::vector<BoxMeasures> measures_;
+  std::vector<MagnitudeHistogram> measures_;
   SerpentineGrid::Axes axes_{0, 1, 2};
   std::array<std::uint8_t, box_magnitudes> level_of_{};
   std::vector<Level> levels_;
@@ -102,9 +102,9 @@ class GridLevels {
   std::vector<std::uint64_t> items_;  // cell above, id below
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
-  std::vector<Level> crowds_;                  // levels of one level's dense cells
-  std::vector<std::uint64_t> before_, crowd_;  // items of the level, and of one dense cell
-  RadixSort<std::uint64_t> crowd_sort_;
+  std::vector<Level> dense_cells_;                  // levels of one level's dense cells
+  std::vector<std::uint64_t> before_, dense_cell_;  // items of the level, and of one dense cell
+  RadixSort<std::uint64_t> dense_sort_;
   std::vector<std::uint32_t> index_;  // the first box in each 2^index_shift cells, or after them
 };
 

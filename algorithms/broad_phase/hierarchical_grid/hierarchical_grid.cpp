@@ -3,7 +3,7 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 7.2; Mirtich, "Impulse-based
 //          Dynamic Simulation of Rigid Body Systems", thesis, Berkeley 1996 (the hash of grids).
 // Steps:   1. Form classes of at least 64 boxes by the exponent of the longest side
-//             (box_measures.cpp).
+//             (magnitude_histogram.cpp).
 //          2. Give each class a grid whose cells are at least as long as its boxes; number its
 //             cells in serpentine order (serpentine_grid.h).
 //          3. Radix-sort the boxes by class and cell; give dense cells a grid of their own, and
@@ -22,6 +22,7 @@
 // Cost:    O(n) for keys and sort, O(n l + k) expected; l = grids in use, k = pairs in neighbouring
 //          cells. About 65 bytes a body.
 #include <algorithm>
+#include <functional>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/broad_phase/hierarchical_grid/grid_levels.h"
@@ -51,26 +52,14 @@ class HierarchicalGrid final : public BroadPhase {
   void update(const FrameChange& change) override { build(change.boxes); }
 
   Status find_pairs(PairSink& sink) override {
-    const std::size_t tasks = block_count(groups_, groups_a_task);
-    sink.start(tasks);
-    const auto search = [&](std::size_t task, int worker) {
-      Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
-      const std::size_t last = std::min((task + 1) * groups_a_task, groups_);
-      for (std::size_t group = task * groups_a_task; group < last; ++group) {
-        pair_group(group, scratch, sink.chunk(task));
-      }
-    };
-    executor_.run(tasks, std::cref(search));
+    search_groups(executor_, groups_, groups_a_task, scratch_, sink,
+                  std::bind_front(&HierarchicalGrid::pair_group, this));
     return Status::ok;
   }
 
   BroadPhaseWork work() const override {
     Scratch scratch;
-    PairBuffer pairs;
-    for (std::size_t group = 0; group < groups_; ++group) {
-      pairs.clear();
-      pair_group(group, scratch, pairs);
-    }
+    count_groups(groups_, scratch, std::bind_front(&HierarchicalGrid::pair_group, this));
     scratch.group.work.bytes = sum_held_bytes(ids_, grids_, boxes_, first_group_);
     return scratch.group.work;
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_list.h"
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
@@ -126,13 +126,13 @@ std::size_t EndpointList::move(std::span<Endpoint> points, std::size_t at, std::
 // the boxes overlap on the axes updated before this one after the frame, and on the others before
 // it.
 void EndpointList::look_at_passes(std::size_t listed, const EndpointMotion& motion) {
-  using Lanes = box_lanes::baseline::Lanes;
+  using Lanes = simd::baseline::Simd<float>;
   for (const Pass& pass : std::span(passes_).first(listed)) {
     const std::uint32_t a = body_of(pass.lower);
     const std::uint32_t b = body_of(pass.upper);
     const Shadow& own = shadows_[a];
-    const Lanes::Floats reach{-own[1], -own[0], -own[3], -own[2]};
-    if (Lanes::bits(Lanes::less_equal(Lanes::load(shadows_[b].data()), reach)) != 0xf) continue;
+    const Lanes::Vector reach{-own[1], -own[0], -own[3], -own[2]};
+    if (Lanes::to_bits(Lanes::less_equal(Lanes::load(shadows_[b].data()), reach)) != 0xf) continue;
     const bool comes = is_max(pass.upper);
     const bool now = overlap_on(motion.now()[a], motion.now()[b], axis_);
     const bool then = overlap_on(motion.before()[a], motion.before()[b], axis_);

@@ -5,6 +5,7 @@
 
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/core/parallel_blocks.h"
+#include "algorithms/kernels/grid/cell_space.h"
 
 namespace touchstone {
 
@@ -33,11 +34,8 @@ KdPart KdBodies::start(Executor& executor, std::span<const Aabb> boxes,
       all.sum_of_sizes[axis] += range.sum_of_sizes[axis];
     }
   }
-  // A floor on the length keeps rounding from deciding on an axis on which the boxes are flat.
-  const double least = 1e-3 * std::ranges::max(all.sum_of_sizes);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    weight_[axis] = least > 0 ? 1 / std::max(all.sum_of_sizes[axis], least) : 1;
-  }
+  const std::array<double, 3> sides = with_floor(all.sum_of_sizes);
+  for (std::size_t axis = 0; axis < 3; ++axis) weight_[axis] = 1 / sides[axis];
   return {0, static_cast<std::uint32_t>(bodies_.size()), all};
 }
 

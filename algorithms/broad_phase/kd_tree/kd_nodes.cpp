@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_measure.h"
 
 namespace touchstone {
 namespace {
@@ -96,9 +97,7 @@ void KdNodes::fit(KdNode& node, double& spread) {
     return fit_inner(node);
   }
   node.bounds = fit_own(node);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    spread += double{node.bounds.max[axis]} - node.bounds.min[axis];
-  }
+  spread += sum_of_sides(node.bounds);
 }
 
 void KdNodes::fit_inner(KdNode& node) {

@@ -82,7 +82,7 @@ void OctreeOrder::sort(Executor& executor, std::span<const Aabb> boxes,
   if (ids.empty()) return;
   id_bits_ = static_cast<int>(std::bit_width(boxes.size()));
   const BoxSample sample = sample_boxes(boxes, ids);
-  const double wanted = 2 * static_cast<double>(ids.size()) * crowding(boxes, ids, sample);
+  const double wanted = 2 * static_cast<double>(ids.size()) * clustering_of(boxes, ids, sample);
   const Cells cells = make_cells(sample, wanted);
   for_each_block(executor, ids.size(), block_size,
                  [&](std::size_t, std::size_t first, std::size_t last) {
@@ -117,28 +117,26 @@ bool OctreeOrder::refine(Executor& executor, std::span<const Aabb> boxes, std::s
     }
   }
   if (all.low == all.high) return false;
-  // A floor on the length keeps rounding from deciding on an axis on which the boxes are flat.
-  const double least = 1e-3 * std::ranges::max(all.side);
-  for (double& side : all.side) side = least > 0 ? std::max(side, least) : 1;
+  all.side = with_floor(all.side);
   const Cells cells = make_cells(all, 2 * static_cast<double>(last - first));
   const bool by_size = depth(key(first)) == most_levels;
-  crowd_.clear();
+  dense_cell_.clear();
   for (std::size_t i = first; i < last; ++i) {
     const std::uint64_t key = key_of(boxes[id(i)], cells, by_size);
-    crowd_.push_back(key << id_bits_ | id(i));
+    dense_cell_.push_back(key << id_bits_ | id(i));
   }
-  if (crowd_.size() < 1024) {
-    std::ranges::sort(crowd_);
+  if (dense_cell_.size() < 1024) {
+    std::ranges::sort(dense_cell_);
   } else {
-    sort_items(executor, crowd_, cells.levels, crowd_sort_);
+    sort_items(executor, dense_cell_, cells.levels, dense_sort_);
   }
-  std::ranges::copy(crowd_, items_.begin() + static_cast<std::ptrdiff_t>(first));
+  std::ranges::copy(dense_cell_, items_.begin() + static_cast<std::ptrdiff_t>(first));
   return true;
 }
 
 std::size_t OctreeOrder::held_bytes() const {
   return touchstone::held_bytes(items_) + touchstone::held_bytes(radix_sort_) +
-         touchstone::held_bytes(crowd_) + touchstone::held_bytes(crowd_sort_);
+         touchstone::held_bytes(dense_cell_) + touchstone::held_bytes(dense_sort_);
 }
 
 }  // namespace touchstone

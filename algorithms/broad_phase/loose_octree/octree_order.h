@@ -67,8 +67,8 @@ class OctreeOrder {
   std::vector<std::uint64_t> items_;  // key above, id below
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
-  std::vector<std::uint64_t> crowd_;  // items of a range that is refined
-  RadixSort<std::uint64_t> crowd_sort_;
+  std::vector<std::uint64_t> dense_cell_;  // items of a range that is refined
+  RadixSort<std::uint64_t> dense_sort_;
 };
 
 }  // namespace touchstone

@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <limits>
 
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/aabb_simd.h"
 
 namespace touchstone {
 namespace {
 
-using box_lanes::Columns;
-using box_lanes::columns_of;
+using aabb_simd::Columns;
+using aabb_simd::columns_of;
+using aabb_simd::first_lanes;
+using aabb_simd::mutable_columns_of;
 
 constexpr std::size_t fan = NodeRef::fan;
 
@@ -21,7 +23,8 @@ struct Join {
   PairBuffer& out;
 };
 
-#define TOUCHSTONE_LOOPS "algorithms/broad_phase/loose_octree/tree_self_join.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/broad_phase/loose_octree/tree_self_join.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace

@@ -6,7 +6,6 @@
 //        1993 (both sides descend together, restricted to the intersection of their bounds).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 #include "algorithms/kernels/boxes/aabb_stack.h"
+#include "algorithms/kernels/boxes/group_search.h"
 
 namespace touchstone {
 
@@ -53,11 +53,9 @@ struct JoinTree {
 
 // Lists and counters of a join; one for each worker.
 struct JoinScratch {
-  static constexpr std::size_t near_at_once = 512;
-
   AabbStack list;
   std::vector<std::uint32_t> leaves, inner;
-  std::array<std::uint32_t, near_at_once + NodeRef::fan> near;
+  NearList near;
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 

@@ -1,18 +1,12 @@
 // Part of loose-octree: the loops of tree_self_join.h. tree_self_join.cpp includes them once for
-// each level of vector instructions, inside that level's namespace: `Lanes` are its vectors,
-// TOUCHSTONE_TARGET its attribute.
+// each level of vector instructions, inside that level's namespace.
 
-inline unsigned first_lanes(std::size_t count) { return count < fan ? (1u << count) - 1 : 0xffffu; }
-
-inline Columns columns_of_list(const AabbStack& list) {
-  return {
-      {list.min(0), list.min(1), list.min(2)}, {list.max(0), list.max(1), list.max(2)}, list.ids()};
-}
+#include "algorithms/kernels/boxes/group_search.inl"
 
 TOUCHSTONE_TARGET inline unsigned leaves_among(const std::uint32_t* refs) {
   unsigned lanes = 0;
   for (std::size_t part = 0; part < fan; part += Lanes::width) {
-    lanes |= Lanes::holding(refs + part, NodeRef::leaf_bit) << part;
+    lanes |= Lanes::test(refs + part, NodeRef::leaf_bit) << part;
   }
   return lanes;
 }
@@ -29,14 +23,9 @@ TOUCHSTONE_TARGET inline Row bounds_of_block(const Join& join, std::size_t block
 }
 
 // Appends the boxes from[j .. j + 15] whose bits are set; the list has room for them.
-TOUCHSTONE_TARGET inline void keep(unsigned lanes, const Columns& from, std::size_t j,
-                                   AabbStack& list) {
-  const std::size_t end = list.end();
-  for (int axis = 0; axis < 3; ++axis) {
-    Lanes::compress(lanes, from.min[axis] + j, list.min(axis) + end);
-    Lanes::compress(lanes, from.max[axis] + j, list.max(axis) + end);
-  }
-  list.advance(Lanes::compress(lanes, from.ids + j, list.ids() + end));
+TOUCHSTONE_TARGET inline void append(unsigned bits, const Columns& from, std::size_t j,
+                                     AabbStack& list) {
+  list.advance(compress_boxes(bits, from, j, mutable_columns_of(list), list.end()));
 }
 
 inline void make_room(std::vector<std::uint32_t>& list, std::size_t size) {
@@ -51,20 +40,20 @@ TOUCHSTONE_TARGET inline IndexRange list_nodes(const Join& join, std::size_t blo
   const Row bound = bounds_of_block(join, block);
   const std::size_t first = s.list.start();
   s.list.reserve(fan + (behind.last - behind.first));
-  keep(overlaps16(bound, join.nodes, block * fan), join.nodes, block * fan, s.list);
+  append(overlaps16(bound, join.nodes, block * fan), join.nodes, block * fan, s.list);
   make_room(s.inner, behind.last - behind.first);
   std::size_t inner = 0;
-  const Columns from = columns_of_list(s.list);
+  const Columns from = columns_of(s.list);
   for (std::size_t j = behind.first; j < behind.last; j += fan) {
     const unsigned lanes = overlaps16(bound, from, j) & first_lanes(behind.last - j);
     const unsigned leaves = leaves_among(from.ids + j);
-    keep(lanes & leaves, from, j, s.list);
+    append(lanes & leaves, from, j, s.list);
     inner += Lanes::compress(lanes & ~leaves, from.ids + j, s.inner.data() + inner);
   }
   s.list.reserve(inner * fan);
   for (std::size_t i = 0; i < inner; ++i) {
     const NodeRef ref{s.inner[i]};
-    keep(overlaps16(bound, join.nodes, ref.begin() * fan), join.nodes, ref.begin() * fan, s.list);
+    append(overlaps16(bound, join.nodes, ref.begin() * fan), join.nodes, ref.begin() * fan, s.list);
     s.work.box_tests += static_cast<std::int64_t>(ref.count());
   }
   s.work.node_visits += static_cast<std::int64_t>(inner + 1);
@@ -77,7 +66,7 @@ TOUCHSTONE_TARGET inline IndexRange list_nodes(const Join& join, std::size_t blo
 TOUCHSTONE_TARGET inline std::size_t list_leaves(const Join& join, const Row& bound,
                                                  IndexRange behind) {
   JoinScratch& s = join.scratch;
-  const Columns from = columns_of_list(s.list);
+  const Columns from = columns_of(s.list);
   const Columns nodes = join.nodes;
   make_room(s.leaves, behind.last - behind.first);
   make_room(s.inner, behind.last - behind.first);
@@ -106,52 +95,21 @@ TOUCHSTONE_TARGET inline std::size_t list_leaves(const Join& join, const Row& bo
   return count;
 }
 
-// Writes the pairs of a leaf's boxes with each other, if `with_own`, and with the boxes at `near`.
-TOUCHSTONE_TARGET inline void pair_boxes(const Columns& boxes, NodeRef leaf,
-                                         const std::uint32_t* near, std::size_t count,
-                                         bool with_own, PairBuffer& out) {
-  const std::size_t first = leaf.begin();
-  const std::size_t size = leaf.count();
-  out.reserve((count + size + 1) * fan);
-  IndexPair* end = out.end();
-  const Sixteen sixteen = load_sixteen(boxes, first);
-  const Lanes::Ids ids = Lanes::load_ids(boxes.ids + first);
-  const unsigned there = first_lanes(size);
-  for (std::size_t r = 0; with_own && r + 1 < size; ++r) {
-    const unsigned behind = there & (0xfffeu << r);
-    end = Lanes::put(overlaps(boxes, first + r, sixteen) & behind, boxes.ids[first + r], ids, end);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const unsigned lanes = overlaps(boxes, near[i], sixteen) & there;
-    end = Lanes::put(lanes, boxes.ids[near[i]], ids, end);
-  }
-  out.advance(static_cast<std::size_t>(end - out.end()));
-}
-
 TOUCHSTONE_TARGET inline void pair_leaf(const Join& join, std::size_t node, IndexRange behind) {
   JoinScratch& s = join.scratch;
-  const Columns boxes = join.boxes;
   const NodeRef leaf{join.nodes.ids[node]};
   const Row bound = load_row(join.nodes, node);
   const std::size_t leaves = list_leaves(join, bound, behind);
-  std::size_t listed = 0;
-  std::size_t candidates = leaf.count() * (leaf.count() - 1) / 2;
-  bool with_own = true;
-  for (std::size_t i = 0; i < leaves; ++i) {
-    const NodeRef other{s.leaves[i]};
-    const unsigned lanes = overlaps16(bound, boxes, other.begin()) & first_lanes(other.count());
-    listed += Lanes::compress_numbers(lanes, static_cast<std::uint32_t>(other.begin()),
-                                      s.near.data() + listed);
-    s.work.box_tests += static_cast<std::int64_t>(other.count());
-    if (listed > JoinScratch::near_at_once) {
-      pair_boxes(boxes, leaf, s.near.data(), listed, with_own, join.out);
-      candidates += listed * leaf.count();
-      listed = 0;
-      with_own = false;
-    }
-  }
-  pair_boxes(boxes, leaf, s.near.data(), listed, with_own, join.out);
-  candidates += listed * leaf.count();
+  const IndexRange members{leaf.begin(), leaf.begin() + leaf.count()};
+  const std::size_t listed = pair_group_with_runs(
+      join.boxes, members, bound, s.near, join.out, [&](const auto& visit) TOUCHSTONE_TARGET {
+        for (std::size_t i = 0; i < leaves; ++i) {
+          const NodeRef other{s.leaves[i]};
+          visit(other.begin(), other.count());
+          s.work.box_tests += static_cast<std::int64_t>(other.count());
+        }
+      });
+  const std::size_t candidates = leaf.count() * (leaf.count() - 1) / 2 + listed * leaf.count();
   s.work.candidates += static_cast<std::int64_t>(candidates);
   s.work.box_tests += static_cast<std::int64_t>(candidates);
 }

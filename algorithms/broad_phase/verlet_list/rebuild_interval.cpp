@@ -21,7 +21,7 @@ double a_body(std::size_t count, std::size_t bodies) {
 
 }  // namespace
 
-double RebuildInterval::choose(const Motion& motion, std::size_t bodies, std::size_t pairs) {
+double RebuildInterval::choose(const MeanMotion& motion, std::size_t bodies, std::size_t pairs) {
   constexpr std::array<double, 12> choices{2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96};
   // Even if nothing overlaps yet, grown boxes will.
   const double found = std::max(a_body(pairs, bodies), 0.25);
@@ -42,7 +42,7 @@ double RebuildInterval::choose(const Motion& motion, std::size_t bodies, std::si
   return best;
 }
 
-void RebuildInterval::made(const Motion& motion, double frames, std::size_t bodies,
+void RebuildInterval::made(const MeanMotion& motion, double frames, std::size_t bodies,
                            std::size_t candidates) {
   share_ = motion.share;
   frames_ = frames;

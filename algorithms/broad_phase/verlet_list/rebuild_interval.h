@@ -10,7 +10,7 @@
 
 namespace touchstone {
 
-struct Motion {
+struct MeanMotion {
   float step = 0;    // mean displacement of a body on an axis, metres a frame
   double share = 0;  // mean of step / (side + step)
 };
@@ -19,9 +19,9 @@ class RebuildInterval {
  public:
   // Returns the number of frames for the next list; 0 if no list pays. `pairs` is the number found
   // in the last frame.
-  double choose(const Motion& motion, std::size_t bodies, std::size_t pairs);
+  double choose(const MeanMotion& motion, std::size_t bodies, std::size_t pairs);
   // Records a list that was made, and the age at which it ended with the pairs found then.
-  void made(const Motion& motion, double frames, std::size_t bodies, std::size_t candidates);
+  void made(const MeanMotion& motion, double frames, std::size_t bodies, std::size_t candidates);
   void ended(int age, std::size_t bodies, std::size_t pairs);
 
  private:

@@ -31,6 +31,7 @@
 #include "algorithms/broad_phase/verlet_list/rebuild_interval.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/core/parallel_blocks.h"
+#include "algorithms/kernels/boxes/aabb_measure.h"
 #include "algorithms/kernels/boxes/aabb_scan.h"
 #include "algorithms/kernels/bvh/hilbert_sort.h"
 #include "algorithms/kernels/bvh/implicit_rtree.h"
@@ -55,28 +56,28 @@ class VerletList final : public BroadPhase {
  private:
   static constexpr std::size_t block_size = 4096;
   static constexpr std::size_t groups_a_task = 4;
-  static constexpr std::size_t strays_a_task = 32;
+  static constexpr std::size_t escaped_a_task = 32;
 
   void fit(std::span<const Aabb> boxes) {
     if (order_.empty()) return;
-    order_.gather(executor_, boxes, pyramid_.boxes());
-    pyramid_.fit(executor_);
+    order_.gather(executor_, boxes, tree_.boxes());
+    tree_.fit(executor_);
   }
-  std::size_t groups() const { return order_.empty() ? 0 : pyramid_.groups(); }
+  std::size_t groups() const { return order_.empty() ? 0 : tree_.groups(); }
 
   void search_anew();
-  Motion measure_motion();
+  MeanMotion measure_motion();
   void make_list(double frames);
-  bool find_strays(const FrameChange& change);
-  void search_groups(PairSink& sink);
-  void search_strays(std::size_t first, std::size_t last, RTreeScratch& scratch,
-                     PairBuffer& out) const;
+  bool find_escaped(const FrameChange& change);
+  void search_all(PairSink& sink);
+  void search_escaped(std::size_t first, std::size_t last, RTreeScratch& scratch,
+                      PairBuffer& out) const;
 
   Executor& executor_;
   std::vector<RTreeScratch> scratch_;
   std::span<const Aabb> boxes_;  // boxes of this frame
   HilbertSort order_;
-  ImplicitRTree pyramid_;  // over the grown boxes while there is a list, else over this frame's
+  ImplicitRTree tree_;  // over the grown boxes while there is a list, else over this frame's
 
   // Grown boxes of the list, or the boxes of an earlier frame to measure motion by; indexed by
   // body.
@@ -86,22 +87,13 @@ class VerletList final : public BroadPhase {
   PairSink candidates_;
   RebuildInterval duration_;
 
-  std::vector<std::uint8_t> strayed_;  // 1 for an escaped box; indexed by body
-  std::vector<std::uint32_t> strays_;  // escaped boxes: outside their grown ones, or new
+  std::vector<std::uint8_t> escaped_flag_;  // 1 for an escaped box; indexed by body
+  std::vector<std::uint32_t> escaped_;      // escaped boxes: outside their grown ones, or new
   std::size_t searched_ = 0;  // number of escaped boxes, summed over the frames of this list
-  AabbSoA stray_boxes_;
+  AabbSoA escaped_boxes_;
   std::vector<std::size_t> counts_;  // one for each block
   std::size_t pairs_ = 0;            // number found by the last search
 };
-
-// Returns true if `outer` contains `inner`. Any box contains an empty one.
-bool holds(const Aabb& outer, const Aabb& inner) {
-  bool held = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    held &= (outer.min[axis] <= inner.min[axis]) & (inner.max[axis] <= outer.max[axis]);
-  }
-  return held;
-}
 
 // Orders the boxes and searches without a list; keeps the boxes to measure motion.
 void VerletList::search_anew() {
@@ -127,11 +119,11 @@ float displacement(const Aabb& then, const Aabb& now) {
   return most;
 }
 
-Motion VerletList::measure_motion() {
+MeanMotion VerletList::measure_motion() {
   // Every sixteenth body is sample enough.
   constexpr std::size_t stride = 16;
   const std::size_t count = std::min(boxes_.size(), reference_.size());
-  Motion motion;
+  MeanMotion motion;
   double steps = 0;
   double shares = 0;
   std::size_t bodies = 0;
@@ -155,7 +147,7 @@ Motion VerletList::measure_motion() {
 
 // Makes a list for this many frames; `reference_` holds the boxes of `age_` frames ago.
 void VerletList::make_list(double frames) {
-  const Motion motion = measure_motion();
+  const MeanMotion motion = measure_motion();
   const auto growth = static_cast<float>(frames);
   constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
   // Bodies that hardly move may start to: each gets at least half of the mean displacement.
@@ -183,62 +175,56 @@ void VerletList::make_list(double frames) {
   age_ = 0;
   order_.make(executor_, reference_);
   fit(reference_);
-  search_groups(candidates_);
+  search_all(candidates_);
   listed_ = true;
-  strayed_.assign(boxes_.size(), 0);
-  strays_.clear();
+  escaped_flag_.assign(boxes_.size(), 0);
+  escaped_.clear();
   searched_ = 0;
   duration_.made(motion, frames, boxes_.size(), candidates_.size());
 }
 
-void VerletList::search_groups(PairSink& sink) {
-  const std::size_t tasks = block_count(groups(), groups_a_task);
-  sink.start(tasks);
-  const auto search = [&](std::size_t task, int worker) {
-    const std::size_t last = std::min((task + 1) * groups_a_task, groups());
-    for (std::size_t group = task * groups_a_task; group < last; ++group) {
-      pair_group(pyramid_, group, scratch_[static_cast<std::size_t>(worker)], sink.chunk(task));
-    }
-  };
-  executor_.run(tasks, std::cref(search));
+void VerletList::search_all(PairSink& sink) {
+  search_groups(executor_, groups(), groups_a_task, scratch_, sink,
+                std::bind_front(pair_group, std::cref(tree_)));
 }
 
 // Adds the boxes that have escaped and those that are new; returns false if they are so many that a
 // new list is cheaper.
-bool VerletList::find_strays(const FrameChange& change) {
-  if (boxes_.size() > strayed_.size()) {
-    strayed_.resize(boxes_.size(), 0);
+bool VerletList::find_escaped(const FrameChange& change) {
+  if (boxes_.size() > escaped_flag_.size()) {
+    escaped_flag_.resize(boxes_.size(), 0);
     reference_.resize(boxes_.size(), Aabb::empty());
   }
   // Cost of searching for one escaped box, in units of a body's share of making the list.
   constexpr std::size_t price = 32;
   const std::size_t most = 64 + boxes_.size() / 64;
-  const auto stray = [&](std::uint32_t id) {
-    return strayed_[id] == 0 && !holds(reference_[id], boxes_[id]);
+  const auto has_escaped = [&](std::uint32_t id) {
+    return escaped_flag_[id] == 0 && !contains(reference_[id], boxes_[id]);
   };
   const std::span<const std::uint32_t> moved = change.moved;
   counts_.resize(block_count(moved.size(), block_size));
   for_each_block(executor_, moved.size(), block_size,
                  [&](std::size_t block, std::size_t first, std::size_t last) {
                    std::size_t count = 0;
-                   for (std::size_t i = first; i < last; ++i) count += stray(moved[i]) ? 1 : 0;
+                   for (std::size_t i = first; i < last; ++i)
+                     count += has_escaped(moved[i]) ? 1 : 0;
                    counts_[block] = count;
                  });
-  std::size_t all = strays_.size() + change.inserted.size();
+  std::size_t all = escaped_.size() + change.inserted.size();
   for (const std::size_t count : counts_) all += count;
   searched_ += all;
   if (all > most || searched_ * price > boxes_.size() + 64 * price) return false;
   const auto add = [&](std::uint32_t id) {
-    if (strayed_[id] != 0) return;
-    strayed_[id] = 1;
-    strays_.push_back(id);
+    if (escaped_flag_[id] != 0) return;
+    escaped_flag_[id] = 1;
+    escaped_.push_back(id);
   };
   for (const std::uint32_t id : change.inserted) add(id);
   for (std::size_t block = 0; block < counts_.size(); ++block) {
     if (counts_[block] == 0) continue;
     const std::size_t last = std::min((block + 1) * block_size, moved.size());
     for (std::size_t i = block * block_size; i < last; ++i) {
-      if (stray(moved[i])) add(moved[i]);
+      if (has_escaped(moved[i])) add(moved[i]);
     }
   }
   return true;
@@ -248,9 +234,9 @@ void VerletList::update(const FrameChange& change) {
   boxes_ = change.boxes;
   ++age_;
   if (listed_) {
-    if (find_strays(change)) {
-      stray_boxes_.gather(executor_, boxes_, strays_.size(),
-                          [&](std::size_t i) { return strays_[i]; });
+    if (find_escaped(change)) {
+      escaped_boxes_.gather(executor_, boxes_, escaped_.size(),
+                            [&](std::size_t i) { return escaped_[i]; });
       return;
     }
     duration_.ended(age_, boxes_.size(), pairs_);
@@ -262,47 +248,47 @@ void VerletList::update(const FrameChange& change) {
 
 // Writes pairs of the escaped boxes first <= i < last with boxes that have not escaped, and with
 // escaped boxes after them.
-void VerletList::search_strays(std::size_t first, std::size_t last, RTreeScratch& scratch,
-                               PairBuffer& out) const {
+void VerletList::search_escaped(std::size_t first, std::size_t last, RTreeScratch& scratch,
+                                PairBuffer& out) const {
   for (std::size_t i = first; i < last; ++i) {
-    const std::uint32_t id = strays_[i];
-    const std::size_t found = list_overlaps(pyramid_, boxes_[id], scratch);
+    const std::uint32_t id = escaped_[i];
+    const std::size_t found = list_overlaps(tree_, boxes_[id], scratch);
     scratch.work.candidates += static_cast<std::int64_t>(found);
     for (std::size_t k = 0; k < found; ++k) {
       const std::uint32_t other = scratch.children[k];
-      if (strayed_[other] == 0 && overlap(boxes_[other], boxes_[id])) out.push(id, other);
+      if (escaped_flag_[other] == 0 && overlap(boxes_[other], boxes_[id])) out.push(id, other);
     }
   }
-  const std::array columns{IndexRange{0, strays_.size()}};
-  scan_boxes(stray_boxes_, {first, last}, columns, out);
+  const std::array columns{IndexRange{0, escaped_.size()}};
+  scan_boxes(escaped_boxes_, {first, last}, columns, out);
 }
 
 Status VerletList::find_pairs(PairSink& sink) {
   if (!listed_) {
-    search_groups(sink);
+    search_all(sink);
     pairs_ = sink.size();
     return Status::ok;
   }
   const std::span<const PairBuffer> candidates = candidates_.chunks();
-  const std::size_t stray_tasks = block_count(strays_.size(), strays_a_task);
-  sink.start(candidates.size() + stray_tasks);
+  const std::size_t escaped_tasks = block_count(escaped_.size(), escaped_a_task);
+  sink.start(candidates.size() + escaped_tasks);
   const auto test = [&](std::size_t task, int worker) {
     PairBuffer& out = sink.chunk(task);
     if (task >= candidates.size()) {
-      const std::size_t first = (task - candidates.size()) * strays_a_task;
-      const std::size_t last = std::min(first + strays_a_task, strays_.size());
-      search_strays(first, last, scratch_[static_cast<std::size_t>(worker)], out);
-    } else if (strays_.empty()) {
+      const std::size_t first = (task - candidates.size()) * escaped_a_task;
+      const std::size_t last = std::min(first + escaped_a_task, escaped_.size());
+      search_escaped(first, last, scratch_[static_cast<std::size_t>(worker)], out);
+    } else if (escaped_.empty()) {
       write_overlapping(
           boxes_, candidates[task].pairs(), [](IndexPair) { return true; }, out);
     } else {
       const auto stayed = [&](IndexPair pair) {
-        return (strayed_[pair.a] | strayed_[pair.b]) == 0;
+        return (escaped_flag_[pair.a] | escaped_flag_[pair.b]) == 0;
       };
       write_overlapping(boxes_, candidates[task].pairs(), stayed, out);
     }
   };
-  executor_.run(candidates.size() + stray_tasks, std::cref(test));
+  executor_.run(candidates.size() + escaped_tasks, std::cref(test));
   pairs_ = sink.size();
   return Status::ok;
 }
@@ -313,20 +299,17 @@ BroadPhaseWork VerletList::work() const {
   std::size_t listed = 0;
   if (listed_) {
     for (const PairBuffer& chunk : candidates_.chunks()) listed += chunk.size();
-    search_strays(0, strays_.size(), scratch, pairs);
+    search_escaped(0, escaped_.size(), scratch, pairs);
     const std::size_t among =
-        strays_.size() * (strays_.size() - std::min<std::size_t>(1, strays_.size())) / 2;
+        escaped_.size() * (escaped_.size() - std::min<std::size_t>(1, escaped_.size())) / 2;
     listed += among;
     scratch.work.box_tests += scratch.work.candidates + static_cast<std::int64_t>(listed);
     scratch.work.candidates += static_cast<std::int64_t>(listed);
   } else {
-    for (std::size_t group = 0; group < groups(); ++group) {
-      pairs.clear();
-      pair_group(pyramid_, group, scratch, pairs);
-    }
+    count_groups(groups(), scratch, std::bind_front(pair_group, std::cref(tree_)));
   }
-  scratch.work.bytes = sum_held_bytes(order_, pyramid_, reference_, strayed_, strays_, stray_boxes_,
-                                      counts_, candidates_);
+  scratch.work.bytes = sum_held_bytes(order_, tree_, reference_, escaped_flag_, escaped_,
+                                      escaped_boxes_, counts_, candidates_);
   return scratch.work;
 }
 
@@ -339,7 +322,7 @@ std::vector<BroadPhaseEntry> broad_phase_verlet_list() {
   return {
       {.info = {.name = "verlet-list",
                 .citation = "Verlet, \"Computer 'Experiments' on Classical Fluids. I\", Physical "
-                            "Review 159, 1967; over a Hilbert pyramid"},
+                            "Review 159, 1967; over a packed R-tree"},
        .make = [](Executor& executor) { return std::make_unique<VerletList>(executor); }}};
 }
 

@@ -5,30 +5,30 @@
 // that box whose number is not below zero. The gap is along the axis times its length.
 template <class Scalar>
 struct LeastAxis {
-  using Real = typename RealLanes<Scalar>::Real;
-  Real gap, square;  // of the axis' length
-  Real measure;      // (gap / size)^2, of a face by rounding less
-  Real edge_a, edge_b;
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector gap, square;  // of the axis' length
+  Vector measure;      // (gap / size)^2, of a face by rounding less
+  Vector edge_a, edge_b;
 };
 
 // The measure of a face is lowered by more than rounding: where edges are square to a face their
 // axis is the face's, which has the better witness points.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_face(
-    const BoxProducts<Scalar>& seen, typename RealLanes<Scalar>::Real inverse_size) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+    const BoxProducts<Scalar>& seen, typename Simd<Scalar>::Vector inverse_size) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr Scalar as_good = 1 - 64 * GapError<Scalar>::u;
-  const Real none = Lanes::broadcast(-1);
-  Real greatest = seen.face_gaps[0], edge_a = Lanes::broadcast(0), edge_b = none;
+  const Vector none = Lanes::broadcast(-1);
+  Vector greatest = seen.face_gaps[0], edge_a = Lanes::broadcast(0), edge_b = none;
   for (int k = 1; k < 6; ++k) {
     const auto better = Lanes::less(greatest, seen.face_gaps[k]);
-    const Real number = Lanes::broadcast(static_cast<Scalar>(k % 3));
+    const Vector number = Lanes::broadcast(static_cast<Scalar>(k % 3));
     greatest = Lanes::max(seen.face_gaps[k], greatest);
     edge_a = Lanes::select(better, k < 3 ? number : none, edge_a);
     if (k >= 3) edge_b = Lanes::select(better, number, edge_b);
   }
-  const Real part = greatest * inverse_size;
+  const Vector part = greatest * inverse_size;
   return {greatest, Lanes::broadcast(1), as_good * part * part, edge_a, edge_b};
 }
 
@@ -36,14 +36,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_face(
 // range: of lanes that overlap no gap that counts is below 4 u 160 u of the size.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void take_less(const EdgeAxis<Scalar>& axis, int i, int j,
-                                                   typename RealLanes<Scalar>::Real inverse_size,
+                                                   typename Simd<Scalar>::Vector inverse_size,
                                                    LeastAxis<Scalar>& least) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real square = square_length<Scalar>(axis);
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector square = square_length<Scalar>(axis);
   const auto parallel = Lanes::less(square, Lanes::broadcast(GapError<Scalar>::parallel));
-  const Real counted = Lanes::select(parallel, Lanes::broadcast(0), square);
-  const Real part = axis.gap * inverse_size, measure = part * part;
+  const Vector counted = Lanes::select(parallel, Lanes::broadcast(0), square);
+  const Vector part = axis.gap * inverse_size, measure = part * part;
   const auto better = Lanes::less(measure * least.square, least.measure * counted);
   least.gap = Lanes::select(better, axis.gap, least.gap);
   least.square = Lanes::select(better, square, least.square);
@@ -57,11 +57,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void take_less(const EdgeAxis<Scalar>& axis,
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_axis(const BoxProducts<Scalar>& seen,
                                                                  Signs& signs) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real inverse_size = Lanes::broadcast(1) / seen.size;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector inverse_size = Lanes::broadcast(1) / seen.size;
   LeastAxis<Scalar> least = least_face<Scalar>(seen, inverse_size);
-  Real greatest = seen.face_gap;
+  Vector greatest = seen.face_gap;
   for (int i = 0; i < 3; ++i) {
     EdgeAxis<Scalar> axes[3];
     edge_axes<Scalar>(seen, i, axes);
@@ -71,17 +71,17 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_axis(const BoxProduc
     }
   }
   constexpr Scalar sure = 2 * GapError<Scalar>::fine;
-  signs.overlapping |= signs.open() & Lanes::bits(Lanes::less(greatest, Lanes::broadcast(0))) &
-                       Lanes::bits(Lanes::less(sure * sure * least.square, least.measure));
+  signs.overlapping |= signs.open() & Lanes::to_bits(Lanes::less(greatest, Lanes::broadcast(0))) &
+                       Lanes::to_bits(Lanes::less(sure * sure * least.square, least.measure));
   return least;
 }
 
 // Of three, the one whose number it is.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real pick(
-    typename RealLanes<Scalar>::Real number, typename RealLanes<Scalar>::Real zero,
-    typename RealLanes<Scalar>::Real one, typename RealLanes<Scalar>::Real two) {
-  using Lanes = RealLanes<Scalar>;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector pick(
+    typename Simd<Scalar>::Vector number, typename Simd<Scalar>::Vector zero,
+    typename Simd<Scalar>::Vector one, typename Simd<Scalar>::Vector two) {
+  using Lanes = Simd<Scalar>;
   const auto below_two = Lanes::less(number, Lanes::broadcast(Scalar(1.5)));
   const auto below_one = Lanes::less(number, Lanes::broadcast(Scalar(0.5)));
   return Lanes::select(below_one, zero, Lanes::select(below_two, one, two));
@@ -90,62 +90,62 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real pick(
 // Coordinates along the edges of a, from its centre. The points are those of least penetration.
 template <class Scalar>
 struct Contact {
-  using Real = typename RealLanes<Scalar>::Real;
-  Real depth, normal[3], on_a[3], on_b[3];
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector depth, normal[3], on_a[3], on_b[3];
 };
 
 // The lanes whose points are on their boxes.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned on_boxes(const BoxProducts<Scalar>& seen,
                                                       const Contact<Scalar>& contact) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   const auto& p = seen.products;
-  const Real room = GapError<Scalar>::coarse * seen.size;
-  Real outside = Lanes::broadcast(-1);
+  const Vector room = GapError<Scalar>::coarse * seen.size;
+  Vector outside = Lanes::broadcast(-1);
   for (int k = 0; k < 3; ++k) {
     outside = Lanes::max(outside, Lanes::abs(contact.on_a[k]) - seen.half_a[k]);
-    const Real along = (contact.on_b[0] - seen.offset_a[0]) * p[0][k] +
-                       (contact.on_b[1] - seen.offset_a[1]) * p[1][k] +
-                       (contact.on_b[2] - seen.offset_a[2]) * p[2][k];
+    const Vector along = (contact.on_b[0] - seen.offset_a[0]) * p[0][k] +
+                         (contact.on_b[1] - seen.offset_a[1]) * p[1][k] +
+                         (contact.on_b[2] - seen.offset_a[2]) * p[2][k];
     outside = Lanes::max(outside, Lanes::abs(along) - seen.half_b[k]);
   }
-  return Lanes::bits(Lanes::less(outside, room));
+  return Lanes::to_bits(Lanes::less(outside, room));
 }
 
 // Where a face meets what is parallel to it up to rounding, any corner may lie beside it. Goes from
 // the features of a to those of b and back, to the nearest point each time: these meet.
 template <class Scalar>
 TOUCHSTONE_TARGET void slide_together(const BoxProducts<Scalar>& seen, Contact<Scalar>& contact) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr int rounds = 8;
   const auto& p = seen.products;
-  const Real zero = Lanes::broadcast(0);
-  const Real room = GapError<Scalar>::coarse * seen.size;
-  const auto clamp = [](Real x, Real low, Real high)
+  const Vector zero = Lanes::broadcast(0);
+  const Vector room = GapError<Scalar>::coarse * seen.size;
+  const auto clamp = [](Vector x, Vector low, Vector high)
                          TOUCHSTONE_TARGET { return Lanes::min(Lanes::max(x, low), high); };
   // Between what the boxes' coordinates along their edges may be on their features.
-  Real low_a[3], high_a[3], low_b[3], high_b[3];
+  Vector low_a[3], high_a[3], low_b[3], high_b[3];
   for (int k = 0; k < 3; ++k) {
-    const Real along =
+    const Vector along =
         contact.normal[0] * p[0][k] + contact.normal[1] * p[1][k] + contact.normal[2] * p[2][k];
-    const Real a = contact.normal[k], half_a = seen.half_a[k], half_b = seen.half_b[k];
+    const Vector a = contact.normal[k], half_a = seen.half_a[k], half_b = seen.half_b[k];
     low_a[k] = Lanes::select(Lanes::less(room, half_a * a), half_a, -half_a);
     high_a[k] = Lanes::select(Lanes::less(half_a * a, -room), -half_a, half_a);
     low_b[k] = Lanes::select(Lanes::less(half_b * along, -room), half_b, -half_b);
     high_b[k] = Lanes::select(Lanes::less(room, half_b * along), -half_b, half_b);
   }
-  Real at_a[3];
+  Vector at_a[3];
   for (int k = 0; k < 3; ++k) at_a[k] = clamp(zero, low_a[k], high_a[k]);
   for (int round = 0; round < rounds; ++round) {
-    Real from[3];
+    Vector from[3];
     for (int k = 0; k < 3; ++k) {
       from[k] = at_a[k] - contact.depth * contact.normal[k] - seen.offset_a[k];
       contact.on_b[k] = seen.offset_a[k];
     }
     for (int k = 0; k < 3; ++k) {
-      const Real along =
+      const Vector along =
           clamp(from[0] * p[0][k] + from[1] * p[1][k] + from[2] * p[2][k], low_b[k], high_b[k]);
       for (int axis = 0; axis < 3; ++axis) contact.on_b[axis] += along * p[axis][k];
     }
@@ -162,13 +162,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
                                                            const LeastAxis<Scalar>& least,
                                                            unsigned overlapping,
                                                            Contact<Scalar>& contact) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
   const auto face_a = Lanes::less(least.edge_b, zero), face_b = Lanes::less(least.edge_a, zero);
   const auto& p = seen.products;
   auto& [depth, normal, on_a, on_b] = contact;
-  Real edge_a[3], edge_b[3];
+  Vector edge_a[3], edge_b[3];
   for (int k = 0; k < 3; ++k) {
     edge_a[k] =
         pick<Scalar>(least.edge_a, k == 0 ? one : zero, k == 1 ? one : zero, k == 2 ? one : zero);
@@ -176,39 +176,39 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
   }
   for (int k = 0; k < 3; ++k) {
     const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-    const Real across = edge_a[k1] * edge_b[k2] - edge_a[k2] * edge_b[k1];
+    const Vector across = edge_a[k1] * edge_b[k2] - edge_a[k2] * edge_b[k1];
     normal[k] = Lanes::select(face_a, edge_a[k], Lanes::select(face_b, edge_b[k], across));
   }
-  const Real square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-  const Real between =
+  const Vector square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  const Vector between =
       normal[0] * seen.offset_a[0] + normal[1] * seen.offset_a[1] + normal[2] * seen.offset_a[2];
-  const Real edges = Lanes::select(face_a, zero, Lanes::select(face_b, zero, one));
+  const Vector edges = Lanes::select(face_a, zero, Lanes::select(face_b, zero, one));
   const auto is_edges = Lanes::less(zero, edges);
-  Real inverse = one / Lanes::sqrt(square);
+  Vector inverse = one / Lanes::sqrt(square);
   depth = -least.gap * Lanes::select(is_edges, inverse, one);
-  const Real inverse_square = inverse * inverse;
+  const Vector inverse_square = inverse * inverse;
   inverse = Lanes::select(Lanes::less(between, zero), -inverse, inverse);
-  for (Real& x : normal) x = x * inverse;
+  for (Vector& x : normal) x = x * inverse;
 
   // The corner of each that is deepest in the other; of two edges, their middles.
   for (int k = 0; k < 3; ++k) {
-    const Real half = seen.half_a[k] - seen.half_a[k] * edges * edge_a[k];
+    const Vector half = seen.half_a[k] - seen.half_a[k] * edges * edge_a[k];
     on_a[k] = Lanes::select(Lanes::less(normal[k], zero), -half, half);
     on_b[k] = seen.offset_a[k];
   }
   for (int j = 0; j < 3; ++j) {
-    const Real along = normal[0] * p[0][j] + normal[1] * p[1][j] + normal[2] * p[2][j];
-    const Real free = pick<Scalar>(least.edge_b, j == 0 ? edges : zero, j == 1 ? edges : zero,
-                                   j == 2 ? edges : zero);
-    const Real half = seen.half_b[j] - seen.half_b[j] * free;
-    const Real reach = Lanes::select(Lanes::less(along, zero), half, -half);
+    const Vector along = normal[0] * p[0][j] + normal[1] * p[1][j] + normal[2] * p[2][j];
+    const Vector free = pick<Scalar>(least.edge_b, j == 0 ? edges : zero, j == 1 ? edges : zero,
+                                     j == 2 ? edges : zero);
+    const Vector half = seen.half_b[j] - seen.half_b[j] * free;
+    const Vector reach = Lanes::select(Lanes::less(along, zero), half, -half);
     for (int k = 0; k < 3; ++k) on_b[k] += reach * p[k][j];
   }
   // From the middles to where the lines of two edges are closest. What of edge b is across edge a
   // is taken by coordinate, and so keeps its digits where they are almost parallel.
-  Real slide_b = zero, slide_a = zero, cosine = zero;
+  Vector slide_b = zero, slide_a = zero, cosine = zero;
   for (int k = 0; k < 3; ++k) {
-    const Real from_a = on_b[k] - on_a[k];
+    const Vector from_a = on_b[k] - on_a[k];
     slide_b -= from_a * Lanes::select(Lanes::less(zero, edge_a[k]), zero, edge_b[k]);
     slide_a += from_a * edge_a[k];
     cosine += edge_a[k] * edge_b[k];
@@ -218,8 +218,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
   for (int k = 0; k < 3; ++k) {
     on_a[k] += slide_a * edge_a[k];
     on_b[k] += slide_b * edge_b[k];
-    const Real apart = depth * normal[k];
-    const Real moved_a = on_b[k] + apart, moved_b = on_a[k] - apart;
+    const Vector apart = depth * normal[k];
+    const Vector moved_a = on_b[k] + apart, moved_b = on_a[k] - apart;
     on_a[k] = Lanes::select(face_a, moved_a, on_a[k]);
     on_b[k] = Lanes::select(face_b, moved_b, on_b[k]);
   }
@@ -228,7 +228,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
   if ((overlapping & ~good) == 0) return overlapping;
   Contact<Scalar> slid = contact;
   slide_together<Scalar>(seen, slid);
-  const auto accepted = Lanes::mask(good);
+  const auto accepted = Lanes::from_bits(good);
   for (int k = 0; k < 3; ++k) {
     on_a[k] = Lanes::select(accepted, on_a[k], slid.on_a[k]);
     on_b[k] = Lanes::select(accepted, on_b[k], slid.on_b[k]);
@@ -238,8 +238,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
 }
 
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> to_world(
-    const Vectors<Scalar> columns[3], const typename RealLanes<Scalar>::Real v[3]) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> to_world(
+    const Vector3<Scalar> columns[3], const typename Simd<Scalar>::Vector v[3]) {
   return {columns[0].x * v[0] + columns[1].x * v[1] + columns[2].x * v[2],
           columns[0].y * v[0] + columns[1].y * v[1] + columns[2].y * v[2],
           columns[0].z * v[0] + columns[1].z * v[1] + columns[2].z * v[2]};
@@ -252,16 +252,16 @@ TOUCHSTONE_TARGET unsigned write_depths(const PairTable<Scalar>& table, std::siz
                                         const BoxColumns<Scalar>& boxes,
                                         const BoxProducts<Scalar>& seen,
                                         const LeastAxis<Scalar>& least, unsigned overlapping) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   Contact<Scalar> contact;
   overlapping = find_contacts<Scalar>(seen, least, overlapping, contact);
-  const Vectors<Scalar> normal = to_world<Scalar>(boxes.a, contact.normal);
-  const Vectors<Scalar> on_a = to_world<Scalar>(boxes.a, contact.on_a);
-  const Vectors<Scalar> on_b = to_world<Scalar>(boxes.a, contact.on_b);
+  const Vector3<Scalar> normal = to_world<Scalar>(boxes.a, contact.normal);
+  const Vector3<Scalar> on_a = to_world<Scalar>(boxes.a, contact.on_a);
+  const Vector3<Scalar> on_b = to_world<Scalar>(boxes.a, contact.on_b);
   // Any axis has a depth that is not less than the least; it takes all of them to know that.
-  const Real lower = -contact.depth - GapError<Scalar>::coarse * seen.size;
-  const Real upper = GapError<Scalar>::fine * seen.size - contact.depth;
+  const Vector lower = -contact.depth - GapError<Scalar>::coarse * seen.size;
+  const Vector upper = GapError<Scalar>::fine * seen.size - contact.depth;
   write_numbers<Scalar>(table, begin, overlapping,
                         {-contact.depth, lower, upper, normal, on_a, on_b});
   return overlapping;

@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-using real_lanes::Quad;
+using simd::Quad;
 
 // Forward bounds on what rounding does to a gap along an axis, as parts of the size of the pair:
 // the sum of the half extents and of the offset's coordinates. u is half an epsilon. A matrix is
@@ -40,8 +40,7 @@ struct GapError {
   static constexpr Scalar parallel = 16 * u * u;
 };
 
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/kernels/batch/box_pair_lanes.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/batch/box_pair_lanes.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace

@@ -6,33 +6,33 @@
 // A pair seen along the axes of each box: products[i][j] of edge i of a with edge j of b.
 template <class Scalar>
 struct BoxProducts {
-  using Real = typename RealLanes<Scalar>::Real;
-  Real products[3][3], offset_a[3], offset_b[3], half_a[3], half_b[3];
-  Real size;                    // the sum of the half extents and of the offset's coordinates
-  Real face_gaps[6], face_gap;  // along the face normals of a, then of b; the greatest
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector products[3][3], offset_a[3], offset_b[3], half_a[3], half_b[3];
+  Vector size;                    // the sum of the half extents and of the offset's coordinates
+  Vector face_gaps[6], face_gap;  // along the face normals of a, then of b; the greatest
 };
 
 // Greatest of the gaps along the edges of either box, as face normals, and what they are made of.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_along_faces(const BoxColumns<Scalar>& boxes,
                                                           BoxProducts<Scalar>& seen) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real half_a[3] = {boxes.half_a.x, boxes.half_a.y, boxes.half_a.z};
-  const Real half_b[3] = {boxes.half_b.x, boxes.half_b.y, boxes.half_b.z};
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector half_a[3] = {boxes.half_a.x, boxes.half_a.y, boxes.half_a.z};
+  const Vector half_b[3] = {boxes.half_b.x, boxes.half_b.y, boxes.half_b.z};
   for (int k = 0; k < 3; ++k) {
     seen.half_a[k] = half_a[k];
     seen.half_b[k] = half_b[k];
     seen.offset_a[k] = dot<Scalar>(boxes.a[k], boxes.offset);
     seen.offset_b[k] = dot<Scalar>(boxes.b[k], boxes.offset);
   }
-  Real* const gaps_b = seen.face_gaps + 3;
+  Vector* const gaps_b = seen.face_gaps + 3;
   for (int j = 0; j < 3; ++j) gaps_b[j] = Lanes::abs(seen.offset_b[j]) - half_b[j];
   for (int i = 0; i < 3; ++i) {
     seen.face_gaps[i] = Lanes::abs(seen.offset_a[i]) - half_a[i];
     for (int j = 0; j < 3; ++j) {
       seen.products[i][j] = dot<Scalar>(boxes.a[i], boxes.b[j]);
-      const Real cosine = Lanes::abs(seen.products[i][j]);
+      const Vector cosine = Lanes::abs(seen.products[i][j]);
       seen.face_gaps[i] -= half_b[j] * cosine;
       gaps_b[j] -= half_a[i] * cosine;
     }
@@ -43,24 +43,24 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_along_faces(const BoxColumns<Scala
 
 // The greatest gap along the products of two edges, each times the axis' length.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real look_along_edges(
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector look_along_edges(
     const BoxProducts<Scalar>& seen) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  Real cosines[3][3];
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  Vector cosines[3][3];
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) cosines[i][j] = Lanes::abs(seen.products[i][j]);
   }
-  Real greatest = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
+  Vector greatest = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       // The product of edge i of a with another edge of a is a third one, and so for b.
-      const Real between = Lanes::abs(seen.offset_a[i2] * seen.products[i1][j] -
-                                      seen.offset_a[i1] * seen.products[i2][j]);
-      const Real reach_a = seen.half_a[i1] * cosines[i2][j] + seen.half_a[i2] * cosines[i1][j];
-      const Real reach_b = seen.half_b[j1] * cosines[i][j2] + seen.half_b[j2] * cosines[i][j1];
+      const Vector between = Lanes::abs(seen.offset_a[i2] * seen.products[i1][j] -
+                                        seen.offset_a[i1] * seen.products[i2][j]);
+      const Vector reach_a = seen.half_a[i1] * cosines[i2][j] + seen.half_a[i2] * cosines[i1][j];
+      const Vector reach_b = seen.half_b[j1] * cosines[i][j2] + seen.half_b[j2] * cosines[i][j1];
       greatest = Lanes::max(greatest, between - (reach_a + reach_b));
     }
   }
@@ -72,11 +72,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real look_along_
 // are almost parallel.
 template <class Scalar>
 struct EdgeAxis {
-  typename RealLanes<Scalar>::Real first, second, gap;
+  typename Simd<Scalar>::Vector first, second, gap;
 };
 
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real square_length(
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector square_length(
     const EdgeAxis<Scalar>& axis) {
   return axis.first * axis.first + axis.second * axis.second;
 }
@@ -85,19 +85,19 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real square_leng
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void edge_axes(const BoxProducts<Scalar>& seen, int i,
                                                    EdgeAxis<Scalar> axes[3]) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
   const auto &first = seen.products[i1], &second = seen.products[i2];
   // How far edge j1 goes along the axis of edge j2, and that one along the axis of j1.
-  Real along[3];
+  Vector along[3];
   for (int j = 0; j < 3; ++j) {
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
     along[j] = Lanes::abs(first[j1] * second[j2] - second[j1] * first[j2]);
   }
   for (int j = 0; j < 3; ++j) {
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    Real gap = Lanes::abs(first[j] * seen.offset_a[i2] - second[j] * seen.offset_a[i1]);
+    Vector gap = Lanes::abs(first[j] * seen.offset_a[i2] - second[j] * seen.offset_a[i1]);
     gap -= seen.half_a[i1] * Lanes::abs(second[j]) + seen.half_a[i2] * Lanes::abs(first[j]);
     gap -= seen.half_b[j1] * along[j2] + seen.half_b[j2] * along[j1];
     axes[j] = {-second[j], first[j], gap};
@@ -115,40 +115,40 @@ struct Signs {
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge_by_edges(const BoxProducts<Scalar>& seen,
                                                         Signs& signs) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real error = GapError<Scalar>::coarse * seen.size;
-  const Real gap = look_along_edges<Scalar>(seen);
-  signs.apart |= signs.open() & Lanes::bits(Lanes::less(error, gap));
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector error = GapError<Scalar>::coarse * seen.size;
+  const Vector gap = look_along_edges<Scalar>(seen);
+  signs.apart |= signs.open() & Lanes::to_bits(Lanes::less(error, gap));
   signs.overlapping |=
-      signs.open() & Lanes::bits(Lanes::less(Lanes::max(seen.face_gap, gap), -error));
+      signs.open() & Lanes::to_bits(Lanes::less(Lanes::max(seen.face_gap, gap), -error));
 }
 
 // By all axes, and where that leaves a lane open by a second look at the edges, to `fine`.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, Signs& signs) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   if (signs.open() == 0) return;
   judge_by_edges<Scalar>(seen, signs);
   if (signs.open() == 0) return;
-  const Real error = GapError<Scalar>::fine * seen.size;
-  const Real parallel = Lanes::broadcast(GapError<Scalar>::parallel);
+  const Vector error = GapError<Scalar>::fine * seen.size;
+  const Vector parallel = Lanes::broadcast(GapError<Scalar>::parallel);
   unsigned apart = 0, open = 0;
   for (int i = 0; i < 3; ++i) {
     EdgeAxis<Scalar> axes[3];
     edge_axes<Scalar>(seen, i, axes);
     for (const EdgeAxis<Scalar>& axis : axes) {
       // No less than the axis' length.
-      const Real length = Lanes::abs(axis.first) + Lanes::abs(axis.second);
-      const Real most = error * length;
-      const unsigned counts = ~Lanes::bits(Lanes::less(square_length<Scalar>(axis), parallel));
-      apart |= Lanes::bits(Lanes::less(most, axis.gap)) & counts;
-      open |= ~Lanes::bits(Lanes::less(axis.gap, -most)) & counts;
+      const Vector length = Lanes::abs(axis.first) + Lanes::abs(axis.second);
+      const Vector most = error * length;
+      const unsigned counts = ~Lanes::to_bits(Lanes::less(square_length<Scalar>(axis), parallel));
+      apart |= Lanes::to_bits(Lanes::less(most, axis.gap)) & counts;
+      open |= ~Lanes::to_bits(Lanes::less(axis.gap, -most)) & counts;
     }
   }
   signs.apart |= signs.open() & apart;
-  signs.overlapping |= signs.open() & ~open & Lanes::bits(Lanes::less(seen.face_gap, -error));
+  signs.overlapping |= signs.open() & ~open & Lanes::to_bits(Lanes::less(seen.face_gap, -error));
 }
 
 // Lanes that may be answered: sizes that no product takes out of the scalar's range, and matrices
@@ -159,29 +159,29 @@ struct Usable {
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>& boxes,
                                                         BoxProducts<Scalar>& seen) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   const auto& [a, b, offset, half_a, half_b] = boxes;
-  const Real size_a = half_a.x + half_a.y + half_a.z, size_b = half_b.x + half_b.y + half_b.z;
-  const Real sizes = size_a + size_b;
+  const Vector size_a = half_a.x + half_a.y + half_a.z, size_b = half_b.x + half_b.y + half_b.z;
+  const Vector sizes = size_a + size_b;
   seen.size = sizes + Lanes::abs(offset.x) + Lanes::abs(offset.y) + Lanes::abs(offset.z);
   const unsigned sized = sized_lanes<Scalar>(sizes);
-  const Real squares_a[3] = {dot<Scalar>(a[0], a[0]), dot<Scalar>(a[1], a[1]),
-                             dot<Scalar>(a[2], a[2])};
-  const Real squares_b[3] = {dot<Scalar>(b[0], b[0]), dot<Scalar>(b[1], b[1]),
-                             dot<Scalar>(b[2], b[2])};
-  const Real trace_a = squares_a[0] + squares_a[1] + squares_a[2];
-  const Real trace_b = squares_b[0] + squares_b[1] + squares_b[2];
+  const Vector squares_a[3] = {dot<Scalar>(a[0], a[0]), dot<Scalar>(a[1], a[1]),
+                               dot<Scalar>(a[2], a[2])};
+  const Vector squares_b[3] = {dot<Scalar>(b[0], b[0]), dot<Scalar>(b[1], b[1]),
+                               dot<Scalar>(b[2], b[2])};
+  const Vector trace_a = squares_a[0] + squares_a[1] + squares_a[2];
+  const Vector trace_b = squares_b[0] + squares_b[1] + squares_b[2];
   // The root of the trace bounds what a matrix does to lengths, the sum of the half extents that of
   // their diagonal; (x + y)^2 <= 2 x^2 + 2 y^2.
-  const Real reach = Scalar(2.01) * (size_a * size_a * trace_a + size_b * size_b * trace_b);
+  const Vector reach = Scalar(2.01) * (size_a * size_a * trace_a + size_b * size_b * trace_b);
   // Squares of far shorter columns vanish, and are no bound.
-  const Real shortest = Lanes::broadcast(Scalar(1e-12));
-  const unsigned far = sized & Lanes::bits(Lanes::less(shortest, Lanes::min(trace_a, trace_b))) &
-                       Lanes::bits(Lanes::less(reach, dot<Scalar>(offset, offset)));
+  const Vector shortest = Lanes::broadcast(Scalar(1e-12));
+  const unsigned far = sized & Lanes::to_bits(Lanes::less(shortest, Lanes::min(trace_a, trace_b))) &
+                       Lanes::to_bits(Lanes::less(reach, dot<Scalar>(offset, offset)));
   if ((~far & ((1u << Lanes::width) - 1)) == 0) return {far, 0};
-  const Real one = Lanes::broadcast(1);
-  Real skew_a = Lanes::broadcast(0), skew_b = skew_a;
+  const Vector one = Lanes::broadcast(1);
+  Vector skew_a = Lanes::broadcast(0), skew_b = skew_a;
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
     skew_a = Lanes::max_abs(skew_a, squares_a[k] - one);
@@ -189,11 +189,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
     skew_a = Lanes::max_abs(skew_a, dot<Scalar>(a[k], a[next]));
     skew_b = Lanes::max_abs(skew_b, dot<Scalar>(b[k], b[next]));
   }
-  const Real skew = Lanes::max(skew_a, skew_b);
+  const Vector skew = Lanes::max(skew_a, skew_b);
   // The traces are there for infinities and what is not a number, which a maximum may lose.
   const unsigned orthonormal =
-      Lanes::bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
-      Lanes::bits(Lanes::less(trace_a + trace_b, Lanes::broadcast(8)));
+      Lanes::to_bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
+      Lanes::to_bits(Lanes::less(trace_a + trace_b, Lanes::broadcast(8)));
   return {far, sized & orthonormal & ~far};
 }
 
@@ -201,7 +201,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
 
 template <class Scalar, bool depth>
 TOUCHSTONE_TARGET std::size_t solve_task(const PairTable<Scalar> table) {
-  using Lanes = RealLanes<Scalar>;
+  using Lanes = Simd<Scalar>;
   std::size_t left = 0;
   const std::size_t count = table.pairs.first.size();
   BoxLoader<Scalar> loader(table);
@@ -213,8 +213,8 @@ TOUCHSTONE_TARGET std::size_t solve_task(const PairTable<Scalar> table) {
     Signs signs{usable.near, 0, 0};
     if (signs.near != 0) {
       look_along_faces<Scalar>(boxes, seen);
-      signs.apart = signs.near &
-                    Lanes::bits(Lanes::less(GapError<Scalar>::coarse * seen.size, seen.face_gap));
+      signs.apart = signs.near & Lanes::to_bits(Lanes::less(GapError<Scalar>::coarse * seen.size,
+                                                            seen.face_gap));
       // Where no face parts the boxes they are likely to overlap, and the least depth proves that
       // too. The order of proofs does not matter to the answer.
       const bool depth_first = depth && signs.apart == 0;

@@ -5,14 +5,14 @@
 // One pair a lane. Columns of the matrices, offset from a to b, half extents; metres, world axes.
 template <class Scalar>
 struct BoxColumns {
-  Vectors<Scalar> a[3], b[3], offset, half_a, half_b;
+  Vector3<Scalar> a[3], b[3], offset, half_a, half_b;
 };
 
 // Numbers in double are turned from rows into columns as they are loaded.
 template <class Scalar>
 class BoxLoader {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
 
  public:
   TOUCHSTONE_TARGET explicit BoxLoader(const PairTable<Scalar>& table) : table_(table) {}
@@ -21,7 +21,7 @@ class BoxLoader {
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(std::size_t begin, BoxColumns<Scalar>& boxes) {
     Group<Scalar> group;
     start_group<Scalar>(table_, begin, group);
-    Vectors<Scalar> centre_a, centre_b;
+    Vector3<Scalar> centre_a, centre_b;
     load_side(group.first, boxes.a, centre_a, boxes.half_a);
     load_side(group.second, boxes.b, centre_b, boxes.half_b);
     boxes.offset = {centre_b.x - centre_a.x, centre_b.y - centre_a.y, centre_b.z - centre_a.z};
@@ -29,15 +29,15 @@ class BoxLoader {
 
  private:
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load_side(const std::uint32_t* bodies,
-                                                     Vectors<Scalar> matrix[3],
-                                                     Vectors<Scalar>& centre,
-                                                     Vectors<Scalar>& half) const {
+                                                     Vector3<Scalar> matrix[3],
+                                                     Vector3<Scalar>& centre,
+                                                     Vector3<Scalar>& half) const {
     const Scalar *poses[Lanes::width], *shapes[Lanes::width];
     for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
       poses[lane] = reinterpret_cast<const Scalar*>(&table_.pairs.poses[bodies[lane]]);
       shapes[lane] = table_.shapes + std::size_t{4} * table_.pairs.shape_of[bodies[lane]];
     }
-    Real columns[4][4];
+    Vector columns[4][4];
     for (std::size_t quad = 0; quad < 3; ++quad) {
       columns_at(poses, columns[quad]);
       for (const Scalar*& pose : poses) pose += 4;
@@ -51,8 +51,8 @@ class BoxLoader {
   }
 
   TOUCHSTONE_TARGET static TOUCHSTONE_INLINE void columns_at(const Scalar* const* quads,
-                                                             Real columns[4]) {
-    for (std::size_t k = 0; k < 4; ++k) columns[k] = Lanes::join_at(quads + k);
+                                                             Vector columns[4]) {
+    for (std::size_t k = 0; k < 4; ++k) columns[k] = Lanes::concat_at(quads + k);
     Lanes::transpose(columns);
   }
 
@@ -65,7 +65,7 @@ class BoxLoader {
 // looked at.
 template <>
 class BoxLoader<float> {
-  using Lanes = RealLanes<float>;
+  using Lanes = Simd<float>;
 
  public:
   TOUCHSTONE_TARGET explicit BoxLoader(const PairTable<float>& table) : table_(table) {
@@ -75,7 +75,7 @@ class BoxLoader<float> {
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(std::size_t begin, BoxColumns<float>& boxes) {
     gather(side_by_side ? begin + Lanes::width : begin);
     const Rows& rows = rows_of(begin);
-    Lanes::Real columns[7][4];
+    Lanes::Vector columns[7][4];
     for (std::size_t k = 0; k < 7; ++k) {
       if constexpr (side_by_side) {
         placed_columns<float>(rows[k], columns[k]);

@@ -1,4 +1,4 @@
-// What loops over pairs of bodies, one pair a lane of real_lanes.h, are given and write.
+// What loops over pairs of bodies, one pair a lane of simd.h, are given and write.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 #include "algorithms/core/body_pairs.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
-#include "algorithms/kernels/simd/real_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 

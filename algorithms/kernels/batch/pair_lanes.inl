@@ -6,12 +6,12 @@
 template <class Scalar>
 struct Group {
   const std::uint32_t *first, *second;
-  std::uint32_t padded_first[RealLanes<Scalar>::width], padded_second[RealLanes<Scalar>::width];
+  std::uint32_t padded_first[Simd<Scalar>::width], padded_second[Simd<Scalar>::width];
 };
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void start_group(const PairTable<Scalar>& table,
                                                      std::size_t begin, Group<Scalar>& group) {
-  constexpr std::size_t width = RealLanes<Scalar>::width;
+  constexpr std::size_t width = Simd<Scalar>::width;
   const BodyPairs& pairs = table.pairs;
   group.first = pairs.first.data() + begin;
   group.second = pairs.second.data() + begin;
@@ -47,35 +47,35 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<Scalar> shape_quad(const PairTable<Scal
 
 // Sums of lengths that no product or square takes out of the range of a float.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned sized_lanes(typename RealLanes<Scalar>::Real size) {
-  using Lanes = RealLanes<Scalar>;
-  return Lanes::bits(Lanes::less(Lanes::broadcast(Scalar(1e-10)), size)) &
-         Lanes::bits(Lanes::less(size, Lanes::broadcast(Scalar(1e12))));
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned sized_lanes(typename Simd<Scalar>::Vector size) {
+  using Lanes = Simd<Scalar>;
+  return Lanes::to_bits(Lanes::less(Lanes::broadcast(Scalar(1e-10)), size)) &
+         Lanes::to_bits(Lanes::less(size, Lanes::broadcast(Scalar(1e12))));
 }
 
 // Lanes whose three vectors are orthonormal up to greatest_skew.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned orthonormal_lanes(const Vectors<Scalar> edges[3]) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  Real skew = Lanes::broadcast(0), trace = skew;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned orthonormal_lanes(const Vector3<Scalar> edges[3]) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  Vector skew = Lanes::broadcast(0), trace = skew;
   for (int k = 0; k < 3; ++k) {
-    const Real square = dot<Scalar>(edges[k], edges[k]);
+    const Vector square = dot<Scalar>(edges[k], edges[k]);
     trace = trace + square;
     skew = Lanes::max(skew, Lanes::abs(square - Lanes::broadcast(1)));
     skew = Lanes::max(skew, Lanes::abs(dot<Scalar>(edges[k], edges[(k + 1) % 3])));
   }
   // The trace is there for infinities and what is not a number, which a maximum may lose.
-  return Lanes::bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
-         Lanes::bits(Lanes::less(trace, Lanes::broadcast(4)));
+  return Lanes::to_bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
+         Lanes::to_bits(Lanes::less(trace, Lanes::broadcast(4)));
 }
 
 // Numbers of outcomes: the vectors in the axes of the world, the points as seen from the centre of
 // a; metres.
 template <class Scalar>
 struct Numbers {
-  typename RealLanes<Scalar>::Real distance, lower, upper;
-  Vectors<Scalar> normal, on_a, on_b;
+  typename Simd<Scalar>::Vector distance, lower, upper;
+  Vector3<Scalar> normal, on_a, on_b;
 };
 
 // Writes them to the outcomes of those lanes whose bit is set, of the pairs from `begin` on.
@@ -83,11 +83,11 @@ template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_numbers(const PairTable<Scalar>& table,
                                                        std::size_t begin, unsigned lanes,
                                                        const Numbers<Scalar>& numbers) {
-  using Lanes = RealLanes<Scalar>;
+  using Lanes = Simd<Scalar>;
   const auto& [distance, lower, upper, normal, on_a, on_b] = numbers;
-  typename Lanes::Real columns[3][4] = {{distance, lower, upper, normal.x},
-                                        {normal.y, normal.z, on_a.x, on_a.y},
-                                        {on_a.z, on_b.x, on_b.y, on_b.z}};
+  typename Lanes::Vector columns[3][4] = {{distance, lower, upper, normal.x},
+                                          {normal.y, normal.z, on_a.x, on_a.y},
+                                          {on_a.z, on_b.x, on_b.y, on_b.z}};
   alignas(64) Quad<Scalar> quads[3][Lanes::width];
   for (std::size_t k = 0; k < 3; ++k) quads_of<Scalar>(columns[k], quads[k]);
   const std::size_t count = table.pairs.first.size() - begin;
@@ -125,7 +125,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::size_t write_answers(const PairTable<Sc
                                                               std::size_t begin, unsigned apart,
                                                               unsigned overlapping,
                                                               std::size_t left) {
-  constexpr std::size_t width = RealLanes<Scalar>::width;
+  constexpr std::size_t width = Simd<Scalar>::width;
   const std::size_t end = std::min(width, table.pairs.first.size() - begin);
   const unsigned answered = apart | overlapping;
   if (end == width && (~answered & ((1u << width) - 1)) == 0) {

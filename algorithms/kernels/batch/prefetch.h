@@ -11,17 +11,17 @@ namespace touchstone {
 
 inline constexpr std::size_t cache_line = 64;  // bytes
 
-inline __attribute__((always_inline)) void fetch(const void* from, std::size_t bytes) {
+inline __attribute__((always_inline)) void prefetch(const void* from, std::size_t bytes) {
   const char* const begin = static_cast<const char*>(from);
   for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(begin + at);
 }
 
 // The first blocks of a hull: who reads those in turn is given the rest by the machine.
 template <class Scalar>
-inline __attribute__((always_inline)) void fetch_blocks(
+inline __attribute__((always_inline)) void prefetch_blocks(
     const hull_scan::VertexBlock<Scalar>* blocks, std::size_t count) {
   constexpr std::size_t most = 2048;  // bytes
-  fetch(blocks, std::min(count * sizeof *blocks, most));
+  prefetch(blocks, std::min(count * sizeof *blocks, most));
 }
 
 }  // namespace touchstone

@@ -39,11 +39,11 @@ class ShapePrefetch {
     if (!has_cells_) return;
     const std::size_t size = pairs_.first.size();
     if (pair + 3 < size) {
-      fetch_body(pairs_.first[pair + 3]);
-      fetch_body(pairs_.second[pair + 3]);
+      prefetch_body(pairs_.first[pair + 3]);
+      prefetch_body(pairs_.second[pair + 3]);
     }
     for (const Place& place : next_) {
-      if (place.cell != nullptr) place.shape->cells.fetch_blocks(*place.cell);
+      if (place.cell != nullptr) place.shape->cells.prefetch_blocks(*place.cell);
     }
     next_ = {};
     if (pair + 2 < size) find_cells(pairs_.first[pair + 2], pairs_.second[pair + 2]);
@@ -55,9 +55,9 @@ class ShapePrefetch {
     const typename SupportCubeMap<Scalar>::Cell* cell = nullptr;
   };
 
-  void fetch_body(std::uint32_t body) const {
-    fetch(&pairs_.poses[body], sizeof(Pose));
-    fetch(shapes_[pairs_.shape_of[body]], sizeof(SupportShape<Scalar>));
+  void prefetch_body(std::uint32_t body) const {
+    prefetch(&pairs_.poses[body], sizeof(Pose));
+    prefetch(shapes_[pairs_.shape_of[body]], sizeof(SupportShape<Scalar>));
   }
 
   void find_cells(std::uint32_t first, std::uint32_t second) {

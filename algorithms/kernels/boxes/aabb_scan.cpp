@@ -2,20 +2,21 @@
 
 #include <algorithm>
 
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/aabb_simd.h"
 
 namespace touchstone {
 namespace {
 
-using box_lanes::Columns;
-using box_lanes::columns_of;
+using aabb_simd::Columns;
+using aabb_simd::columns_of;
 
 struct Marks {
   const std::uint32_t* marks;
   const std::uint32_t* wants;
 };
 
-#define TOUCHSTONE_LOOPS "algorithms/kernels/boxes/aabb_scan.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/boxes/aabb_scan.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The loops of box_scan.h. Included by box_scan.cpp once for each level of vector instructions,
-// inside that level's namespace: `Lanes` are its vectors, TOUCHSTONE_TARGET its attribute.
+// The loops of aabb_scan.h. aabb_scan.cpp includes this file once for each level of vector
+// instructions, inside that level's namespace.
 
 TOUCHSTONE_TARGET inline std::size_t first_column(std::size_t row, IndexRange columns) {
   return columns.first <= row && row < columns.last ? row + 1 : columns.first;
@@ -10,10 +10,10 @@ TOUCHSTONE_TARGET inline void write(unsigned lanes, std::size_t i, std::size_t j
                                     const Columns& boxes, const Marks& marks, PairBuffer& out) {
   if (lanes == 0) return;
   if constexpr (marked) {
-    lanes &= Lanes::holding(marks.marks + j, marks.wants[i]);
+    lanes &= Lanes::test(marks.marks + j, marks.wants[i]);
     if (lanes == 0) return;
   }
-  Lanes::write(lanes, boxes.ids[i], boxes.ids + j, out);
+  PairWriter::write(lanes, boxes.ids[i], boxes.ids + j, out);
 }
 
 template <bool marked>
@@ -68,14 +68,14 @@ TOUCHSTONE_TARGET inline void sweep_rows(const Columns& boxes, int axis, const M
         if (j >= end) break;
       }
       // min[i] <= min[j] <= max[j]: on this axis one comparison decides.
-      const Lanes::Test near = Lanes::less_equal(Lanes::load(turned.min[0] + j), row.max[0]);
-      const Lanes::Test test = overlap_on(overlap_on(near, row, turned, 1, j), row, turned, 2, j);
-      unsigned lanes = Lanes::bits(test);
+      const Lanes::Mask near = Lanes::less_equal(Lanes::load(turned.min[0] + j), row.max[0]);
+      const Lanes::Mask test = overlap_on(overlap_on(near, row, turned, 1, j), row, turned, 2, j);
+      unsigned lanes = Lanes::to_bits(test);
       if constexpr (marked) {
         if (end - j < width) lanes &= (1u << (end - j)) - 1;
       }
       write<marked>(lanes, i, j, turned, marks, out);
-      if (Lanes::bits(near) != all) break;
+      if (Lanes::to_bits(near) != all) break;
     }
   }
 }

@@ -3,39 +3,28 @@
 #include <algorithm>
 #include <limits>
 
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/aabb_simd.h"
 
 namespace touchstone {
 namespace {
 
-using box_lanes::Columns;
-using box_lanes::columns_of;
+using aabb_simd::Columns;
+using aabb_simd::columns_of;
+using aabb_simd::first_lanes;
+using aabb_simd::mutable_columns_of;
+using aabb_simd::MutableColumns;
 
-struct Places {
-  float* min[3];
-  float* max[3];
-  std::uint32_t* ids;
-};
-
-Columns columns_of_list(const AabbStack& list) {
-  return {
-      {list.min(0), list.min(1), list.min(2)}, {list.max(0), list.max(1), list.max(2)}, list.ids()};
-}
-Places places_of(AabbStack& list) {
-  return {
-      {list.min(0), list.min(1), list.min(2)}, {list.max(0), list.max(1), list.max(2)}, list.ids()};
-}
-
-#define TOUCHSTONE_LOOPS "algorithms/kernels/boxes/aabb_stack.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/boxes/aabb_stack.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 std::size_t append_to(AabbStack& list, const Aabb& bound, const Columns& from, IndexRange range) {
+  const MutableColumns to = mutable_columns_of(list);
   switch (isa()) {
-    case Isa::avx512: return avx512::append(bound, from, range, places_of(list), list.end());
-    case Isa::avx2: return avx2::append(bound, from, range, places_of(list), list.end());
-    case Isa::baseline: return baseline::append(bound, from, range, places_of(list), list.end());
+    case Isa::avx512: return avx512::append(bound, from, range, to, list.end());
+    case Isa::avx2: return avx2::append(bound, from, range, to, list.end());
+    default: return baseline::append(bound, from, range, to, list.end());
   }
-  return list.end();
 }
 
 }  // namespace
@@ -70,14 +59,14 @@ void AabbStack::append(const Aabb& bound, const AabbSoA& from, IndexRange range)
 
 void AabbStack::append(const Aabb& bound, IndexRange range) {
   reserve(range.last - range.first);
-  end_ = append_to(*this, bound, columns_of_list(*this), range);
+  end_ = append_to(*this, bound, columns_of(*this), range);
   close();
 }
 
 void pair_rows(const AabbSoA& boxes, IndexRange rows, std::size_t end, const AabbStack& list,
                IndexRange columns, PairBuffer& out) {
   const Columns own = columns_of(boxes);
-  const Columns others = columns_of_list(list);
+  const Columns others = columns_of(list);
   switch (isa()) {
     case Isa::avx512: return avx512::pair(own, rows, end, others, columns, out);
     case Isa::avx2: return avx2::pair(own, rows, end, others, columns, out);

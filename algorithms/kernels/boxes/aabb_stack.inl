@@ -1,24 +1,13 @@
-// The loops of box_list.h. Included by box_list.cpp once for each level of vector instructions,
-// inside that level's namespace.
-
-// The first `count` of 16, all where there are more.
-inline unsigned first_lanes(std::size_t count) { return count < 16 ? (1u << count) - 1 : 0xffffu; }
+// The loops of aabb_stack.h. aabb_stack.cpp includes this file once for each level of vector
+// instructions, inside that level's namespace.
 
 TOUCHSTONE_TARGET std::size_t append(const Aabb& bound, const Columns from, IndexRange range,
-                                     const Places to, std::size_t end) {
-  Row row;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    row.min[axis] = Lanes::broadcast(bound.min[axis]);
-    row.max[axis] = Lanes::broadcast(bound.max[axis]);
-  }
+                                     const MutableColumns to, std::size_t end) {
+  const Row row = row_of(bound);
   for (std::size_t j = range.first; j < range.last; j += 16) {
-    const unsigned lanes = overlaps16(row, from, j) & first_lanes(range.last - j);
-    if (lanes == 0) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      Lanes::compress(lanes, from.min[axis] + j, to.min[axis] + end);
-      Lanes::compress(lanes, from.max[axis] + j, to.max[axis] + end);
-    }
-    end += Lanes::compress(lanes, from.ids + j, to.ids + end);
+    const unsigned bits = overlaps16(row, from, j) & first_lanes(range.last - j);
+    if (bits == 0) continue;
+    end += compress_boxes(bits, from, j, to, end);
   }
   return end;
 }
@@ -29,11 +18,11 @@ TOUCHSTONE_TARGET void pair(const Columns boxes, IndexRange rows, std::size_t en
     const Row row = load_row(boxes, i);
     const std::uint32_t id = boxes.ids[i];
     for (std::size_t j = columns.first; j < columns.last; j += 16) {
-      Lanes::write(overlaps16(row, list, j), id, list.ids + j, out);
+      PairWriter::write(overlaps16(row, list, j), id, list.ids + j, out);
     }
     for (std::size_t j = i + 1; j < end; j += 16) {
-      const unsigned lanes = overlaps16(row, boxes, j) & first_lanes(end - j);
-      Lanes::write(lanes, id, boxes.ids + j, out);
+      const unsigned bits = overlaps16(row, boxes, j) & first_lanes(end - j);
+      PairWriter::write(bits, id, boxes.ids + j, out);
     }
   }
 }

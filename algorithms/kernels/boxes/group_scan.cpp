@@ -3,33 +3,35 @@
 #include <algorithm>
 #include <utility>
 
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/aabb_simd.h"
 
 namespace touchstone {
 namespace {
 
-using box_lanes::Columns;
-using box_lanes::columns_of;
+using aabb_simd::Columns;
+using aabb_simd::columns_of;
+using aabb_simd::first_lanes;
 
-#define TOUCHSTONE_LOOPS "algorithms/kernels/boxes/group_scan.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/boxes/group_scan.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 // The least of some numbers and the greatest of as many others. Four at a time; the last four may
 // have been there before.
 std::pair<float, float> ends_of(const float* low, const float* high, std::size_t count) {
-  using Four = box_lanes::baseline::Lanes;
+  using Four = simd::baseline::Simd<float>;
   if (count < Four::width)
     return {*std::min_element(low, low + count), *std::max_element(high, high + count)};
-  Four::Floats least = Four::load(low);
-  Four::Floats greatest = Four::load(high);
+  Four::Vector least = Four::load(low);
+  Four::Vector greatest = Four::load(high);
   for (std::size_t i = Four::width; i < count; i += Four::width) {
     const std::size_t at = std::min(i, count - Four::width);
-    const Four::Floats l = Four::load(low + at);
-    const Four::Floats h = Four::load(high + at);
+    const Four::Vector l = Four::load(low + at);
+    const Four::Vector h = Four::load(high + at);
     least = l < least ? l : least;
     greatest = h > greatest ? h : greatest;
   }
-  return {box_lanes::least4(least), box_lanes::greatest4(greatest)};
+  return {simd::reduce_min4(least), simd::reduce_max4(greatest)};
 }
 
 }  // namespace
@@ -48,14 +50,15 @@ Aabb bounds_of(const AabbSoA& boxes, IndexRange range) {
 
 void scan_group(const AabbSoA& boxes, IndexRange group, const Aabb& bounds,
                 std::span<const IndexRange> others, GroupScratch& scratch, PairBuffer& out) {
-  std::int64_t near = 0;
-  std::uint32_t* const list = scratch.near.data();
   const Columns columns = columns_of(boxes);
-  switch (isa()) {
-    case Isa::avx512: avx512::scan(columns, group, bounds, others, list, near, out); break;
-    case Isa::avx2: avx2::scan(columns, group, bounds, others, list, near, out); break;
-    case Isa::baseline: baseline::scan(columns, group, bounds, others, list, near, out); break;
-  }
+  const auto scan = [&] {
+    switch (isa()) {
+      case Isa::avx512: return avx512::scan(columns, group, bounds, others, scratch.near, out);
+      case Isa::avx2: return avx2::scan(columns, group, bounds, others, scratch.near, out);
+      default: return baseline::scan(columns, group, bounds, others, scratch.near, out);
+    }
+  };
+  const auto near = static_cast<std::int64_t>(scan());
   const auto size = static_cast<std::int64_t>(group.last - group.first);
   const std::int64_t candidates = near * size + size * (size - 1) / 2;
   scratch.work.candidates += candidates;

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <functional>
 
-#include "algorithms/core/isa.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
@@ -21,34 +21,8 @@ struct Numbering {
   std::array<float, 3> low, scale;
 };
 
-namespace baseline {
-#define TOUCHSTONE_TARGET
-#define TOUCHSTONE_LANES 4
-#include "algorithms/kernels/bvh/hilbert.inl"
-#undef TOUCHSTONE_LANES
-#undef TOUCHSTONE_TARGET
-}  // namespace baseline
-
-#if defined(__x86_64__)
-namespace avx2 {
-#define TOUCHSTONE_TARGET __attribute__((target("avx2")))
-#define TOUCHSTONE_LANES 8
-#include "algorithms/kernels/bvh/hilbert.inl"
-#undef TOUCHSTONE_LANES
-#undef TOUCHSTONE_TARGET
-}  // namespace avx2
-
-namespace avx512 {
-#define TOUCHSTONE_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
-#define TOUCHSTONE_LANES 16
-#include "algorithms/kernels/bvh/hilbert.inl"
-#undef TOUCHSTONE_LANES
-#undef TOUCHSTONE_TARGET
-}  // namespace avx512
-#else
-namespace avx2 = baseline;
-namespace avx512 = baseline;
-#endif
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/hilbert.inl"
+#include "algorithms/kernels/simd/foreach_target.inl"
 
 auto places_of_level() {
   switch (isa()) {

@@ -1,10 +1,9 @@
 // The loops of hilbert.h. Included by hilbert.cpp once for each level of vector instructions,
-// inside that level's namespace, with TOUCHSTONE_TARGET set to its attribute and TOUCHSTONE_LANES
-// to the width of its vectors. No sums of products: the codes are the same at every level.
+// inside that level's namespace. No sums of products: the codes are the same at every level.
 //
 // Vectors are changed in place: none is passed by value, for how that is done depends on the level.
 
-constexpr std::size_t lanes = TOUCHSTONE_LANES;
+constexpr std::size_t lanes = Simd<float>::width;
 using Integers = std::uint32_t __attribute__((vector_size(4 * lanes)));
 using Signed = std::int32_t __attribute__((vector_size(4 * lanes)));
 using Floats = float __attribute__((vector_size(4 * lanes)));

@@ -2,24 +2,19 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include "algorithms/core/parallel_blocks.h"
-#include "algorithms/kernels/boxes/aabb_lanes.h"
+#include "algorithms/kernels/boxes/aabb_simd.h"
 
 namespace touchstone {
 namespace {
 
-using box_lanes::Columns;
-using box_lanes::columns_of;
+using aabb_simd::Columns;
+using aabb_simd::columns_of;
+using aabb_simd::first_lanes;
+using aabb_simd::MutableColumns;
 
 constexpr std::size_t fan = ImplicitRTree::fan;
-
-Columns columns_of(const ListedBoxes& list) {
-  return {{list.extent(0), list.extent(1), list.extent(2)},
-          {list.extent(3), list.extent(4), list.extent(5)},
-          list.ids()};
-}
 
 // How many nodes of a level of this size, not before `from`, the parents have.
 std::size_t children_of(const std::vector<std::uint32_t>& parents, std::size_t count,
@@ -32,7 +27,8 @@ std::size_t children_of(const std::vector<std::uint32_t>& parents, std::size_t c
   return children;
 }
 
-#define TOUCHSTONE_LOOPS "algorithms/kernels/bvh/implicit_rtree.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/implicit_rtree.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 // The bounds of each 16 of `below`, which is padded with empty boxes.
@@ -80,33 +76,20 @@ std::size_t ImplicitRTree::held_bytes() const {
   return bytes;
 }
 
-void ListedBoxes::grow(std::size_t more) {
-  const std::size_t capacity = std::max(size_ + more + AabbSoA::padding, 2 * capacity_);
-  auto extents = std::make_unique_for_overwrite<float[]>(6 * capacity);
-  auto ids = std::make_unique_for_overwrite<std::uint32_t[]>(capacity);
-  for (std::size_t i = 0; i < 6; ++i) {
-    std::copy_n(extents_.get() + i * capacity_, size_, extents.get() + i * capacity);
-  }
-  std::copy_n(ids_.get(), size_, ids.get());
-  extents_ = std::move(extents);
-  ids_ = std::move(ids);
-  capacity_ = capacity;
-}
-
-void pair_group(const ImplicitRTree& pyramid, std::size_t group, RTreeScratch& scratch,
+void pair_group(const ImplicitRTree& tree, std::size_t group, RTreeScratch& scratch,
                 PairBuffer& out) {
   switch (isa()) {
-    case Isa::avx512: return avx512::search(pyramid, group, scratch, out);
-    case Isa::avx2: return avx2::search(pyramid, group, scratch, out);
-    case Isa::baseline: return baseline::search(pyramid, group, scratch, out);
+    case Isa::avx512: return avx512::search(tree, group, scratch, out);
+    case Isa::avx2: return avx2::search(tree, group, scratch, out);
+    case Isa::baseline: return baseline::search(tree, group, scratch, out);
   }
 }
 
-std::size_t list_overlaps(const ImplicitRTree& pyramid, const Aabb& box, RTreeScratch& scratch) {
+std::size_t list_overlaps(const ImplicitRTree& tree, const Aabb& box, RTreeScratch& scratch) {
   switch (isa()) {
-    case Isa::avx512: return avx512::list(pyramid, box, scratch);
-    case Isa::avx2: return avx2::list(pyramid, box, scratch);
-    default: return baseline::list(pyramid, box, scratch);
+    case Isa::avx512: return avx512::list(tree, box, scratch);
+    case Isa::avx2: return avx2::list(tree, box, scratch);
+    default: return baseline::list(tree, box, scratch);
   }
 }
 

@@ -6,10 +6,8 @@
 // There may be empty boxes among them, to fill up blocks; they overlap nothing.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,6 +15,8 @@
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
+#include "algorithms/kernels/boxes/aabb_stack.h"
+#include "algorithms/kernels/boxes/group_search.h"
 
 namespace touchstone {
 
@@ -47,48 +47,21 @@ class ImplicitRTree {
   std::size_t used_ = 1;
 };
 
-// A list of boxes that vectors are written to the end of; those behind the last one are undefined.
-// Keeps its memory.
-class ListedBoxes {
- public:
-  void clear() { size_ = 0; }
-  std::size_t size() const { return size_; }
-  // Room for `more` boxes, and a vector's width, behind the last one.
-  void reserve(std::size_t more) {
-    if (capacity_ < size_ + more + AabbSoA::padding) grow(more);
-  }
-  void advance(std::size_t written) { size_ += written; }
-
-  float* extent(std::size_t index) { return extents_.get() + index * capacity_; }  // min, then max
-  const float* extent(std::size_t index) const { return extents_.get() + index * capacity_; }
-  std::uint32_t* ids() { return ids_.get(); }
-  const std::uint32_t* ids() const { return ids_.get(); }
-
- private:
-  void grow(std::size_t more);
-
-  std::unique_ptr<float[]> extents_;
-  std::unique_ptr<std::uint32_t[]> ids_;
-  std::size_t size_ = 0;
-  std::size_t capacity_ = 0;
-};
-
 // What a search lists, and what it counts. One a worker.
 struct RTreeScratch {
   std::vector<std::uint32_t> nodes, children;  // of two levels, one below the other
-  ListedBoxes near;                            // blocks near the group, by their bounds and numbers
-  static constexpr std::size_t most_partners = 512;   // that are paired at once
-  std::array<std::uint32_t, most_partners> partners;  // places of boxes near a block
+  AabbStack blocks;                            // near the group: their bounds and numbers
+  NearList near;
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 
 // Writes the ids of each pair of boxes that overlap, one of them in this group, the other in the
 // same block or in one behind it: each pair once over all groups. A pair of boxes of different
 // sizes costs least when the smaller one comes first.
-void pair_group(const ImplicitRTree& pyramid, std::size_t group, RTreeScratch& scratch,
+void pair_group(const ImplicitRTree& tree, std::size_t group, RTreeScratch& scratch,
                 PairBuffer& out);
 
 // The ids of the boxes that overlap this one, into scratch.children; how many.
-std::size_t list_overlaps(const ImplicitRTree& pyramid, const Aabb& box, RTreeScratch& scratch);
+std::size_t list_overlaps(const ImplicitRTree& tree, const Aabb& box, RTreeScratch& scratch);
 
 }  // namespace touchstone

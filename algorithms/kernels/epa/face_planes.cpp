@@ -8,12 +8,12 @@
 
 #include "algorithms/core/isa.h"
 #include "algorithms/kernels/minkowski/simplex.h"
-#include "algorithms/kernels/simd/real_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone::face_planes {
 namespace {
 
-using real_lanes::Quad;
+using simd::Quad;
 
 // Rounding r of the corners tilts a plane by r / h, where h is the triangle's least height. The
 // nearest point moves accordingly, and its distance changes by r^2 / h^2. That is a sixteenth of
@@ -21,8 +21,7 @@ using real_lanes::Quad;
 template <class Scalar>
 constexpr Scalar uncertain = 16 * SupportPair<Scalar>::rounding;
 
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/kernels/epa/face_planes.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/epa/face_planes.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace
@@ -55,7 +54,7 @@ template <class Scalar>
 bool planes_through(const Cone<Scalar>& cone, Scalar inside, Scalar furthest,
                     ConePlanes<Scalar>& planes) {
   // Rings are short: with more than eight lanes most would be empty.
-  constexpr bool is_wide = avx2::RealLanes<Scalar>::width >= 8;
+  constexpr bool is_wide = avx2::Simd<Scalar>::width >= 8;
   const Isa level = isa();
   switch (is_wide && level == Isa::avx512 ? Isa::avx2 : level) {
     case Isa::avx512: return avx512::planes_through_at(cone, inside, furthest, planes);

@@ -5,7 +5,7 @@
 namespace touchstone {
 namespace {
 
-struct AnyCores {
+struct GenericCores {
   static constexpr bool start_warm = true;
 
   template <class Scalar>
@@ -13,23 +13,24 @@ struct AnyCores {
     return pair.support(direction);
   }
   template <class Scalar>
-  static Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
-                           const WalkStart<Scalar>& start) {
-    return touchstone::walk(pair, goal, tolerance, start);
+  static FastGjkResult<Scalar> fast_gjk(SupportPair<Scalar>& pair, const FastGjkGoal& goal,
+                                        Scalar tolerance, const FastGjkStart<Scalar>& start) {
+    return touchstone::fast_gjk(pair, goal, tolerance, start);
   }
 };
 
 }  // namespace
 
 template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                          const WarmStart* start) {
-  return approach_by<AnyCores>(pair, goal, start);
+GjkDistanceResult<Scalar> gjk_distance(SupportPair<Scalar>& pair,
+                                       const GjkDistanceGoal<Scalar>& goal,
+                                       const WarmStart* start) {
+  return gjk_distance_by<GenericCores>(pair, goal, start);
 }
 
-template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
-                                  const WarmStart*);
-template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
-                                   const WarmStart*);
+template GjkDistanceResult<float> gjk_distance(SupportPair<float>&, const GjkDistanceGoal<float>&,
+                                               const WarmStart*);
+template GjkDistanceResult<double> gjk_distance(SupportPair<double>&,
+                                                const GjkDistanceGoal<double>&, const WarmStart*);
 
 }  // namespace touchstone

@@ -35,7 +35,7 @@ namespace touchstone {
 enum class Momentum : std::uint8_t { none, nesterov, where_it_pays };
 
 template <class Scalar>
-struct ApproachGoal {
+struct GjkDistanceGoal {
   Task task = Task::intersect;
   Scalar tolerance = 0;                    // of the distance, in the pair's unit
   std::optional<double> duality_gap = {};  // square metres; replaces the tolerance
@@ -55,7 +55,7 @@ struct ApproachGoal {
 
 // Bounds on the distance between the cores, in the pair's unit.
 template <class Scalar>
-struct Approach {
+struct GjkDistanceResult {
   enum class End {
     decided,    // the bounds suffice for the task
     contact,    // the origin is inside the simplex, or on it up to rounding
@@ -68,34 +68,38 @@ struct Approach {
   Scalar lower = 0;
   Scalar upper = std::numeric_limits<Scalar>::infinity();
   Vec3<Scalar> direction = Vec3<Scalar>::Zero();  // unit normal of the last plane; zero: none
-  bool as_before = false;                         // the previous frame's result sufficed
+  bool warm_hit = false;                          // the previous frame's result sufficed
   int iterations = 0;
 };
 
 // `start`: result of the previous frame, or null.
 template <class Scalar>
-Approach<Scalar> approach(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                          const WarmStart* start = nullptr);
+GjkDistanceResult<Scalar> gjk_distance(SupportPair<Scalar>& pair,
+                                       const GjkDistanceGoal<Scalar>& goal,
+                                       const WarmStart* start = nullptr);
 
 template <class Scalar>
-using ApproachFunction = Approach<Scalar> (*)(SupportPair<Scalar>&, const ApproachGoal<Scalar>&,
-                                              const WarmStart*);
+using GjkDistanceFunction = GjkDistanceResult<Scalar> (*)(SupportPair<Scalar>&,
+                                                          const GjkDistanceGoal<Scalar>&,
+                                                          const WarmStart*);
 
-extern template Approach<float> approach(SupportPair<float>&, const ApproachGoal<float>&,
-                                         const WarmStart*);
-extern template Approach<double> approach(SupportPair<double>&, const ApproachGoal<double>&,
-                                          const WarmStart*);
+extern template GjkDistanceResult<float> gjk_distance(SupportPair<float>&,
+                                                      const GjkDistanceGoal<float>&,
+                                                      const WarmStart*);
+extern template GjkDistanceResult<double> gjk_distance(SupportPair<double>&,
+                                                       const GjkDistanceGoal<double>&,
+                                                       const WarmStart*);
 
 // The functions that iterate between two cores; by default those for any cores.
 template <class Scalar>
-struct CoreWalks {
-  ApproachFunction<Scalar> approach = touchstone::approach<Scalar>;
-  WalkFunction<Scalar> walk = touchstone::walk<Scalar>;
+struct CoreFunctions {
+  GjkDistanceFunction<Scalar> gjk_distance = touchstone::gjk_distance<Scalar>;
+  FastGjkFunction<Scalar> fast_gjk = touchstone::fast_gjk<Scalar>;
 };
 
 // Distance of the simplex's nearest point from the origin, computed from its weights.
 template <class Scalar>
-Scalar off_core(const Simplex<Scalar>& simplex) {
+Scalar distance_from_origin(const Simplex<Scalar>& simplex) {
   Vec3<Scalar> sum = Vec3<Scalar>::Zero();
   for (int i = 0; i < simplex.size; ++i) sum += simplex.weights[i] * simplex.points[i].difference;
   return sum.norm();

@@ -15,8 +15,8 @@ namespace {
 // Sets the end from the simplex's nearest point. Returns true if the cores share a point, up to
 // rounding.
 template <class Scalar>
-bool is_contact(Approach<Scalar>& found) {
-  using End = typename Approach<Scalar>::End;
+bool is_contact(GjkDistanceResult<Scalar>& found) {
+  using End = typename GjkDistanceResult<Scalar>::End;
   found.upper = 0;
   found.end = End::contact;
   if (found.nearest.inside || !(found.nearest.distance > SupportPair<Scalar>::rounding))
@@ -27,33 +27,33 @@ bool is_contact(Approach<Scalar>& found) {
 }
 
 template <class Scalar>
-void take_inside(Approach<Scalar>& found) {
+void take_inside(GjkDistanceResult<Scalar>& found) {
   found.upper = 0;
-  found.end = Approach<Scalar>::End::contact;
+  found.end = GjkDistanceResult<Scalar>::End::contact;
   found.nearest.inside = true;
   found.nearest.distance = 2 * SupportPair<Scalar>::rounding;  // a lower bound
 }
 
 // Returns true if the plane with this normal, from a to b, suffices.
 template <class Scalar>
-bool plane_decides(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                   const Vec3<Scalar>& normal, Approach<Scalar>& found) {
+bool plane_decides(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal,
+                   const Vec3<Scalar>& normal, GjkDistanceResult<Scalar>& found) {
   ++found.iterations;
-  found.lower = gap_along(pair, normal);
+  found.lower = separation_along(pair, normal);
   found.direction = normal;
   if (!(found.lower - pair.radius() > SupportPair<Scalar>::rounding)) return false;
   if (goal.task == Task::distance && goal.is_open(pair, found.nearest.distance, found.lower)) {
     return false;
   }
-  found.end = Approach<Scalar>::End::decided;
+  found.end = GjkDistanceResult<Scalar>::End::decided;
   return true;
 }
 
 // Returns true if the result of the previous frame suffices; otherwise sets `begin`, the start of
 // the iteration.
 template <class Scalar>
-bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const WarmStart& start,
-            WalkStart<Scalar>& begin, Approach<Scalar>& found) {
+bool resume(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal, const WarmStart& start,
+            FastGjkStart<Scalar>& begin, GjkDistanceResult<Scalar>& found) {
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const bool only_apart = goal.task != Task::distance;
   Vec3<Scalar> direction = Vec3<Scalar>::Zero();
@@ -68,41 +68,42 @@ bool resume(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal, const W
     return true;
   }
   if (found.simplex.size == 0) {
-    if (known) begin.way = -direction;
+    if (known) begin.direction = -direction;
     return false;
   }
   found.nearest = reduce_to_nearest(found.simplex);
   if (is_contact(found)) return true;
   // A simplex nearer than the radius proves the overlap; only a depth remains to be found.
   if (goal.task != Task::penetration && found.upper - pair.radius() < -rounding) {
-    found.end = Approach<Scalar>::End::decided;
+    found.end = GjkDistanceResult<Scalar>::End::decided;
     return true;
   }
   if (!only_apart && plane_decides<Scalar>(pair, goal, -found.nearest.direction, found))
     return true;
   begin.simplex = found.simplex;
-  begin.way = found.nearest.distance * found.nearest.direction;
+  begin.direction = found.nearest.distance * found.nearest.direction;
   return false;
 }
 
 // Returns true if the fast iteration suffices; otherwise `found` has its simplex.
 template <class Cores, class Scalar>
-bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                const WalkStart<Scalar>& begin, bool numbered, Approach<Scalar>& found) {
-  using End = typename Approach<Scalar>::End;
-  const WalkGoal first{.only_apart = goal.task != Task::distance,
-                       .most_iterations = goal.most_iterations,
-                       .numbered = numbered};
-  const Walk<Scalar> quick = Cores::walk(pair, first, goal.tolerance, begin);
+bool run_fast_gjk(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal,
+                  const FastGjkStart<Scalar>& begin, bool numbered,
+                  GjkDistanceResult<Scalar>& found) {
+  using End = typename GjkDistanceResult<Scalar>::End;
+  const FastGjkGoal first{.only_apart = goal.task != Task::distance,
+                          .most_iterations = goal.most_iterations,
+                          .numbered = numbered};
+  const FastGjkResult<Scalar> quick = Cores::fast_gjk(pair, first, goal.tolerance, begin);
   found.iterations += quick.iterations;
   if (quick.moved) found.simplex = quick.simplex;
-  if (quick.end == WalkEnd::apart) {
+  if (quick.end == FastGjkEnd::apart) {
     found.lower = quick.lower;
-    found.direction = -quick.way.normalized();
+    found.direction = -quick.direction.normalized();
     found.end = End::decided;
     return true;
   }
-  if (quick.end == WalkEnd::inside) {
+  if (quick.end == FastGjkEnd::inside) {
     take_inside(found);
     return true;
   }
@@ -111,7 +112,7 @@ bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
     found.nearest = reduce_to_nearest(found.simplex);
     if (is_contact(found)) return true;
   }
-  if (quick.end != WalkEnd::near || goal.is_open(pair, found.nearest.distance, quick.lower)) {
+  if (quick.end != FastGjkEnd::near || goal.is_open(pair, found.nearest.distance, quick.lower)) {
     return false;
   }
   found.lower = quick.lower;
@@ -121,32 +122,34 @@ bool walk_first(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
 }
 
 template <class Cores, class Scalar>
-Approach<Scalar> approach_by(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                             const WarmStart* start) {
-  using End = typename Approach<Scalar>::End;
+GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
+                                          const GjkDistanceGoal<Scalar>& goal,
+                                          const WarmStart* start) {
+  using End = typename GjkDistanceResult<Scalar>::End;
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const Task task = goal.task;
   // A step that comes no nearer may still turn the plane, but only this many times.
   constexpr int patience = 8;
   const Scalar radius = pair.radius();
-  Approach<Scalar> found;
+  GjkDistanceResult<Scalar> found;
   found.lower = -std::numeric_limits<Scalar>::infinity();
   Simplex<Scalar>& simplex = found.simplex;
 
-  WalkStart<Scalar> begin(-pair.centre_b());
+  FastGjkStart<Scalar> begin(-pair.centre_b());
   if constexpr (Cores::start_warm) {
     if (start != nullptr && resume(pair, goal, *start, begin, found)) {
-      found.as_before = true;
+      found.warm_hit = true;
       return found;
     }
   }
   const bool may_switch = goal.momentum == Momentum::where_it_pays && pair.is_smooth();
   if (goal.momentum != Momentum::nesterov && !may_switch && !goal.duality_gap &&
-      walk_first<Cores>(pair, goal, begin, start != nullptr, found)) {
+      run_fast_gjk<Cores>(pair, goal, begin, start != nullptr, found)) {
     return found;
   }
-  const Scalar length = begin.way.norm();
-  Vec3<Scalar> direction = length > 0 ? Vec3<Scalar>(-begin.way / length) : Vec3<Scalar>::UnitX();
+  const Scalar length = begin.direction.norm();
+  Vec3<Scalar> direction =
+      length > 0 ? Vec3<Scalar>(-begin.direction / length) : Vec3<Scalar>::UnitX();
   if (simplex.size > 0) direction = -found.nearest.direction;
   int stalled = 0;
   bool accelerated = goal.momentum == Momentum::nesterov;

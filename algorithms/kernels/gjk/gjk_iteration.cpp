@@ -51,7 +51,7 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
 }
 
 template <class Scalar>
-bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind) {
+bool find_enclosing_tetrahedron(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind) {
   for (std::size_t k = 0; k < 3; ++k) {
     Simplex<Scalar> other = simplex;
     other.points[k] = behind;
@@ -63,17 +63,20 @@ bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind
 }
 
 template <class Scalar>
-Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
-                  const WalkStart<Scalar>& start) {
-  return goal.numbered ? walk_here<true, AnyCore, AnyCore>(pair, goal, tolerance, start)
-                       : walk_here<false, AnyCore, AnyCore>(pair, goal, tolerance, start);
+FastGjkResult<Scalar> fast_gjk(SupportPair<Scalar>& pair, const FastGjkGoal& goal, Scalar tolerance,
+                               const FastGjkStart<Scalar>& start) {
+  return goal.numbered
+             ? fast_gjk_at_level<true, GenericCore, GenericCore>(pair, goal, tolerance, start)
+             : fast_gjk_at_level<false, GenericCore, GenericCore>(pair, goal, tolerance, start);
 }
 
 template bool is_surely_inside(const Simplex<float>&);
 template bool is_surely_inside(const Simplex<double>&);
-template bool goes_around(Simplex<float>&, const DifferencePoint<float>&);
-template bool goes_around(Simplex<double>&, const DifferencePoint<double>&);
-template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float, const WalkStart<float>&);
-template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double, const WalkStart<double>&);
+template bool find_enclosing_tetrahedron(Simplex<float>&, const DifferencePoint<float>&);
+template bool find_enclosing_tetrahedron(Simplex<double>&, const DifferencePoint<double>&);
+template FastGjkResult<float> fast_gjk(SupportPair<float>&, const FastGjkGoal&, float,
+                                       const FastGjkStart<float>&);
+template FastGjkResult<double> fast_gjk(SupportPair<double>&, const FastGjkGoal&, double,
+                                        const FastGjkStart<double>&);
 
 }  // namespace touchstone

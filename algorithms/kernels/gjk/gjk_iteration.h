@@ -17,7 +17,7 @@
 
 namespace touchstone {
 
-enum class WalkEnd : std::uint8_t {
+enum class FastGjkEnd : std::uint8_t {
   apart,     // a support plane is further from the origin than the radius: proven
   near,      // the simplex's distance is within the tolerance
   inside,    // the tetrahedron contains the origin: proven
@@ -25,26 +25,27 @@ enum class WalkEnd : std::uint8_t {
 };
 
 template <class Scalar>
-struct Walk {
-  WalkEnd end = WalkEnd::doubtful;
+struct FastGjkResult {
+  FastGjkEnd end = FastGjkEnd::doubtful;
   Simplex<Scalar> simplex;  // weights are not set
   Scalar lower = 0;         // lower bound on the cores' distance, in the pair's unit
   // The last support plane's normal, away from the origin; any length.
-  Vec3<Scalar> way = Vec3<Scalar>::Zero();
+  Vec3<Scalar> direction = Vec3<Scalar>::Zero();
   int iterations = 0;
   bool moved = false;  // the simplex differs from the initial one
 };
 
 // The start of an iteration: usually the difference of the centres.
 template <class Scalar>
-struct WalkStart {
-  explicit WalkStart(const Vec3<Scalar>& towards) : way(towards) {}
+struct FastGjkStart {
+  explicit FastGjkStart(const Vec3<Scalar>& towards) : direction(towards) {}
 
-  Vec3<Scalar> way;  // from the origin to the simplex's nearest point, or towards the difference
+  Vec3<Scalar>
+      direction;  // from the origin to the simplex's nearest point, or towards the difference
   Simplex<Scalar> simplex;  // may be empty; otherwise only corners of the nearest point's feature
 };
 
-struct WalkGoal {
+struct FastGjkGoal {
   bool only_apart = false;  // stop at a plane that separates the bodies
   int most_iterations = 0;
   bool numbered = false;  // the simplex must hold the indices of its corners
@@ -52,16 +53,17 @@ struct WalkGoal {
 
 // `tolerance` applies to the distance, in the pair's unit.
 template <class Scalar>
-Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
-                  const WalkStart<Scalar>& start);
+FastGjkResult<Scalar> fast_gjk(SupportPair<Scalar>& pair, const FastGjkGoal& goal, Scalar tolerance,
+                               const FastGjkStart<Scalar>& start);
 template <class Scalar>
-Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance) {
-  return walk(pair, goal, tolerance, WalkStart<Scalar>(-pair.centre_b()));
+FastGjkResult<Scalar> fast_gjk(SupportPair<Scalar>& pair, const FastGjkGoal& goal,
+                               Scalar tolerance) {
+  return fast_gjk(pair, goal, tolerance, FastGjkStart<Scalar>(-pair.centre_b()));
 }
 
 template <class Scalar>
-using WalkFunction = Walk<Scalar> (*)(SupportPair<Scalar>&, const WalkGoal&, Scalar,
-                                      const WalkStart<Scalar>&);
+using FastGjkFunction = FastGjkResult<Scalar> (*)(SupportPair<Scalar>&, const FastGjkGoal&, Scalar,
+                                                  const FastGjkStart<Scalar>&);
 
 // Returns true if a tetrahedron contains the origin whatever rounding did to its corners.
 template <class Scalar>
@@ -71,15 +73,15 @@ bool is_surely_inside(const Simplex<Scalar>& simplex);
 // face). Replaces `simplex` by the one that contains the origin and returns true; otherwise returns
 // false.
 template <class Scalar>
-bool goes_around(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind);
+bool find_enclosing_tetrahedron(Simplex<Scalar>& simplex, const DifferencePoint<Scalar>& behind);
 
 extern template bool is_surely_inside(const Simplex<float>&);
 extern template bool is_surely_inside(const Simplex<double>&);
-extern template bool goes_around(Simplex<float>&, const DifferencePoint<float>&);
-extern template bool goes_around(Simplex<double>&, const DifferencePoint<double>&);
-extern template Walk<float> walk(SupportPair<float>&, const WalkGoal&, float,
-                                 const WalkStart<float>&);
-extern template Walk<double> walk(SupportPair<double>&, const WalkGoal&, double,
-                                  const WalkStart<double>&);
+extern template bool find_enclosing_tetrahedron(Simplex<float>&, const DifferencePoint<float>&);
+extern template bool find_enclosing_tetrahedron(Simplex<double>&, const DifferencePoint<double>&);
+extern template FastGjkResult<float> fast_gjk(SupportPair<float>&, const FastGjkGoal&, float,
+                                              const FastGjkStart<float>&);
+extern template FastGjkResult<double> fast_gjk(SupportPair<double>&, const FastGjkGoal&, double,
+                                               const FastGjkStart<double>&);
 
 }  // namespace touchstone

@@ -82,7 +82,7 @@ class QuadShape {
 // A vector from the origin towards a feature's nearest point, of any length, and the corners of the
 // feature as bits.
 template <class Scalar>
-struct Way {
+struct SearchDirection {
   Quad<Scalar> vector;
   unsigned corners;
 };
@@ -93,22 +93,24 @@ class QuickSimplex {
  public:
   using Vector = Quad<Scalar>;
 
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static Way<Scalar> segment(const Vector& a, const Vector& b) {
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static SearchDirection<Scalar> segment(const Vector& a,
+                                                                             const Vector& b) {
     const Vector edge = b - a;
     const Scalar along = -dot(a, edge);
     if (!(along > 0)) return {a, 1};
     return on_edge(a, edge, along, 1);
   }
 
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static Way<Scalar> triangle(const Vector& a, const Vector& b,
-                                                                  const Vector& c) {
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static SearchDirection<Scalar> triangle(const Vector& a,
+                                                                              const Vector& b,
+                                                                              const Vector& c) {
     const Vector ab = b - a, ac = c - a;
     return on_triangle(a, ab, ac, cross(ab, ac), 1, 2);
   }
 
   // Returns all corners if the origin is inside.
-  TOUCHSTONE_TARGET static Way<Scalar> tetrahedron(const Vector& a, const Vector& b,
-                                                   const Vector& c, const Vector& d) {
+  TOUCHSTONE_TARGET static SearchDirection<Scalar> tetrahedron(const Vector& a, const Vector& b,
+                                                               const Vector& c, const Vector& d) {
     const Vector ab = b - a, ac = c - a, ad = d - a;
     const Vector abc = cross(ab, ac), acd = cross(ac, ad), adb = cross(ad, ab);
     const Scalar volume = dot(ad, abc);
@@ -119,32 +121,32 @@ class QuickSimplex {
     const unsigned faces =
         unsigned{beyond(abc)} | unsigned{beyond(acd)} << 1 | unsigned{beyond(adb)} << 2;
     if (faces == 0) return {Vector{}, all_corners};
-    Way<Scalar> best{a, 1};
+    SearchDirection<Scalar> best{a, 1};
     Scalar least = std::numeric_limits<Scalar>::infinity();
     for (unsigned face = 0; face < 3; ++face) {
       if ((faces >> face & 1) == 0) continue;
-      const Way<Scalar> way = face == 0   ? on_triangle(a, ab, ac, abc, 1, 2)
-                              : face == 1 ? on_triangle(a, ac, ad, acd, 2, 3)
-                                          : on_triangle(a, ad, ab, adb, 3, 1);
-      if (faces == 1u << face) return way;
-      const Scalar reach = dot(way.vector, a);  // constant over the feature
-      const Scalar squared = reach * reach / dot(way.vector, way.vector);
+      const SearchDirection<Scalar> search = face == 0   ? on_triangle(a, ab, ac, abc, 1, 2)
+                                             : face == 1 ? on_triangle(a, ac, ad, acd, 2, 3)
+                                                         : on_triangle(a, ad, ab, adb, 3, 1);
+      if (faces == 1u << face) return search;
+      const Scalar reach = dot(search.vector, a);  // constant over the feature
+      const Scalar squared = reach * reach / dot(search.vector, search.vector);
       if (!(squared < least)) continue;
       least = squared;
-      best = way;
+      best = search;
     }
     return best;
   }
 
  private:
   // `along` is the origin's coordinate along the edge from the newest corner, times its length.
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static Way<Scalar> on_edge(const Vector& a,
-                                                                 const Vector& edge, Scalar along,
-                                                                 int b) {
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static SearchDirection<Scalar> on_edge(const Vector& a,
+                                                                             const Vector& edge,
+                                                                             Scalar along, int b) {
     return {dot(edge, edge) * a + along * edge, 1u | 1u << b};
   }
 
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static Way<Scalar> on_triangle(
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE static SearchDirection<Scalar> on_triangle(
       const Vector& a, const Vector& ab, const Vector& ac, const Vector& normal, int b, int c) {
     const bool beyond_ab = dot(cross(ab, normal), a) < 0;
     const bool beyond_ac = dot(cross(normal, ac), a) < 0;
@@ -187,16 +189,16 @@ struct QuadSimplex {
     const int newest = size - 1;
     const auto w = [&](int i)
                        TOUCHSTONE_TARGET -> const Vector& { return points[newest - i].difference; };
-    Way<Scalar> way;
+    SearchDirection<Scalar> search;
     switch (size) {
       case 1: return w(0);
-      case 2: way = QuickSimplex<Scalar>::segment(w(0), w(1)); break;
-      case 3: way = QuickSimplex<Scalar>::triangle(w(0), w(1), w(2)); break;
-      default: way = QuickSimplex<Scalar>::tetrahedron(w(0), w(1), w(2), w(3));
+      case 2: search = QuickSimplex<Scalar>::segment(w(0), w(1)); break;
+      case 3: search = QuickSimplex<Scalar>::triangle(w(0), w(1), w(2)); break;
+      default: search = QuickSimplex<Scalar>::tetrahedron(w(0), w(1), w(2), w(3));
     }
     int kept = 0;
     for (int i = 0; i <= newest; ++i) {
-      if ((way.corners >> (newest - i) & 1) == 0) continue;
+      if ((search.corners >> (newest - i) & 1) == 0) continue;
       if (kept != i) {
         points[kept] = points[i];
         if constexpr (numbered) corners[kept] = corners[i];
@@ -204,7 +206,7 @@ struct QuadSimplex {
       ++kept;
     }
     size = kept;
-    return way.vector;
+    return search.vector;
   }
 
   TOUCHSTONE_TARGET void read(const Simplex<Scalar>& simplex) {
@@ -228,9 +230,10 @@ struct QuadSimplex {
 
 // `found` is passed in because GCC 12, if it sets its corners in wide registers here, leaves them
 // in a state that slows all later code.
-template <bool numbered, class WhichA, class WhichB, class Scalar>
-TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
-                               const WalkStart<Scalar>& start, Walk<Scalar>& found) {
+template <bool numbered, class CoreOfA, class CoreOfB, class Scalar>
+TOUCHSTONE_TARGET void fast_gjk_at(SupportPair<Scalar>& pair, const FastGjkGoal& goal,
+                                   Scalar tolerance, const FastGjkStart<Scalar>& start,
+                                   FastGjkResult<Scalar>& found) {
   using Vector = Quad<Scalar>;
   // The square of the least length; shorter vectors have lost their digits, or nearly so.
   constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
@@ -242,10 +245,10 @@ TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, 
   const Vector centre_b = quad(pair.centre_b());
   QuadSimplex<Scalar, numbered> simplex;
   simplex.read(start.simplex);
-  Vector way = quad(start.way);
-  Scalar squared = dot(way, way);
+  Vector search = quad(start.direction);
+  Scalar squared = dot(search, search);
   if (!(squared > shortest)) {
-    way = Vector{1, 0, 0, 0};
+    search = Vector{1, 0, 0, 0};
     squared = 1;
   }
   Scalar length = std::sqrt(squared);
@@ -254,21 +257,21 @@ TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, 
     ++found.iterations;
     pair.count_support();
     CornerPair corners;
-    const Vector on_a = a.template support<WhichA>(-way, corners.a);
-    const Vector on_b = b.template support<WhichB>(way, corners.b) + centre_b;
+    const Vector on_a = a.template support<CoreOfA>(-search, corners.a);
+    const Vector on_b = b.template support<CoreOfB>(search, corners.b) + centre_b;
     const Vector point = on_a - on_b;
-    found.lower = dot(way, point) / length;
+    found.lower = dot(search, point) / length;
     if (found.lower > apart && (goal.only_apart || nearest - found.lower <= tolerance)) {
-      found.end = goal.only_apart ? WalkEnd::apart : WalkEnd::near;
-      found.way = vec<Scalar>(way);
+      found.end = goal.only_apart ? FastGjkEnd::apart : FastGjkEnd::near;
+      found.direction = vec<Scalar>(search);
       break;
     }
     if (nearest - found.lower <= as_far && simplex.holds(point)) break;
     if constexpr (numbered) simplex.corners[simplex.size] = corners;
     simplex.points[simplex.size++] = {point, on_a, on_b};
     found.moved = true;
-    const Vector before = way;
-    way = simplex.reduce();
+    const Vector before = search;
+    search = simplex.reduce();
     if (simplex.size == 4) {
       simplex.write(found.simplex);
       if (!is_surely_inside(found.simplex)) {
@@ -276,16 +279,16 @@ TOUCHSTONE_TARGET void walk_at(SupportPair<Scalar>& pair, const WalkGoal& goal, 
         // it has no index.
         if (numbered || found.iterations == goal.most_iterations) return;
         ++found.iterations;
-        const auto behind = pair.template support<WhichA, WhichB>(vec<Scalar>(before));
-        if (!goes_around(found.simplex, behind)) return;
+        const auto behind = pair.template support<CoreOfA, CoreOfB>(vec<Scalar>(before));
+        if (!find_enclosing_tetrahedron(found.simplex, behind)) return;
       }
-      found.end = WalkEnd::inside;
+      found.end = FastGjkEnd::inside;
       return;
     }
-    squared = dot(way, way);
+    squared = dot(search, search);
     length = std::sqrt(squared);
     const Scalar last = nearest;
-    nearest = dot(way, simplex.points[0].difference) / length;
+    nearest = dot(search, simplex.points[0].difference) / length;
     // This form of the comparisons ends the iteration for NaN.
     if (!(squared > shortest) || !(nearest < last)) break;
   }

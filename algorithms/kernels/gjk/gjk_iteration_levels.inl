@@ -8,26 +8,26 @@
 namespace touchstone {
 namespace {
 
-using real_lanes::Quad;
+using simd::Quad;
 
 constexpr unsigned all_corners = 0xf;
 
-#define TOUCHSTONE_LANES hull_scan
-#define TOUCHSTONE_LOOPS "algorithms/kernels/gjk/gjk_iteration.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE hull_scan
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/gjk/gjk_iteration.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-template <bool numbered, class WhichA, class WhichB, class Scalar>
-Walk<Scalar> walk_here(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
-                       const WalkStart<Scalar>& start) {
-  Walk<Scalar> found;
+template <bool numbered, class CoreOfA, class CoreOfB, class Scalar>
+FastGjkResult<Scalar> fast_gjk_at_level(SupportPair<Scalar>& pair, const FastGjkGoal& goal,
+                                        Scalar tolerance, const FastGjkStart<Scalar>& start) {
+  FastGjkResult<Scalar> found;
   switch (isa()) {
     case Isa::avx512:
-      avx512::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start, found);
+      avx512::fast_gjk_at<numbered, CoreOfA, CoreOfB>(pair, goal, tolerance, start, found);
       break;
     case Isa::avx2:
-      avx2::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start, found);
+      avx2::fast_gjk_at<numbered, CoreOfA, CoreOfB>(pair, goal, tolerance, start, found);
       break;
-    default: baseline::walk_at<numbered, WhichA, WhichB>(pair, goal, tolerance, start, found);
+    default: baseline::fast_gjk_at<numbered, CoreOfA, CoreOfB>(pair, goal, tolerance, start, found);
   }
   return found;
 }

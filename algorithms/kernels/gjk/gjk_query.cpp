@@ -35,48 +35,49 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
   }
   SupportPair<Scalar> pair(a, pose_a, b, pose_b);
   outcome.iterations = 0;
-  if (task == Task::intersect && start == nullptr && walk_decides(pair, outcome)) return;
+  if (task == Task::intersect && start == nullptr && fast_gjk_decides(pair, outcome)) return;
   solve_pair(pair, task, start, outcome);
 }
 
 // Finds the verdict for cores with corners and no radius, mostly by the fast iteration. If that
 // leaves it open, the distance loop starts again with the rest of the cap.
 template <class Scalar>
-bool GjkQuery<Scalar>::walk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const {
+bool GjkQuery<Scalar>::fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const {
   if (!pair.is_polytope() || pair.radius() > 0) return false;
   if (settings_.momentum == Momentum::nesterov || settings_.duality_gap) return false;
-  const WalkGoal goal{.only_apart = true, .most_iterations = settings_.gjk_cap};
-  const WalkStart<Scalar> from_the_centres(-pair.centre_b());
-  const Walk<Scalar> found = walks_.walk(pair, goal, tolerance(true), from_the_centres);
+  const FastGjkGoal goal{.only_apart = true, .most_iterations = settings_.gjk_cap};
+  const FastGjkStart<Scalar> from_the_centres(-pair.centre_b());
+  const FastGjkResult<Scalar> found =
+      functions_.fast_gjk(pair, goal, tolerance(true), from_the_centres);
   outcome.iterations = found.iterations;
-  if (found.end != WalkEnd::apart && found.end != WalkEnd::inside) return false;
-  outcome.answer = found.end == WalkEnd::apart ? Answer::separated : Answer::overlapping;
+  if (found.end != FastGjkEnd::apart && found.end != FastGjkEnd::inside) return false;
+  outcome.answer = found.end == FastGjkEnd::apart ? Answer::separated : Answer::overlapping;
   outcome.status = Status::ok;
   outcome.support_calls = pair.support_calls();
   return true;
 }
 
 template <class Scalar>
-Approach<Scalar> GjkQuery<Scalar>::approach_from(SupportPair<Scalar>& pair,
-                                                 const ApproachGoal<Scalar>& goal,
-                                                 WarmStart* start) {
-  const Approach<Scalar> found = walks_.approach(pair, goal, start);
+GjkDistanceResult<Scalar> GjkQuery<Scalar>::gjk_distance_from(SupportPair<Scalar>& pair,
+                                                              const GjkDistanceGoal<Scalar>& goal,
+                                                              WarmStart* start) {
+  const GjkDistanceResult<Scalar> found = functions_.gjk_distance(pair, goal, start);
   if (start == nullptr) return found;
-  if (!found.as_before) start->keep(found.simplex, found.direction);
+  if (!found.warm_hit) start->keep(found.simplex, found.direction);
   return found;
 }
 
 template <class Scalar>
 void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start,
                                   Outcome& outcome) {
-  using End = typename Approach<Scalar>::End;
-  const ApproachGoal<Scalar> goal{
+  using End = typename GjkDistanceResult<Scalar>::End;
+  const GjkDistanceGoal<Scalar> goal{
       .task = task,
       .tolerance = tolerance(pair.is_polytope()),
       .duality_gap = settings_.duality_gap,
       .most_iterations = std::max(1, settings_.gjk_cap - outcome.iterations),
       .momentum = settings_.momentum};
-  const Approach<Scalar> found = approach_from(pair, goal, start);
+  const GjkDistanceResult<Scalar> found = gjk_distance_from(pair, goal, start);
   outcome.iterations += found.iterations;
   if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
@@ -108,12 +109,13 @@ void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStar
 
 // Solves a pair whose cores share a point, up to rounding.
 template <class Scalar>
-void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found,
-                                     Task task, Outcome& outcome) {
+void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
+                                     const GjkDistanceResult<Scalar>& found, Task task,
+                                     Outcome& outcome) {
   constexpr Scalar open = 4 * rounding;  // a reported contact may have a gap up to this
   const Scalar radius = pair.radius();
   const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
-  const bool on_core = !found.nearest.inside && off_core(found.simplex) <= 4 * rounding;
+  const bool on_core = !found.nearest.inside && distance_from_origin(found.simplex) <= 4 * rounding;
   const bool proven = inside_core || (on_core && radius > 8 * rounding);
   if (proven && task != Task::penetration) {
     outcome.answer = Answer::overlapping;

@@ -32,7 +32,7 @@ class GjkQuery {
              const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
 
   // Sets the functions for the next queries; they must fit the cores of those queries.
-  void walk_by(const CoreWalks<Scalar>& walks) { walks_ = walks; }
+  void set_functions(const CoreFunctions<Scalar>& functions) { functions_ = functions; }
 
   // Tolerance of a distance between the bodies, in the pair's unit.
   Scalar tolerance(bool polytopes) const {
@@ -45,15 +45,16 @@ class GjkQuery {
  private:
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
-  bool walk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const;
+  bool fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const;
   void solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start, Outcome& outcome);
-  Approach<Scalar> approach_from(SupportPair<Scalar>& pair, const ApproachGoal<Scalar>& goal,
-                                 WarmStart* start);
-  void solve_contact(SupportPair<Scalar>& pair, const Approach<Scalar>& found, Task task,
+  GjkDistanceResult<Scalar> gjk_distance_from(SupportPair<Scalar>& pair,
+                                              const GjkDistanceGoal<Scalar>& goal,
+                                              WarmStart* start);
+  void solve_contact(SupportPair<Scalar>& pair, const GjkDistanceResult<Scalar>& found, Task task,
                      Outcome& outcome);
 
   GjkQuerySettings settings_;
-  CoreWalks<Scalar> walks_;
+  CoreFunctions<Scalar> functions_;
   ExpandingPolytope<Scalar> polytope_;
 };
 

@@ -10,9 +10,9 @@ namespace touchstone {
 // a, for a unit vector, in the pair's unit. If positive it is a lower bound on the cores' distance,
 // as exact as the planes of support points. Counts as a support call.
 template <class Scalar>
-Scalar gap_along(SupportPair<Scalar>& pair, const Vec3<Scalar>& direction);
+Scalar separation_along(SupportPair<Scalar>& pair, const Vec3<Scalar>& direction);
 
-extern template float gap_along(SupportPair<float>&, const Vec3<float>&);
-extern template double gap_along(SupportPair<double>&, const Vec3<double>&);
+extern template float separation_along(SupportPair<float>&, const Vec3<float>&);
+extern template double separation_along(SupportPair<double>&, const Vec3<double>&);
 
 }  // namespace touchstone

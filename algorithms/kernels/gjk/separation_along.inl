@@ -3,8 +3,8 @@
 
 // The greatest direction . x over the core, relative to its centre.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Scalar reach_at(PosedShape<Scalar>& turned, Scalar x, Scalar y,
-                                                    Scalar z) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Scalar support_value_at(PosedShape<Scalar>& turned, Scalar x,
+                                                            Scalar y, Scalar z) {
   using Core = typename SupportShape<Scalar>::Core;
   const SupportShape<Scalar>& shape = turned.shape();
   if (shape.core == Core::point) return 0;
@@ -25,8 +25,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Scalar reach_at(PosedShape<Scalar>& turned, 
 }
 
 template <class Scalar>
-TOUCHSTONE_TARGET Scalar gap_at(SupportPair<Scalar>& pair, const Vec3<Scalar>& n) {
-  const Scalar of_b = reach_at(pair.b(), -n.x(), -n.y(), -n.z());
-  const Scalar of_a = reach_at(pair.a(), n.x(), n.y(), n.z());
+TOUCHSTONE_TARGET Scalar separation_at(SupportPair<Scalar>& pair, const Vec3<Scalar>& n) {
+  const Scalar of_b = support_value_at(pair.b(), -n.x(), -n.y(), -n.z());
+  const Scalar of_a = support_value_at(pair.a(), n.x(), n.y(), n.z());
   return n.dot(pair.centre_b()) - of_b - of_a;
 }

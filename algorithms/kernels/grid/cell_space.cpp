@@ -53,8 +53,8 @@ BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_
   return sample;
 }
 
-double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
-                const BoxSample& sample) {
+double clustering_of(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
+                     const BoxSample& sample) {
   // The cells are few enough that two bodies spread evenly meet a dozen times.
   constexpr std::size_t most_cells = 32 * 32 * 32;
   const bool are_few = ids.size() < 8192;

@@ -52,13 +52,21 @@ struct BoxSample {
   double extent() const;
 };
 
+// Sides to measure extents in. Each is at least a thousandth of the longest, so that rounding does
+// not decide on an axis on which the boxes are flat; where all are zero, each is 1.
+inline std::array<double, 3> with_floor(std::array<double, 3> sides) {
+  const double least = 1e-3 * std::max({sides[0], sides[1], sides[2]});
+  for (double& side : sides) side = least > 0 ? std::max(side, least) : 1;
+  return sides;
+}
+
 // `ids` lists the boxes that are not empty.
 BoxSample sample_boxes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
 
 // The density around a body, relative to bodies spread evenly over the sample's region. It is
 // estimated from how often two bodies of a larger sample lie in the same of 32^3 cells (8^3 for few
 // bodies). The result is at least 1 and at most the number of cells.
-double crowding(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
-                const BoxSample& sample);
+double clustering_of(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
+                     const BoxSample& sample);
 
 }  // namespace touchstone

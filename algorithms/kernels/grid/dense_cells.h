@@ -13,6 +13,7 @@
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
+#include "algorithms/kernels/grid/cell_space.h"
 #include "algorithms/kernels/sorting/ordered_key.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
 
@@ -48,12 +49,9 @@ std::size_t longest_axis(std::size_t count, const Box& box) {
       side[axis] += double{own.max[axis]} - own.min[axis];
     }
   }
-  // A floor on the length keeps rounding from deciding on an axis on which the boxes are flat.
-  const double least = 1e-3 * std::ranges::max(side);
+  side = with_floor(side);
   std::array<double, 3> extent;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    extent[axis] = (high[axis] - low[axis]) / (least > 0 ? std::max(side[axis], least) : 1);
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis) extent[axis] = (high[axis] - low[axis]) / side[axis];
   return static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
 }
 
@@ -64,17 +62,18 @@ class DenseCellSort {
  public:
   // Returns the axis. `id(item)` is the index of the item's box.
   template <class Id>
-  int operator()(Executor& executor, std::span<const Aabb> boxes, std::span<Item> crowd,
+  int operator()(Executor& executor, std::span<const Aabb> boxes, std::span<Item> dense_cell,
                  const Id& id) {
-    before_.assign(crowd.begin(), crowd.end());
+    before_.assign(dense_cell.begin(), dense_cell.end());
     const auto box = [&](std::size_t i) { return boxes[id(before_[i])]; };
-    const std::size_t axis = longest_axis(crowd.size(), box);
-    order_.resize(crowd.size());
-    for (std::uint32_t i = 0; i < crowd.size(); ++i) {
+    const std::size_t axis = longest_axis(dense_cell.size(), box);
+    order_.resize(dense_cell.size());
+    for (std::uint32_t i = 0; i < dense_cell.size(); ++i) {
       order_[i] = sort_item(ordered_key(box(i).min[axis]), i);
     }
     radix_sort_(executor, order_, 32, key_of);
-    for (std::size_t i = 0; i < crowd.size(); ++i) crowd[i] = before_[index_of(order_[i])];
+    for (std::size_t i = 0; i < dense_cell.size(); ++i)
+      dense_cell[i] = before_[index_of(order_[i])];
     return static_cast<int>(axis);
   }
 

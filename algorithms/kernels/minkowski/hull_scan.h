@@ -12,7 +12,7 @@
 
 #include "algorithms/core/isa.h"
 #include "algorithms/core/vec.h"
-#include "algorithms/kernels/simd/real_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone::hull_scan {
 
@@ -50,8 +50,7 @@ inline constexpr std::size_t most_blocks = 16;  // blocks that are tested togeth
 // The function `furthest_at(blocks, x, y, z)` of each level returns the index of the vertex with
 // the greatest d.v, and the first if there are several. The result is equal at every level. NaN
 // never compares as greatest: if all are NaN the index is 0.
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/kernels/minkowski/hull_scan.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/minkowski/hull_scan.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 // The vertex and the value, computed at the active level.

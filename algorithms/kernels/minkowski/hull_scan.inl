@@ -6,14 +6,9 @@
 template <class Scalar>
 TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks, std::size_t count,
                                                Scalar x, Scalar y, Scalar z) {
-  using Lanes = RealLanes<Scalar>;
-  using Vector = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr std::size_t parts = VertexBlock<Scalar>::size / Lanes::width;
-  const auto load = [](const Scalar* from) TOUCHSTONE_TARGET {
-    Vector v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-  };
   Vector values[most_blocks * parts];
   const Vector dx = Lanes::broadcast(x);
   const Vector dy = Lanes::broadcast(y);
@@ -22,13 +17,13 @@ TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t k = part * Lanes::width;
-      const Vector value =
-          dx * load(blocks[i].x + k) + dy * load(blocks[i].y + k) + dz * load(blocks[i].z + k);
+      const Vector value = dx * Lanes::load(blocks[i].x + k) + dy * Lanes::load(blocks[i].y + k) +
+                           dz * Lanes::load(blocks[i].z + k);
       values[i * parts + part] = value;
       best = Lanes::max(best, value);
     }
   }
-  const Scalar greatest = Lanes::greatest(best);
+  const Scalar greatest = Lanes::reduce_max(best);
   const Vector all = Lanes::broadcast(greatest);
   constexpr unsigned all_lanes = (1u << Lanes::width) - 1;
   constexpr std::size_t blocks_a_word = 64 / VertexBlock<Scalar>::size;
@@ -37,7 +32,7 @@ TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks
     for (std::size_t i = word; i < std::min(word + blocks_a_word, count); ++i) {
       for (std::size_t part = 0; part < parts; ++part) {
         const std::size_t place = (i - word) * VertexBlock<Scalar>::size + part * Lanes::width;
-        const unsigned less = Lanes::bits(Lanes::less(values[i * parts + part], all));
+        const unsigned less = Lanes::to_bits(Lanes::less(values[i * parts + part], all));
         places |= std::uint64_t{~less & all_lanes} << place;
       }
     }

@@ -11,7 +11,7 @@
 namespace touchstone {
 
 // The core of a shape, read at run time.
-struct AnyCore {
+struct GenericCore {
   template <class Scalar>
   static SupportCore of(const SupportShape<Scalar>& shape) {
     return shape.core;
@@ -19,7 +19,7 @@ struct AnyCore {
 };
 // The core of a shape, known at compile time.
 template <SupportCore core>
-struct KnownCore {
+struct SpecialisedCore {
   template <class Scalar>
   static constexpr SupportCore of(const SupportShape<Scalar>&) {
     return core;
@@ -49,7 +49,7 @@ class PosedShape {
   // Returns the point of the core that is furthest in the direction, relative to the centre. The
   // direction need not have unit length, but its square must neither overflow nor underflow.
   // `Which` gives the core.
-  template <class Which = AnyCore>
+  template <class Which = GenericCore>
   Vec3<Scalar> support(const Vec3<Scalar>& direction);
 
   // Returns true if the core has a corner with that index.

@@ -55,12 +55,12 @@ class SupportPair {
 
   // Returns the point of the difference of the cores, A - B, that is furthest in the direction, and
   // counts the call.
-  template <class WhichA = AnyCore, class WhichB = AnyCore>
+  template <class CoreOfA = GenericCore, class CoreOfB = GenericCore>
   DifferencePoint<Scalar> support(const Vec3<Scalar>& direction) {
     ++support_calls_;
     DifferencePoint<Scalar> point;
-    point.a = a_.template support<WhichA>(direction);
-    point.b = b_.template support<WhichB>(-direction) + centre_b_;
+    point.a = a_.template support<CoreOfA>(direction);
+    point.b = b_.template support<CoreOfB>(-direction) + centre_b_;
     point.difference = point.a - point.b;
     return point;
   }

@@ -40,8 +40,7 @@ struct Vertices {
 // Heights of five vertices in the directions of a cell's four corners.
 using Bars = std::array<std::array<double, 4>, 5>;
 
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/kernels/minkowski/support_cube_map.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/minkowski/support_cube_map.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "algorithms/core/vec.h"
-#include "algorithms/kernels/simd/real_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 
@@ -71,7 +71,7 @@ class SupportCubeMap {
   std::size_t held_bytes() const;
 
   // Prefetches the memory that a support call in this cell reads.
-  void fetch_blocks(const Cell& cell) const {
+  void prefetch_blocks(const Cell& cell) const {
     if (cell.is_listed()) return;
     for (const std::uint16_t block : cell.blocks) {
       __builtin_prefetch(blocks_[block].x);

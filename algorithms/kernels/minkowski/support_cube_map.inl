@@ -1,20 +1,13 @@
 // The loops of support_cube_map.h. support_cube_map.cpp includes this file once for each level of
 // vector instructions, inside that level's namespace.
 
-template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real load(const Scalar* from) {
-  typename RealLanes<Scalar>::Real v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-
 // Returns the best of `count` blocks: first the greatest value, then its place.
 template <class Scalar, std::size_t count>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename SupportCubeMap<Scalar>::Found best_of(
     const typename SupportCubeMap<Scalar>::Block* blocks, const std::uint16_t* chosen, Scalar x,
     Scalar y, Scalar z) {
-  using Lanes = RealLanes<Scalar>;
-  using Vector = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr std::size_t block_size = SupportCubeMap<Scalar>::block_size;
   constexpr std::size_t parts = block_size / Lanes::width;
   const Vector dx = Lanes::broadcast(x), dy = Lanes::broadcast(y), dz = Lanes::broadcast(z);
@@ -24,18 +17,18 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename SupportCubeMap<Scalar>::Found best_
     const auto& block = blocks[chosen[i]];
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t k = part * Lanes::width;
-      const Vector value = dx * load<Scalar>(block.x + k) + dy * load<Scalar>(block.y + k) +
-                           dz * load<Scalar>(block.z + k);
+      const Vector value = dx * Lanes::load(block.x + k) + dy * Lanes::load(block.y + k) +
+                           dz * Lanes::load(block.z + k);
       values[i * parts + part] = value;
       best = Lanes::max(best, value);
     }
   }
-  const Scalar greatest = Lanes::greatest(best);
+  const Scalar greatest = Lanes::reduce_max(best);
   const Vector all = Lanes::broadcast(greatest);
   constexpr unsigned all_lanes = (1u << Lanes::width) - 1;
   std::uint64_t places = 0;
   for (std::size_t i = 0; i < count * parts; ++i) {
-    const unsigned less = Lanes::bits(Lanes::less(values[i], all));
+    const unsigned less = Lanes::to_bits(Lanes::less(values[i], all));
     places |= std::uint64_t{~less & all_lanes} << i * Lanes::width;
   }
   const auto at = static_cast<std::size_t>(std::countr_zero(places)) % (count * block_size);
@@ -64,25 +57,25 @@ TOUCHSTONE_TARGET typename SupportCubeMap<Scalar>::Found furthest_at(
 TOUCHSTONE_TARGET inline Bars measure_at(const Vertices& vertices,
                                          const std::array<Vec3d, 4>& corners,
                                          std::array<std::vector<double>, 4>& along) {
-  using Lanes = RealLanes<double>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<double>;
+  using Vector = typename Lanes::Vector;
   const std::size_t count = vertices.rounded_size();
-  Real best[5], at[5];
+  Vector best[5], at[5];
   for (std::size_t i = 0; i < 5; ++i) {
     best[i] = Lanes::broadcast(-std::numeric_limits<double>::infinity());
     at[i] = Lanes::broadcast(0);
   }
   double first[Lanes::width];
   for (std::size_t i = 0; i < Lanes::width; ++i) first[i] = static_cast<double>(i);
-  Real number = load<double>(first);
-  Real directions[4][3];
+  Vector number = Lanes::load(first);
+  Vector directions[4][3];
   for (std::size_t i = 0; i < 4; ++i) {
     for (int k = 0; k < 3; ++k) directions[i][k] = Lanes::broadcast(corners[i][k]);
   }
   for (std::size_t k = 0; k < count; k += Lanes::width) {
-    const Real x = load<double>(&vertices.x[k]), y = load<double>(&vertices.y[k]);
-    const Real z = load<double>(&vertices.z[k]);
-    Real value[5];
+    const Vector x = Lanes::load(&vertices.x[k]), y = Lanes::load(&vertices.y[k]);
+    const Vector z = Lanes::load(&vertices.z[k]);
+    Vector value[5];
     for (std::size_t i = 0; i < 4; ++i) {
       value[i] = directions[i][0] * x + directions[i][1] * y + directions[i][2] * z;
       std::memcpy(&along[i][k], &value[i], sizeof value[i]);
@@ -111,24 +104,24 @@ TOUCHSTONE_TARGET inline Bars measure_at(const Vertices& vertices,
 TOUCHSTONE_TARGET inline void sift_at(const Vertices& from, const Bars& bars,
                                       const std::array<std::vector<double>, 4>& along,
                                       Vertices& to) {
-  using Lanes = RealLanes<double>;
-  using Real = typename Lanes::Real;
-  Real bar[5][4];
+  using Lanes = Simd<double>;
+  using Vector = typename Lanes::Vector;
+  Vector bar[5][4];
   for (std::size_t i = 0; i < 5; ++i) {
     for (std::size_t k = 0; k < 4; ++k) bar[i][k] = Lanes::broadcast(bars[i][k]);
   }
   to.clear();
   constexpr unsigned all_lanes = (1u << Lanes::width) - 1;
   for (std::size_t k = 0; k < from.size; k += Lanes::width) {
-    const Real a = load<double>(&along[0][k]), b = load<double>(&along[1][k]);
-    const Real c = load<double>(&along[2][k]), d = load<double>(&along[3][k]);
-    Real least = Lanes::broadcast(0);
+    const Vector a = Lanes::load(&along[0][k]), b = Lanes::load(&along[1][k]);
+    const Vector c = Lanes::load(&along[2][k]), d = Lanes::load(&along[3][k]);
+    Vector least = Lanes::broadcast(0);
     for (std::size_t i = 0; i < 5; ++i) {
-      const Real most = Lanes::max(Lanes::max(a - bar[i][0], b - bar[i][1]),
-                                   Lanes::max(c - bar[i][2], d - bar[i][3]));
+      const Vector most = Lanes::max(Lanes::max(a - bar[i][0], b - bar[i][1]),
+                                     Lanes::max(c - bar[i][2], d - bar[i][3]));
       least = Lanes::min(least, most);
     }
-    unsigned kept = ~Lanes::bits(Lanes::less(least, Lanes::broadcast(0))) & all_lanes;
+    unsigned kept = ~Lanes::to_bits(Lanes::less(least, Lanes::broadcast(0))) & all_lanes;
     for (; kept != 0; kept &= kept - 1) {
       const std::size_t i = k + static_cast<std::size_t>(std::countr_zero(kept));
       if (i < from.size) to.add(from, i);

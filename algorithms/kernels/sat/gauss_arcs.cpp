@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "algorithms/kernels/simd/real_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
@@ -15,8 +15,7 @@ namespace {
 // product below this may have either sign.
 constexpr float uncertain = 256 * std::numeric_limits<float>::epsilon();
 
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/kernels/sat/gauss_arcs.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/sat/gauss_arcs.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace

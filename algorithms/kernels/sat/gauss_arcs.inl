@@ -3,30 +3,29 @@
 
 // Returns the block's arcs that may cross, as bits.
 TOUCHSTONE_TARGET inline unsigned crossing_of(const GaussBlock& block, const GaussArc& arc) {
-  using Lanes = RealLanes<float>;
-  using Real = Lanes::Real;
+  using Lanes = Simd<float>;
+  using Vector = Lanes::Vector;
   unsigned open = 0;
-  const Real most = Lanes::broadcast(uncertain), least = Lanes::broadcast(-uncertain);
+  const Vector most = Lanes::broadcast(uncertain), least = Lanes::broadcast(-uncertain);
   for (std::size_t part = 0; part < GaussBlock::size; part += Lanes::width) {
     const auto product = [&](std::size_t row, const Vec3<float>& v) TOUCHSTONE_TARGET {
-      Real x, y, z;
-      std::memcpy(&x, block.rows[row].data() + part, sizeof x);
-      std::memcpy(&y, block.rows[row + 1].data() + part, sizeof y);
-      std::memcpy(&z, block.rows[row + 2].data() + part, sizeof z);
+      const Vector x = Lanes::load(block.rows[row].data() + part);
+      const Vector y = Lanes::load(block.rows[row + 1].data() + part);
+      const Vector z = Lanes::load(block.rows[row + 2].data() + part);
       return x * Lanes::broadcast(v.x()) + y * Lanes::broadcast(v.y()) +
              z * Lanes::broadcast(v.z());
     };
-    const Real b_left = product(3, arc.direction), b_right = product(6, arc.direction);
-    const Real a_left = product(0, arc.left), a_right = product(0, arc.right);
+    const Vector b_left = product(3, arc.direction), b_right = product(6, arc.direction);
+    const Vector a_left = product(0, arc.left), a_right = product(0, arc.right);
     // The ends of one arc are on one side of the other's circle.
-    const unsigned same_side = Lanes::bits(Lanes::less(most, Lanes::min(b_left, b_right))) |
-                               Lanes::bits(Lanes::less(Lanes::max(b_left, b_right), least)) |
-                               Lanes::bits(Lanes::less(most, Lanes::min(a_left, a_right))) |
-                               Lanes::bits(Lanes::less(Lanes::max(a_left, a_right), least));
+    const unsigned same_side = Lanes::to_bits(Lanes::less(most, Lanes::min(b_left, b_right))) |
+                               Lanes::to_bits(Lanes::less(Lanes::max(b_left, b_right), least)) |
+                               Lanes::to_bits(Lanes::less(most, Lanes::min(a_left, a_right))) |
+                               Lanes::to_bits(Lanes::less(Lanes::max(a_left, a_right), least));
     // The circles meet in two points, and the arcs pass through opposite ones.
     const unsigned opposite =
-        (Lanes::bits(Lanes::less(most, a_left)) & Lanes::bits(Lanes::less(b_left, least))) |
-        (Lanes::bits(Lanes::less(a_left, least)) & Lanes::bits(Lanes::less(most, b_left)));
+        (Lanes::to_bits(Lanes::less(most, a_left)) & Lanes::to_bits(Lanes::less(b_left, least))) |
+        (Lanes::to_bits(Lanes::less(a_left, least)) & Lanes::to_bits(Lanes::less(most, b_left)));
     open |= (~(same_side | opposite) & ((1u << Lanes::width) - 1)) << part;
   }
   return open;

@@ -18,7 +18,7 @@ namespace touchstone {
 
 // Returns true if both bodies are boxes or hulls, or b is a half-space. It is the `supports` of
 // both contracts' entries.
-inline bool are_flat_sided(ShapeKind a, ShapeKind b, Task) {
+inline bool are_polytopes(ShapeKind a, ShapeKind b, Task) {
   const auto bounded = [](ShapeKind kind) {
     return kind == ShapeKind::box || kind == ShapeKind::hull;
   };

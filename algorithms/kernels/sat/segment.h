@@ -1,4 +1,4 @@
-// The closest points of two segments. Used by closed-form and common_point.
+// The closest points of two segments. Used by closed-form and witness_points.
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 5.1.9.
 // Departs: the closest points of the two lines come from cross products, which keep their digits if
 //          the lines are almost parallel, and are refined from there. The ends are candidates too,

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/core/cofactors.h"
 #include "algorithms/kernels/minkowski/support.h"
-#include "algorithms/kernels/sat/common_point.h"
+#include "algorithms/kernels/sat/witness_points.h"
 
 namespace touchstone {
 namespace {
@@ -30,7 +31,7 @@ PlacedPolytope<Scalar> place(const Polytope<Scalar>& shape, const Mat3d& rotatio
   placed.shape = &shape;
   placed.matrix = rotation.template cast<Scalar>();
   const Mat3<Scalar>& m = placed.matrix;
-  for (int k = 0; k < 3; ++k) placed.normals.col(k) = m.col((k + 1) % 3).cross(m.col((k + 2) % 3));
+  placed.normals = cofactor_matrix(m);
   const Scalar determinant = m.col(0).dot(placed.normals.col(0));
   placed.orientation = determinant < 0 ? Scalar{-1} : Scalar{1};
   placed.determinant = std::abs(determinant);
@@ -137,7 +138,7 @@ void PolytopePair<Scalar>::report(const Axis<Scalar>& best, Task task, bool exac
   outcome.lower = metres(best.gap - error_);
   if (exact) outcome.upper = metres(best.gap + error_);
   outcome.normal = best.normal.template cast<double>().normalized();
-  const CommonPoint<Scalar> point = common_point(a_, b_, best.normal, best.gap, 4 * error_);
+  const WitnessPoints<Scalar> point = witness_points(a_, b_, best.normal, best.gap, 4 * error_);
   outcome.witness_a = anchor_ + unit_ * point.a.template cast<double>();
   outcome.witness_b = anchor_ + unit_ * point.b.template cast<double>();
 }
@@ -146,8 +147,8 @@ template <class Scalar>
 std::vector<Polytope<Scalar>> make_polytopes(std::span<const Shape> shapes) {
   std::vector<Polytope<Scalar>> polytopes;
   for (const Shape& shape : shapes) {
-    const bool flat_sided = shape.kind == ShapeKind::box || shape.kind == ShapeKind::hull;
-    polytopes.push_back(flat_sided ? make_polytope<Scalar>(shape) : Polytope<Scalar>{});
+    const bool polytopes_only = shape.kind == ShapeKind::box || shape.kind == ShapeKind::hull;
+    polytopes.push_back(polytopes_only ? make_polytope<Scalar>(shape) : Polytope<Scalar>{});
   }
   return polytopes;
 }

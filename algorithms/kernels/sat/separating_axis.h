@@ -16,7 +16,7 @@
 //          5. The algorithm may add axes: the line of centres, or cross products of edges
 //             (`axis_along`).
 //          6. Report the greatest gap: beyond the error it decides; a depth gets bounds and witness
-//             points (common_point).
+//             points (witness_points).
 #pragma once
 
 #include <limits>

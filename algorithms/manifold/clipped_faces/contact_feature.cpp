@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algorithms/core/cofactors.h"
 #include "algorithms/kernels/sat/planar_hull.h"
 
 namespace touchstone {
@@ -45,8 +46,7 @@ struct Placed {
 // The image of an outward normal under any matrix, reflections included; not of unit length.
 template <class Scalar>
 Vec3<Scalar> turned_normal(const Mat3<Scalar>& m, const Vec3<Scalar>& normal) {
-  Mat3<Scalar> cofactors;
-  for (int k = 0; k < 3; ++k) cofactors.col(k) = m.col((k + 1) % 3).cross(m.col((k + 2) % 3));
+  const Mat3<Scalar> cofactors = cofactor_matrix(m);
   const Vec3<Scalar> image = cofactors * normal;
   return m.col(0).dot(cofactors.col(0)) < 0 ? Vec3<Scalar>(-image) : image;
 }

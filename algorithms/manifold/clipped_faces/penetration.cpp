@@ -12,11 +12,11 @@ constexpr int most_iterations = 128;  // cap on GJK's iterations
 
 // EPA, from a simplex whose distance to the origin is zero up to rounding.
 template <class Scalar>
-Penetration<Scalar> expand_from(SupportPair<Scalar>& pair, const Approach<Scalar>& found,
+Penetration<Scalar> expand_from(SupportPair<Scalar>& pair, const GjkDistanceResult<Scalar>& found,
                                 Scalar tolerance, ExpandingPolytope<Scalar>& polytope) {
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
-  const bool on_core = !found.nearest.inside && off_core(found.simplex) <= 4 * rounding;
+  const bool on_core = !found.nearest.inside && distance_from_origin(found.simplex) <= 4 * rounding;
   const ExpansionGoal<Scalar> goal{.tolerance = tolerance, .doubtful = !inside_core && !on_core};
   const Expansion<Scalar> depth = polytope.expand(pair, found.simplex, goal);
   Penetration<Scalar> result;
@@ -46,10 +46,10 @@ Penetration<Scalar> find_penetration(SupportPair<Scalar>& pair,
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const auto smooth = static_cast<Scalar>(sizeof(Scalar) == 8 ? 0.5e-10 : 0.5e-5);
   const Scalar tolerance = std::max(pair.is_polytope() ? Scalar{0} : smooth, rounding);
-  const ApproachGoal<Scalar> goal{
+  const GjkDistanceGoal<Scalar> goal{
       .task = Task::penetration, .tolerance = tolerance, .most_iterations = most_iterations};
-  const Approach<Scalar> found = approach(pair, goal);
-  if (found.end == Approach<Scalar>::End::contact) {
+  const GjkDistanceResult<Scalar> found = gjk_distance(pair, goal);
+  if (found.end == GjkDistanceResult<Scalar>::End::contact) {
     return expand_from(pair, found, tolerance, polytope);
   }
   Penetration<Scalar> result;

@@ -3,14 +3,14 @@
 //          predicates", Discrete & Computational Geometry 18, 1997 (a filter before exact
 //          arithmetic); Gilbert, Johnson, Keerthi, 1988, as in gjk.cpp.
 // Steps:   1. Half-space: bound the height of the lowest point over the plane, for a verdict in
-//             doubles first, then in long double (proven_height).
+//             doubles first, then in long double (halfspace_bounds).
 //          2. Pairs whose bounding balls are apart are separated (not for distance).
 //          3. intersect: run GJK's fast iteration; accept a support plane, a tetrahedron around the
 //             origin or a point within the radii that holds by more than
 //             proven_rounding.h.
 //          4. Otherwise run GJK's distance loop; it may prove the verdict in the same ways.
 //          5. From the last direction and simplex, compute an interval of the signed distance in
-//             long double with all rounding bounded (proven_gap, proven_support).
+//             long double with all rounding bounded (distance_bounds, support_bounds).
 //          6. Accept the interval if it decides and, for a distance or depth, is at most 4e-15 of
 //             the size or 2 units in the last place wide.
 //          7. Otherwise ask the oracle, in integers.
@@ -26,13 +26,13 @@
 #include <limits>
 #include <vector>
 
-#include "algorithms/kernels/batch/shape_prefetch.h"
+#include "algorithms/kernels/batch/for_each_pair.h"
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/gjk/gjk_iteration.h"
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/narrow_phase.h"
-#include "algorithms/narrow_phase/certified/proven_gap.h"
-#include "algorithms/narrow_phase/certified/proven_height.h"
+#include "algorithms/narrow_phase/certified/distance_bounds.h"
+#include "algorithms/narrow_phase/certified/halfspace_bounds.h"
 #include "algorithms/narrow_phase/certified/proven_rounding.h"
 #include "algorithms/oracle/answer.h"
 
@@ -50,7 +50,7 @@ constexpr double least_digits = 1e-9;  // relative to the size: a wider enclosur
 struct Prepared {
   explicit Prepared(const Shape& s) : proven(s), solid(s) {}
 
-  ProvenShape proven;
+  BoundedShape proven;
   oracle::Solid solid;
 
   const SupportShape<double>& support() const { return proven.support; }
@@ -69,7 +69,7 @@ bool is_asked(Task task, Answer answer) {
 
 // Writes the answer, and the interval if the task asks for it. Returns false if the bounds do not
 // decide, or if the interval is too wide.
-bool write(const ProvenGap& gap, double size, Task task, Outcome& outcome) {
+bool write(const DistanceBounds& gap, double size, Task task, Outcome& outcome) {
   const Answer answer = gap.lower > 0   ? Answer::separated
                         : gap.upper < 0 ? Answer::overlapping
                                         : Answer::unknown;
@@ -99,41 +99,26 @@ class Certified final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    ahead_.begin(batch.pairs, task == Task::distance);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      ahead_.before(i);
-      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
-      const PlacedBody a{shapes_[batch.pairs.shape_of[first]], batch.pairs.poses[first]};
-      const PlacedBody b{shapes_[batch.pairs.shape_of[second]], batch.pairs.poses[second]};
-      Outcome& outcome = outcomes[i];
-      outcome.iterations = outcome.support_calls = 0;
-      const bool decided = batch.kind_a == ShapeKind::halfspace   ? false
-                           : batch.kind_b == ShapeKind::halfspace ? on_plane(a, b, task, outcome)
-                                                                  : filter(a, b, task, outcome);
-      if (decided) continue;
-      outcome.support_calls = -1;
-      oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, task, outcome);
-      // The enclosure of round cores deep in each other may be wide: a bound instead of a depth.
-      const double size = std::max(a.shape.size(), b.shape.size());
-      const bool curved = a.shape.solid.is_curved() || b.shape.solid.is_curved();
-      if (task == Task::penetration && curved &&
-          outcome.upper - outcome.lower > least_digits * size) {
-        outcome.status = Status::not_converged;
-      }
-    }
+    for_each_pair(batch.pairs, shapes_, ahead_, task == Task::distance,
+                  [&](std::size_t i, const Prepared& a, const Pose& pose_a, const Prepared& b,
+                      const Pose& pose_b) {
+                    solve_pair({a, pose_a}, {b, pose_b}, task, batch, outcomes[i]);
+                  });
   }
 
  private:
+  void solve_pair(const PlacedBody& a, const PlacedBody& b, Task task, const PairBatch& batch,
+                  Outcome& outcome);
   bool filter(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome);
-  bool walk_decides(Pair& pair, Outcome& outcome) const;
-  bool approach_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b, Task task,
-                        Outcome& outcome);
+  bool fast_gjk_decides(Pair& pair, Outcome& outcome) const;
+  bool gjk_distance_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b, Task task,
+                            Outcome& outcome);
   bool on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome);
 
   std::vector<Prepared> shapes_;
   ShapePrefetch<double> ahead_;
-  GapProver gaps_;
-  HeightProver heights_;
+  DistanceBounder gaps_;
+  HalfspaceBounder heights_;
   oracle::Oracle oracle_;
 };
 
@@ -143,6 +128,23 @@ bool say(Answer answer, Outcome& outcome) {
   return true;
 }
 
+void Certified::solve_pair(const PlacedBody& a, const PlacedBody& b, Task task,
+                           const PairBatch& batch, Outcome& outcome) {
+  outcome.iterations = outcome.support_calls = 0;
+  const bool decided = batch.kind_a == ShapeKind::halfspace   ? false
+                       : batch.kind_b == ShapeKind::halfspace ? on_plane(a, b, task, outcome)
+                                                              : filter(a, b, task, outcome);
+  if (decided) return;
+  outcome.support_calls = -1;
+  oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, task, outcome);
+  // The enclosure of round cores deep in each other may be wide: then it is a bound, not a depth.
+  const double size = std::max(a.shape.size(), b.shape.size());
+  const bool curved = a.shape.solid.is_curved() || b.shape.solid.is_curved();
+  if (task == Task::penetration && curved && outcome.upper - outcome.lower > least_digits * size) {
+    outcome.status = Status::not_converged;
+  }
+}
+
 bool Certified::filter(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome) {
   if (task != Task::distance &&
       balls_are_apart(a.shape.support(), a.pose, b.shape.support(), b.pose)) {
@@ -150,25 +152,27 @@ bool Certified::filter(const PlacedBody& a, const PlacedBody& b, Task task, Outc
   }
   Pair pair(a.shape.support(), a.pose, b.shape.support(), b.pose);
   const bool decided =
-      is_in_range(pair) && ((task == Task::intersect && walk_decides(pair, outcome)) ||
-                            approach_decides(pair, a, b, task, outcome));
+      is_in_range(pair) && ((task == Task::intersect && fast_gjk_decides(pair, outcome)) ||
+                            gjk_distance_decides(pair, a, b, task, outcome));
   outcome.support_calls = pair.support_calls();
   return decided;
 }
 
 // Returns true if a point of the difference is certainly nearer to the origin than the radii.
 bool is_within_radius(const Pair& pair, const Simplex<double>& simplex) {
-  return pair.radius() > proven_rounding && off_core(simplex) + proven_rounding < pair.radius();
+  return pair.radius() > proven_rounding &&
+         distance_from_origin(simplex) + proven_rounding < pair.radius();
 }
 
 // Tries the verdict of GJK's fast iteration.
-bool Certified::walk_decides(Pair& pair, Outcome& outcome) const {
-  Walk<double> found = walk(pair, {.only_apart = true, .most_iterations = most_iterations}, 0.0);
+bool Certified::fast_gjk_decides(Pair& pair, Outcome& outcome) const {
+  FastGjkResult<double> found =
+      fast_gjk(pair, {.only_apart = true, .most_iterations = most_iterations}, 0.0);
   outcome.iterations = found.iterations;
   switch (found.end) {
-    case WalkEnd::apart:
+    case FastGjkEnd::apart:
       return found.lower > pair.radius() + proven_rounding && say(Answer::separated, outcome);
-    case WalkEnd::inside: return say(Answer::overlapping, outcome);
+    case FastGjkEnd::inside: return say(Answer::overlapping, outcome);
     default: break;
   }
   if (pair.radius() == 0 || found.simplex.size == 0) return false;
@@ -178,13 +182,13 @@ bool Certified::walk_decides(Pair& pair, Outcome& outcome) const {
 }
 
 // Runs GJK's distance loop and tests what its end proves.
-bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b, Task task,
-                                 Outcome& outcome) {
-  const ApproachGoal<double> goal{
+bool Certified::gjk_distance_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b,
+                                     Task task, Outcome& outcome) {
+  const GjkDistanceGoal<double> goal{
       .task = task == Task::penetration ? Task::penetration : Task::distance,
       .tolerance = 4 * std::numeric_limits<double>::epsilon(),
       .most_iterations = most_iterations};
-  const Approach<double> found = approach(pair, goal);
+  const GjkDistanceResult<double> found = gjk_distance(pair, goal);
   outcome.iterations += found.iterations;
   const Simplex<double>& simplex = found.simplex;
   if (found.nearest.inside) {
@@ -198,7 +202,7 @@ bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBo
     return say(Answer::overlapping, outcome);
   }
   const Vec3d normal = -found.nearest.direction;
-  const ProvenGap gap =
+  const DistanceBounds gap =
       gaps_.between(a.shape.proven, a.pose, b.shape.proven, b.pose, pair, simplex, normal);
   if (!write(gap, std::max(a.shape.size(), b.shape.size()), task, outcome)) return false;
   if (is_asked(task, outcome.answer)) {
@@ -218,12 +222,13 @@ bool Certified::approach_decides(Pair& pair, const PlacedBody& a, const PlacedBo
 bool Certified::on_plane(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome) {
   outcome.support_calls = 1;
   if (task == Task::intersect &&
-      write(HeightProver::roughly(a.shape.proven, a.pose, b.shape.proven, b.pose), a.shape.size(),
-            task, outcome)) {
+      write(HalfspaceBounder::roughly(a.shape.proven, a.pose, b.shape.proven, b.pose),
+            a.shape.size(), task, outcome)) {
     return true;
   }
   Vec3d outward;
-  const ProvenGap gap = heights_.closely(a.shape.proven, a.pose, b.shape.proven, b.pose, outward);
+  const DistanceBounds gap =
+      heights_.closely(a.shape.proven, a.pose, b.shape.proven, b.pose, outward);
   if (!write(gap, a.shape.size(), task, outcome)) return false;
   if (is_asked(task, outcome.answer)) {
     const SupportShape<double>& shape = a.shape.support();

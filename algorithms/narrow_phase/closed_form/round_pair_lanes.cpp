@@ -13,7 +13,7 @@
 namespace touchstone {
 namespace {
 
-using real_lanes::Quad;
+using simd::Quad;
 
 // Forward bounds on the rounding error of a distance, relative to the size of the pair: the sum of
 // the radii, of the coordinates of the half segments or half extents, and of the offset's
@@ -29,8 +29,7 @@ struct DistanceError {
   static constexpr Scalar box = (std::is_same_v<Scalar, float> ? 64 : 128) * unit_roundoff<Scalar>;
 };
 
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/narrow_phase/closed_form/round_pair_lanes.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/narrow_phase/closed_form/round_pair_lanes.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace

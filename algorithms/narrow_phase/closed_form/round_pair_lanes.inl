@@ -1,33 +1,33 @@
 // Part of closed-form: the loops of round_pair_lanes.h. round_pair_lanes.cpp includes this file
 // once for each level of vector instructions, inside that level's namespace.
 #include "algorithms/kernels/batch/pair_lanes.inl"
-#include "algorithms/kernels/simd/lane_vectors.inl"
+#include "algorithms/kernels/simd/vector3.inl"
 
 // The relation of two bodies' cores: metres, world axes, relative to the centre of a. The distance,
 // negative if a point is in a box, is between `lower` and `upper` up to `error`; `gap` is the
 // distance along the normal.
 template <class Scalar>
 struct Cores {
-  using Real = typename RealLanes<Scalar>::Real;
-  Real radius_a, radius_b;
-  Real gap, lower, upper, error;
-  Vectors<Scalar> normal;  // unit vector from a to b
-  Vectors<Scalar> on_a, on_b;
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector radius_a, radius_b;
+  Vector gap, lower, upper, error;
+  Vector3<Scalar> normal;  // unit vector from a to b
+  Vector3<Scalar> on_a, on_b;
   unsigned usable;  // lanes that may be answered at all, as bits
 };
 
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real sum_of_sizes(
-    const Vectors<Scalar>& v) {
-  using Lanes = RealLanes<Scalar>;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector sum_of_sizes(
+    const Vector3<Scalar>& v) {
+  using Lanes = Simd<Scalar>;
   return Lanes::abs(v.x) + Lanes::abs(v.y) + Lanes::abs(v.z);
 }
 
 // number / square clamped to -1..1; zero if the square is zero.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real parameter(
-    typename RealLanes<Scalar>::Real number, typename RealLanes<Scalar>::Real square) {
-  using Lanes = RealLanes<Scalar>;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector parameter(
+    typename Simd<Scalar>::Vector number, typename Simd<Scalar>::Vector square) {
+  using Lanes = Simd<Scalar>;
   const auto one = Lanes::broadcast(1), zero = Lanes::broadcast(0);
   const auto some = Lanes::less(zero, square);
   const auto ratio = Lanes::select(some, number / square, zero);
@@ -36,10 +36,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real parameter(
 
 // Removes v's component along a segment in the lanes whose parameter is inside the segment.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> part_across(
-    const Vectors<Scalar>& v, const Vectors<Scalar>& along, typename RealLanes<Scalar>::Real square,
-    typename RealLanes<Scalar>::Real at) {
-  using Lanes = RealLanes<Scalar>;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> part_across(
+    const Vector3<Scalar>& v, const Vector3<Scalar>& along, typename Simd<Scalar>::Vector square,
+    typename Simd<Scalar>::Vector at) {
+  using Lanes = Simd<Scalar>;
   const auto zero = Lanes::broadcast(0);
   const auto inside = Lanes::less(Lanes::abs(at), Lanes::broadcast(1));
   const auto part = Lanes::select(Lanes::less(zero, square), dot<Scalar>(v, along) / square, zero);
@@ -52,8 +52,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> part_across(
 template <class Scalar, bool long_a, bool long_b>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar>& table,
                                                           std::size_t begin, Cores<Scalar>& cores) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr std::size_t width = Lanes::width;
   alignas(64) Quad<Scalar> offsets[width], sizes[width], axes_a[width], axes_b[width];
   Group<Scalar> group;
@@ -67,12 +67,12 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
     if constexpr (long_a) axes_a[lane] = convert<Scalar>(pose_quad(a, 5));
     if constexpr (long_b) axes_b[lane] = convert<Scalar>(pose_quad(b, 5));
   }
-  Real offset_columns[4], size_columns[4], columns[4];
+  Vector offset_columns[4], size_columns[4], columns[4];
   columns_of<Scalar>(offsets, offset_columns);
   columns_of<Scalar>(sizes, size_columns);
-  const Vectors<Scalar> offset{offset_columns[1], offset_columns[2], offset_columns[3]};
-  const Real zero = Lanes::broadcast(0);
-  Vectors<Scalar> half_a{zero, zero, zero}, half_b{zero, zero, zero};
+  const Vector3<Scalar> offset{offset_columns[1], offset_columns[2], offset_columns[3]};
+  const Vector zero = Lanes::broadcast(0);
+  Vector3<Scalar> half_a{zero, zero, zero}, half_b{zero, zero, zero};
   if constexpr (long_a) {
     columns_of<Scalar>(axes_a, columns);
     half_a = moved<Scalar>(half_a, size_columns[1], {columns[1], columns[2], columns[3]});
@@ -83,16 +83,16 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
   }
   cores.radius_a = size_columns[0];
   cores.radius_b = size_columns[2];
-  const Real size = cores.radius_a + cores.radius_b + sum_of_sizes<Scalar>(half_a) +
-                    sum_of_sizes<Scalar>(half_b) + sum_of_sizes<Scalar>(offset);
+  const Vector size = cores.radius_a + cores.radius_b + sum_of_sizes<Scalar>(half_a) +
+                      sum_of_sizes<Scalar>(half_b) + sum_of_sizes<Scalar>(offset);
   cores.usable = sized_lanes<Scalar>(size);
   cores.error = DistanceError<Scalar>::cores * size;
 
   // Parameters of the closest points, from -1 to 1.
-  const Real square_a = dot<Scalar>(half_a, half_a), square_b = dot<Scalar>(half_b, half_b);
-  Real s = zero, t = zero;
+  const Vector square_a = dot<Scalar>(half_a, half_a), square_b = dot<Scalar>(half_b, half_b);
+  Vector s = zero, t = zero;
   if constexpr (long_a && long_b) {
-    const Vectors<Scalar> across = cross<Scalar>(half_a, half_b);
+    const Vector3<Scalar> across = cross<Scalar>(half_a, half_b);
     s = parameter<Scalar>(dot<Scalar>(cross<Scalar>(offset, half_b), across),
                           dot<Scalar>(across, across));
   }
@@ -113,13 +113,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
   }
   cores.on_a = moved<Scalar>({zero, zero, zero}, s, half_a);
   cores.on_b = moved<Scalar>(offset, t, half_b);
-  const Vectors<Scalar> between = difference<Scalar>(cores.on_b, cores.on_a);
+  const Vector3<Scalar> between = difference<Scalar>(cores.on_b, cores.on_a);
   // The normal must be orthogonal to segments whose interior the points are in; rounding may tilt
   // it.
-  Vectors<Scalar> straight = between;
+  Vector3<Scalar> straight = between;
   if constexpr (long_a) straight = part_across<Scalar>(straight, half_a, square_a, s);
   if constexpr (long_b) straight = part_across<Scalar>(straight, half_b, square_b, t);
-  const Real scale = Lanes::broadcast(1) / Lanes::sqrt(dot<Scalar>(straight, straight));
+  const Vector scale = Lanes::broadcast(1) / Lanes::sqrt(dot<Scalar>(straight, straight));
   cores.normal = {straight.x * scale, straight.y * scale, straight.z * scale};
   cores.gap = dot<Scalar>(cores.normal, between);
   cores.upper = Lanes::sqrt(dot<Scalar>(between, between));
@@ -131,8 +131,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& table,
                                                      std::size_t begin, Cores<Scalar>& cores) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr std::size_t width = Lanes::width;
   alignas(64) Quad<Scalar> quads[4][width];
   Group<Scalar> group;
@@ -147,28 +147,28 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
     quads[3][lane] = __builtin_shufflevector(shape_quad<Scalar>(table, second),
                                              shape_quad<Scalar>(table, first), 0, 1, 2, 4);
   }
-  Real columns[4][4];
+  Vector columns[4][4];
   for (std::size_t k = 0; k < 4; ++k) columns_of<Scalar>(quads[k], columns[k]);
-  const Vectors<Scalar> edges[3] = {{columns[0][0], columns[0][1], columns[0][2]},
+  const Vector3<Scalar> edges[3] = {{columns[0][0], columns[0][1], columns[0][2]},
                                     {columns[0][3], columns[1][0], columns[1][1]},
                                     {columns[1][2], columns[1][3], columns[2][0]}};
-  const Vectors<Scalar> offset{columns[2][1], columns[2][2], columns[2][3]};
-  const Real half[3] = {columns[3][0], columns[3][1], columns[3][2]};
-  const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  const Vector3<Scalar> offset{columns[2][1], columns[2][2], columns[2][3]};
+  const Vector half[3] = {columns[3][0], columns[3][1], columns[3][2]};
+  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
   cores.radius_a = columns[3][3];
   cores.radius_b = zero;
-  const Real size = cores.radius_a + half[0] + half[1] + half[2] + sum_of_sizes<Scalar>(offset);
+  const Vector size = cores.radius_a + half[0] + half[1] + half[2] + sum_of_sizes<Scalar>(offset);
   cores.error = DistanceError<Scalar>::box * size;
   cores.usable = sized_lanes<Scalar>(size) & orthonormal_lanes<Scalar>(edges);
 
   // Components of a's centre along the box's edges: the part outside the box, and the way out if
   // inside.
-  Real outside[3], inward[3];
-  Real least = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
+  Vector outside[3], inward[3];
+  Vector least = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
   for (int k = 0; k < 3; ++k) {
-    const Real at = -dot<Scalar>(edges[k], offset);
-    const Real beyond = Lanes::abs(at) - half[k];
-    const Real sign = Lanes::select(Lanes::less(at, zero), -one, one);
+    const Vector at = -dot<Scalar>(edges[k], offset);
+    const Vector beyond = Lanes::abs(at) - half[k];
+    const Vector sign = Lanes::select(Lanes::less(at, zero), -one, one);
     outside[k] = sign * Lanes::max(beyond, zero);
     // The way out leads through the nearest face, the first of several.
     const auto nearer = Lanes::less(least, beyond);
@@ -178,13 +178,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
     }
     inward[k] = Lanes::select(nearer, sign, zero);
   }
-  const Real distance =
+  const Vector distance =
       Lanes::sqrt(outside[0] * outside[0] + outside[1] * outside[1] + outside[2] * outside[2]);
   const auto is_outside = Lanes::less(zero, distance);
-  const Real scale = -one / Lanes::select(is_outside, distance, one);
-  Vectors<Scalar> normal{zero, zero, zero};
+  const Vector scale = -one / Lanes::select(is_outside, distance, one);
+  Vector3<Scalar> normal{zero, zero, zero};
   for (int k = 0; k < 3; ++k) {
-    const Real along = Lanes::select(is_outside, outside[k], inward[k]) * scale;
+    const Vector along = Lanes::select(is_outside, outside[k], inward[k]) * scale;
     normal = moved<Scalar>(normal, along, edges[k]);
   }
   cores.normal = normal;
@@ -197,8 +197,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
 
 template <class Scalar, bool long_a, bool long_b, bool box>
 TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task task) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   std::size_t left = 0;
   for (std::size_t begin = 0; begin < table.pairs.first.size(); begin += Lanes::width) {
     Cores<Scalar> cores;
@@ -207,15 +207,15 @@ TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task ta
     } else {
       look_at_segments<Scalar, long_a, long_b>(table, begin, cores);
     }
-    const Real radii = cores.radius_a + cores.radius_b;
-    unsigned apart = cores.usable & Lanes::bits(Lanes::less(cores.error, cores.lower - radii));
+    const Vector radii = cores.radius_a + cores.radius_b;
+    unsigned apart = cores.usable & Lanes::to_bits(Lanes::less(cores.error, cores.lower - radii));
     unsigned overlapping =
-        cores.usable & Lanes::bits(Lanes::less(cores.upper - radii, -cores.error));
+        cores.usable & Lanes::to_bits(Lanes::less(cores.upper - radii, -cores.error));
     unsigned& asked = task == Task::distance ? apart : overlapping;
     if (task != Task::intersect && asked != 0) {
       // If the bounds are farther apart than this, the normal is not the shortest way.
-      asked &= Lanes::bits(Lanes::less(cores.upper - cores.lower, cores.error));
-      const Vectors<Scalar>& normal = cores.normal;
+      asked &= Lanes::to_bits(Lanes::less(cores.upper - cores.lower, cores.error));
+      const Vector3<Scalar>& normal = cores.normal;
       write_numbers<Scalar>(
           table, begin, asked,
           {cores.gap - radii, cores.lower - radii - cores.error, cores.upper - radii + cores.error,

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "algorithms/kernels/minkowski/support_shape.h"
-#include "algorithms/kernels/simd/real_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 #include "algorithms/narrow_phase/ellipsoid/cofactors.h"
 
 namespace touchstone {
@@ -133,8 +133,7 @@ EllipsoidPlane<Scalar>::EllipsoidPlane(const EllipsoidPair<Scalar>& pair, const 
 
 namespace {
 
-#define TOUCHSTONE_LANES real_lanes
-#define TOUCHSTONE_LOOPS "algorithms/narrow_phase/ellipsoid/newton_ascent.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/narrow_phase/ellipsoid/newton_ascent.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace

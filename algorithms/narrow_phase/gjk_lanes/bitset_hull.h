@@ -66,7 +66,7 @@ class BitsetHull {
         touched |= bit(a) | bit(b) | bit(c);
       }
     }
-    if (!walk_horizon(visible, touched)) {
+    if (!trace_horizon(visible, touched)) {
       for (; touched != 0; touched &= touched - 1) neighbours_[std::countr_zero(touched)] = 0;
       return false;
     }
@@ -86,7 +86,7 @@ class BitsetHull {
 
   // Follows the horizon from an edge of the first face on it. Returns true if the horizon is one
   // ring that visits no vertex twice, with all visible faces on one side.
-  bool walk_horizon(std::size_t visible, std::uint64_t touched) {
+  bool trace_horizon(std::size_t visible, std::uint64_t touched) {
     std::size_t tail = 0, at = 0;
     bool found = false;
     for (std::size_t i = 0; i < visible && !found; ++i) {

@@ -4,37 +4,37 @@
 // The points of the lanes' simplices that are nearest to the origin.
 template <class Scalar>
 struct Nearest {
-  Vectors<Scalar> point, on_a;  // of the difference, and on the core of a
+  Vector3<Scalar> point, on_a;  // of the difference, and on the core of a
   unsigned sound;               // lanes without a negative weight, as bits
 };
 
 template <class Scalar, bool points>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Nearest<Scalar> find_nearest(
     const LaneSimplex<Scalar>& simplex) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
   const auto& [b, c, d, has_b, has_c, has_d] = simplex;
-  const Vectors<Scalar> nothing{zero, zero, zero};
-  const Vectors<Scalar> to_c = select<Scalar>(has_c, difference<Scalar>(c.point, b.point), nothing);
-  const Vectors<Scalar> to_d = select<Scalar>(has_d, difference<Scalar>(d.point, b.point), nothing);
-  const Real cc = Lanes::select(has_c, dot<Scalar>(to_c, to_c), one);
-  const Real dd = Lanes::select(has_d, dot<Scalar>(to_d, to_d), one);
-  const Real cd = dot<Scalar>(to_c, to_d);
-  const Real scale = one / (cc * dd - cd * cd);
-  Real of_c = zero, of_d = zero;
+  const Vector3<Scalar> nothing{zero, zero, zero};
+  const Vector3<Scalar> to_c = select<Scalar>(has_c, difference<Scalar>(c.point, b.point), nothing);
+  const Vector3<Scalar> to_d = select<Scalar>(has_d, difference<Scalar>(d.point, b.point), nothing);
+  const Vector cc = Lanes::select(has_c, dot<Scalar>(to_c, to_c), one);
+  const Vector dd = Lanes::select(has_d, dot<Scalar>(to_d, to_d), one);
+  const Vector cd = dot<Scalar>(to_c, to_d);
+  const Vector scale = one / (cc * dd - cd * cd);
+  Vector of_c = zero, of_d = zero;
   Nearest<Scalar> nearest;
   nearest.point = b.point;
   // The second pass removes what rounding left.
   for (int time = 0; time < 2; ++time) {
-    const Real left_c = -dot<Scalar>(nearest.point, to_c),
-               left_d = -dot<Scalar>(nearest.point, to_d);
+    const Vector left_c = -dot<Scalar>(nearest.point, to_c),
+                 left_d = -dot<Scalar>(nearest.point, to_d);
     of_c = of_c + (dd * left_c - cd * left_d) * scale;
     of_d = of_d + (cc * left_d - cd * left_c) * scale;
     nearest.point = moved<Scalar>(moved<Scalar>(b.point, of_c, to_c), of_d, to_d);
   }
-  nearest.sound = ~Lanes::bits(Lanes::less(Lanes::min(of_c, of_d), zero)) &
-                  ~Lanes::bits(Lanes::less(one, of_c + of_d));
+  nearest.sound = ~Lanes::to_bits(Lanes::less(Lanes::min(of_c, of_d), zero)) &
+                  ~Lanes::to_bits(Lanes::less(one, of_c + of_d));
   if constexpr (points) {
     nearest.on_a = b.on_a;
     nearest.on_a = moved<Scalar>(
@@ -51,25 +51,25 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Nearest<Scalar> find_nearest(
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
                                            const LaneGoal<Scalar>& goal,
-                                           const Walkers<Scalar>& walkers,
+                                           const LaneState<Scalar>& state,
                                            const Nearest<Scalar>& nearest, unsigned lanes) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real one = Lanes::broadcast(1), margin = Lanes::broadcast(lane_rounding<Scalar>);
-  const Real scale = one / walkers.length;
-  const Vectors<Scalar> direction = scaled<Scalar>(scale, walkers.way);
-  const Real distance = walkers.along * scale, lower = walkers.plane * scale;
-  const Vectors<Scalar> aside = moved<Scalar>(nearest.point, -distance, direction);
-  const Real most =
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector one = Lanes::broadcast(1), margin = Lanes::broadcast(lane_rounding<Scalar>);
+  const Vector scale = one / state.length;
+  const Vector3<Scalar> direction = scaled<Scalar>(scale, state.search);
+  const Vector distance = state.along * scale, lower = state.plane * scale;
+  const Vector3<Scalar> aside = moved<Scalar>(nearest.point, -distance, direction);
+  const Vector most =
       Lanes::max(Lanes::max(Lanes::abs(aside.x), Lanes::abs(aside.y)), Lanes::abs(aside.z));
-  lanes &= nearest.sound & Lanes::bits(Lanes::less(most, Scalar(0.5) * margin));
+  lanes &= nearest.sound & Lanes::to_bits(Lanes::less(most, Scalar(0.5) * margin));
   if (lanes == 0) return 0;
-  const Real radius = walkers.radius_a + walkers.radius_b;
-  const Vectors<Scalar> normal = scaled<Scalar>(-one, direction);
-  const Vectors<Scalar> on_a = moved<Scalar>(nearest.on_a, walkers.radius_a, normal);
-  const Vectors<Scalar> on_b =
-      moved<Scalar>(difference<Scalar>(nearest.on_a, nearest.point), -walkers.radius_b, normal);
-  Real columns[3][4] = {
+  const Vector radius = state.radius_a + state.radius_b;
+  const Vector3<Scalar> normal = scaled<Scalar>(-one, direction);
+  const Vector3<Scalar> on_a = moved<Scalar>(nearest.on_a, state.radius_a, normal);
+  const Vector3<Scalar> on_b =
+      moved<Scalar>(difference<Scalar>(nearest.on_a, nearest.point), -state.radius_b, normal);
+  Vector columns[3][4] = {
       {distance - radius, lower - radius - margin, distance - radius + margin, normal.x},
       {normal.y, normal.z, on_a.x, on_a.y},
       {on_a.z, on_b.x, on_b.y, on_b.z}};
@@ -77,7 +77,7 @@ TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
   for (std::size_t k = 0; k < 3; ++k) quads_of<Scalar>(columns[k], quads[k]);
   for (unsigned open = lanes; open != 0; open &= open - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(open));
-    const std::uint32_t place_of_pair = walkers.place[lane];
+    const std::uint32_t place_of_pair = state.place[lane];
     const std::uint32_t body = table.pairs.first[place_of_pair];
     const Pose& pose = table.pairs.poses[body];
     Quad<double> origin = pose_quad(pose, 8);
@@ -85,7 +85,7 @@ TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
       origin += turned_centre(goal.shapes[table.pairs.shape_of[body]], pose);
     }
     const Quad<double> none{};
-    const double unit = walkers.unit[lane];
+    const double unit = state.unit[lane];
     const std::size_t at = place<Lanes>(lane);
     char* const to = reinterpret_cast<char*>(&table.outcomes[place_of_pair].distance);
     put_quad(widen<Scalar>(quads[0][at]) * Quad<double>{unit, unit, unit, 1}, to);
@@ -103,38 +103,38 @@ TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
 // Returns the new number of places in `left`.
 template <class Scalar, bool points>
 TOUCHSTONE_TARGET std::size_t answer_lanes(const PairTable<Scalar>& table,
-                                           const LaneGoal<Scalar>& goal, Walkers<Scalar>& walkers,
+                                           const LaneGoal<Scalar>& goal, LaneState<Scalar>& state,
                                            std::size_t left) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  unsigned apart = walkers.apart, inside = walkers.inside;
-  const unsigned with_points = !points ? 0 : goal.starts == nullptr ? apart : walkers.shallow;
-  if ((with_points | walkers.shallow) != 0) {
-    const Nearest<Scalar> nearest = find_nearest<Scalar, points>(walkers.simplex);
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  unsigned apart = state.apart, inside = state.inside;
+  const unsigned with_points = !points ? 0 : goal.starts == nullptr ? apart : state.shallow;
+  if ((with_points | state.shallow) != 0) {
+    const Nearest<Scalar> nearest = find_nearest<Scalar, points>(state.simplex);
     if constexpr (points) {
-      const unsigned written = write_distances<Scalar>(table, goal, walkers, nearest, with_points);
+      const unsigned written = write_distances<Scalar>(table, goal, state, nearest, with_points);
       (goal.starts == nullptr ? apart : inside) = written;
     }
-    if (walkers.shallow != 0 && goal.starts == nullptr) {
+    if (state.shallow != 0 && goal.starts == nullptr) {
       // A point of the difference that is nearer than the radii proves an overlap.
-      const Real length = Lanes::sqrt(dot<Scalar>(nearest.point, nearest.point));
-      const Real enough =
-          walkers.radius_a + walkers.radius_b - Lanes::broadcast(lane_rounding<Scalar>);
-      inside |= walkers.shallow & nearest.sound & Lanes::bits(Lanes::less(length, enough));
+      const Vector length = Lanes::sqrt(dot<Scalar>(nearest.point, nearest.point));
+      const Vector enough =
+          state.radius_a + state.radius_b - Lanes::broadcast(lane_rounding<Scalar>);
+      inside |= state.shallow & nearest.sound & Lanes::to_bits(Lanes::less(length, enough));
     }
   }
   alignas(64) Scalar counts[Lanes::width];
-  std::memcpy(counts, &walkers.count, sizeof counts);
-  for (unsigned open = walkers.ended(); open != 0; open &= open - 1) {
+  std::memcpy(counts, &state.count, sizeof counts);
+  for (unsigned open = state.ended(); open != 0; open &= open - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(open));
-    const std::uint32_t place_of_pair = walkers.place[lane];
+    const std::uint32_t place_of_pair = state.place[lane];
     if (((apart | inside) >> lane & 1) == 0) {
       table.left[left++] = place_of_pair;
       continue;
     }
-    write_walked((apart >> lane & 1) != 0, static_cast<std::int32_t>(counts[lane]),
-                 table.outcomes[place_of_pair]);
+    write_verdict((apart >> lane & 1) != 0, static_cast<std::int32_t>(counts[lane]),
+                  table.outcomes[place_of_pair]);
   }
-  walkers.apart = walkers.inside = walkers.shallow = walkers.doubtful = 0;
+  state.apart = state.inside = state.shallow = state.doubtful = 0;
   return left;
 }

@@ -6,10 +6,10 @@
 
 // Stores the tetrahedra of these lanes, which contain the origin.
 template <class Scalar>
-TOUCHSTONE_TARGET void note_starts(const Walkers<Scalar>& walkers, unsigned lanes,
+TOUCHSTONE_TARGET void note_starts(const LaneState<Scalar>& state, unsigned lanes,
                                    DepthStarts<Scalar>& starts) {
-  using Lanes = RealLanes<Scalar>;
-  const auto& [a, b, c, d] = walkers.around;
+  using Lanes = Simd<Scalar>;
+  const auto& [a, b, c, d] = state.around;
   const Corner<Scalar>* const corners[4] = {&a, &b, &c, &d};
   alignas(64) Quad<Scalar> points[4][Lanes::width], on_a[4][Lanes::width];
   for (std::size_t k = 0; k < 4; ++k) {
@@ -17,11 +17,11 @@ TOUCHSTONE_TARGET void note_starts(const Walkers<Scalar>& walkers, unsigned lane
     to_quads<Scalar>(corners[k]->on_a, on_a[k]);
   }
   alignas(64) Scalar counts[Lanes::width];
-  std::memcpy(counts, &walkers.count, sizeof counts);
+  std::memcpy(counts, &state.count, sizeof counts);
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     DepthStart<Scalar>& start = starts.all[starts.count++];
-    start.place = walkers.place[lane];
+    start.place = state.place[lane];
     start.iterations = static_cast<std::int32_t>(counts[lane]);
     for (std::size_t k = 0; k < 4; ++k) {
       start.points[k] = points[k][place<Lanes>(lane)];
@@ -35,17 +35,17 @@ TOUCHSTONE_TARGET void note_starts(const Walkers<Scalar>& walkers, unsigned lane
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
                                               const LaneGoal<Scalar>& goal, std::size_t& next,
-                                              Walkers<Scalar>& walkers,
+                                              LaneState<Scalar>& state,
                                               Expanders<Scalar>& expanders, std::size_t left) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   const DepthStarts<Scalar>& starts = *goal.starts;
   unsigned fresh = 0;
   for (std::size_t lane = 0; lane < Lanes::width && next < starts.count; ++lane) {
     if ((expanders.active >> lane & 1) != 0) continue;
     const DepthStart<Scalar>& start = starts.all[next++];
     // The pair was loaded before, so it loads again.
-    load_pair<Scalar, scans>(table, goal, start.place, lane, walkers);
+    load_pair<Scalar, scans>(table, goal, start.place, lane, state);
     for (std::size_t k = 0; k < 4; ++k) {
       expanders.points[k][lane] = start.points[k];
       expanders.on_a[k][lane] = start.on_a[k];
@@ -54,32 +54,32 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
     expanders.surfaces[lane].start();
     fresh |= 1u << lane;
   }
-  turn_lanes<Scalar, scans>(goal, walkers);
+  turn_lanes<Scalar, scans>(goal, state);
 
-  Vectors<Scalar> corners[4];
+  Vector3<Scalar> corners[4];
   for (std::size_t k = 0; k < 4; ++k) corners[k] = from_quads<Scalar>(expanders.points[k]);
-  const Vectors<Scalar> to[3] = {difference<Scalar>(corners[1], corners[0]),
+  const Vector3<Scalar> to[3] = {difference<Scalar>(corners[1], corners[0]),
                                  difference<Scalar>(corners[2], corners[0]),
                                  difference<Scalar>(corners[3], corners[0])};
-  const Real volume = dot<Scalar>(to[2], cross<Scalar>(to[0], to[1]));
+  const Vector volume = dot<Scalar>(to[2], cross<Scalar>(to[0], to[1]));
   const auto inside_out = Lanes::less(volume, Lanes::broadcast(0));
-  for (unsigned turned = Lanes::bits(inside_out) & fresh; turned != 0; turned &= turned - 1) {
+  for (unsigned turned = Lanes::to_bits(inside_out) & fresh; turned != 0; turned &= turned - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(turned));
     std::swap(expanders.points[0][lane], expanders.points[1][lane]);
     std::swap(expanders.on_a[0][lane], expanders.on_a[1][lane]);
   }
-  const Vectors<Scalar> first = select<Scalar>(inside_out, corners[1], corners[0]);
+  const Vector3<Scalar> first = select<Scalar>(inside_out, corners[1], corners[0]);
   corners[1] = select<Scalar>(inside_out, corners[0], corners[1]);
   corners[0] = first;
 
-  const auto set = Lanes::mask(fresh);
-  const Real outside = Lanes::broadcast(-2 * lane_rounding<Scalar>);
+  const auto set = Lanes::from_bits(fresh);
+  const Vector outside = Lanes::broadcast(-2 * lane_rounding<Scalar>);
   unsigned usable = fresh;
   for (std::size_t face = 0; face < 4; ++face) {
     const auto [a, b, c] = BitsetHull::tetrahedron[face];
     const TrianglePlanes<Scalar> plane =
         triangle_planes<Scalar>(corners[a], corners[b], corners[c]);
-    usable &= Lanes::bits(Lanes::less(outside, plane.distance));
+    usable &= Lanes::to_bits(Lanes::less(outside, plane.distance));
     expanders.normal[face] = select<Scalar>(set, plane.normal, expanders.normal[face]);
     expanders.distance[face] = Lanes::select(set, plane.distance, expanders.distance[face]);
   }
@@ -87,13 +87,13 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
   for (unsigned open = expanders.active; open != 0; open &= open - 1) {
     expanders.faces = std::max(expanders.faces, expanders.surfaces[std::countr_zero(open)].faces());
   }
-  const Real nowhere = Lanes::broadcast(std::numeric_limits<Scalar>::infinity());
+  const Vector nowhere = Lanes::broadcast(std::numeric_limits<Scalar>::infinity());
   for (std::size_t face = 4; face < expanders.faces; ++face) {
     expanders.distance[face] = Lanes::select(set, nowhere, expanders.distance[face]);
   }
   expanders.active |= usable;
   for (unsigned flat = fresh & ~usable; flat != 0; flat &= flat - 1) {
-    table.left[left++] = walkers.place[std::countr_zero(flat)];
+    table.left[left++] = state.place[std::countr_zero(flat)];
   }
   return left;
 }
@@ -102,11 +102,11 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
 // nearest face, or on another face in its plane.
 template <class Scalar>
 TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
-                                   const Walkers<Scalar>& walkers,
+                                   const LaneState<Scalar>& state,
                                    const Expanders<Scalar>& expanders, std::size_t lane,
                                    std::size_t face, const Vec3<Scalar>& normal, Scalar height,
                                    Scalar least) {
-  constexpr std::size_t width = RealLanes<Scalar>::width;
+  constexpr std::size_t width = Simd<Scalar>::width;
   const BitsetHull& surface = expanders.surfaces[lane];
   const auto point = [lane](const Quad<Scalar>(*quads)[width], int vertex) {
     const Quad<Scalar>& q = quads[vertex][lane];
@@ -137,14 +137,14 @@ TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoa
     on_a += weights[i] * point(expanders.on_a, foot.vertices()[i]);
     apart += weights[i] * point(expanders.points, foot.vertices()[i]);
   }
-  const auto of = [lane](const typename RealLanes<Scalar>::Real& numbers) {
+  const auto of = [lane](const typename Simd<Scalar>::Vector& numbers) {
     return reinterpret_cast<const Scalar*>(&numbers)[lane];
   };
-  const Scalar radius_a = of(walkers.radius_a), radius_b = of(walkers.radius_b);
-  const double unit = walkers.unit[lane];
+  const Scalar radius_a = of(state.radius_a), radius_b = of(state.radius_b);
+  const double unit = state.unit[lane];
   const double depth = static_cast<double>(radius_a + radius_b + height);
   const double margin = static_cast<double>(lane_rounding<Scalar>);
-  const std::uint32_t place_of_pair = walkers.place[lane];
+  const std::uint32_t place_of_pair = state.place[lane];
   const std::uint32_t body = table.pairs.first[place_of_pair];
   const Pose& pose = table.pairs.poses[body];
   Vec3d origin = pose.translation;
@@ -153,7 +153,7 @@ TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoa
     origin += Vec3d(centre[1], centre[2], centre[3]);
   }
   Outcome& outcome = table.outcomes[place_of_pair];
-  write_walked(false, expanders.iterations[lane], outcome);
+  write_verdict(false, expanders.iterations[lane], outcome);
   outcome.distance = -unit * depth;
   outcome.lower = -unit * (depth + margin);
   outcome.upper = -unit * (depth - static_cast<double>(height - std::min(least, height)) - margin);
@@ -166,20 +166,20 @@ TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoa
 // Takes one step of every lane: writes the answer if the bounds meet, otherwise adds a vertex.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
-                                        const LaneGoal<Scalar>& goal, Walkers<Scalar>& walkers,
+                                        const LaneGoal<Scalar>& goal, LaneState<Scalar>& state,
                                         Expanders<Scalar>& expanders, std::size_t left) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr std::size_t width = Lanes::width;
   const unsigned active = expanders.active;
   const NearestFaces<Scalar> nearest = nearest_faces<Scalar>(expanders);
-  const Vectors<Scalar>& normal = nearest.normal;
+  const Vector3<Scalar>& normal = nearest.normal;
   const Corner<Scalar> corner =
-      find_corner<Scalar, scans>(goal, walkers, {-normal.x, -normal.y, -normal.z}, active);
-  const Real height = dot<Scalar>(normal, corner.point);
-  const Real open = height - nearest.distance, tolerance = Lanes::broadcast(goal.tolerance);
-  unsigned going = active & Lanes::bits(Lanes::less(tolerance, open));
-  const unsigned met = active & Lanes::bits(Lanes::less(open, tolerance));
+      find_corner<Scalar, scans>(goal, state, {-normal.x, -normal.y, -normal.z}, active);
+  const Vector height = dot<Scalar>(normal, corner.point);
+  const Vector open = height - nearest.distance, tolerance = Lanes::broadcast(goal.tolerance);
+  unsigned going = active & Lanes::to_bits(Lanes::less(tolerance, open));
+  const unsigned met = active & Lanes::to_bits(Lanes::less(open, tolerance));
   for (unsigned each = active; each != 0; each &= each - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(each));
     ++expanders.iterations[lane];
@@ -191,11 +191,12 @@ TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
   unsigned ended = active & ~going;
   if (met != 0) {
     alignas(64) Scalar numbers[6][width];
-    const Real columns[6] = {normal.x, normal.y, normal.z, height, nearest.distance, nearest.place};
+    const Vector columns[6] = {normal.x, normal.y,         normal.z,
+                               height,   nearest.distance, nearest.place};
     std::memcpy(numbers, columns, sizeof numbers);
     for (unsigned each = met; each != 0; each &= each - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(each));
-      write_depth<Scalar>(table, goal, walkers, expanders, lane,
+      write_depth<Scalar>(table, goal, state, expanders, lane,
                           static_cast<std::size_t>(numbers[5][lane]),
                           {numbers[0][lane], numbers[1][lane], numbers[2][lane]}, numbers[3][lane],
                           numbers[4][lane]);
@@ -203,7 +204,7 @@ TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
   }
   if (going != 0) ended |= going & ~add_vertices<Scalar>(expanders, corner, going);
   for (unsigned each = ended & ~met; each != 0; each &= each - 1) {
-    table.left[left++] = walkers.place[std::countr_zero(each)];
+    table.left[left++] = state.place[std::countr_zero(each)];
   }
   expanders.active &= ~ended;
   return left;
@@ -214,19 +215,19 @@ TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t expand_lanes(const PairTable<Scalar>& table,
                                            const LaneGoal<Scalar>& goal, std::size_t left) {
-  constexpr std::size_t width = RealLanes<Scalar>::width;
-  Walkers<Scalar> walkers{};
-  std::ranges::fill(walkers.corners_a, goal.some_vertices);
-  std::ranges::fill(walkers.corners_b, goal.some_vertices);
+  constexpr std::size_t width = Simd<Scalar>::width;
+  LaneState<Scalar> state{};
+  std::ranges::fill(state.corners_a, goal.some_vertices);
+  std::ranges::fill(state.corners_b, goal.some_vertices);
   Expanders<Scalar> expanders;
   // Lanes without a pair need valid numbers too.
   std::memset(expanders.points, 0, 4 * sizeof expanders.points[0]);
   std::size_t next = 0;
   while (next < goal.starts->count || expanders.active != 0) {
-    left = start_expanders<Scalar, scans>(table, goal, next, walkers, expanders, left);
+    left = start_expanders<Scalar, scans>(table, goal, next, state, expanders, left);
     const int enough = next < goal.starts->count ? static_cast<int>(width * 5 / 8) : 1;
     do {
-      left = expand_on<Scalar, scans>(table, goal, walkers, expanders, left);
+      left = expand_on<Scalar, scans>(table, goal, state, expanders, left);
     } while (std::popcount(expanders.active) >= enough && expanders.active != 0);
   }
   return left;

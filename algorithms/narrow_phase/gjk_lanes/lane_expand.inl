@@ -6,11 +6,11 @@
 // away.
 template <class Scalar>
 struct Expanders {
-  using Real = typename RealLanes<Scalar>::Real;
-  static constexpr std::size_t width = RealLanes<Scalar>::width;
+  using Vector = typename Simd<Scalar>::Vector;
+  static constexpr std::size_t width = Simd<Scalar>::width;
 
-  Vectors<Scalar> normal[BitsetHull::most_faces];  // unit, outward
-  Real distance[BitsetHull::most_faces];           // from the origin
+  Vector3<Scalar> normal[BitsetHull::most_faces];  // unit, outward
+  Vector distance[BitsetHull::most_faces];         // from the origin
   std::size_t faces = 0;                           // the greatest number of faces over all lanes
   // Vertices of the difference, and their points on the core of a.
   Quad<Scalar> points[BitsetHull::most_vertices][width], on_a[BitsetHull::most_vertices][width];
@@ -20,37 +20,37 @@ struct Expanders {
 };
 
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> from_quads(const Quad<Scalar>* quads) {
-  typename RealLanes<Scalar>::Real columns[4];
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> from_quads(const Quad<Scalar>* quads) {
+  typename Simd<Scalar>::Vector columns[4];
   columns_of<Scalar>(quads, columns);
   return {columns[0], columns[1], columns[2]};
 }
 // The quad of lane l is at place(l).
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void to_quads(const Vectors<Scalar>& v, Quad<Scalar>* quads) {
-  typename RealLanes<Scalar>::Real columns[4] = {v.x, v.y, v.z, v.z};
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void to_quads(const Vector3<Scalar>& v, Quad<Scalar>* quads) {
+  typename Simd<Scalar>::Vector columns[4] = {v.x, v.y, v.z, v.z};
   quads_of<Scalar>(columns, quads);
 }
 
 // The nearest face of each lane.
 template <class Scalar>
 struct NearestFaces {
-  using Real = typename RealLanes<Scalar>::Real;
-  Vectors<Scalar> normal;
-  Real distance;
-  Real place;  // the face's index
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector3<Scalar> normal;
+  Vector distance;
+  Vector place;  // the face's index
 };
 
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE NearestFaces<Scalar> nearest_faces(
     const Expanders<Scalar>& expanders) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real one = Lanes::broadcast(1);
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector one = Lanes::broadcast(1);
   NearestFaces<Scalar> nearest{expanders.normal[0], expanders.distance[0], Lanes::broadcast(0)};
-  Real number = one;
+  Vector number = one;
   for (std::size_t face = 1; face < expanders.faces; ++face) {
-    const Real distance = expanders.distance[face];
+    const Vector distance = expanders.distance[face];
     const auto nearer = Lanes::less(distance, nearest.distance);
     nearest.distance = Lanes::min(distance, nearest.distance);
     nearest.normal = select<Scalar>(nearer, expanders.normal[face], nearest.normal);
@@ -62,17 +62,18 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE NearestFaces<Scalar> nearest_faces(
 
 // Sets the bits of the faces that the point of their lane sees.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void find_visible(
-    const Expanders<Scalar>& expanders, const Vectors<Scalar>& point, unsigned lanes,
-    BitsetHull::Faces seen[RealLanes<Scalar>::width]) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real above = Lanes::broadcast(lane_rounding<Scalar> / 4);
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void find_visible(const Expanders<Scalar>& expanders,
+                                                      const Vector3<Scalar>& point, unsigned lanes,
+                                                      BitsetHull::Faces seen[Simd<Scalar>::width]) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector above = Lanes::broadcast(lane_rounding<Scalar> / 4);
   std::fill_n(seen, Lanes::width, BitsetHull::Faces{});
   for (std::size_t face = 0; face < expanders.faces; ++face) {
-    const Real height = dot<Scalar>(expanders.normal[face], point) - expanders.distance[face];
+    const Vector height = dot<Scalar>(expanders.normal[face], point) - expanders.distance[face];
     const std::uint64_t bit = std::uint64_t{1} << face % 64;
-    for (unsigned see = Lanes::bits(Lanes::less(above, height)) & lanes; see != 0; see &= see - 1) {
+    for (unsigned see = Lanes::to_bits(Lanes::less(above, height)) & lanes; see != 0;
+         see &= see - 1) {
       seen[std::countr_zero(see)][face / 64] |= bit;
     }
   }
@@ -83,8 +84,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void find_visible(
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned add_vertices(Expanders<Scalar>& expanders, const Corner<Scalar>& corner,
                                         unsigned lanes) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr std::size_t width = Lanes::width;
   BitsetHull::Faces seen[width];
   find_visible<Scalar>(expanders, corner.point, lanes, seen);
@@ -125,13 +126,13 @@ TOUCHSTONE_TARGET unsigned add_vertices(Expanders<Scalar>& expanders, const Corn
     }
     return from_quads<Scalar>(quads);
   };
-  const Real outside = Lanes::broadcast(-2 * lane_rounding<Scalar>);
-  Vectors<Scalar> tail = ring(0);
+  const Vector outside = Lanes::broadcast(-2 * lane_rounding<Scalar>);
+  Vector3<Scalar> tail = ring(0);
   for (std::size_t i = 0; i < most; ++i) {
-    const Vectors<Scalar> head = ring(i + 1);
+    const Vector3<Scalar> head = ring(i + 1);
     const TrianglePlanes<Scalar> plane = triangle_planes<Scalar>(tail, head, corner.point);
-    good &= ~larger[i] | Lanes::bits(Lanes::less(outside, plane.distance));
-    Real columns[4] = {plane.normal.x, plane.normal.y, plane.normal.z, plane.distance};
+    good &= ~larger[i] | Lanes::to_bits(Lanes::less(outside, plane.distance));
+    Vector columns[4] = {plane.normal.x, plane.normal.y, plane.normal.z, plane.distance};
     alignas(64) Scalar numbers[4][width];
     std::memcpy(numbers, columns, sizeof numbers);
     for (unsigned open = larger[i]; open != 0; open &= open - 1) {

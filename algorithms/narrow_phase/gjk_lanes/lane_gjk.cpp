@@ -22,7 +22,7 @@
 namespace touchstone {
 namespace {
 
-using real_lanes::Quad;
+using simd::Quad;
 
 // Parameters that all lanes of a batch share.
 template <class Scalar>
@@ -66,22 +66,22 @@ struct CornerError {
   static constexpr Scalar shifted = 104 * unit_roundoff<Scalar>;
 };
 
-#define TOUCHSTONE_LANES hull_scan
-#define TOUCHSTONE_LOOPS "algorithms/narrow_phase/gjk_lanes/lane_gjk.inl"
+#define TOUCHSTONE_TARGET_NAMESPACE hull_scan
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/narrow_phase/gjk_lanes/lane_gjk.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 // Runs the loops at the active level; for doubles there is none at the lowest level.
 template <class Scalar>
-std::size_t walk_here(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
-                      std::span<const std::uint32_t> queue, std::size_t left) {
+std::size_t run_lanes_at_level(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
+                               std::span<const std::uint32_t> queue, std::size_t left) {
   if (queue.empty()) return left;
   switch (isa()) {
-    case Isa::avx512: return avx512::walk_all(table, goal, queue, left);
-    case Isa::avx2: return avx2::walk_all(table, goal, queue, left);
+    case Isa::avx512: return avx512::run_all_lanes(table, goal, queue, left);
+    case Isa::avx2: return avx2::run_all_lanes(table, goal, queue, left);
     case Isa::baseline: break;
   }
   if constexpr (std::is_same_v<Scalar, float>) {
-    return baseline::walk_all(table, goal, queue, left);
+    return baseline::run_all_lanes(table, goal, queue, left);
   } else {
     return left;
   }
@@ -169,7 +169,7 @@ std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const Bo
     return places.size();
   }
   const PairTable<Scalar> table{pairs, nullptr, outcomes.data(), left};
-  if (all_fit_ && !some_scan_) return walk_here(table, turned, places, 0);
+  if (all_fit_ && !some_scan_) return run_lanes_at_level(table, turned, places, 0);
   turned_.clear();
   scanned_.clear();
   std::size_t left_count = 0;
@@ -182,8 +182,8 @@ std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const Bo
       (a.scans || b.scans ? scanned_ : turned_).push_back(i);
     }
   }
-  left_count = walk_here<Scalar>(table, turned, turned_, left_count);
-  return walk_here<Scalar>(table, scanned, scanned_, left_count);
+  left_count = run_lanes_at_level<Scalar>(table, turned, turned_, left_count);
+  return run_lanes_at_level<Scalar>(table, scanned, scanned_, left_count);
 }
 
 template class GjkLanes<float>;

@@ -20,7 +20,7 @@
 #include "algorithms/core/body_pairs.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/kernels/minkowski/support_shape.h"
-#include "algorithms/kernels/simd/real_lanes.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 
@@ -42,8 +42,8 @@ struct LaneShape {
 // The tetrahedron of a GJK search that ended around the origin: points of the difference, and on
 // the core of a.
 template <class Scalar>
-struct alignas(sizeof(real_lanes::Quad<Scalar>)) DepthStart {
-  real_lanes::Quad<Scalar> points[4], on_a[4];
+struct alignas(sizeof(simd::Quad<Scalar>)) DepthStart {
+  simd::Quad<Scalar> points[4], on_a[4];
   std::uint32_t place;  // of the pair in the batch
   std::int32_t iterations;
 };

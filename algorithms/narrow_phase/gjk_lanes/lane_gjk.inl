@@ -5,9 +5,9 @@
 // The bodies of one pair per lane, and the state of its GJK search. Lengths are in the unit of each
 // pair, relative to the centre of a.
 template <class Scalar>
-struct Walkers {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+struct LaneState {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   static constexpr std::size_t width = Lanes::width;
 
   // The loaded data, one quad per lane: numbers of the poses (see load_pair), sizes, and pointers
@@ -20,17 +20,17 @@ struct Walkers {
 
   // Vertices, for b with its centre; or the half edges of a box or a segment; or the columns of a
   // matrix if vertices are scanned.
-  Vectors<Scalar> a[most_turned_vertices], b[most_turned_vertices];
-  Vectors<Scalar> centre_b;
-  Real radius_a, radius_b;
+  Vector3<Scalar> a[most_turned_vertices], b[most_turned_vertices];
+  Vector3<Scalar> centre_b;
+  Vector radius_a, radius_b;
 
   LaneSimplex<Scalar> simplex;
-  Vectors<Scalar> way;  // from the origin through the nearest point, of any length; the search
-                        // direction is opposite
-  Real length;          // of `way`
-  Real along;           // the nearest point's component along `way`, times its length
-  Real plane;           // the newest support plane's, likewise
-  Real count;           // number of iterations
+  Vector3<Scalar> search;  // from the origin through the nearest point, of any length; the search
+                           // direction is opposite
+  Vector length;           // of `search`
+  Vector along;            // the nearest point's component along `search`, times its length
+  Vector plane;            // the newest support plane's, likewise
+  Vector count;            // number of iterations
   // The tetrahedron of lanes that have the origin inside, and of `piercing` lanes, which search for
   // a point behind the face that they came through.
   Tetrahedron<Scalar> around;
@@ -42,8 +42,8 @@ struct Walkers {
   unsigned ended() const { return apart | inside | shallow | doubtful; }
 };
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_walked(bool apart, std::int32_t iterations,
-                                                      Outcome& outcome) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_verdict(bool apart, std::int32_t iterations,
+                                                       Outcome& outcome) {
   outcome.answer = apart ? Answer::separated : Answer::overlapping;
   outcome.status = Status::ok;
   outcome.iterations = outcome.support_calls = iterations;
@@ -55,120 +55,120 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_walked(bool apart, std::int32_t i
 // Ends lanes whose bodies are known to overlap.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void end_inside(const LaneGoal<Scalar>& goal,
-                                                    Walkers<Scalar>& walkers, unsigned lanes) {
+                                                    LaneState<Scalar>& state, unsigned lanes) {
   if (goal.starts == nullptr) {
-    walkers.inside |= lanes;
+    state.inside |= lanes;
   } else if (lanes != 0) {
-    note_starts<Scalar>(walkers, lanes, *goal.starts);
+    note_starts<Scalar>(state, lanes, *goal.starts);
   }
 }
 
 // Takes one step of every active lane.
 template <class Scalar, bool points, bool scans>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk_on(const LaneGoal<Scalar>& goal,
-                                                 Walkers<Scalar>& walkers) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real zero = Lanes::broadcast(0), margin = Lanes::broadcast(lane_rounding<Scalar>);
-  const Vectors<Scalar> way = walkers.way;
-  const Corner<Scalar> corner = find_corner<Scalar, scans>(goal, walkers, way, walkers.active);
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void iterate(const LaneGoal<Scalar>& goal,
+                                                 LaneState<Scalar>& state) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector zero = Lanes::broadcast(0), margin = Lanes::broadcast(lane_rounding<Scalar>);
+  const Vector3<Scalar> search = state.search;
+  const Corner<Scalar> corner = find_corner<Scalar, scans>(goal, state, search, state.active);
 
-  const Real radius = walkers.radius_a + walkers.radius_b;
-  const Real plane = dot<Scalar>(way, corner.point);
-  unsigned stop = Lanes::bits(Lanes::less((radius + margin) * walkers.length, plane));
+  const Vector radius = state.radius_a + state.radius_b;
+  const Vector plane = dot<Scalar>(search, corner.point);
+  unsigned stop = Lanes::to_bits(Lanes::less((radius + margin) * state.length, plane));
   unsigned shallow = 0;
   if constexpr (points) {
-    const Real open = walkers.along - plane, tolerance = goal.tolerance * walkers.length;
+    const Vector open = state.along - plane, tolerance = goal.tolerance * state.length;
     if (goal.starts == nullptr) {
-      stop &= ~Lanes::bits(Lanes::less(tolerance, open)) & ~walkers.piercing;
+      stop &= ~Lanes::to_bits(Lanes::less(tolerance, open)) & ~state.piercing;
     } else if (goal.round) {
       // The depth of the radii in each other is known here.
       shallow =
-          walkers.active & ~walkers.piercing &
-          Lanes::bits(both(Lanes::less(open, tolerance),
-                           Lanes::less(walkers.along, (radius - 2 * margin) * walkers.length)));
+          state.active & ~state.piercing &
+          Lanes::to_bits(both(Lanes::less(open, tolerance),
+                              Lanes::less(state.along, (radius - 2 * margin) * state.length)));
     }
   }
-  const auto active = Lanes::mask(walkers.active);
-  walkers.plane = Lanes::select(active, plane, walkers.plane);
-  walkers.count = walkers.count + Lanes::select(active, Lanes::broadcast(1), zero);
-  stop &= walkers.active;
-  walkers.apart |= stop;
-  walkers.shallow |= shallow;
-  walkers.active &= ~(stop | shallow);
-  const unsigned pierced = walkers.piercing & walkers.active;
-  walkers.piercing = 0;
+  const auto active = Lanes::from_bits(state.active);
+  state.plane = Lanes::select(active, plane, state.plane);
+  state.count = state.count + Lanes::select(active, Lanes::broadcast(1), zero);
+  stop &= state.active;
+  state.apart |= stop;
+  state.shallow |= shallow;
+  state.active &= ~(stop | shallow);
+  const unsigned pierced = state.piercing & state.active;
+  state.piercing = 0;
   if (pierced != 0) {
     const unsigned between =
-        surely_between<Scalar>(walkers.around, corner.point, goal.corner_error, pierced);
-    end_inside<Scalar>(goal, walkers, between);
-    walkers.doubtful |= pierced & ~between;
-    walkers.active &= ~pierced;
+        surely_between<Scalar>(state.around, corner.point, goal.corner_error, pierced);
+    end_inside<Scalar>(goal, state, between);
+    state.doubtful |= pierced & ~between;
+    state.active &= ~pierced;
   }
-  if (walkers.active == 0) return;
+  if (state.active == 0) return;
 
-  const auto on = Lanes::mask(walkers.active);
+  const auto on = Lanes::from_bits(state.active);
   LaneStep<Scalar> step;
-  const bool solid = Lanes::bits(both(on, walkers.simplex.has_d)) != 0;
+  const bool solid = Lanes::to_bits(both(on, state.simplex.has_d)) != 0;
   if (solid) {
-    step = take_step<Scalar, points, true>(walkers.simplex, corner, on, goal.corner_error,
-                                           walkers.around);
+    step =
+        take_step<Scalar, points, true>(state.simplex, corner, on, goal.corner_error, state.around);
   } else {
-    step = take_step<Scalar, points, false>(walkers.simplex, corner, on, goal.corner_error,
-                                            walkers.around);
+    step = take_step<Scalar, points, false>(state.simplex, corner, on, goal.corner_error,
+                                            state.around);
   }
-  const Real square = dot<Scalar>(step.way, step.way);
-  Real length = Lanes::sqrt(square);
-  Real along = dot<Scalar>(step.way, corner.point);
+  const Vector square = dot<Scalar>(step.search, step.search);
+  Vector length = Lanes::sqrt(square);
+  Vector along = dot<Scalar>(step.search, corner.point);
   // This form of the comparison ends the search for NaN.
-  const auto nearer = Lanes::less(along * walkers.length, walkers.along * length);
+  const auto nearer = Lanes::less(along * state.length, state.along * length);
   const unsigned in_time =
-      Lanes::bits(Lanes::less(walkers.count, Lanes::broadcast(goal.most_iterations)));
+      Lanes::to_bits(Lanes::less(state.count, Lanes::broadcast(goal.most_iterations)));
   const unsigned going =
       in_time & step.found &
-      Lanes::bits(both(nearer, Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square)));
-  walkers.way = select<Scalar>(on, step.way, way);
+      Lanes::to_bits(both(nearer, Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square)));
+  state.search = select<Scalar>(on, step.search, search);
   // The origin is too near the face that the search came through: a point behind that face decides.
-  walkers.piercing = walkers.active & step.unsure & in_time;
-  if (walkers.piercing != 0) {
-    const auto turns = Lanes::mask(walkers.piercing);
-    walkers.way = select<Scalar>(turns, {-way.x, -way.y, -way.z}, walkers.way);
-    length = Lanes::select(turns, walkers.length, length);
-    along = Lanes::select(turns, walkers.along, along);
+  state.piercing = state.active & step.unsure & in_time;
+  if (state.piercing != 0) {
+    const auto turns = Lanes::from_bits(state.piercing);
+    state.search = select<Scalar>(turns, {-search.x, -search.y, -search.z}, state.search);
+    length = Lanes::select(turns, state.length, length);
+    along = Lanes::select(turns, state.along, along);
   }
-  walkers.length = Lanes::select(on, length, walkers.length);
-  walkers.along = Lanes::select(on, along, walkers.along);
-  const unsigned inside = walkers.active & step.inside;
+  state.length = Lanes::select(on, length, state.length);
+  state.along = Lanes::select(on, along, state.along);
+  const unsigned inside = state.active & step.inside;
   shallow = 0;
   if (goal.round && goal.starts == nullptr) {
-    shallow = walkers.active & step.found & ~inside &
-              Lanes::bits(Lanes::less(along, (radius - 2 * margin) * length));
+    shallow = state.active & step.found & ~inside &
+              Lanes::to_bits(Lanes::less(along, (radius - 2 * margin) * length));
   }
-  end_inside<Scalar>(goal, walkers, inside);
-  walkers.shallow |= shallow;
-  const unsigned stays = (going | walkers.piercing) & ~inside & ~shallow;
-  walkers.doubtful |= walkers.active & ~stays & ~inside & ~shallow;
-  walkers.active &= stays;
+  end_inside<Scalar>(goal, state, inside);
+  state.shallow |= shallow;
+  const unsigned stays = (going | state.piercing) & ~inside & ~shallow;
+  state.doubtful |= state.active & ~stays & ~inside & ~shallow;
+  state.active &= stays;
 }
 
 template <class Scalar, bool points, bool scans>
-TOUCHSTONE_TARGET std::size_t walk_lanes(const PairTable<Scalar>& table,
-                                         const LaneGoal<Scalar>& goal,
-                                         std::span<const std::uint32_t> queue, std::size_t left) {
-  constexpr std::size_t width = RealLanes<Scalar>::width;
+TOUCHSTONE_TARGET std::size_t run_lanes(const PairTable<Scalar>& table,
+                                        const LaneGoal<Scalar>& goal,
+                                        std::span<const std::uint32_t> queue, std::size_t left) {
+  constexpr std::size_t width = Simd<Scalar>::width;
   // Lanes without a pair need valid numbers too.
-  Walkers<Scalar> walkers{};
-  std::ranges::fill(walkers.corners_a, goal.some_vertices);
-  std::ranges::fill(walkers.corners_b, goal.some_vertices);
+  LaneState<Scalar> state{};
+  std::ranges::fill(state.corners_a, goal.some_vertices);
+  std::ranges::fill(state.corners_b, goal.some_vertices);
   std::size_t next = 0;
-  while (next < queue.size() || walkers.active != 0) {
-    left = start_lanes<Scalar, scans>(table, goal, queue, next, walkers, left);
+  while (next < queue.size() || state.active != 0) {
+    left = start_lanes<Scalar, scans>(table, goal, queue, next, state, left);
     // Lanes are filled together, which costs about the same for a few as for all.
     const int enough = next < queue.size() ? static_cast<int>(width * 3 / 8) : 1;
     do {
-      walk_on<Scalar, points, scans>(goal, walkers);
-    } while (std::popcount(walkers.active) >= enough && walkers.active != 0);
-    left = answer_lanes<Scalar, points>(table, goal, walkers, left);
+      iterate<Scalar, points, scans>(goal, state);
+    } while (std::popcount(state.active) >= enough && state.active != 0);
+    left = answer_lanes<Scalar, points>(table, goal, state, left);
   }
   return left;
 }
@@ -182,7 +182,7 @@ TOUCHSTONE_TARGET std::size_t find_depths(const PairTable<Scalar>& table,
   while (!queue.empty()) {
     const std::size_t count = std::min(queue.size(), goal.starts->all.size());
     goal.starts->count = 0;
-    left = walk_lanes<Scalar, true, scans>(table, goal, queue.first(count), left);
+    left = run_lanes<Scalar, true, scans>(table, goal, queue.first(count), left);
     if (goal.starts->count != 0) left = expand_lanes<Scalar, scans>(table, goal, left);
     queue = queue.subspan(count);
   }
@@ -190,18 +190,20 @@ TOUCHSTONE_TARGET std::size_t find_depths(const PairTable<Scalar>& table,
 }
 
 template <class Scalar, bool scans>
-TOUCHSTONE_TARGET std::size_t walk_and_answer(const PairTable<Scalar>& table,
-                                              const LaneGoal<Scalar>& goal,
-                                              std::span<const std::uint32_t> queue,
-                                              std::size_t left) {
+TOUCHSTONE_TARGET std::size_t run_and_answer(const PairTable<Scalar>& table,
+                                             const LaneGoal<Scalar>& goal,
+                                             std::span<const std::uint32_t> queue,
+                                             std::size_t left) {
   if (goal.starts != nullptr) return find_depths<Scalar, scans>(table, goal, queue, left);
-  return goal.distances ? walk_lanes<Scalar, true, scans>(table, goal, queue, left)
-                        : walk_lanes<Scalar, false, scans>(table, goal, queue, left);
+  return goal.distances ? run_lanes<Scalar, true, scans>(table, goal, queue, left)
+                        : run_lanes<Scalar, false, scans>(table, goal, queue, left);
 }
 
 template <class Scalar>
-TOUCHSTONE_TARGET std::size_t walk_all(const PairTable<Scalar>& table, const LaneGoal<Scalar>& goal,
-                                       std::span<const std::uint32_t> queue, std::size_t left) {
-  return goal.scans_a || goal.scans_b ? walk_and_answer<Scalar, true>(table, goal, queue, left)
-                                      : walk_and_answer<Scalar, false>(table, goal, queue, left);
+TOUCHSTONE_TARGET std::size_t run_all_lanes(const PairTable<Scalar>& table,
+                                            const LaneGoal<Scalar>& goal,
+                                            std::span<const std::uint32_t> queue,
+                                            std::size_t left) {
+  return goal.scans_a || goal.scans_b ? run_and_answer<Scalar, true>(table, goal, queue, left)
+                                      : run_and_answer<Scalar, false>(table, goal, queue, left);
 }

@@ -30,14 +30,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool balls_apart(const Quad<double>& offset,
          square < std::numeric_limits<double>::infinity();
 }
 
-enum class Loaded : std::uint8_t { walks, apart, left };
+enum class Loaded : std::uint8_t { iterates, apart, left };
 
 // Stores the pair's numbers in the lane, scaled by a unit as in SupportPair.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& table,
                                                      const LaneGoal<Scalar>& goal,
                                                      std::uint32_t place, std::size_t lane,
-                                                     Walkers<Scalar>& walkers) {
+                                                     LaneState<Scalar>& state) {
   const BodyPairs& pairs = table.pairs;
   const std::uint32_t first = pairs.first[place], second = pairs.second[place];
   const LaneShape<Scalar>& a = goal.shapes[pairs.shape_of[first]];
@@ -58,32 +58,32 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   if (field < 64 || field > 1980) return Loaded::left;
   const double unit = std::bit_cast<double>((field + 1) << 52);
   const double scale = std::bit_cast<double>((2045 - field) << 52);
-  walkers.unit[lane] = unit;
-  walkers.place[lane] = place;
+  state.unit[lane] = unit;
+  state.place[lane] = place;
 
   Quad<double> numbers_a, numbers_b;
   std::memcpy(&numbers_a, a.numbers, sizeof numbers_a);
   std::memcpy(&numbers_b, b.numbers, sizeof numbers_b);
-  walkers.sizes[lane] =
+  state.sizes[lane] =
       convert<Scalar>(__builtin_shufflevector(numbers_a, numbers_b, 0, 1, 4, 5) * scale);
-  walkers.poses[0][lane] = convert<Scalar>(pose_quad(pose_a, 0));
-  walkers.poses[1][lane] = convert<Scalar>(pose_quad(pose_a, 4));
-  walkers.poses[2][lane] = convert<Scalar>(pose_quad(pose_b, 0));
-  walkers.poses[3][lane] = convert<Scalar>(pose_quad(pose_b, 4));
-  walkers.poses[4][lane] = convert<Scalar>(offset * scale);
-  walkers.poses[5][lane] = convert<Scalar>(__builtin_shufflevector(end_a, end_b, 0, 4, 0, 4));
-  std::memcpy(&walkers.extents_a[lane], a.extents, sizeof(Quad<Scalar>));
-  std::memcpy(&walkers.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
-  walkers.corners_a[lane] = a.vertices;
-  walkers.corners_b[lane] = b.vertices;
+  state.poses[0][lane] = convert<Scalar>(pose_quad(pose_a, 0));
+  state.poses[1][lane] = convert<Scalar>(pose_quad(pose_a, 4));
+  state.poses[2][lane] = convert<Scalar>(pose_quad(pose_b, 0));
+  state.poses[3][lane] = convert<Scalar>(pose_quad(pose_b, 4));
+  state.poses[4][lane] = convert<Scalar>(offset * scale);
+  state.poses[5][lane] = convert<Scalar>(__builtin_shufflevector(end_a, end_b, 0, 4, 0, 4));
+  std::memcpy(&state.extents_a[lane], a.extents, sizeof(Quad<Scalar>));
+  std::memcpy(&state.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
+  state.corners_a[lane] = a.vertices;
+  state.corners_b[lane] = b.vertices;
   if constexpr (scans) {
     // The vertices are used after the other lanes are loaded.
-    if (goal.scans_a) fetch_blocks(a.vertices, a.block_count);
-    if (goal.scans_b) fetch_blocks(b.vertices, b.block_count);
+    if (goal.scans_a) prefetch_blocks(a.vertices, a.block_count);
+    if (goal.scans_b) prefetch_blocks(b.vertices, b.block_count);
   }
-  walkers.blocks_a[lane] = a.block_count;
-  walkers.blocks_b[lane] = b.block_count;
-  return Loaded::walks;
+  state.blocks_a[lane] = a.block_count;
+  state.blocks_b[lane] = b.block_count;
+  return Loaded::iterates;
 }
 
 // Loads one coordinate of a vertex of each lane and of the three after it. `offset` is the
@@ -91,7 +91,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
 template <class Scalar, std::size_t... lane>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void four_vertices(
     const hull_scan::VertexBlock<Scalar>* const* blocks, std::size_t offset,
-    typename RealLanes<Scalar>::Real four[4], std::index_sequence<lane...>) {
+    typename Simd<Scalar>::Vector four[4], std::index_sequence<lane...>) {
   Quad<Scalar> quads[sizeof...(lane)];
   (std::memcpy(&quads[lane], reinterpret_cast<const char*>(blocks[lane]) + offset,
                sizeof quads[lane]),
@@ -103,24 +103,24 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void four_vertices(
 // or to the body's centre if it is null.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
-    const Vectors<Scalar> columns[3], const Quad<Scalar>* extents, int halves,
+    const Vector3<Scalar> columns[3], const Quad<Scalar>* extents, int halves,
     const hull_scan::VertexBlock<Scalar>* const* blocks, std::uint32_t vertices,
-    const Vectors<Scalar>* centre, Vectors<Scalar>* core) {
-  using Real = typename RealLanes<Scalar>::Real;
+    const Vector3<Scalar>* centre, Vector3<Scalar>* core) {
+  using Vector = typename Simd<Scalar>::Vector;
   using Block = hull_scan::VertexBlock<Scalar>;
-  constexpr auto lanes = std::make_index_sequence<RealLanes<Scalar>::width>{};
+  constexpr auto lanes = std::make_index_sequence<Simd<Scalar>::width>{};
   if (halves != 0) {
-    Real sizes[4];
+    Vector sizes[4];
     columns_of<Scalar>(extents, sizes);
     for (int k = 3 - halves; k < 3; ++k) *core++ = scaled<Scalar>(sizes[k], columns[k]);
   }
   for (std::size_t k = 0; k < vertices; k += 4) {
-    Real x[4], y[4], z[4];
+    Vector x[4], y[4], z[4];
     four_vertices<Scalar>(blocks, offsetof(Block, x) + k * sizeof(Scalar), x, lanes);
     four_vertices<Scalar>(blocks, offsetof(Block, y) + k * sizeof(Scalar), y, lanes);
     four_vertices<Scalar>(blocks, offsetof(Block, z) + k * sizeof(Scalar), z, lanes);
     for (int i = 0; i < 4; ++i) {
-      Vectors<Scalar> turned = scaled<Scalar>(x[i], columns[0]);
+      Vector3<Scalar> turned = scaled<Scalar>(x[i], columns[0]);
       turned = moved<Scalar>(moved<Scalar>(turned, y[i], columns[1]), z[i], columns[2]);
       if (centre != nullptr) {
         turned = {turned.x + centre->x, turned.y + centre->y, turned.z + centre->z};
@@ -133,30 +133,30 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void turn_core(
 // Scales the columns of a matrix. Returns the lanes whose greatest entry is about that of a
 // rotation, as bits: then the unit is above the size of the body, and near it.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned scale_columns(Vectors<Scalar> columns[3],
-                                                           typename RealLanes<Scalar>::Real scale) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  Real greatest = Lanes::broadcast(0);
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned scale_columns(Vector3<Scalar> columns[3],
+                                                           typename Simd<Scalar>::Vector scale) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  Vector greatest = Lanes::broadcast(0);
   for (int k = 0; k < 3; ++k) {
-    Vectors<Scalar>& column = columns[k];
+    Vector3<Scalar>& column = columns[k];
     greatest = Lanes::max(
         greatest,
         Lanes::max(Lanes::max(Lanes::abs(column.x), Lanes::abs(column.y)), Lanes::abs(column.z)));
     column = scaled<Scalar>(scale, column);
   }
-  return Lanes::bits(both(Lanes::less(Lanes::broadcast(Scalar(0.5)), greatest),
-                          Lanes::less(greatest, Lanes::broadcast(Scalar(1.001)))));
+  return Lanes::to_bits(both(Lanes::less(Lanes::broadcast(Scalar(0.5)), greatest),
+                             Lanes::less(greatest, Lanes::broadcast(Scalar(1.001)))));
 }
 
 // Prefetches the data of a later pair.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void fetch_bodies(const PairTable<Scalar>& table,
-                                                      const LaneGoal<Scalar>& goal,
-                                                      std::uint32_t pair) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void prefetch_bodies(const PairTable<Scalar>& table,
+                                                         const LaneGoal<Scalar>& goal,
+                                                         std::uint32_t pair) {
   for (const std::uint32_t body : {table.pairs.first[pair], table.pairs.second[pair]}) {
-    fetch(&table.pairs.poses[body], sizeof(Pose));
-    fetch(&goal.shapes[table.pairs.shape_of[body]], sizeof(LaneShape<Scalar>));
+    prefetch(&table.pairs.poses[body], sizeof(Pose));
+    prefetch(&goal.shapes[table.pairs.shape_of[body]], sizeof(LaneShape<Scalar>));
   }
 }
 
@@ -164,33 +164,33 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void fetch_bodies(const PairTable<Scalar>& t
 // Returns the lanes whose matrices are usable, as bits.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned turn_lanes(const LaneGoal<Scalar>& goal,
-                                                        Walkers<Scalar>& walkers) {
-  using Real = typename RealLanes<Scalar>::Real;
-  Real poses[6][4], sizes[4];
-  for (int k = 0; k < 6; ++k) columns_of<Scalar>(walkers.poses[k], poses[k]);
-  columns_of<Scalar>(walkers.sizes, sizes);
-  Vectors<Scalar> columns_a[3] = {{poses[0][0], poses[0][1], poses[0][2]},
+                                                        LaneState<Scalar>& state) {
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector poses[6][4], sizes[4];
+  for (int k = 0; k < 6; ++k) columns_of<Scalar>(state.poses[k], poses[k]);
+  columns_of<Scalar>(state.sizes, sizes);
+  Vector3<Scalar> columns_a[3] = {{poses[0][0], poses[0][1], poses[0][2]},
                                   {poses[0][3], poses[1][0], poses[1][1]},
                                   {poses[1][2], poses[1][3], poses[5][0]}};
-  Vectors<Scalar> columns_b[3] = {{poses[2][0], poses[2][1], poses[2][2]},
+  Vector3<Scalar> columns_b[3] = {{poses[2][0], poses[2][1], poses[2][2]},
                                   {poses[2][3], poses[3][0], poses[3][1]},
                                   {poses[3][2], poses[3][3], poses[5][1]}};
   unsigned usable = scale_columns<Scalar>(columns_a, sizes[0]);
   usable &= scale_columns<Scalar>(columns_b, sizes[2]);
-  walkers.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
-  walkers.radius_a = sizes[1];
-  walkers.radius_b = sizes[3];
+  state.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
+  state.radius_a = sizes[1];
+  state.radius_b = sizes[3];
   if (scans && goal.scans_a) {
-    std::ranges::copy(columns_a, walkers.a);
+    std::ranges::copy(columns_a, state.a);
   } else {
-    turn_core<Scalar>(columns_a, walkers.extents_a, goal.halves_a, walkers.corners_a,
-                      goal.vertices_a, nullptr, walkers.a);
+    turn_core<Scalar>(columns_a, state.extents_a, goal.halves_a, state.corners_a, goal.vertices_a,
+                      nullptr, state.a);
   }
   if (scans && goal.scans_b) {
-    std::ranges::copy(columns_b, walkers.b);
+    std::ranges::copy(columns_b, state.b);
   } else {
-    turn_core<Scalar>(columns_b, walkers.extents_b, goal.halves_b, walkers.corners_b,
-                      goal.vertices_b, &walkers.centre_b, walkers.b);
+    turn_core<Scalar>(columns_b, state.extents_b, goal.halves_b, state.corners_b, goal.vertices_b,
+                      &state.centre_b, state.b);
   }
   return usable;
 }
@@ -201,44 +201,44 @@ template <class Scalar, bool scans>
 TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
                                           const LaneGoal<Scalar>& goal,
                                           std::span<const std::uint32_t> queue, std::size_t& next,
-                                          Walkers<Scalar>& walkers, std::size_t left) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
+                                          LaneState<Scalar>& state, std::size_t left) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
   constexpr std::size_t ahead = 8;  // pairs
   unsigned fresh = 0;
   for (std::size_t lane = 0; lane < Lanes::width && next < queue.size(); ++lane) {
-    if ((walkers.active >> lane & 1) != 0) continue;
+    if ((state.active >> lane & 1) != 0) continue;
     while (next < queue.size()) {
-      if (scans && next + ahead < queue.size()) fetch_bodies(table, goal, queue[next + ahead]);
+      if (scans && next + ahead < queue.size()) prefetch_bodies(table, goal, queue[next + ahead]);
       const std::uint32_t place = queue[next++];
-      const Loaded loaded = load_pair<Scalar, scans>(table, goal, place, lane, walkers);
-      if (loaded == Loaded::walks) {
+      const Loaded loaded = load_pair<Scalar, scans>(table, goal, place, lane, state);
+      if (loaded == Loaded::iterates) {
         fresh |= 1u << lane;
         break;
       }
       if (loaded == Loaded::left) {
         table.left[left++] = place;
       } else {
-        write_walked(true, 0, table.outcomes[place]);
+        write_verdict(true, 0, table.outcomes[place]);
       }
     }
   }
-  const unsigned usable = turn_lanes<Scalar, scans>(goal, walkers);
-  const Real zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
-  walkers.doubtful |= fresh & ~usable;
-  walkers.active |= fresh & usable;
-  const auto set = Lanes::mask(fresh);
-  Vectors<Scalar> way = scaled<Scalar>(-one, walkers.centre_b);
-  Real square = dot<Scalar>(way, way);
+  const unsigned usable = turn_lanes<Scalar, scans>(goal, state);
+  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  state.doubtful |= fresh & ~usable;
+  state.active |= fresh & usable;
+  const auto set = Lanes::from_bits(fresh);
+  Vector3<Scalar> search = scaled<Scalar>(-one, state.centre_b);
+  Vector square = dot<Scalar>(search, search);
   const auto some = Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square);
-  way = select<Scalar>(some, way, {one, zero, zero});
+  search = select<Scalar>(some, search, {one, zero, zero});
   square = Lanes::select(some, square, one);
-  walkers.way = select<Scalar>(set, way, walkers.way);
-  walkers.length = Lanes::select(set, Lanes::sqrt(square), walkers.length);
-  walkers.along =
-      Lanes::select(set, Lanes::broadcast(std::numeric_limits<Scalar>::infinity()), walkers.along);
-  walkers.count = Lanes::select(set, zero, walkers.count);
-  LaneSimplex<Scalar>& simplex = walkers.simplex;
+  state.search = select<Scalar>(set, search, state.search);
+  state.length = Lanes::select(set, Lanes::sqrt(square), state.length);
+  state.along =
+      Lanes::select(set, Lanes::broadcast(std::numeric_limits<Scalar>::infinity()), state.along);
+  state.count = Lanes::select(set, zero, state.count);
+  LaneSimplex<Scalar>& simplex = state.simplex;
   simplex.has_b = without(simplex.has_b, set);
   simplex.has_c = without(simplex.has_c, set);
   simplex.has_d = without(simplex.has_d, set);

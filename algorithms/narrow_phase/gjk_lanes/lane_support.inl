@@ -1,18 +1,18 @@
 // Part of gjk-lanes, included by lane_depths.inl: the support points of lanes.
 
-// The vertex that is furthest along `way`, or least far; the first of several. `count` is a
+// The vertex that is furthest along `search`, or least far; the first of several. `count` is a
 // multiple of four.
 template <class Scalar, bool forward>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_vertex(const Vectors<Scalar>* vertices,
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> furthest_vertex(const Vector3<Scalar>* vertices,
                                                                     std::uint32_t count,
-                                                                    const Vectors<Scalar>& way) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  Vectors<Scalar> best = vertices[0];
-  Real reach = dot<Scalar>(best, way);
-  for (const Vectors<Scalar>* const end = vertices + count; vertices != end; vertices += 4) {
+                                                                    const Vector3<Scalar>& search) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  Vector3<Scalar> best = vertices[0];
+  Vector reach = dot<Scalar>(best, search);
+  for (const Vector3<Scalar>* const end = vertices + count; vertices != end; vertices += 4) {
     for (int k = 0; k < 4; ++k) {
-      const Real own = dot<Scalar>(vertices[k], way);
+      const Vector own = dot<Scalar>(vertices[k], search);
       const auto better = forward ? Lanes::less(reach, own) : Lanes::less(own, reach);
       reach = forward ? Lanes::max(own, reach) : Lanes::min(own, reach);
       best = select<Scalar>(better, vertices[k], best);
@@ -21,17 +21,17 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_vertex(const Vector
   return best;
 }
 
-// Adds or subtracts each half edge, so that the corner is furthest along `way`, or least far.
+// Adds or subtracts each half edge, so that the corner is furthest along `search`, or least far.
 template <class Scalar, bool forward>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_corner(const Vectors<Scalar>* halves,
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> furthest_corner(const Vector3<Scalar>* halves,
                                                                     int count,
-                                                                    const Vectors<Scalar>& centre,
-                                                                    const Vectors<Scalar>& way) {
-  using Lanes = RealLanes<Scalar>;
+                                                                    const Vector3<Scalar>& centre,
+                                                                    const Vector3<Scalar>& search) {
+  using Lanes = Simd<Scalar>;
   const auto one = Lanes::broadcast(forward ? 1 : -1), zero = Lanes::broadcast(0);
-  Vectors<Scalar> corner = centre;
+  Vector3<Scalar> corner = centre;
   for (int k = 0; k < count; ++k) {
-    const auto backward = Lanes::less(dot<Scalar>(halves[k], way), zero);
+    const auto backward = Lanes::less(dot<Scalar>(halves[k], search), zero);
     corner = moved<Scalar>(corner, Lanes::select(backward, -one, one), halves[k]);
   }
   return corner;
@@ -40,14 +40,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> furthest_corner(const Vector
 // The vertex of each lane that is furthest in its direction, rotated by the matrix of these
 // columns.
 template <class Scalar>
-TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
+TOUCHSTONE_TARGET Vector3<Scalar> scanned_vertex(
     const hull_scan::VertexBlock<Scalar>* const* blocks, const std::uint32_t* block_counts,
-    const Vectors<Scalar> columns[3], const Vectors<Scalar>& direction, unsigned active) {
-  using Real = typename RealLanes<Scalar>::Real;
-  constexpr std::size_t width = RealLanes<Scalar>::width;
+    const Vector3<Scalar> columns[3], const Vector3<Scalar>& direction, unsigned active) {
+  using Vector = typename Simd<Scalar>::Vector;
+  constexpr std::size_t width = Simd<Scalar>::width;
   constexpr std::uint32_t size = hull_scan::VertexBlock<Scalar>::size;
-  const Real turned[3] = {dot<Scalar>(columns[0], direction), dot<Scalar>(columns[1], direction),
-                          dot<Scalar>(columns[2], direction)};
+  const Vector turned[3] = {dot<Scalar>(columns[0], direction), dot<Scalar>(columns[1], direction),
+                            dot<Scalar>(columns[2], direction)};
   alignas(64) Scalar x[width]{}, y[width]{}, z[width]{};
   alignas(64) Scalar towards[3][width];
   std::memcpy(towards, turned, sizeof towards);
@@ -61,7 +61,7 @@ TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
     y[lane] = block.y[best % size];
     z[lane] = block.z[best % size];
   }
-  Real of[3];
+  Vector of[3];
   std::memcpy(&of[0], x, sizeof x);
   std::memcpy(&of[1], y, sizeof y);
   std::memcpy(&of[2], z, sizeof z);
@@ -69,33 +69,34 @@ TOUCHSTONE_TARGET Vectors<Scalar> scanned_vertex(
                        columns[2]);
 }
 
-// The point on the core of a that is least far along `way`, the point on b that is furthest, and
+// The point on the core of a that is least far along `search`, the point on b that is furthest, and
 // their difference.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Scalar>& goal,
-                                                               const Walkers<Scalar>& walkers,
-                                                               const Vectors<Scalar>& way,
+                                                               const LaneState<Scalar>& state,
+                                                               const Vector3<Scalar>& search,
                                                                unsigned active) {
-  using Lanes = RealLanes<Scalar>;
-  using Real = typename Lanes::Real;
-  const Real zero = Lanes::broadcast(0);
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector zero = Lanes::broadcast(0);
   Corner<Scalar> corner;
-  Vectors<Scalar> on_b;
+  Vector3<Scalar> on_b;
   if (scans && goal.scans_a) {
-    corner.on_a = scanned_vertex<Scalar>(walkers.corners_a, walkers.blocks_a, walkers.a,
-                                         {-way.x, -way.y, -way.z}, active);
+    corner.on_a = scanned_vertex<Scalar>(state.corners_a, state.blocks_a, state.a,
+                                         {-search.x, -search.y, -search.z}, active);
   } else if (goal.vertices_a != 0) {
-    corner.on_a = furthest_vertex<Scalar, false>(walkers.a, goal.vertices_a, way);
+    corner.on_a = furthest_vertex<Scalar, false>(state.a, goal.vertices_a, search);
   } else {
-    corner.on_a = furthest_corner<Scalar, false>(walkers.a, goal.halves_a, {zero, zero, zero}, way);
+    corner.on_a =
+        furthest_corner<Scalar, false>(state.a, goal.halves_a, {zero, zero, zero}, search);
   }
   if (scans && goal.scans_b) {
-    on_b = scanned_vertex<Scalar>(walkers.corners_b, walkers.blocks_b, walkers.b, way, active);
-    on_b = moved<Scalar>(on_b, Lanes::broadcast(1), walkers.centre_b);
+    on_b = scanned_vertex<Scalar>(state.corners_b, state.blocks_b, state.b, search, active);
+    on_b = moved<Scalar>(on_b, Lanes::broadcast(1), state.centre_b);
   } else if (goal.vertices_b != 0) {
-    on_b = furthest_vertex<Scalar, true>(walkers.b, goal.vertices_b, way);
+    on_b = furthest_vertex<Scalar, true>(state.b, goal.vertices_b, search);
   } else {
-    on_b = furthest_corner<Scalar, true>(walkers.b, goal.halves_b, walkers.centre_b, way);
+    on_b = furthest_corner<Scalar, true>(state.b, goal.halves_b, state.centre_b, search);
   }
   corner.point = difference<Scalar>(corner.on_a, on_b);
   return corner;

@@ -19,9 +19,8 @@
 //          of vector instructions, in the program and in the time to compile it.
 #include <algorithm>
 
-#include "algorithms/kernels/batch/shape_prefetch.h"
+#include "algorithms/kernels/batch/for_each_pair.h"
 #include "algorithms/kernels/gjk/gjk_query.h"
-#include "algorithms/kernels/minkowski/halfspace.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/gjk_templated/specialised_gjk.h"
 
@@ -54,34 +53,21 @@ class GjkTemplated final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    if (batch.kind_b == ShapeKind::halfspace) {
-      solve_with_halfspaces(task, batch, outcomes);
-      return;
+    if (batch.kind_b != ShapeKind::halfspace) {
+      query_.set_functions(functions_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
     }
-    query_.walk_by(walks_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
-    ahead_.begin(batch.pairs, task == Task::distance);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      ahead_.before(i);
-      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
-      query_.solve(shapes_[batch.pairs.shape_of[a]], batch.pairs.poses[a],
-                   shapes_[batch.pairs.shape_of[b]], batch.pairs.poses[b], task, nullptr,
-                   outcomes[i]);
-    }
+    for_each_pair(batch.pairs, shapes_, ahead_, task == Task::distance,
+                  [&](std::size_t i, const SupportShape<Scalar>& a, const Pose& pose_a,
+                      const SupportShape<Scalar>& b, const Pose& pose_b) {
+                    if (!solve_if_halfspace(batch.kind_a, batch.kind_b, a, pose_a, b, pose_b, task,
+                                            outcomes[i])) {
+                      query_.solve(a, pose_a, b, pose_b, task, nullptr, outcomes[i]);
+                    }
+                  });
   }
 
  private:
-  // Half-spaces are ordered last, so b is one.
-  void solve_with_halfspaces(Task task, const PairBatch& batch, std::span<Outcome> outcomes) const {
-    const auto solve =
-        batch.kind_a == ShapeKind::halfspace ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
-      solve(shapes_[batch.pairs.shape_of[a]], batch.pairs.poses[a],
-            shapes_[batch.pairs.shape_of[b]], batch.pairs.poses[b], task, outcomes[i]);
-    }
-  }
-
-  const CoreTable<Scalar> walks_ = walks_of_known_cores<Scalar>();
+  const CoreTable<Scalar> functions_ = specialised_functions<Scalar>();
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
   ShapePrefetch<Scalar> ahead_;

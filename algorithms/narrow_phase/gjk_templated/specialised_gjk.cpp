@@ -6,7 +6,7 @@
 namespace touchstone {
 
 template <class Scalar>
-CoreTable<Scalar> walks_of_known_cores() {
+CoreTable<Scalar> specialised_functions() {
   CoreTable<Scalar> table{};
   add_points(table);
   add_segments_and_hulls(table);
@@ -15,7 +15,7 @@ CoreTable<Scalar> walks_of_known_cores() {
   return table;
 }
 
-template CoreTable<float> walks_of_known_cores();
-template CoreTable<double> walks_of_known_cores();
+template CoreTable<float> specialised_functions();
+template CoreTable<double> specialised_functions();
 
 }  // namespace touchstone

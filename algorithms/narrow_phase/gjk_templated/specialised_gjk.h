@@ -12,17 +12,18 @@
 
 namespace touchstone {
 
-inline constexpr std::size_t known_cores = static_cast<std::size_t>(SupportCore::halfspace);
+inline constexpr std::size_t specialised_cores = static_cast<std::size_t>(SupportCore::halfspace);
 
 // table[a][b] for a <= b in the order of SupportCore: versions specialised for the two core types,
 // with results bit for bit equal to the generic ones. Entries with a > b are generic.
 template <class Scalar>
-using CoreTable = std::array<std::array<CoreWalks<Scalar>, known_cores>, known_cores>;
+using CoreTable =
+    std::array<std::array<CoreFunctions<Scalar>, specialised_cores>, specialised_cores>;
 
 template <class Scalar>
-CoreTable<Scalar> walks_of_known_cores();
+CoreTable<Scalar> specialised_functions();
 
-extern template CoreTable<float> walks_of_known_cores();
-extern template CoreTable<double> walks_of_known_cores();
+extern template CoreTable<float> specialised_functions();
+extern template CoreTable<double> specialised_functions();
 
 }  // namespace touchstone

@@ -15,17 +15,18 @@ namespace touchstone {
 namespace {
 
 template <SupportCore a, SupportCore b>
-struct KnownCores {
+struct SpecialisedCores {
   static constexpr bool start_warm = false;
 
   template <class Scalar>
   static DifferencePoint<Scalar> support(SupportPair<Scalar>& pair, const Vec3<Scalar>& direction) {
-    return pair.template support<KnownCore<a>, KnownCore<b>>(direction);
+    return pair.template support<SpecialisedCore<a>, SpecialisedCore<b>>(direction);
   }
   template <class Scalar>
-  static Walk<Scalar> walk(SupportPair<Scalar>& pair, const WalkGoal& goal, Scalar tolerance,
-                           const WalkStart<Scalar>& start) {
-    return walk_here<false, KnownCore<a>, KnownCore<b>>(pair, goal, tolerance, start);
+  static FastGjkResult<Scalar> fast_gjk(SupportPair<Scalar>& pair, const FastGjkGoal& goal,
+                                        Scalar tolerance, const FastGjkStart<Scalar>& start) {
+    return fast_gjk_at_level<false, SpecialisedCore<a>, SpecialisedCore<b>>(pair, goal, tolerance,
+                                                                            start);
   }
 };
 
@@ -33,8 +34,8 @@ struct KnownCores {
 template <SupportCore a, SupportCore... others, class Scalar>
 void add_pairs(CoreTable<Scalar>& table) {
   const auto place = [](SupportCore core) { return static_cast<std::size_t>(core); };
-  ((table[place(a)][place(others)] = {&approach_by<KnownCores<a, others>, Scalar>,
-                                      &KnownCores<a, others>::template walk<Scalar>}),
+  ((table[place(a)][place(others)] = {&gjk_distance_by<SpecialisedCores<a, others>, Scalar>,
+                                      &SpecialisedCores<a, others>::template fast_gjk<Scalar>}),
    ...);
 }
 

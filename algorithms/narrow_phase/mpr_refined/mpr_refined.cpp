@@ -36,8 +36,7 @@
 #include <optional>
 #include <utility>
 
-#include "algorithms/kernels/batch/shape_prefetch.h"
-#include "algorithms/kernels/minkowski/halfspace.h"
+#include "algorithms/kernels/batch/for_each_pair.h"
 #include "algorithms/kernels/mpr/portal_search.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/mpr_refined/portal_subdivision.h"
@@ -227,24 +226,19 @@ class MprRefined final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    ahead_.begin(batch.pairs, true);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      ahead_.before(i);
-      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
-      const SupportShape<Scalar>& a = shapes_[batch.pairs.shape_of[first]];
-      const SupportShape<Scalar>& b = shapes_[batch.pairs.shape_of[second]];
-      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
-      if (batch.kind_b == ShapeKind::halfspace) {
-        const auto solve_plane =
-            batch.kind_a == batch.kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
-        solve_plane(a, pose_a, b, pose_b, task, outcomes[i]);
-      } else {
-        SupportPair<Scalar> pair(a, pose_a, b, pose_b);
-        PairMemory* memory = batch.memory.empty() ? nullptr : &batch.memory[batch.memory_of[i]];
-        RefinedDepth<Scalar>(pair, max_iterations_, tolerance_for(pair))
-            .solve(task, memory, outcomes[i]);
-      }
-    }
+    for_each_pair(batch.pairs, shapes_, ahead_, true,
+                  [&](std::size_t i, const SupportShape<Scalar>& a, const Pose& pose_a,
+                      const SupportShape<Scalar>& b, const Pose& pose_b) {
+                    if (solve_if_halfspace(batch.kind_a, batch.kind_b, a, pose_a, b, pose_b, task,
+                                           outcomes[i])) {
+                      return;
+                    }
+                    SupportPair<Scalar> pair(a, pose_a, b, pose_b);
+                    PairMemory* const memory =
+                        batch.memory.empty() ? nullptr : &batch.memory[batch.memory_of[i]];
+                    RefinedDepth<Scalar>(pair, max_iterations_, tolerance_for(pair))
+                        .solve(task, memory, outcomes[i]);
+                  });
   }
 
  private:

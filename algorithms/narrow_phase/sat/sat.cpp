@@ -12,7 +12,7 @@
 //          6. Measure the gap along the cross product of each crossing pair. Stop at any axis that
 //             separates.
 //          7. Report the greatest gap: positive is separated, negative is the depth, with witness
-//             points of the supporting features (kernels/sat/common_point).
+//             points of the supporting features (kernels/sat/witness_points).
 // Departs: edges and normals have unit length in the arc test, and pairs that rounding leaves open
 //          are kept: their axis is measured over all vertices, which is valid for any axis. Axes of
 //          almost parallel edges are made orthogonal to one edge again. The error that remains
@@ -200,7 +200,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_sat() {
                                 "Separating Axis Test between Convex Polyhedra, GDC 2013"},
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
-           .supports = are_flat_sided,
+           .supports = are_polytopes,
            .traits = {.starts_warm = true},
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32) return std::make_unique<Sat<float>>();

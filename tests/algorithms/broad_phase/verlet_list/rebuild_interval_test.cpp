@@ -24,7 +24,7 @@ TEST(RebuildInterval, SlowerBodiesNeverGetAShorterList) {
 }
 
 TEST(RebuildInterval, LearnsFromListsThatGrewMoreOrEndedSooner) {
-  const Motion motion{.step = 1, .share = 0.02};
+  const MeanMotion motion{.step = 1, .share = 0.02};
   RebuildInterval fresh;
   const double frames = fresh.choose(motion, 1000, 2000);
   ASSERT_GT(frames, 2);

@@ -48,18 +48,18 @@ class CurveOrderTest : public testing::Test {
   }
   static double spread(const AabbSoA& arrays) {
     Executor executor(1);
-    ImplicitRTree pyramid;
-    pyramid.boxes().resize(arrays.size());
+    ImplicitRTree tree;
+    tree.boxes().resize(arrays.size());
     for (std::size_t i = 0; i < arrays.size(); ++i) {
       Aabb box;
       for (int axis = 0; axis < 3; ++axis) {
         box.min[static_cast<std::size_t>(axis)] = arrays.min(axis)[i];
         box.max[static_cast<std::size_t>(axis)] = arrays.max(axis)[i];
       }
-      pyramid.boxes().set(i, box, arrays.ids()[i]);
+      tree.boxes().set(i, box, arrays.ids()[i]);
     }
-    pyramid.fit(executor);
-    return pyramid.spread();
+    tree.fit(executor);
+    return tree.spread();
   }
 
   std::mt19937 random_{7};

@@ -31,12 +31,12 @@ TEST(ImplicitRTree, ListsWhatABoxOverlaps) {
   Executor executor(1);
   for (const std::size_t count : {1u, 15u, 16u, 17u, 256u, 257u, 5000u}) {
     const std::vector<Aabb> boxes = random_boxes(count, 3);
-    ImplicitRTree pyramid;
-    pyramid.boxes().resize(count);
+    ImplicitRTree tree;
+    tree.boxes().resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      pyramid.boxes().set(i, boxes[i], static_cast<std::uint32_t>(i));
+      tree.boxes().set(i, boxes[i], static_cast<std::uint32_t>(i));
     }
-    pyramid.fit(executor);
+    tree.fit(executor);
     RTreeScratch scratch;
     std::size_t hits = 0;
     for (const Aabb& box : random_boxes(50, 2)) {
@@ -46,7 +46,7 @@ TEST(ImplicitRTree, ListsWhatABoxOverlaps) {
       }
       for (const Isa level : {Isa::baseline, Isa::avx2, Isa::avx512}) {
         limit_isa(level);
-        const std::size_t found = list_overlaps(pyramid, box, scratch);
+        const std::size_t found = list_overlaps(tree, box, scratch);
         EXPECT_EQ(std::vector(scratch.children.begin(),
                               scratch.children.begin() + static_cast<std::ptrdiff_t>(found)),
                   expected);

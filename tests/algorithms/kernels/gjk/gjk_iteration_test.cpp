@@ -30,9 +30,9 @@ bool keeps_signs(const Simplex<Scalar>& simplex, long double off) {
     const Exact p = w[static_cast<std::size_t>(face[0])], q = w[static_cast<std::size_t>(face[1])],
                 s = w[static_cast<std::size_t>(face[2])];
     const long double before = p.dot(q.cross(s));
-    const long double way = before > 0 ? -off : off;
-    const Exact p2 = p + way * q.cross(s).normalized(), q2 = q + way * s.cross(p).normalized(),
-                s2 = s + way * p.cross(q).normalized();
+    const long double sign = before > 0 ? -off : off;
+    const Exact p2 = p + sign * q.cross(s).normalized(), q2 = q + sign * s.cross(p).normalized(),
+                s2 = s + sign * p.cross(q).normalized();
     const long double after = p2.dot(q2.cross(s2));
     ++(after > 0 ? positive : negative);
     if ((before > 0) != (after > 0)) return false;

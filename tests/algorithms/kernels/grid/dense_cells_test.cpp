@@ -39,7 +39,7 @@ std::vector<std::uint32_t> all_ids(std::size_t count) {
   return ids;
 }
 
-TEST(Crowds, AreTheLongestRuns) {
+TEST(DenseCells, AreTheLongestRuns) {
   Random random(1);
   std::size_t found_in_all = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -63,7 +63,7 @@ TEST(Crowds, AreTheLongestRuns) {
   EXPECT_GT(found_in_all, 1000u);
 }
 
-TEST(Crowds, AreSortedOnTheAxisWhereTheyLieFarApart) {
+TEST(DenseCells, AreSortedOnTheAxisWhereTheyLieFarApart) {
   Executor executor(1);
   Random random(2);
   std::vector<Aabb> boxes(500);  // plates, far apart for their thickness, which is on y
@@ -71,14 +71,15 @@ TEST(Crowds, AreSortedOnTheAxisWhereTheyLieFarApart) {
     box.min = {uniform(random, 20), uniform(random, 5), uniform(random, 20)};
     box.max = {box.min[0] + 10, box.min[1] + 0.01f, box.min[2] + 10};
   }
-  std::vector<std::uint32_t> crowd = all_ids(boxes.size());
+  std::vector<std::uint32_t> dense_cell = all_ids(boxes.size());
   DenseCellSort<std::uint32_t> sort;
-  const int axis = sort(executor, boxes, std::span(crowd), [](std::uint32_t id) { return id; });
+  const int axis =
+      sort(executor, boxes, std::span(dense_cell), [](std::uint32_t id) { return id; });
   EXPECT_EQ(axis, 1);
   EXPECT_TRUE(
-      std::ranges::is_sorted(crowd, {}, [&](std::uint32_t id) { return boxes[id].min[1]; }));
-  std::ranges::sort(crowd);
-  EXPECT_EQ(crowd, all_ids(boxes.size()));
+      std::ranges::is_sorted(dense_cell, {}, [&](std::uint32_t id) { return boxes[id].min[1]; }));
+  std::ranges::sort(dense_cell);
+  EXPECT_EQ(dense_cell, all_ids(boxes.size()));
 }
 
 TEST(GridLevels, FindEachBoxInItsCell) {
@@ -145,14 +146,14 @@ TEST(OctreeOrder, TellsACrowdApart) {
   std::vector<Aabb> boxes = cluster(random, 4000, 1e7f);
   OctreeOrder order;
   order.sort(executor, boxes, all_ids(boxes.size()));
-  std::vector<IndexRange> crowds;
+  std::vector<IndexRange> dense_cells;
   visit_dense_cells(
       {0, order.size()}, 1000, [&](std::size_t i) { return order.key(i); },
-      [&](IndexRange run) { crowds.push_back(run); });
-  ASSERT_EQ(crowds.size(), 1u);
-  EXPECT_TRUE(order.refine(executor, boxes, crowds[0].first, crowds[0].last));
+      [&](IndexRange run) { dense_cells.push_back(run); });
+  ASSERT_EQ(dense_cells.size(), 1u);
+  EXPECT_TRUE(order.refine(executor, boxes, dense_cells[0].first, dense_cells[0].last));
   std::size_t different = 0;
-  for (std::size_t i = crowds[0].first + 1; i < crowds[0].last; ++i) {
+  for (std::size_t i = dense_cells[0].first + 1; i < dense_cells[0].last; ++i) {
     EXPECT_LE(order.key(i - 1), order.key(i));
     different += order.key(i - 1) != order.key(i) ? 1 : 0;
   }

@@ -1,5 +1,5 @@
 // The witness points of a separating-axis test, from the supporting features seen along the axis.
-#include "algorithms/kernels/sat/common_point.h"
+#include "algorithms/kernels/sat/witness_points.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -71,8 +71,9 @@ bool inside(const Vec3<Scalar>& seen, const std::vector<Corner<Scalar>>& polygon
 }  // namespace
 
 template <class Scalar>
-CommonPoint<Scalar> common_point(const PlacedPolytope<Scalar>& a, const PlacedPolytope<Scalar>& b,
-                                 const Vec3<Scalar>& normal, Scalar gap, Scalar tolerance) {
+WitnessPoints<Scalar> witness_points(const PlacedPolytope<Scalar>& a,
+                                     const PlacedPolytope<Scalar>& b, const Vec3<Scalar>& normal,
+                                     Scalar gap, Scalar tolerance) {
   const Vec3<Scalar> u = normal.unitOrthogonal(), v = normal.cross(u);
   const auto of_a = feature<Scalar>(a, normal, u, v, tolerance);
   const auto of_b = feature<Scalar>(b, -normal, u, v, tolerance);
@@ -82,7 +83,7 @@ CommonPoint<Scalar> common_point(const PlacedPolytope<Scalar>& a, const PlacedPo
   for (const auto& corner : of_b) {
     if (inside(corner.seen, of_a)) return {corner.point - gap * normal, corner.point};
   }
-  CommonPoint<Scalar> best{of_a[0].point, of_b[0].point};
+  WitnessPoints<Scalar> best{of_a[0].point, of_b[0].point};
   Scalar least = (of_a[0].seen - of_b[0].seen).squaredNorm();
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     const auto &a0 = of_a[i], &a1 = of_a[i + 1 < of_a.size() ? i + 1 : 0];
@@ -98,10 +99,11 @@ CommonPoint<Scalar> common_point(const PlacedPolytope<Scalar>& a, const PlacedPo
   return best;
 }
 
-template CommonPoint<float> common_point(const PlacedPolytope<float>&, const PlacedPolytope<float>&,
-                                         const Vec3<float>&, float, float);
-template CommonPoint<double> common_point(const PlacedPolytope<double>&,
-                                          const PlacedPolytope<double>&, const Vec3<double>&,
-                                          double, double);
+template WitnessPoints<float> witness_points(const PlacedPolytope<float>&,
+                                             const PlacedPolytope<float>&, const Vec3<float>&,
+                                             float, float);
+template WitnessPoints<double> witness_points(const PlacedPolytope<double>&,
+                                              const PlacedPolytope<double>&, const Vec3<double>&,
+                                              double, double);
 
 }  // namespace touchstone

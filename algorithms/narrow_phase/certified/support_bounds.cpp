@@ -1,9 +1,9 @@
 // Part of certified: the core's extents and the vertices that may support a hull.
-#include "algorithms/narrow_phase/certified/proven_support.h"
+#include "algorithms/narrow_phase/certified/support_bounds.h"
 
 namespace touchstone {
 
-ProvenShape::ProvenShape(const Shape& s) : shape(&s), support(s), reach(Vec3d::Zero()) {
+BoundedShape::BoundedShape(const Shape& s) : shape(&s), support(s), reach(Vec3d::Zero()) {
   switch (s.kind) {
     case ShapeKind::capsule: reach.z() = s.half_length; break;
     case ShapeKind::box: reach = s.half_extents; break;

@@ -1,5 +1,5 @@
-// What every loop over real_lanes.h begins with: quads, and vectors of three dimensions. Included
-// by it once for each level of vector instructions.
+// Quads, and vectors of three dimensions, with which every loop over vector.h begins. vector.h
+// includes this file once for each level of vector instructions.
 
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<Scalar> convert(const Quad<double>& q) {
@@ -13,9 +13,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> widen(const Quad<Scalar>& q) {
 // Four vectors from a quad for each lane.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void columns_of(const Quad<Scalar>* quads,
-                                                    typename RealLanes<Scalar>::Real columns[4]) {
-  for (std::size_t k = 0; k < 4; ++k) columns[k] = RealLanes<Scalar>::join(quads + k);
-  RealLanes<Scalar>::transpose(columns);
+                                                    typename Simd<Scalar>::Vector columns[4]) {
+  for (std::size_t k = 0; k < 4; ++k) columns[k] = Simd<Scalar>::concat(quads + k);
+  Simd<Scalar>::transpose(columns);
 }
 
 // And back: lane l's quad is at place(l) of them, its place.
@@ -24,9 +24,9 @@ constexpr std::size_t place(std::size_t lane) {
   return lane % 4 * (Lanes::width / 4) + lane / 4;
 }
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void quads_of(typename RealLanes<Scalar>::Real columns[4],
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void quads_of(typename Simd<Scalar>::Vector columns[4],
                                                   Quad<Scalar>* quads) {
-  using Lanes = RealLanes<Scalar>;
+  using Lanes = Simd<Scalar>;
   Lanes::transpose(columns);
   for (std::size_t k = 0; k < 4; ++k) {
     std::memcpy(quads + k * (Lanes::width / 4), &columns[k], sizeof columns[k]);
@@ -35,9 +35,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void quads_of(typename RealLanes<Scalar>::Re
 
 // Four vectors from quads that are at their places.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void placed_columns(
-    const Quad<Scalar>* quads, typename RealLanes<Scalar>::Real columns[4]) {
-  using Lanes = RealLanes<Scalar>;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void placed_columns(const Quad<Scalar>* quads,
+                                                        typename Simd<Scalar>::Vector columns[4]) {
+  using Lanes = Simd<Scalar>;
   for (std::size_t k = 0; k < 4; ++k) {
     std::memcpy(&columns[k], quads + k * (Lanes::width / 4), sizeof columns[k]);
   }
@@ -46,13 +46,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void placed_columns(
 
 // A vector of three dimensions in each lane.
 template <class Scalar>
-struct Vectors {
-  using Real = typename RealLanes<Scalar>::Real;
-  Real x, y, z;
+struct Vector3 {
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector x, y, z;
 };
 
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename RealLanes<Scalar>::Real dot(const Vectors<Scalar>& a,
-                                                                         const Vectors<Scalar>& b) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector dot(const Vector3<Scalar>& a,
+                                                                      const Vector3<Scalar>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -10,18 +10,18 @@
 
 #include "algorithms/core/pose.h"
 #include "algorithms/kernels/minkowski/simplex.h"
-#include "algorithms/narrow_phase/certified/proven_support.h"
+#include "algorithms/narrow_phase/certified/support_bounds.h"
 
 namespace touchstone {
 
-class GapProver {
+class DistanceBounder {
  public:
   // `normal` (unit, from a to b) proves the lower bound. The points of the simplex with their
   // weights prove the upper one; they must be points of this pair, and there may be none. The
   // closer the simplex's plane is to the normal's, the better the bounds.
-  ProvenGap between(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
-                    const Pose& pose_b, const SupportPair<double>& pair,
-                    const Simplex<double>& simplex, const Vec3d& normal);
+  DistanceBounds between(const BoundedShape& a, const Pose& pose_a, const BoundedShape& b,
+                         const Pose& pose_b, const SupportPair<double>& pair,
+                         const Simplex<double>& simplex, const Vec3d& normal);
 
  private:
   std::vector<std::uint32_t> furthest_a_, furthest_b_;  // hulls: vertices that may be furthest

@@ -1,32 +1,32 @@
-// Vectors of three dimensions, one a lane: the arithmetic that loops over real_lanes.h share.
-// Included by them once for each level of vector instructions.
+// The arithmetic on vectors of three dimensions, one per lane, that several loops share. They
+// include this file once for each level of vector instructions.
 
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> moved(const Vectors<Scalar>& from,
-                                                          typename RealLanes<Scalar>::Real by,
-                                                          const Vectors<Scalar>& along) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> moved(const Vector3<Scalar>& from,
+                                                          typename Simd<Scalar>::Vector by,
+                                                          const Vector3<Scalar>& along) {
   return {from.x + by * along.x, from.y + by * along.y, from.z + by * along.z};
 }
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> difference(const Vectors<Scalar>& a,
-                                                               const Vectors<Scalar>& b) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> difference(const Vector3<Scalar>& a,
+                                                               const Vector3<Scalar>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> scaled(typename RealLanes<Scalar>::Real by,
-                                                           const Vectors<Scalar>& v) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> scaled(typename Simd<Scalar>::Vector by,
+                                                           const Vector3<Scalar>& v) {
   return {by * v.x, by * v.y, by * v.z};
 }
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> cross(const Vectors<Scalar>& a,
-                                                          const Vectors<Scalar>& b) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> cross(const Vector3<Scalar>& a,
+                                                          const Vector3<Scalar>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vectors<Scalar> select(typename RealLanes<Scalar>::Mask mask,
-                                                           const Vectors<Scalar>& a,
-                                                           const Vectors<Scalar>& b) {
-  using Lanes = RealLanes<Scalar>;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> select(typename Simd<Scalar>::Mask mask,
+                                                           const Vector3<Scalar>& a,
+                                                           const Vector3<Scalar>& b) {
+  using Lanes = Simd<Scalar>;
   return {Lanes::select(mask, a.x, b.x), Lanes::select(mask, a.y, b.y),
           Lanes::select(mask, a.z, b.z)};
 }

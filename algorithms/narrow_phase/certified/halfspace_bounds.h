@@ -7,20 +7,20 @@
 #pragma once
 
 #include "algorithms/core/pose.h"
-#include "algorithms/narrow_phase/certified/proven_support.h"
+#include "algorithms/narrow_phase/certified/support_bounds.h"
 
 namespace touchstone {
 
 // Bounds the height of body a, which is bounded, over body b, which is a half-space.
-class HeightProver {
+class HalfspaceBounder {
  public:
   // `normal` receives the plane's outward normal in the world. Proves nothing if the matrix is
   // singular up to rounding, or if long double has no wider range than double.
-  ProvenGap closely(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
-                    const Pose& pose_b, Vec3d& normal);
+  DistanceBounds closely(const BoundedShape& a, const Pose& pose_a, const BoundedShape& b,
+                         const Pose& pose_b, Vec3d& normal);
   // Returns a wider interval, faster.
-  static ProvenGap roughly(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
-                           const Pose& pose_b);
+  static DistanceBounds roughly(const BoundedShape& a, const Pose& pose_a, const BoundedShape& b,
+                                const Pose& pose_b);
 
  private:
   std::vector<std::uint32_t> furthest_;  // hulls: vertices that may be furthest

@@ -1,7 +1,9 @@
-// Part of certified: the bounds of proven_gap.h, in long double.
-#include "algorithms/narrow_phase/certified/proven_gap.h"
+// Part of certified: the bounds of distance_bounds.h, in long double.
+#include "algorithms/narrow_phase/certified/distance_bounds.h"
 
 #include <cmath>
+
+#include "algorithms/core/cofactors.h"
 
 namespace touchstone {
 namespace {
@@ -11,7 +13,7 @@ namespace {
 // reach.
 class CorePoint {
  public:
-  CorePoint(const ProvenShape& body, const WideMatrix& matrix,
+  CorePoint(const BoundedShape& body, const WideMatrix& matrix,
             const std::vector<std::uint32_t>& furthest)
       : body_(body), matrix_(matrix), furthest_(furthest) {
     const Shape& shape = *body.shape;
@@ -74,7 +76,7 @@ class CorePoint {
     return {radius * (p.x() / length), radius * (p.y() / length), z};
   }
 
-  const ProvenShape& body_;
+  const BoundedShape& body_;
   const WideMatrix& matrix_;
   const std::vector<std::uint32_t>& furthest_;
   WideMatrix inverse_;
@@ -83,10 +85,11 @@ class CorePoint {
 
 }  // namespace
 
-ProvenGap GapProver::between(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
-                             const Pose& pose_b, const SupportPair<double>& pair,
-                             const Simplex<double>& simplex, const Vec3d& normal) {
-  ProvenGap gap;
+DistanceBounds DistanceBounder::between(const BoundedShape& a, const Pose& pose_a,
+                                        const BoundedShape& b, const Pose& pose_b,
+                                        const SupportPair<double>& pair,
+                                        const Simplex<double>& simplex, const Vec3d& normal) {
+  DistanceBounds gap;
   if (!is_wide) return gap;
   const WideMatrix matrix_a = pose_a.rotation.cast<Wide>(), matrix_b = pose_b.rotation.cast<Wide>();
   const WideMatrix size_a = matrix_a.cwiseAbs(), size_b = matrix_b.cwiseAbs();

@@ -18,8 +18,8 @@ namespace touchstone {
 
 // A shape and the box around its core to which the bounds are relative. The shape must outlive this
 // object.
-struct ProvenShape {
-  explicit ProvenShape(const Shape& s);
+struct BoundedShape {
+  explicit BoundedShape(const Shape& s);
 
   const Shape* shape;
   SupportShape<double> support;
@@ -27,7 +27,7 @@ struct ProvenShape {
 };
 
 // A proven interval: lower <= signed distance <= upper (metres). Infinite if nothing is proven.
-struct ProvenGap {
+struct DistanceBounds {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 };
@@ -63,7 +63,7 @@ class AllThatMayBe {
  public:
   AllThatMayBe(std::vector<double>& values, std::vector<std::uint32_t>& furthest)
       : values_(values), furthest_(furthest) {}
-  Wide operator()(const ProvenShape& body, const Wide3& g) const {
+  Wide operator()(const BoundedShape& body, const Wide3& g) const {
     const std::vector<Vec3d>& vertices = body.shape->hull->vertices;
     find_furthest(vertices, g.cast<double>(), body.reach, values_, furthest_);
     Wide most = -std::numeric_limits<Wide>::infinity();
@@ -79,7 +79,7 @@ class AllThatMayBe {
 // vertex and any better one are off by 4 units of terms that are at most twice those of the reach,
 // since the centre is in the hull's box.
 struct BestByScan {
-  double operator()(const ProvenShape& body, const Vec3d& g) const {
+  double operator()(const BoundedShape& body, const Vec3d& g) const {
     const std::uint32_t best = body.support.furthest(g);
     // The last block is padded with the first vertex.
     const std::vector<Vec3d>& vertices = body.shape->hull->vertices;
@@ -92,7 +92,7 @@ struct BestByScan {
 // a hull's scan, the value is off by 32 units of `terms`. It is off by 16 if g is off by 3 and a
 // hull's vertices are compared in Real.
 template <class Real, class HullSupport>
-Sum<Real> support(const ProvenShape& body, const Vec3<Real>& g, const Vec3<Real>& g_terms,
+Sum<Real> support(const BoundedShape& body, const Vec3<Real>& g, const Vec3<Real>& g_terms,
                   const HullSupport& hull_support) {
   const Shape& shape = *body.shape;
   Sum<Real> sum;
@@ -114,15 +114,6 @@ Sum<Real> support(const ProvenShape& body, const Vec3<Real>& g, const Vec3<Real>
     case ShapeKind::hull: sum.value = hull_support(body, g); break;
   }
   return sum;
-}
-
-template <class Real>
-Mat3<Real> cofactor_matrix(const Mat3<Real>& m) {
-  Mat3<Real> cofactors;
-  cofactors.row(0) = m.row(1).cross(m.row(2));
-  cofactors.row(1) = m.row(2).cross(m.row(0));
-  cofactors.row(2) = m.row(0).cross(m.row(1));
-  return cofactors;
 }
 
 }  // namespace touchstone

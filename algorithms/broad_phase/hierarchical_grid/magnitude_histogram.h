@@ -15,11 +15,11 @@
 
 namespace touchstone {
 
-struct BoxMeasure {
+struct MagnitudeBin {
   std::size_t members = 0;
   std::array<double, 3> side{};  // longest side on each axis, metres
 
-  void add(const BoxMeasure& other) {
+  void add(const MagnitudeBin& other) {
     members += other.members;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       side[axis] = std::max(side[axis], other.side[axis]);
@@ -40,10 +40,11 @@ inline std::size_t magnitude(const Aabb& box) {
       std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
   return std::bit_cast<std::uint32_t>(side) >> 23 & (box_magnitudes - 1);
 }
-using BoxMeasures = std::array<BoxMeasure, box_magnitudes>;
+using MagnitudeHistogram = std::array<MagnitudeBin, box_magnitudes>;
 
 // `ids` lists the boxes that are not empty; `blocks` is scratch memory.
-BoxMeasures measure_boxes(Executor& executor, std::span<const Aabb> boxes,
-                          std::span<const std::uint32_t> ids, std::vector<BoxMeasures>& blocks);
+MagnitudeHistogram magnitude_histogram(Executor& executor, std::span<const Aabb> boxes,
+                                       std::span<const std::uint32_t> ids,
+                                       std::vector<MagnitudeHistogram>& blocks);
 
 }  // namespace touchstone

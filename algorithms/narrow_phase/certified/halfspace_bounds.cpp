@@ -1,8 +1,10 @@
-// Part of certified: the bounds of proven_height.h, for double and long double.
-#include "algorithms/narrow_phase/certified/proven_height.h"
+// Part of certified: the bounds of halfspace_bounds.h, for double and long double.
+#include "algorithms/narrow_phase/certified/halfspace_bounds.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "algorithms/core/cofactors.h"
 
 namespace touchstone {
 namespace {
@@ -18,7 +20,7 @@ struct Height {
 };
 
 template <class Real, class HullSupport>
-Height<Real> height_over(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
+Height<Real> height_over(const BoundedShape& a, const Pose& pose_a, const BoundedShape& b,
                          const Pose& pose_b, const HullSupport& hull_support) {
   constexpr Real ulp = std::numeric_limits<Real>::epsilon() / 2;
   Height<Real> result;
@@ -69,16 +71,16 @@ Height<Real> height_over(const ProvenShape& a, const Pose& pose_a, const ProvenS
 
 }  // namespace
 
-ProvenGap HeightProver::closely(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
-                                const Pose& pose_b, Vec3d& normal) {
+DistanceBounds HalfspaceBounder::closely(const BoundedShape& a, const Pose& pose_a,
+                                         const BoundedShape& b, const Pose& pose_b, Vec3d& normal) {
   if (!is_wide) return {};
   const auto height = height_over<Wide>(a, pose_a, b, pose_b, AllThatMayBe(values_, furthest_));
   normal = height.normal.cast<double>();
   return {round_down(height.lower), round_up(height.upper)};
 }
 
-ProvenGap HeightProver::roughly(const ProvenShape& a, const Pose& pose_a, const ProvenShape& b,
-                                const Pose& pose_b) {
+DistanceBounds HalfspaceBounder::roughly(const BoundedShape& a, const Pose& pose_a,
+                                         const BoundedShape& b, const Pose& pose_b) {
   const auto height = height_over<double>(a, pose_a, b, pose_b, BestByScan());
   // Nothing overflows if matrices and the plane's normal are below 2^100 and lengths below 2^200,
   // and all underflow amounts to less than 2^-500.

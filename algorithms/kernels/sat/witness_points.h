@@ -11,7 +11,7 @@ struct PlacedPolytope;
 
 // Coordinates are in the frame and unit of the pair.
 template <class Scalar>
-struct CommonPoint {
+struct WitnessPoints {
   Vec3<Scalar> a, b;
 };
 
@@ -20,14 +20,15 @@ struct CommonPoint {
 // against it. If the axis is that of least penetration, the features meet when seen along it, and a
 // - b is -gap * normal up to rounding. Both points then lie on their bodies up to `tolerance`.
 template <class Scalar>
-CommonPoint<Scalar> common_point(const PlacedPolytope<Scalar>& a, const PlacedPolytope<Scalar>& b,
-                                 const Vec3<Scalar>& normal, Scalar gap, Scalar tolerance);
+WitnessPoints<Scalar> witness_points(const PlacedPolytope<Scalar>& a,
+                                     const PlacedPolytope<Scalar>& b, const Vec3<Scalar>& normal,
+                                     Scalar gap, Scalar tolerance);
 
-extern template CommonPoint<float> common_point(const PlacedPolytope<float>&,
-                                                const PlacedPolytope<float>&, const Vec3<float>&,
-                                                float, float);
-extern template CommonPoint<double> common_point(const PlacedPolytope<double>&,
-                                                 const PlacedPolytope<double>&, const Vec3<double>&,
-                                                 double, double);
+extern template WitnessPoints<float> witness_points(const PlacedPolytope<float>&,
+                                                    const PlacedPolytope<float>&,
+                                                    const Vec3<float>&, float, float);
+extern template WitnessPoints<double> witness_points(const PlacedPolytope<double>&,
+                                                     const PlacedPolytope<double>&,
+                                                     const Vec3<double>&, double, double);
 
 }  // namespace touchstone
