@@ -33,7 +33,6 @@
 // Cost:    O(1) space; a few support calls for each digit on smooth shapes, finite on polytopes.
 //          Caps: 128 iterations of GJK, 256 of EPA. Tolerance relative to the size: 1e-10 (double)
 //          or 1e-5 (float); polytopes continue until only rounding is left.
-//
 #include <algorithm>
 #include <cstring>
 #include <type_traits>

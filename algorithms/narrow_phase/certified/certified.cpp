@@ -6,8 +6,8 @@
 //             doubles first, then in long double (halfspace_bounds).
 //          2. Pairs whose bounding balls are apart are separated (not for distance).
 //          3. intersect: run GJK's fast iteration; accept a support plane, a tetrahedron around the
-//             origin or a point within the radii that holds by more than
-//             proven_rounding.h.
+//             origin or a point within the radii that holds by more than the
+//             bound of proven_rounding.h.
 //          4. Otherwise run GJK's distance loop; it may prove the verdict in the same ways.
 //          5. From the last direction and simplex, compute an interval of the signed distance in
 //             long double with all rounding bounded (distance_bounds, support_bounds).
