@@ -1,3 +1,4 @@
+// Part of hierarchical-grid: the parallel count of boxes by magnitude.
 #include "algorithms/broad_phase/hierarchical_grid/magnitude_histogram.h"
 
 #include "algorithms/core/parallel_blocks.h"

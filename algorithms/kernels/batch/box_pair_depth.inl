@@ -1,18 +1,18 @@
-// The depths of box_pair_lanes.h: axis of least penetration, normal and witness points. Included by
-// box_pair_lanes.inl.
+// The depths of box_pair_lanes.h: axis of least penetration, normal and witness points.
+// box_pair_lanes.inl includes this file.
 
-// What a lane's least depth is along: a product of edges, by their numbers, or a face normal of
-// that box whose number is not below zero. The gap is along the axis times its length.
+// The axis of a lane's least depth: a product of edges, by their numbers, or a face normal of the
+// box whose number is not negative. The gap is multiplied by the axis' length.
 template <class Scalar>
 struct LeastAxis {
   using Vector = typename Simd<Scalar>::Vector;
-  Vector gap, square;  // of the axis' length
-  Vector measure;      // (gap / size)^2, of a face by rounding less
+  Vector gap, square;  // square of the axis' length
+  Vector measure;      // (gap / size)^2, lowered for a face
   Vector edge_a, edge_b;
 };
 
-// The measure of a face is lowered by more than rounding: where edges are square to a face their
-// axis is the face's, which has the better witness points.
+// The measure of a face is lowered by more than rounding: edges perpendicular to a face have the
+// face's axis, and the face has the better witness points.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_face(
     const BoxProducts<Scalar>& seen, typename Simd<Scalar>::Vector inverse_size) {
@@ -32,8 +32,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_face(
   return {greatest, Lanes::broadcast(1), as_good * part * part, edge_a, edge_b};
 }
 
-// The axis of edges i and j, in the lanes where its depth is less. Nothing here leaves the scalar's
-// range: of lanes that overlap no gap that counts is below 4 u 160 u of the size.
+// Takes the axis of edges i and j in the lanes where its depth is less. Nothing here leaves the
+// scalar's range: in lanes that overlap no gap that counts is below 4 u 160 u of the size.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void take_less(const EdgeAxis<Scalar>& axis, int i, int j,
                                                    typename Simd<Scalar>::Vector inverse_size,
@@ -52,8 +52,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void take_less(const EdgeAxis<Scalar>& axis,
   least.edge_b = Lanes::select(better, Lanes::broadcast(static_cast<Scalar>(j)), least.edge_b);
 }
 
-// Of lanes that overlap; and says which of the open ones do, which are those that it finds deeper
-// along all axes than twice `fine` allows for.
+// Finds the axis of least depth for lanes that overlap. Also marks open lanes as overlapping if
+// their depth along all axes is at least twice what `fine` allows for.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_axis(const BoxProducts<Scalar>& seen,
                                                                  Signs& signs) {
@@ -76,7 +76,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE LeastAxis<Scalar> least_axis(const BoxProduc
   return least;
 }
 
-// Of three, the one whose number it is.
+// Returns the one of the three vectors whose number it is.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector pick(
     typename Simd<Scalar>::Vector number, typename Simd<Scalar>::Vector zero,
@@ -94,7 +94,7 @@ struct Contact {
   Vector depth, normal[3], on_a[3], on_b[3];
 };
 
-// The lanes whose points are on their boxes.
+// Returns the lanes whose points are on their boxes.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned on_boxes(const BoxProducts<Scalar>& seen,
                                                       const Contact<Scalar>& contact) {
@@ -113,8 +113,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned on_boxes(const BoxProducts<Scalar>&
   return Lanes::to_bits(Lanes::less(outside, room));
 }
 
-// Where a face meets what is parallel to it up to rounding, any corner may lie beside it. Goes from
-// the features of a to those of b and back, to the nearest point each time: these meet.
+// Moves the points together: if a face meets a feature that is parallel to it up to rounding, any
+// corner may lie beside it. Alternating projections on the features of a and b converge to points
+// of both.
 template <class Scalar>
 TOUCHSTONE_TARGET void slide_together(const BoxProducts<Scalar>& seen, Contact<Scalar>& contact) {
   using Lanes = Simd<Scalar>;
@@ -125,7 +126,7 @@ TOUCHSTONE_TARGET void slide_together(const BoxProducts<Scalar>& seen, Contact<S
   const Vector room = GapError<Scalar>::coarse * seen.size;
   const auto clamp = [](Vector x, Vector low, Vector high)
                          TOUCHSTONE_TARGET { return Lanes::min(Lanes::max(x, low), high); };
-  // Between what the boxes' coordinates along their edges may be on their features.
+  // Bounds of the coordinates along each box's edges on its feature.
   Vector low_a[3], high_a[3], low_b[3], high_b[3];
   for (int k = 0; k < 3; ++k) {
     const Vector along =
@@ -156,7 +157,7 @@ TOUCHSTONE_TARGET void slide_together(const BoxProducts<Scalar>& seen, Contact<S
   }
 }
 
-// The contacts of those lanes that are known to overlap; those of them whose points are found.
+// Finds the contacts of the lanes that overlap; returns the lanes whose points were found.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Scalar>& seen,
                                                            const LeastAxis<Scalar>& least,
@@ -190,7 +191,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
   inverse = Lanes::select(Lanes::less(between, zero), -inverse, inverse);
   for (Vector& x : normal) x = x * inverse;
 
-  // The corner of each that is deepest in the other; of two edges, their middles.
+  // Each box's corner deepest in the other; of two edges, their middles.
   for (int k = 0; k < 3; ++k) {
     const Vector half = seen.half_a[k] - seen.half_a[k] * edges * edge_a[k];
     on_a[k] = Lanes::select(Lanes::less(normal[k], zero), -half, half);
@@ -204,8 +205,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned find_contacts(const BoxProducts<Sca
     const Vector reach = Lanes::select(Lanes::less(along, zero), half, -half);
     for (int k = 0; k < 3; ++k) on_b[k] += reach * p[k][j];
   }
-  // From the middles to where the lines of two edges are closest. What of edge b is across edge a
-  // is taken by coordinate, and so keeps its digits where they are almost parallel.
+  // Moves from the middles to where the lines of two edges are closest. The part of edge b that is
+  // perpendicular to edge a is taken by coordinate, and so keeps its digits if they are almost
+  // parallel.
   Vector slide_b = zero, slide_a = zero, cosine = zero;
   for (int k = 0; k < 3; ++k) {
     const Vector from_a = on_b[k] - on_a[k];
@@ -245,8 +247,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> to_world(
           columns[0].z * v[0] + columns[1].z * v[1] + columns[2].z * v[2]};
 }
 
-// Writes all numbers of the outcomes of those lanes that are known to overlap; the lanes of which
-// that was possible.
+// Writes all numbers of the outcomes of the lanes that overlap; returns the lanes for which this
+// was possible.
 template <class Scalar>
 TOUCHSTONE_TARGET unsigned write_depths(const PairTable<Scalar>& table, std::size_t begin,
                                         const BoxColumns<Scalar>& boxes,
@@ -259,7 +261,8 @@ TOUCHSTONE_TARGET unsigned write_depths(const PairTable<Scalar>& table, std::siz
   const Vector3<Scalar> normal = to_world<Scalar>(boxes.a, contact.normal);
   const Vector3<Scalar> on_a = to_world<Scalar>(boxes.a, contact.on_a);
   const Vector3<Scalar> on_b = to_world<Scalar>(boxes.a, contact.on_b);
-  // Any axis has a depth that is not less than the least; it takes all of them to know that.
+  // One axis suffices for the lower bound of the signed distance, since its depth is at least the
+  // least; the upper bound needs all axes.
   const Vector lower = -contact.depth - GapError<Scalar>::coarse * seen.size;
   const Vector upper = GapError<Scalar>::fine * seen.size - contact.depth;
   write_numbers<Scalar>(table, begin, overlapping,

@@ -1,3 +1,4 @@
+// Box pairs in lanes: binding the shapes, and the choice of the instruction level.
 #include "algorithms/kernels/batch/box_pair_lanes.h"
 
 #include <algorithm>
@@ -13,24 +14,24 @@ namespace {
 
 using simd::Quad;
 
-// Forward bounds on what rounding does to a gap along an axis, as parts of the size of the pair:
-// the sum of the half extents and of the offset's coordinates. u is half an epsilon. A matrix is
-// taken for orthonormal where its columns' products are off by no more than greatest_skew; a
+// Forward bounds on the error that rounding causes in a gap along an axis, as parts of the size of
+// the pair: the sum of the half extents and of the offset's coordinates. u is half an epsilon. A
+// matrix counts as orthonormal if its columns' products are off by no more than greatest_skew; a
 // product is off by 3 u more, the matrix in float by another u. So the normals of the faces, which
 // are the columns of the inverse, are off from the columns by no more than
 //     n = sqrt(3) (greatest_skew + 3 u) + 3 u, 19 u in float and 36 u in double,
-// a product of the one matrix with the other, or with the offset, by n + 4 u, and along the product
-// of two edges, which is two such products of the offset and four of half extents, the gap is off
-// by no more than 2.4 (n + 4 u) + 6 u times the size: this is `coarse`. It holds along the axis
-// itself, whatever its length, so a gap above it proves the bodies apart, and gaps below its
-// opposite along all axes prove that they overlap.
+// a product of one matrix with the other, or with the offset, by n + 4 u, and along the product of
+// two edges, which is two such products of the offset and four of half extents, the gap is off by
+// no more than 2.4 (n + 4 u) + 6 u times the size: this is `coarse`. It holds along the axis
+// itself, whatever its length, so a gap above it proves that the bodies are separated, and gaps
+// below its negative along all axes prove that they overlap.
 //
-// Where edges are almost parallel, their product is almost zero, and so is the gap along it. There
-// the pair is replaced by one whose first box is at rest and whose second has the rounded products
-// for its matrix: its bodies are off by n + 4 u, its matrix's columns as normals by
-// sqrt(3) (4 greatest_skew + 20 u), and each product of edges is known to its last digit but one.
-// `fine` is the sum of all that, for a gap as a part of the axis' length. Edges whose axis has a
-// square below `parallel` are taken for parallel: they add no facet that is wide enough to matter.
+// If edges are almost parallel, their product is almost zero, and so is the gap along it. Such a
+// pair is replaced by one whose first box has the identity for its pose and whose second has the
+// rounded products for its matrix: its bodies are off by n + 4 u, its matrix's columns as normals
+// by sqrt(3) (4 greatest_skew + 20 u), and each product of edges is exact to its last digit but
+// one. `fine` is the sum of all these, for a gap as a part of the axis' length. Edges whose axis
+// has a square below `parallel` count as parallel: they add no facet that is wide enough to matter.
 template <class Scalar>
 struct GapError {
   static constexpr bool is_float = std::is_same_v<Scalar, float>;

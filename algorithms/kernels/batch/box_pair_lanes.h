@@ -1,9 +1,10 @@
-// The separating-axis test of two boxes, one pair a lane of vectors.
+// The separating-axis test of two boxes, with one pair in each lane of vectors. Used by
+// closed-form and clipped-faces.
 // Paper: Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996.
 //
-// Lanes are for pairs whose matrices are orthonormal up to rounding and whose sizes are within
-// 1e-10 to 1e12 metres. Those, and all whose sign or witness points the lanes leave open, are
-// handed back for a test that takes its time.
+// The lanes handle pairs whose matrices are orthonormal up to rounding and whose sizes are within
+// 1e-10 to 1e12 metres. All other pairs, and those whose sign or witness points the lanes leave
+// open, are returned for a slower test.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +21,16 @@ namespace touchstone {
 template <class Scalar>
 class BoxPairLanes {
  public:
-  // What is not a box is left out.
+  // Reads the boxes among the shapes; other shapes are ignored.
   void bind(std::span<const Shape> shapes);
 
-  // Answers into outcomes, all but the pairs whose places are written to `left`, which has room for
-  // all of them; how many those are. Intersect or penetration.
+  // Solves Task::intersect or Task::penetration. Writes the outcomes of all pairs but those whose
+  // places it writes to `left`, which has room for all; returns their number.
   std::size_t solve(const BodyPairs& pairs, Task task, std::span<Outcome> outcomes,
                     std::uint32_t* left) const;
 
  private:
-  std::vector<Scalar> halves_;  // four a shape: half extents (metres) and zero
+  std::vector<Scalar> halves_;  // four numbers a shape: half extents (metres) and zero
 };
 
 extern template class BoxPairLanes<float>;

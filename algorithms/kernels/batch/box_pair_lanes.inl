@@ -1,18 +1,18 @@
-// The loops of box_pair_lanes.h. Included by box_pair_lanes.cpp once for each level of vector
+// The loops of box_pair_lanes.h. box_pair_lanes.cpp includes them once for each level of vector
 // instructions, inside that level's namespace.
 
 #include "algorithms/kernels/batch/box_pair_load.inl"
 
-// A pair seen along the axes of each box: products[i][j] of edge i of a with edge j of b.
+// A pair in the axes of each box; products[i][j] is the product of edge i of a and edge j of b.
 template <class Scalar>
 struct BoxProducts {
   using Vector = typename Simd<Scalar>::Vector;
   Vector products[3][3], offset_a[3], offset_b[3], half_a[3], half_b[3];
-  Vector size;                    // the sum of the half extents and of the offset's coordinates
-  Vector face_gaps[6], face_gap;  // along the face normals of a, then of b; the greatest
+  Vector size;                    // sum of the half extents and of the offset's coordinates
+  Vector face_gaps[6], face_gap;  // along the face normals of a, then of b; and the greatest
 };
 
-// Greatest of the gaps along the edges of either box, as face normals, and what they are made of.
+// Computes the gaps along the edges of either box, as face normals, and the products for them.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_along_faces(const BoxColumns<Scalar>& boxes,
                                                           BoxProducts<Scalar>& seen) {
@@ -41,7 +41,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_along_faces(const BoxColumns<Scala
   for (int k = 1; k < 6; ++k) seen.face_gap = Lanes::max(seen.face_gap, seen.face_gaps[k]);
 }
 
-// The greatest gap along the products of two edges, each times the axis' length.
+// Returns the greatest gap along the products of two edges, each times the axis' length.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector look_along_edges(
     const BoxProducts<Scalar>& seen) {
@@ -56,7 +56,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector look_along_edg
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      // The product of edge i of a with another edge of a is a third one, and so for b.
+      // The product of two edges of a box is its third.
       const Vector between = Lanes::abs(seen.offset_a[i2] * seen.products[i1][j] -
                                         seen.offset_a[i1] * seen.products[i2][j]);
       const Vector reach_a = seen.half_a[i1] * cosines[i2][j] + seen.half_a[i2] * cosines[i1][j];
@@ -67,9 +67,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector look_along_edg
   return greatest;
 }
 
-// An axis across two edges as seen along the edges of a, where it has no coordinate of its own
-// edge: the other two, and the gap along it times its length, which loses nothing where the edges
-// are almost parallel.
+// An axis perpendicular to two edges, in coordinates along the edges of a. The coordinate along its
+// own edge is zero; `first` and `second` are the other two. `gap` is the gap times the axis'
+// length, and is accurate even if the edges are almost parallel.
 template <class Scalar>
 struct EdgeAxis {
   typename Simd<Scalar>::Vector first, second, gap;
@@ -81,7 +81,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<Scalar>::Vector square_length(
   return axis.first * axis.first + axis.second * axis.second;
 }
 
-// Those of edge i of a with each edge of b.
+// Computes the axes of edge i of a with each edge of b.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void edge_axes(const BoxProducts<Scalar>& seen, int i,
                                                    EdgeAxis<Scalar> axes[3]) {
@@ -89,7 +89,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void edge_axes(const BoxProducts<Scalar>& se
   using Vector = typename Lanes::Vector;
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
   const auto &first = seen.products[i1], &second = seen.products[i2];
-  // How far edge j1 goes along the axis of edge j2, and that one along the axis of j1.
+  // The extent of edge j1 along the axis of edge j2, which is that of j2 along the axis of j1.
   Vector along[3];
   for (int j = 0; j < 3; ++j) {
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -104,14 +104,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void edge_axes(const BoxProducts<Scalar>& se
   }
 }
 
-// What is known of the lanes: those that may be answered and are not far apart, and of them those
-// that are apart and that overlap.
+// The state of the lanes: those that may be decided and are not far apart, and of these the ones
+// that are separated and the ones that overlap.
 struct Signs {
   unsigned near, apart, overlapping;
   unsigned open() const { return near & ~apart & ~overlapping; }
 };
 
-// By all axes as they are.
+// Decides lanes by all axes, to `coarse`.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge_by_edges(const BoxProducts<Scalar>& seen,
                                                         Signs& signs) {
@@ -124,7 +124,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge_by_edges(const BoxProducts<Scalar
       signs.open() & Lanes::to_bits(Lanes::less(Lanes::max(seen.face_gap, gap), -error));
 }
 
-// By all axes, and where that leaves a lane open by a second look at the edges, to `fine`.
+// Decides lanes by all axes, and the lanes that stay open by another test of the edges, to `fine`.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, Signs& signs) {
   using Lanes = Simd<Scalar>;
@@ -139,7 +139,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, 
     EdgeAxis<Scalar> axes[3];
     edge_axes<Scalar>(seen, i, axes);
     for (const EdgeAxis<Scalar>& axis : axes) {
-      // No less than the axis' length.
+      // This is at least the axis' length.
       const Vector length = Lanes::abs(axis.first) + Lanes::abs(axis.second);
       const Vector most = error * length;
       const unsigned counts = ~Lanes::to_bits(Lanes::less(square_length<Scalar>(axis), parallel));
@@ -151,8 +151,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, 
   signs.overlapping |= signs.open() & ~open & Lanes::to_bits(Lanes::less(seen.face_gap, -error));
 }
 
-// Lanes that may be answered: sizes that no product takes out of the scalar's range, and matrices
-// that are orthonormal. `far`: apart by so much that balls around the boxes are.
+// The lanes that may be decided: their sizes keep products within the scalar's range, and their
+// matrices are orthonormal. In `far` lanes even balls around the boxes are disjoint.
 struct Usable {
   unsigned far, near;
 };
@@ -172,10 +172,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
                                dot<Scalar>(b[2], b[2])};
   const Vector trace_a = squares_a[0] + squares_a[1] + squares_a[2];
   const Vector trace_b = squares_b[0] + squares_b[1] + squares_b[2];
-  // The root of the trace bounds what a matrix does to lengths, the sum of the half extents that of
-  // their diagonal; (x + y)^2 <= 2 x^2 + 2 y^2.
+  // The root of the trace bounds the factor by which a matrix stretches lengths, and the sum of the
+  // half extents bounds their diagonal; (x + y)^2 <= 2 x^2 + 2 y^2.
   const Vector reach = Scalar(2.01) * (size_a * size_a * trace_a + size_b * size_b * trace_b);
-  // Squares of far shorter columns vanish, and are no bound.
+  // The squares of far shorter columns underflow and give no bound.
   const Vector shortest = Lanes::broadcast(Scalar(1e-12));
   const unsigned far = sized & Lanes::to_bits(Lanes::less(shortest, Lanes::min(trace_a, trace_b))) &
                        Lanes::to_bits(Lanes::less(reach, dot<Scalar>(offset, offset)));
@@ -190,7 +190,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
     skew_b = Lanes::max_abs(skew_b, dot<Scalar>(b[k], b[next]));
   }
   const Vector skew = Lanes::max(skew_a, skew_b);
-  // The traces are there for infinities and what is not a number, which a maximum may lose.
+  // The traces detect infinities and NaN, which a maximum may lose.
   const unsigned orthonormal =
       Lanes::to_bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
       Lanes::to_bits(Lanes::less(trace_a + trace_b, Lanes::broadcast(8)));
@@ -215,8 +215,8 @@ TOUCHSTONE_TARGET std::size_t solve_task(const PairTable<Scalar> table) {
       look_along_faces<Scalar>(boxes, seen);
       signs.apart = signs.near & Lanes::to_bits(Lanes::less(GapError<Scalar>::coarse * seen.size,
                                                             seen.face_gap));
-      // Where no face parts the boxes they are likely to overlap, and the least depth proves that
-      // too. The order of proofs does not matter to the answer.
+      // Boxes that no face separates are likely to overlap, and the least depth proves that too.
+      // The order of the proofs does not change the answer.
       const bool depth_first = depth && signs.apart == 0;
       if (!depth_first) judge<Scalar>(seen, signs);
       LeastAxis<Scalar> least{};

@@ -1,14 +1,15 @@
-// How pairs of boxes get into lanes. Included by box_pair_lanes.inl.
+// Loads pairs of boxes into lanes. box_pair_lanes.inl includes this file.
 
 #include "algorithms/kernels/batch/pair_lanes.inl"
 
-// One pair a lane. Columns of the matrices, offset from a to b, half extents; metres, world axes.
+// One pair in each lane: columns of the matrices, offset from a to b, half extents; metres, world
+// axes.
 template <class Scalar>
 struct BoxColumns {
   Vector3<Scalar> a[3], b[3], offset, half_a, half_b;
 };
 
-// Numbers in double are turned from rows into columns as they are loaded.
+// The general loader: doubles are transposed from rows to columns as they are loaded.
 template <class Scalar>
 class BoxLoader {
   using Lanes = Simd<Scalar>;
@@ -17,7 +18,7 @@ class BoxLoader {
  public:
   TOUCHSTONE_TARGET explicit BoxLoader(const PairTable<Scalar>& table) : table_(table) {}
 
-  // The pairs from `begin` on, as many as there are lanes; behind the last it is repeated.
+  // Loads one pair a lane from `begin` on; the last pair fills up the lanes.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(std::size_t begin, BoxColumns<Scalar>& boxes) {
     Group<Scalar> group;
     start_group<Scalar>(table_, begin, group);
@@ -59,10 +60,10 @@ class BoxLoader {
   const PairTable<Scalar>& table_;
 };
 
-// Numbers in float are narrowed quad by quad, after the offset was taken, and stored. Where four
-// quads make a vector they are stored side by side, each at its place. A processor that reads such
+// The loader for float narrows quads after the offset is computed, and stores them. If four quads
+// make a vector they are stored next to each other, each at its place. A processor that reads such
 // a vector waits until all four are written, so each group is gathered while the one before it is
-// looked at.
+// processed.
 template <>
 class BoxLoader<float> {
   using Lanes = Simd<float>;
@@ -97,15 +98,15 @@ class BoxLoader<float> {
  private:
   static constexpr bool side_by_side = Lanes::width == 16;
 
-  // Quads of the matrices' first eight numbers; the ninth of a beside the offset; half extents,
-  // those of b beside the ninth of its matrix.
+  // Quads of the matrices' first eight numbers; the ninth of a next to the offset; half extents,
+  // those of b next to the ninth number of its matrix.
   using Rows = Quad<float>[7][Lanes::width];
 
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE Rows& rows_of(std::size_t begin) {
     return rows_[begin / Lanes::width % 2];
   }
 
-  // The pairs from `begin` on, if there are any.
+  // Gathers the pairs from `begin` on, if there are any.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void gather(std::size_t begin) {
     if (begin >= table_.pairs.first.size()) return;
     Group<float> group;

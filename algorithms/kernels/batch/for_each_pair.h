@@ -1,4 +1,5 @@
-// The loop over a batch that algorithms of one pair at a time have in common.
+// The loop over a batch, for algorithms that solve one pair at a time. Used by gjk, gjk-templated,
+// mpr, mpr-refined and certified.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,8 @@
 
 namespace touchstone {
 
-// Calls solve_pair(i, shape_a, pose_a, shape_b, pose_b) for each pair, in order, while `ahead` asks
-// for the memory of the next ones. `shapes`: what `ahead` is bound to. `far_too`: see
-// ShapePrefetch::begin.
+// Calls solve_pair(i, shape_a, pose_a, shape_b, pose_b) for each pair, in order, while `ahead`
+// prefetches the next ones. `ahead` is bound to `shapes`. ShapePrefetch::begin explains `far_too`.
 template <class Scalar, class Item, class SolvePair>
 void for_each_pair(const BodyPairs& pairs, const std::vector<Item>& shapes,
                    ShapePrefetch<Scalar>& ahead, bool far_too, const SolvePair& solve_pair) {
@@ -28,7 +28,7 @@ void for_each_pair(const BodyPairs& pairs, const std::vector<Item>& shapes,
   }
 }
 
-// Answers a pair whose second body is a half-space; returns false for two bounded bodies.
+// Solves a pair whose second body is a half-space; returns false for two bounded bodies.
 template <class Scalar>
 bool solve_if_halfspace(ShapeKind kind_a, ShapeKind kind_b, const SupportShape<Scalar>& a,
                         const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,

@@ -1,4 +1,5 @@
-// What loops over pairs of bodies, one pair a lane of simd.h, are given and write.
+// The input and output of loops over pairs of bodies, with one pair in each lane of simd/vector.h.
+// Used by box_pair_lanes.h, closed-form and gjk-lanes.
 #pragma once
 
 #include <bit>
@@ -22,16 +23,16 @@ static_assert(sizeof(Pose) == 12 * sizeof(double));
 template <class Scalar>
 struct PairTable {
   BodyPairs pairs;
-  const Scalar* shapes;  // four numbers a shape
+  const Scalar* shapes;  // four numbers for each shape
   Outcome* outcomes;
-  std::uint32_t* left;  // places of pairs that are not answered
+  std::uint32_t* left;  // places of pairs without an answer
 };
 
-// Half an epsilon: the greatest error of a rounding.
+// Half of epsilon: the greatest relative error of a rounding.
 template <class Scalar>
 constexpr Scalar unit_roundoff = std::numeric_limits<Scalar>::epsilon() / 2;
 
-// A matrix is taken for orthonormal where its columns' products are off by no more.
+// A matrix counts as orthonormal if the products of its columns are off by at most this.
 template <class Scalar>
 constexpr Scalar greatest_skew = (std::is_same_v<Scalar, float> ? 6 : 16) * unit_roundoff<Scalar>;
 

@@ -1,8 +1,8 @@
-// What loops over pairs of bodies share. Included by their loops once for each level of vector
-// instructions.
+// The parts that loops over pairs of bodies share. Each loop includes this file once for each level
+// of vector instructions.
 
-// The bodies of as many pairs as there are lanes, from `begin` on; behind the last pair it is
-// repeated, for which there are the arrays.
+// The bodies of one pair a lane, from pair `begin` on. The arrays hold copies that repeat the last
+// pair if there are fewer pairs than lanes.
 template <class Scalar>
 struct Group {
   const std::uint32_t *first, *second;
@@ -25,7 +25,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void start_group(const PairTable<Scalar>& ta
   group.second = group.padded_second;
 }
 
-// The numbers from `first` on of a pose: its matrix by columns, then the translation.
+// Returns four numbers of a pose from `first` on: its matrix by columns, then the translation.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> pose_quad(const Pose& pose, std::size_t first) {
   Quad<double> q;
   std::memcpy(&q, reinterpret_cast<const char*>(&pose) + first * sizeof(double), sizeof q);
@@ -36,7 +36,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void put_quad(const Quad<double>& q, char* t
   std::memcpy(to, &q, sizeof q);
 }
 
-// The four numbers of a shape.
+// Returns the four numbers of a body's shape.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<Scalar> shape_quad(const PairTable<Scalar>& table,
                                                             std::uint32_t body) {
@@ -45,7 +45,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<Scalar> shape_quad(const PairTable<Scal
   return q;
 }
 
-// Sums of lengths that no product or square takes out of the range of a float.
+// Returns the lanes whose size is such that products and squares stay within the range of a float.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned sized_lanes(typename Simd<Scalar>::Vector size) {
   using Lanes = Simd<Scalar>;
@@ -53,7 +53,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned sized_lanes(typename Simd<Scalar>::
          Lanes::to_bits(Lanes::less(size, Lanes::broadcast(Scalar(1e12))));
 }
 
-// Lanes whose three vectors are orthonormal up to greatest_skew.
+// Returns the lanes whose three vectors are orthonormal up to greatest_skew.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned orthonormal_lanes(const Vector3<Scalar> edges[3]) {
   using Lanes = Simd<Scalar>;
@@ -65,20 +65,19 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned orthonormal_lanes(const Vector3<Sca
     skew = Lanes::max(skew, Lanes::abs(square - Lanes::broadcast(1)));
     skew = Lanes::max(skew, Lanes::abs(dot<Scalar>(edges[k], edges[(k + 1) % 3])));
   }
-  // The trace is there for infinities and what is not a number, which a maximum may lose.
+  // The trace detects infinities and NaN, which a maximum may lose.
   return Lanes::to_bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
          Lanes::to_bits(Lanes::less(trace, Lanes::broadcast(4)));
 }
 
-// Numbers of outcomes: the vectors in the axes of the world, the points as seen from the centre of
-// a; metres.
+// The numbers of an outcome, in metres: vectors in world axes, points relative to the centre of a.
 template <class Scalar>
 struct Numbers {
   typename Simd<Scalar>::Vector distance, lower, upper;
   Vector3<Scalar> normal, on_a, on_b;
 };
 
-// Writes them to the outcomes of those lanes whose bit is set, of the pairs from `begin` on.
+// Writes the numbers of the lanes whose bits are set to the outcomes from pair `begin` on.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_numbers(const PairTable<Scalar>& table,
                                                        std::size_t begin, unsigned lanes,
@@ -106,11 +105,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_numbers(const PairTable<Scalar>& 
   }
 }
 
-// Of the lane whose bit is the lowest.
+// Writes the answer of the lowest bit.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_answer(unsigned overlapping, Outcome& outcome) {
   static_assert(static_cast<int>(Answer::separated) == 0 && static_cast<int>(Status::ok) == 0);
   static_assert(offsetof(Outcome, status) == offsetof(Outcome, answer) + sizeof(Answer));
-  // Both at once.
+  // One write sets answer and status.
   constexpr unsigned common = static_cast<unsigned>(Answer::overlapping)
                               << (std::endian::native == std::endian::big ? 8 : 0);
   const auto both = static_cast<std::uint16_t>((overlapping & 1) * common);
@@ -118,8 +117,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_answer(unsigned overlapping, Outc
   outcome.iterations = 0;
 }
 
-// Writes the answers of the pairs from `begin` on that have one, and the places of the others
-// behind the `left` that are there; how many those are then.
+// Writes the answers of the pairs from `begin` on that have one. Appends the places of the others
+// to the `left` that are there, and returns the new number.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::size_t write_answers(const PairTable<Scalar>& table,
                                                               std::size_t begin, unsigned apart,

@@ -1,5 +1,5 @@
-// Asks for memory before it is read, so that nothing waits for it then: where many bodies of
-// different shapes are looked at once, their data is in no near cache.
+// Prefetching of memory before it is read. When a batch has many bodies of different shapes, their
+// data is in no near cache. Used by shape_prefetch.h and gjk-lanes.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@ inline __attribute__((always_inline)) void prefetch(const void* from, std::size_
   for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(begin + at);
 }
 
-// The first blocks of a hull: who reads those in turn is given the rest by the machine.
+// Prefetches the first blocks of a hull; the hardware prefetcher fetches the rest when they are
+// read in order.
 template <class Scalar>
 inline __attribute__((always_inline)) void prefetch_blocks(
     const hull_scan::VertexBlock<Scalar>* blocks, std::size_t count) {

@@ -1,7 +1,7 @@
-// Memory that the next pairs of a batch will wait for, asked for while those before are answered:
-// poses and shapes, then the cells of large hulls that their first supports look up, then the
-// vertices that these name. Large hulls of which a scene has many are in no near cache, and their
-// first support, along the line of the centres, can be told beforehand.
+// Prefetching for the next pairs of a batch while earlier ones are solved: poses and shapes, then
+// the support-map cells of large hulls for their first supports, then the vertices that these cells
+// name. A scene's many large hulls are in no near cache, and their first support direction, the
+// line of the centres, is known beforehand.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace touchstone {
 template <class Scalar>
 class ShapePrefetch {
  public:
-  // The items stay where they are; `support_of` says where in one its shape is.
+  // The items must stay in place; `support_of` selects an item's shape.
   template <class Item, class Projection = std::identity>
   void bind(const std::vector<Item>& items, Projection support_of = {}) {
     shapes_.clear();
@@ -28,13 +28,13 @@ class ShapePrefetch {
         shapes_, [](const SupportShape<Scalar>* shape) { return !shape->cells.empty(); });
   }
 
-  // `far_too`: pairs whose balls are apart have supports too.
+  // `far_too` is true if pairs whose bounding balls are disjoint compute supports too.
   void begin(const BodyPairs& pairs, bool far_too) {
     pairs_ = pairs;
     far_too_ = far_too;
     next_ = {};
   }
-  // To be called before each of these pairs is answered, in their order.
+  // Call this before solving each of the pairs, in their order.
   void before(std::size_t pair) {
     if (!has_cells_) return;
     const std::size_t size = pairs_.first.size();
@@ -67,7 +67,7 @@ class ShapePrefetch {
     Vec3d way = pose_b.translation - pose_a.translation;
     if (!a.is_centred) way -= pose_a.rotation * a.centre;
     if (!b.is_centred) way += pose_b.rotation * b.centre;
-    // Such a pair is decided without any support, as balls_are_apart looks at matrices.
+    // Such a pair is decided without any support: balls_are_apart uses matrices.
     const double reach = a.size + a.radius + b.size + b.radius;
     if (!far_too_ && way.squaredNorm() > 3 * reach * reach) return;
     next_[0] = find_cell(a, pose_a.rotation.transpose() * way);
@@ -85,7 +85,7 @@ class ShapePrefetch {
   std::vector<const SupportShape<Scalar>*> shapes_;
   BodyPairs pairs_{};
   bool has_cells_ = false, far_too_ = false;
-  std::array<Place, 2> next_;  // of the next pair but one
+  std::array<Place, 2> next_;  // cells of the next pair but one
 };
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-// Measures of single boxes that several broad phases take.
+// Measures of single boxes. Used by several broad phases.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ constexpr bool contains(const Aabb& outer, const Aabb& inner) {
   return held;
 }
 
-// The sum of a box's sides, metres.
+// Returns the sum of a box's sides, metres.
 constexpr double sum_of_sides(const Aabb& box) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) sum += double{box.max[axis]} - box.min[axis];

@@ -1,3 +1,4 @@
+// Scans and sweeps of boxes: the choice of the instruction level, and their work.
 #include "algorithms/kernels/boxes/aabb_scan.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ void sweep_marked_boxes(const AabbSoA& boxes, std::span<const std::uint32_t> mar
 std::size_t pairs_of_scan(IndexRange rows, IndexRange columns) {
   const std::size_t first = std::max(rows.first, columns.first);
   const std::size_t last = std::max(first, std::min(rows.last, columns.last));
-  const std::size_t within = last - first;  // rows that the range holds
+  const std::size_t within = last - first;  // number of rows inside the range of columns
   const std::size_t outside = rows.last - rows.first - within;
   // Row i within is tested against columns.last - 1 - i.
   const std::size_t behind = within * (columns.last - 1 - first) - within * (within - 1) / 2;

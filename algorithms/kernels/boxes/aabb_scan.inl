@@ -21,7 +21,7 @@ TOUCHSTONE_TARGET inline void scan_range(std::size_t i, const Row& row, const Co
                                          const Marks& marks, IndexRange range, PairBuffer& out) {
   constexpr std::size_t width = Lanes::width;
   std::size_t j = first_column(i, range);
-  // The first vector, so that the others are aligned, unless it is the only one.
+  // A shorter first vector aligns the others; it is left out if it is the only one.
   if (j % width != 0 && range.last > j + width) {
     const std::size_t end = j / width * width + width;
     write<marked>(overlaps(row, boxes, j) & ((1u << (end - j)) - 1), i, j, boxes, marks, out);
@@ -67,7 +67,7 @@ TOUCHSTONE_TARGET inline void sweep_rows(const Columns& boxes, int axis, const M
       if constexpr (marked) {
         if (j >= end) break;
       }
-      // min[i] <= min[j] <= max[j]: on this axis one comparison decides.
+      // Since min[i] <= min[j] <= max[j], one comparison decides on this axis.
       const Lanes::Mask near = Lanes::less_equal(Lanes::load(turned.min[0] + j), row.max[0]);
       const Lanes::Mask test = overlap_on(overlap_on(near, row, turned, 1, j), row, turned, 2, j);
       unsigned lanes = Lanes::to_bits(test);

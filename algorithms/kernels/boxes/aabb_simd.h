@@ -1,6 +1,6 @@
-// Tests of one box against many, as vectors, at each level of vector instructions. A file compiles
-// its loops once for each level by foreach_target.inl, with TOUCHSTONE_TARGET_NAMESPACE set to
-// aabb_simd.
+// Tests of one box against many, in vectors, at each level of vector instructions. Used by the
+// loops of boxes, bvh and several broad phases, which are compiled once for each level by
+// foreach_target.inl with TOUCHSTONE_TARGET_NAMESPACE set to aabb_simd.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace touchstone::aabb_simd {
 
-// The arrays' places by value, so that the loops keep them in registers whatever they write.
+// The addresses of the arrays, passed by value so that loops keep them in registers across writes.
 struct Columns {
   const float* min[3];
   const float* max[3];
   const std::uint32_t* ids;
 };
 
-// Of an AabbSoA or an AabbStack.
+// The columns of an AabbSoA or an AabbStack.
 template <class Boxes>
 Columns columns_of(const Boxes& boxes) {
   return {{boxes.min(0), boxes.min(1), boxes.min(2)},
@@ -40,7 +40,7 @@ inline MutableColumns mutable_columns_of(AabbStack& boxes) {
           boxes.ids()};
 }
 
-// The bits of the first `count` of 16 boxes, of all where there are more.
+// The bits of the first `count` of 16 boxes; all bits if there are more.
 inline unsigned first_lanes(std::size_t count) { return count < 16 ? (1u << count) - 1 : 0xffffu; }
 
 #define TOUCHSTONE_TARGET_NAMESPACE pair_writer

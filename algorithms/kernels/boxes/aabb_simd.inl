@@ -2,7 +2,7 @@
 
 using Lanes = Simd<float>;
 
-// One box, in every lane.
+// One box, copied to every lane.
 struct Row {
   Lanes::Vector min[3], max[3];
 };
@@ -30,7 +30,7 @@ TOUCHSTONE_TARGET inline Lanes::Mask overlap_on(Lanes::Mask within, const Row& r
   return Lanes::less_equal(within, row.min[axis], Lanes::load(boxes.max[axis] + j));
 }
 
-// The bits of the boxes from j on, a vector of them, that overlap the row's.
+// Returns the bits of the boxes that overlap the row's, among a vector of them from j on.
 TOUCHSTONE_TARGET inline unsigned overlaps(const Row& row, const Columns& boxes, std::size_t j) {
   Lanes::Mask test = Lanes::less_equal(Lanes::load(boxes.min[0] + j), row.max[0]);
   test = Lanes::less_equal(test, row.min[0], Lanes::load(boxes.max[0] + j));
@@ -38,7 +38,7 @@ TOUCHSTONE_TARGET inline unsigned overlaps(const Row& row, const Columns& boxes,
   return Lanes::to_bits(overlap_on(test, row, boxes, 2, j));
 }
 
-// The bits of those of 16 boxes from j on that overlap the row's.
+// Returns the bits of the boxes that overlap the row's, among 16 from j on.
 TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxes, std::size_t j) {
   unsigned bits = 0;
   for (std::size_t part = 0; part < 16; part += Lanes::width) {
@@ -47,7 +47,7 @@ TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Columns& boxe
   return bits;
 }
 
-// Sixteen boxes, kept in registers where there are enough.
+// Sixteen boxes, in registers if there are enough.
 struct Block16 {
   static constexpr std::size_t parts = 16 / Lanes::width;
   Lanes::Vector min[3][parts], max[3][parts];
@@ -64,7 +64,7 @@ TOUCHSTONE_TARGET inline Block16 load_block16(const Columns& boxes, std::size_t 
   return block;
 }
 
-// The bits of those that overlap the row's box.
+// Returns the bits of the block's boxes that overlap the row's.
 TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Block16& block) {
   unsigned bits = 0;
   for (std::size_t part = 0; part < Block16::parts; ++part) {
@@ -79,8 +79,8 @@ TOUCHSTONE_TARGET inline unsigned overlaps16(const Row& row, const Block16& bloc
   return bits;
 }
 
-// Copies those of from[j .. j + 15] whose bit is set to to[end..], where there is room for 16;
-// returns how many.
+// Copies the boxes from[j .. j + 15] whose bits are set to to[end..], which has room for 16, and
+// returns their number.
 TOUCHSTONE_TARGET inline std::size_t compress_boxes(unsigned bits, const Columns& from,
                                                     std::size_t j, const MutableColumns& to,
                                                     std::size_t end) {

@@ -1,3 +1,4 @@
+// The memory and the filling of an AabbSoA.
 #include "algorithms/kernels/boxes/aabb_soa.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace touchstone {
 
 void AabbSoA::resize(std::size_t count) {
   if (count + padding > stride_) {
-    // As many as are asked for, until they turn out to grow.
+    // The first size is exact; later ones leave room to grow.
     const std::size_t room = stride_ == 0 ? count : count + count / 2;
     stride_ = room / padding * padding + 2 * padding;
     extents_.reset(new (alignment) float[6 * stride_]);
@@ -38,8 +39,8 @@ void list_bodies(Executor& executor, std::span<const Aabb> boxes, std::vector<st
   constexpr std::size_t block_size = 8192;
   const std::size_t count = boxes.size();
   const std::size_t blocks = block_count(count, block_size);
-  // Each block lists its own at its own place, and how many behind them all; the gaps are closed
-  // afterwards, and mostly there are none.
+  // Each block lists its boxes from its own first place on, and stores their number after all of
+  // them. The gaps are closed afterwards; mostly there are none.
   ids.resize(count + blocks);
   for_each_block(executor, count, block_size,
                  [&](std::size_t block, std::size_t first, std::size_t last) {

@@ -1,4 +1,4 @@
-// Boxes as a structure of arrays, for vector code.
+// Boxes as a structure of arrays, for vector code. Used by all our broad phases.
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@
 
 namespace touchstone {
 
-// Places first <= i < last of an array.
+// The places first <= i < last of an array.
 struct IndexRange {
   std::size_t first, last;
 };
 
-// Boxes with their ids; behind the last one, a vector's width of empty boxes. Keeps its memory.
+// Boxes with their ids, followed by a vector's width of empty boxes. Keeps its memory.
 class AabbSoA {
  public:
-  static constexpr std::size_t padding = 16;  // the widest vector's floats
+  static constexpr std::size_t padding = 16;  // number of floats in the widest vector
 
-  // Makes room for `count` boxes, whose contents are whatever was there.
+  // Makes room for `count` boxes; their contents are undefined.
   void resize(std::size_t count);
-  // The same, but the boxes stay, and there is room for no more than `count` where there was less.
+  // Makes room for `count` boxes, keeps the present ones, and reserves no more than it needs.
   void grow(std::size_t count);
   std::size_t size() const { return size_; }
   std::size_t held_bytes() const { return stride_ * (6 * sizeof(float) + sizeof(std::uint32_t)); }
@@ -48,7 +48,7 @@ class AabbSoA {
     }
     ids_[place] = id;
   }
-  // Place i becomes boxes[id(i)], for each of `count`.
+  // Sets place i to boxes[id(i)], for each i < count.
   template <class Id>
   void gather(Executor& executor, std::span<const Aabb> boxes, std::size_t count, const Id& id) {
     resize(count);
@@ -69,7 +69,7 @@ class AabbSoA {
   std::size_t stride_ = 0;  // a multiple of the padding, so that each array is aligned
 };
 
-// The ids of the boxes that are not empty, ascending, into `ids`.
+// Writes the ids of the boxes that are not empty to `ids`, ascending.
 void list_bodies(Executor& executor, std::span<const Aabb> boxes, std::vector<std::uint32_t>& ids);
 
 }  // namespace touchstone

@@ -1,3 +1,4 @@
+// The memory of an AabbStack, and the choice of the instruction level for its tests.
 #include "algorithms/kernels/boxes/aabb_stack.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ std::size_t append_to(AabbStack& list, const Aabb& bound, const Columns& from, I
 }  // namespace
 
 void AabbStack::reserve(std::size_t more) {
-  // Whole vectors are written, and one more behind them is closed.
+  // Vectors are written whole, and one more is cleared after them.
   const std::size_t needed = end_ + more + 2 * padding;
   if (ids_.size() >= needed) return;
   const std::size_t size = std::max(needed, 2 * ids_.size());
@@ -45,7 +46,7 @@ std::size_t AabbStack::start() {
   return end_;
 }
 
-// One axis keeps a box from overlapping.
+// Fills the padding with boxes that overlap nothing; one axis suffices for that.
 void AabbStack::close() {
   std::fill_n(sides_[0].begin() + static_cast<std::ptrdiff_t>(end_), padding,
               std::numeric_limits<float>::infinity());

@@ -1,5 +1,5 @@
-// Lists of boxes that are picked out of others by a bound, one list behind the other, for searches
-// that go down a tree and hand on at each step what can still matter.
+// A stack of lists of boxes, for searches that descend a tree and pass on, at each step, the boxes
+// that overlap a bound. Used by kd-tree, loose-octree, incremental-sweep-and-prune and bvh.
 #pragma once
 
 #include <array>
@@ -13,26 +13,26 @@
 
 namespace touchstone {
 
-// A stack of lists. Behind each list, to a multiple of 16, lie boxes that overlap nothing, so that
-// whole vectors can be tested. Keeps its memory.
+// Each list is padded to a multiple of 16 with boxes that overlap nothing, so that whole vectors
+// can be tested. The stack keeps its memory.
 class AabbStack {
  public:
   static constexpr std::size_t padding = AabbSoA::padding;
 
-  // Starts a list on top of the others and gives the place where it begins; it ends at end(), and
-  // grows by what is appended.
+  // Starts a list on top of the others and returns its first place. The list ends at end() and
+  // grows with each append.
   std::size_t start();
-  // Forgets the list that begins here, and those above it.
+  // Removes the list that begins here, and those above it.
   void drop(std::size_t first) { end_ = first; }
   std::size_t end() const { return end_; }
 
-  // Appends those of a range that overlap the bound, in their order. The second takes them from a
+  // Appends the boxes of a range that overlap the bound, in their order, from an array or from a
   // list of this stack.
   void append(const Aabb& bound, const AabbSoA& from, IndexRange range);
   void append(const Aabb& bound, IndexRange range);
 
-  // For whoever writes boxes behind the last one: room for `more` and a vector's width; how many it
-  // was. What lies behind is then undefined.
+  // Lets a caller write boxes itself: `reserve` makes room for `more` and a vector's width,
+  // `advance` adds those written. The padding is then undefined.
   void reserve(std::size_t more);
   void advance(std::size_t written) { end_ += written; }
 
@@ -52,7 +52,8 @@ class AabbStack {
 };
 
 // Writes the ids of each pair of boxes that overlap, one of them a row, the other in the list or
-// behind the row and before `end`. By row; a row's partners in the order of the list and the rows.
+// after the row and before `end`. Pairs are sorted by row; a row's partners follow the order of the
+// list and then of the rows.
 void pair_rows(const AabbSoA& boxes, IndexRange rows, std::size_t end, const AabbStack& list,
                IndexRange columns, PairBuffer& out);
 

@@ -1,3 +1,4 @@
+// Group scans: the choice of the instruction level, and their work.
 #include "algorithms/kernels/boxes/group_scan.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ using aabb_simd::first_lanes;
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/boxes/group_scan.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-// The least of some numbers and the greatest of as many others. Four at a time; the last four may
-// have been there before.
+// Returns the least of some numbers and the greatest of as many others, four at a time; the last
+// four may overlap the four before.
 std::pair<float, float> ends_of(const float* low, const float* high, std::size_t count) {
   using Four = simd::baseline::Simd<float>;
   if (count < Four::width)

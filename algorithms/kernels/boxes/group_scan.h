@@ -1,5 +1,6 @@
-// A group of boxes against runs of others, at the level of vector instructions that isa() allows;
-// comparisons only, so what is written is the same at every level. How: group_search.h.
+// The scan of a group of boxes against runs of others, at the level of vector instructions that
+// isa() allows. It only compares, so every level writes the same pairs. group_search.h describes
+// how. Used by linear-bvh, hierarchical-grid, loose-octree and dynamic-bvh.
 #pragma once
 
 #include <span>
@@ -12,18 +13,18 @@
 
 namespace touchstone {
 
-// What a scan lists, and what it counts. One a worker.
+// Lists and counters of a scan; one for each worker.
 struct GroupScratch {
   NearList near;
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 
-// Of at least one box.
+// Returns the bounds of at least one box.
 Aabb bounds_of(const AabbSoA& boxes, IndexRange range);
 
-// Writes the ids of each pair of boxes of the group that overlap, and of a box of the group with
-// one of `others`. `bounds`: of the group, of at most `group_size` boxes. The others do not hold a
-// box of the group.
+// Writes the ids of each pair of the group's boxes that overlap, and of each pair of one of them
+// and one of `others`. `bounds` are the group's; it has at most `group_size` boxes, and `others`
+// contain none of them.
 void scan_group(const AabbSoA& boxes, IndexRange group, const Aabb& bounds,
                 std::span<const IndexRange> others, GroupScratch& scratch, PairBuffer& out);
 

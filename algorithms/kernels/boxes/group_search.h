@@ -1,6 +1,7 @@
-// Up to 16 boxes that lie one behind the other and near each other, tested together against others:
-// those that do not meet the group's bounds are left out 16 at a time, and each that is left is
-// tested against the whole group at once. The loops are in group_search.inl.
+// Group search: up to 16 consecutive boxes that are near each other are tested together against
+// others. Boxes outside of the group's bounds are rejected 16 at a time, and each other box is
+// tested against the whole group at once. The loops are in group_search.inl. Used by group_scan,
+// bvh and loose-octree.
 // Paper:   Wald, Boulos, Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume
 //          Hierarchies", ACM Transactions on Graphics 26, 2007 (a packet's bounds are tested
 //          first).
@@ -22,12 +23,12 @@ namespace touchstone {
 inline constexpr std::size_t group_size = 16;
 inline constexpr std::size_t near_at_once = 512;
 
-// The places of boxes that overlap a group's bounds and are yet to be tested.
+// Places of boxes that overlap a group's bounds and are not tested yet.
 using NearList = std::array<std::uint32_t, near_at_once + group_size>;
 
-// Calls search(group, scratch, out) for each group, `per_task` of them one after the other, each
-// task into a chunk of its own: the same pairs in the same order at every width. `scratch`: one a
-// worker.
+// Calls search(group, scratch, out) for each group. A task runs `per_task` groups in turn and
+// writes to a chunk of its own, so the pairs and their order do not depend on the width. `scratch`
+// holds one entry for each worker.
 template <class Scratch, class Search>
 void search_groups(Executor& executor, std::size_t groups, std::size_t per_task,
                    std::vector<Scratch>& scratch, PairSink& sink, const Search& search) {
@@ -39,11 +40,11 @@ void search_groups(Executor& executor, std::size_t groups, std::size_t per_task,
       search(group, scratch[static_cast<std::size_t>(worker)], sink.chunk(index));
     }
   };
-  // By reference, so that std::function does not allocate.
+  // std::cref, so that std::function does not allocate.
   executor.run(tasks, std::cref(task));
 }
 
-// Runs the same search once more for what `scratch` counts; its pairs are dropped.
+// Repeats a search for the counters in `scratch`, and drops its pairs.
 template <class Scratch, class Search>
 void count_groups(std::size_t groups, Scratch& scratch, const Search& search) {
   PairBuffer pairs;

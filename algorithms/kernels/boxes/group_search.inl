@@ -3,7 +3,7 @@
 // aabb_simd.h and group_search.h. Pairs and their order are equal at every level. Used by
 // group_scan.cpp, implicit_rtree.cpp and loose-octree.
 
-// Writes the pairs of a group's boxes with one another.
+// Writes the pairs of a group's boxes with each other.
 TOUCHSTONE_TARGET [[gnu::noinline]] void pair_within(const Columns& boxes, IndexRange group,
                                                      PairBuffer& out) {
   const std::size_t size = group.last - group.first;
@@ -21,8 +21,8 @@ TOUCHSTONE_TARGET [[gnu::noinline]] void pair_within(const Columns& boxes, Index
   out.advance(static_cast<std::size_t>(end - out.end()));
 }
 
-// Writes the pairs of a group's boxes with those at these places. The group stays in registers;
-// that is why this is a function of its own.
+// Writes the pairs of a group's boxes with those at `places`. It is a function of its own so that
+// the group stays in registers.
 TOUCHSTONE_TARGET [[gnu::noinline]] void pair_with_group(const Columns& boxes, IndexRange group,
                                                          const std::uint32_t* places,
                                                          std::size_t count, PairBuffer& out) {
@@ -39,9 +39,9 @@ TOUCHSTONE_TARGET [[gnu::noinline]] void pair_with_group(const Columns& boxes, I
   out.advance(static_cast<std::size_t>(end - out.end()));
 }
 
-// Writes the pairs of a group's boxes with one another, and with those of the runs that overlap the
-// group's bounds; returns how many do. for_each_run(visit) calls visit(first, count) for each run
-// of at most 16 boxes.
+// Writes the pairs of a group's boxes with each other and with those boxes of the runs that overlap
+// the group's bounds; returns the number of the latter. for_each_run(visit) calls visit(first,
+// count) for each run of at most 16 boxes.
 template <class ForEachRun>
 TOUCHSTONE_TARGET inline std::size_t pair_group_with_runs(const Columns& boxes, IndexRange group,
                                                           const Row& bounds, NearList& near,

@@ -1,7 +1,8 @@
-// Writes pairs of one box with up to sixteen others, at each level of vector instructions.
+// The output of pairs of one box with up to sixteen others, at each level of vector instructions.
+// Used by all vector loops that write pairs.
 //
-// A PairWriter loads sixteen ids, and writes the pairs of another id with those whose bit is set:
-// `put` where there is room for 16 pairs, `write` into a buffer.
+// A PairWriter loads sixteen ids, and writes the pairs of another id with those whose bits are set:
+// `put` needs room for 16 pairs, `write` appends to a buffer.
 #pragma once
 
 #include <algorithm>

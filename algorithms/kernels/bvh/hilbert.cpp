@@ -1,3 +1,4 @@
+// Places along a Hilbert curve: the grid, and the choice of the instruction level.
 #include "algorithms/kernels/bvh/hilbert.h"
 
 #include <algorithm>
@@ -12,10 +13,10 @@ namespace {
 
 constexpr std::size_t boxes_at_once = 32;
 
-// Doubled centres: [axis][box].
+// Doubled centres, indexed by axis and box.
 using Centres = std::array<std::array<float, boxes_at_once>, 3>;
 
-// How cells are numbered; the axes that count come first.
+// The numbering of cells; axes with more than one cell come first.
 struct Numbering {
   int axes, bits;
   std::array<float, 3> low, scale;
@@ -40,13 +41,13 @@ HilbertGrid::HilbertGrid(const std::array<float, 3>& low, const std::array<float
   std::array<double, 3> extent{};
   for (std::size_t i = 0; i < 3; ++i) extent[i] = double{high[i]} - low[i];
   std::ranges::stable_sort(axis_, std::greater(), [&](std::size_t i) { return extent[i]; });
-  // Cells are cubes of the longest axis: an axis that is shorter than one of them has no bits.
+  // Cells are cubes of the longest axis: an axis shorter than one of them has no bits.
   const double longest = extent[axis_[0]];
   for (axes_ = 3; axes_ > 1; --axes_) {
     const double cells = static_cast<double>(1u << (code_bits / axes_));
     if (extent[axis_[static_cast<std::size_t>(axes_) - 1]] * cells > 4 * longest) break;
   }
-  // As many as a float tells apart.
+  // A float distinguishes no more cells than this.
   bits_ = std::min(code_bits / axes_, 23);
   const auto cells = static_cast<double>(1u << bits_);
   for (float& scale : scale_) {

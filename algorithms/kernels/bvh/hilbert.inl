@@ -1,14 +1,15 @@
-// The loops of hilbert.h. Included by hilbert.cpp once for each level of vector instructions,
-// inside that level's namespace. No sums of products: the codes are the same at every level.
+// The loops of hilbert.h. hilbert.cpp includes them once for each level of vector instructions,
+// inside that level's namespace. No sums of products occur, so every level gives the same codes.
 //
-// Vectors are changed in place: none is passed by value, for how that is done depends on the level.
+// Vectors are changed in place and never passed by value, because the calling convention for that
+// depends on the level.
 
 constexpr std::size_t lanes = Simd<float>::width;
 using Integers = std::uint32_t __attribute__((vector_size(4 * lanes)));
 using Signed = std::int32_t __attribute__((vector_size(4 * lanes)));
 using Floats = float __attribute__((vector_size(4 * lanes)));
 
-// Two at a time: what is done to the one does not wait for the other.
+// Two vectors are computed at a time, so that neither waits for its own last result.
 constexpr std::size_t parts = 2;
 
 // Skilling's transpose of the cell numbers.
@@ -36,7 +37,7 @@ TOUCHSTONE_TARGET inline void to_transpose(Integers (&x)[axes][parts], int bits)
   }
 }
 
-// Puts axes - 1 zeros between the bits.
+// Inserts axes - 1 zeros between the bits.
 template <int axes>
 TOUCHSTONE_TARGET inline void spread(Integers& x) {
   if constexpr (axes == 3) {  // 10 bits
@@ -52,14 +53,14 @@ TOUCHSTONE_TARGET inline void spread(Integers& x) {
   }
 }
 
-// The numbers of the cells that the centres are in.
+// Computes the numbers of the cells that contain the centres.
 TOUCHSTONE_TARGET inline void cell(const Numbering& numbering, std::size_t axis,
                                    const float* centres, Integers& x) {
   const auto last = static_cast<float>((1u << numbering.bits) - 1);
   Floats place;
   std::memcpy(&place, centres, sizeof place);
   place = (place - numbering.low[axis]) * numbering.scale[axis];
-  // Sums that overflow are at the end of the curve, or at its beginning like a NaN of theirs.
+  // A sum that overflows is at the end of the curve; one that is NaN, at its beginning.
   place = place > 0.0f ? place : Floats{};
   place = place < last ? place : Floats{} + last;
   x = reinterpret_cast<Integers>(__builtin_convertvector(place, Signed));
@@ -88,7 +89,7 @@ TOUCHSTONE_TARGET inline void places_on(const Numbering& numbering, const Centre
   }
 }
 
-// Places on the curve of as many centres.
+// Computes the places on the curve of `boxes_at_once` centres.
 TOUCHSTONE_TARGET void places(const Numbering& numbering, const Centres& centres,
                               std::uint32_t* codes) {
   switch (numbering.axes) {

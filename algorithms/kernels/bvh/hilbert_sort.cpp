@@ -1,3 +1,4 @@
+// Hilbert sort: size classes, the sort by key, and finer curves for dense cells.
 #include "algorithms/kernels/bvh/hilbert_sort.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The levels of the implicit R-tree, and the choice of the instruction level for its searches.
 #include "algorithms/kernels/bvh/implicit_rtree.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ using aabb_simd::MutableColumns;
 
 constexpr std::size_t fan = ImplicitRTree::fan;
 
-// How many nodes of a level of this size, not before `from`, the parents have.
+// Returns the number of the parents' children at or after `from`; their level has `size` nodes.
 std::size_t children_of(const std::vector<std::uint32_t>& parents, std::size_t count,
                         std::size_t size, std::size_t from) {
   std::size_t children = 0;
@@ -31,7 +32,7 @@ std::size_t children_of(const std::vector<std::uint32_t>& parents, std::size_t c
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/implicit_rtree.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-// The bounds of each 16 of `below`, which is padded with empty boxes.
+// Computes the bounds of each 16 boxes of `below`, which is padded with empty boxes.
 void bound(Executor& executor, const AabbSoA& below, AabbSoA& above) {
   const std::size_t count = block_count(below.size(), fan);
   above.resize(count);
@@ -47,7 +48,7 @@ void bound(Executor& executor, const AabbSoA& below, AabbSoA& above) {
 }  // namespace
 
 void ImplicitRTree::fit(Executor& executor) {
-  // Blocks and groups there are always.
+  // The levels of blocks and groups always exist.
   for (used_ = 1; used_ < 3 || levels_[used_ - 1].size() > 1; ++used_) {
     if (levels_.size() == used_) levels_.emplace_back();
     bound(executor, levels_[used_ - 1], levels_[used_]);
@@ -57,7 +58,7 @@ void ImplicitRTree::fit(Executor& executor) {
 double ImplicitRTree::spread() const {
   if (used_ < 2) return 0;
   const AabbSoA& blocks = levels_[1];
-  std::array<double, 8> sums{};  // side by side: one alone would be waited for at each step
+  std::array<double, 8> sums{};  // eight sums side by side, since one would wait for each addition
   for (int axis = 0; axis < 3; ++axis) {
     const float* const min = blocks.min(axis);
     const float* const max = blocks.max(axis);

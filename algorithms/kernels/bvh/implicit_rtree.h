@@ -1,9 +1,9 @@
-// A tree of boxes without pointers: blocks of 16 boxes that lie one behind the other, the bounds of
-// each block, the bounds of 16 blocks, and so on.
+// An implicit packed R-tree, a tree of boxes without pointers: blocks of 16 consecutive boxes, the
+// bounds of each block, the bounds of 16 blocks, and so on. Used by packed-rtree and verlet-list.
 // Paper: Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for wide vectors).
 //
-// The order of the boxes decides how good it is: along a space-filling curve the blocks are small.
-// There may be empty boxes among them, to fill up blocks; they overlap nothing.
+// The order of the boxes decides its quality: along a space-filling curve the blocks are small.
+// Empty boxes may fill up blocks; they overlap nothing.
 #pragma once
 
 #include <cstddef>
@@ -22,23 +22,22 @@ namespace touchstone {
 
 class ImplicitRTree {
  public:
-  static constexpr std::size_t fan = 16;           // boxes a block, nodes a node
-  static constexpr std::size_t group = fan * fan;  // boxes that look for partners together
+  static constexpr std::size_t fan = 16;           // boxes of a block, and children of a node
+  static constexpr std::size_t group = fan * fan;  // boxes that search together
 
-  ImplicitRTree() : levels_(1) { levels_.reserve(9); }  // 2^32 boxes have no more
+  ImplicitRTree() : levels_(1) { levels_.reserve(9); }  // enough for 2^32 boxes
 
-  // To be filled in, then fitted.
+  // The boxes: the caller fills them in and then calls fit().
   AabbSoA& boxes() { return levels_[0]; }
   const AabbSoA& boxes() const { return levels_[0]; }
-  // Bounds of the boxes as they stand; there is one at least.
+  // Computes the bounds of the boxes as they are; there is at least one.
   void fit(Executor& executor);
 
   std::size_t groups() const { return (boxes().size() + group - 1) / group; }
-  // levels()[0] is the boxes, levels()[1] bounds blocks of them, levels()[2] groups, each further
-  // level 16 of the one before; the last has one node.
+  // levels()[0] holds the boxes, levels()[1] the bounds of blocks of them, levels()[2] those of
+  // groups, and each further level those of 16 nodes of the one before; the last has one node.
   std::span<const AabbSoA> levels() const { return {levels_.data(), used_}; }
-  // Sum over the blocks of the sums of their bounds' sides (metres): what a better order would make
-  // smaller.
+  // Returns the sum of the sides of all blocks' bounds (metres); a better order makes it smaller.
   double spread() const;
   std::size_t held_bytes() const;
 
@@ -47,21 +46,21 @@ class ImplicitRTree {
   std::size_t used_ = 1;
 };
 
-// What a search lists, and what it counts. One a worker.
+// Lists and counters of a search; one for each worker.
 struct RTreeScratch {
-  std::vector<std::uint32_t> nodes, children;  // of two levels, one below the other
-  AabbStack blocks;                            // near the group: their bounds and numbers
+  std::vector<std::uint32_t> nodes, children;  // nodes of two consecutive levels
+  AabbStack blocks;                            // bounds and numbers of the blocks near the group
   NearList near;
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 
 // Writes the ids of each pair of boxes that overlap, one of them in this group, the other in the
-// same block or in one behind it: each pair once over all groups. A pair of boxes of different
-// sizes costs least when the smaller one comes first.
+// same block or a later one: each pair once over all groups. A pair of boxes of different sizes
+// costs least if the smaller one precedes the larger.
 void pair_group(const ImplicitRTree& tree, std::size_t group, RTreeScratch& scratch,
                 PairBuffer& out);
 
-// The ids of the boxes that overlap this one, into scratch.children; how many.
+// Writes the ids of the boxes that overlap `box` to scratch.children, and returns their number.
 std::size_t list_overlaps(const ImplicitRTree& tree, const Aabb& box, RTreeScratch& scratch);
 
 }  // namespace touchstone

@@ -1,11 +1,11 @@
-// The loops of implicit_rtree.h. Included by implicit_rtree.cpp once for each level of vector
-// instructions, inside that level's namespace. The lists are the same at every level, and so is the
-// order in which pairs are written.
+// The loops of implicit_rtree.h. implicit_rtree.cpp includes them once for each level of vector
+// instructions, inside that level's namespace. Every level makes the same lists and writes the
+// pairs in the same order.
 
 #include "algorithms/kernels/boxes/group_search.inl"
 
-// The nodes of a level that overlap the row, by their numbers, into scratch.nodes: found from the
-// top down. Those before node `from` are left out. How many.
+// Lists in scratch.nodes the numbers of a level's nodes that overlap the row, from node `from` on,
+// by a descent from the root. Returns their number.
 TOUCHSTONE_TARGET inline std::size_t descend(const Row& row, const ImplicitRTree& tree,
                                              std::size_t target, std::size_t from,
                                              RTreeScratch& scratch) {
@@ -34,7 +34,7 @@ TOUCHSTONE_TARGET inline std::size_t descend(const Row& row, const ImplicitRTree
   return count;
 }
 
-// Blocks that overlap the group's bounds, those of the group first; none before these.
+// Lists the blocks that overlap the group's bounds, from the group's own first block on.
 TOUCHSTONE_TARGET inline void list_blocks(const ImplicitRTree& tree, std::size_t group,
                                           RTreeScratch& scratch) {
   const Row bounds = load_row(columns_of(tree.levels()[2]), group);
@@ -67,7 +67,7 @@ TOUCHSTONE_TARGET void search(const ImplicitRTree& tree, std::size_t group, RTre
     const std::size_t block = near.ids[n];
     const IndexRange members{block * fan, std::min((block + 1) * fan, tree.boxes().size())};
     const Row bounds = load_row(blocks, block);
-    // Each pair of blocks once: with those behind.
+    // A pair of blocks is met once, by the earlier one.
     std::size_t found = 0;
     for (std::size_t i = n + 1; i < near_count; i += fan) {
       const unsigned bits = overlaps16(bounds, near, i) & first_lanes(near_count - i);
@@ -87,7 +87,7 @@ TOUCHSTONE_TARGET void search(const ImplicitRTree& tree, std::size_t group, RTre
   }
 }
 
-// Bounds of the 16 boxes below each of these nodes.
+// Computes the bounds of the 16 boxes below each of these nodes.
 TOUCHSTONE_TARGET void bound(const AabbSoA& below, AabbSoA& above, std::size_t first,
                              std::size_t last) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,8 +1,8 @@
 // Compiles the loops in the file TOUCHSTONE_TARGET_INCLUDE once for each level of vector
-// instructions: in the namespaces baseline, avx2 and avx512, each with the names of that level of
-// the namespace TOUCHSTONE_TARGET_NAMESPACE (simd where it is not set), and with TOUCHSTONE_TARGET
-// set to the level's attribute. Where TOUCHSTONE_ONE_LEVEL is set, all three are the first; with
-// TOUCHSTONE_TWO_LEVELS the third is the second.
+// instructions: in the namespaces baseline, avx2 and avx512, each with that level's names from the
+// namespace TOUCHSTONE_TARGET_NAMESPACE (simd by default), and with TOUCHSTONE_TARGET set to the
+// level's attribute. TOUCHSTONE_ONE_LEVEL makes all three the first; TOUCHSTONE_TWO_LEVELS makes
+// the third the second.
 
 #ifndef TOUCHSTONE_TARGET_NAMESPACE
 #define TOUCHSTONE_TARGET_NAMESPACE simd

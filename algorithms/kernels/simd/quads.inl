@@ -10,7 +10,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> widen(const Quad<Scalar>& q) {
   return __builtin_convertvector(q, Quad<double>);
 }
 
-// Four vectors from a quad for each lane.
+// Transposes a quad for each lane into four vectors.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void columns_of(const Quad<Scalar>* quads,
                                                     typename Simd<Scalar>::Vector columns[4]) {
@@ -18,7 +18,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void columns_of(const Quad<Scalar>* quads,
   Simd<Scalar>::transpose(columns);
 }
 
-// And back: lane l's quad is at place(l) of them, its place.
+// place(l) is the index at which quads_of stores lane l's quad.
 template <class Lanes>
 constexpr std::size_t place(std::size_t lane) {
   return lane % 4 * (Lanes::width / 4) + lane / 4;
@@ -33,7 +33,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void quads_of(typename Simd<Scalar>::Vector 
   }
 }
 
-// Four vectors from quads that are at their places.
+// Loads four vectors from quads that are at their places.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void placed_columns(const Quad<Scalar>* quads,
                                                         typename Simd<Scalar>::Vector columns[4]) {
@@ -44,7 +44,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void placed_columns(const Quad<Scalar>* quad
   Lanes::transpose(columns);
 }
 
-// A vector of three dimensions in each lane.
+// A three-dimensional vector in each lane.
 template <class Scalar>
 struct Vector3 {
   using Vector = typename Simd<Scalar>::Vector;

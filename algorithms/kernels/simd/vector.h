@@ -2,25 +2,26 @@
 // for each level by foreach_target.inl; `Simd<Scalar>` is then that level's vocabulary. Each
 // operation is the scalar's own, correctly rounded, so a lane has the same bits at every level.
 //
-// Simd<Scalar> has `width` lanes, its vectors Vector (with the operators of the language), its
-// masks Mask, and:
+// Simd<Scalar> has `width` lanes, the type Vector (with the operators of the language), the type
+// Mask of comparisons, and:
 //   load, store, broadcast, abs, min, max, sqrt
 //   max_abs             the greater of two absolute values
-//   less, less_equal    a mask of the lanes where it holds, and where `within` holds
+//   less, less_equal    the mask of the lanes where it holds, and where `within` holds
 //   select(mask, a, b)  a in the mask's lanes, b in the others
-//   to_bits, from_bits  a mask as an integer, its lane 0 in bit 0
+//   to_bits, from_bits  a mask as an integer, with lane 0 in bit 0
 //   reduce_max          the greatest lane
-//   concat, concat_at   a vector from the quads (four scalars each) 0, 4, 8..., or from those at
-//                       the addresses 0, 4, 8...
-//   transpose           turns four such vectors, of the quads of all lanes, into their first
-//                       numbers, their second numbers and so on
+//   concat, concat_at   a vector of the quads (four scalars each) 0, 4, 8..., or of those at the
+//                       addresses 0, 4, 8...
+//   transpose           turns four such vectors, of the quads of all lanes, into a vector of their
+//                       first numbers, one of their second numbers and so on
 // Simd<float> also handles values in memory, sixteen at a time at every level:
 //   reduce_min16, reduce_max16
-//   compress(bits, from, to)           copies those of from[0..15] whose bit is set to the front of
-//                                      `to`, and returns how many; `to` has room for 16
-//   compress_indices(bits, first, to)  does it with the numbers first, first + 1...
+//   compress(bits, from, to)           copies the values from[0..15] whose bits are set to the
+//                                      front of `to`, which has room for 16; returns their number
+//   compress_indices(bits, first, to)  does so with the numbers first, first + 1...
 //   test(marks, want)                  the bits of those of `width` integers that have all bits of
 //                                      `want`
+// Used by every kernel and algorithm with vector loops. It includes core only.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +46,7 @@ using Quad =
     std::conditional_t<std::is_same_v<Scalar, float>, float __attribute__((vector_size(16))),
                        double __attribute__((vector_size(32)))>;
 
-// By element, so that they compile to the same code on any machine.
+// Elements are accessed one by one, which compiles to the same code on any machine.
 template <class Floats4>
 inline float reduce_min4(Floats4 x) {
   return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));

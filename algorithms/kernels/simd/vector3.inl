@@ -31,7 +31,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> select(typename Simd<Scalar>
           Lanes::select(mask, a.z, b.z)};
 }
 
-// Masks as what has the operators of bits.
+// The type in which a mask has the bitwise operators.
 template <class Mask>
 struct MaskBits {
   typedef long long Type __attribute__((vector_size(sizeof(Mask))));
@@ -41,7 +41,7 @@ struct MaskBits<Mask> {
   using Type = Mask;
 };
 
-// Lanes of both masks; of either; of the first but not of the second.
+// The lanes of both masks; of either; of the first but not the second.
 template <class Mask>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Mask both(Mask a, Mask b) {
   using Bits = typename MaskBits<Mask>::Type;

@@ -2,7 +2,7 @@
 
 namespace avx2 {
 #define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
-// The places of the bits that are set in each byte, lowest first, a byte each.
+// The places of the set bits of each byte, lowest first, each in a byte.
 inline constexpr std::array<std::uint64_t, 256> compress_orders = [] {
   std::array<std::uint64_t, 256> all{};
   for (unsigned bits = 0; bits < 256; ++bits) {
@@ -93,7 +93,7 @@ struct Simd<float> {
   TOUCHSTONE_TARGET static __m256i load_integers(const void* from) {
     return _mm256_loadu_si256(static_cast<const __m256i*>(from));
   }
-  // Moves those of eight values whose bit is set to the front.
+  // Moves those of eight values whose bits are set to the front.
   TOUCHSTONE_TARGET static __m256i compress8(unsigned bits, __m256i values) {
     const __m128i order = _mm_cvtsi64_si128(static_cast<long long>(compress_orders[bits & 0xff]));
     return _mm256_permutevar8x32_epi32(values, _mm256_cvtepu8_epi32(order));

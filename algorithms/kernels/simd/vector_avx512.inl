@@ -71,7 +71,8 @@ struct Simd<float> {
   TOUCHSTONE_TARGET static float reduce_max16(const float* from) {
     return _mm512_reduce_max_ps(load(from));
   }
-  // Compresses in registers and stores whole vectors: compressing to memory is slow on Zen 4.
+  // Compresses in registers and stores whole vectors, because compressing to memory is slow on Zen
+  // 4.
   TOUCHSTONE_TARGET static std::size_t compress(unsigned bits, const float* from, float* to) {
     _mm512_storeu_ps(to, _mm512_maskz_compress_ps(from_bits(bits), load(from)));
     return static_cast<std::size_t>(std::popcount(bits));
