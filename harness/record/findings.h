@@ -40,7 +40,7 @@ class Findings {
   std::vector<Departure> departures_;
 };
 
-// A paragraph for each algorithm, with its first discrepancy and the file that shows it. Empty where
+// A paragraph for each algorithm: its first discrepancy and the file that shows it. Empty where
 // there is none.
 std::string departures_text(const Findings& findings);
 

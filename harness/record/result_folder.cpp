@@ -199,12 +199,12 @@ void ResultFolder::cut_to_progress() {
                                    file.name, plan_.work));
     }
     const std::uintmax_t size = any ? static_cast<std::uintmax_t>(number(file.name)) : 0;
+    if (size > 0 && there > 0) expect_header(name, file);
     if (there < size) {
       throw InputError(
           name.string(), 0,
           fmt::format("{} bytes; expected at least {}, as progress.csv says", there, size));
     }
-    if (size > 0) expect_header(name, file);
     if (there > size) std::filesystem::resize_file(name, size, error);
     if (there > size && error) {
       throw InputError(name.string(), 0, "cannot be cut: " + error.message());

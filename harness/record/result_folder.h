@@ -2,7 +2,8 @@
 //
 // The folder holds
 // - row files such as raw.csv, to which rows are appended;
-// - progress.csv (name,value): how many units of work are done, and how long each row file then was.
+// - progress.csv (name,value): the number of units of work done, and the length of each row file
+//   then.
 //   A unit is what is measured anew when it was interrupted: a round, a job, a cell;
 // - machine.csv (name,value): the identity of the work, facts of the machine, and `finished`.
 // A kill at any moment loses at most the unit at hand.
@@ -42,21 +43,21 @@ struct RowFile {
 struct ResultFolderPlan {
   std::filesystem::path folder;
   std::vector<RowFile> files;
-  // Facts of machine.csv that must be equal to resume. Two kinds may differ: `commit` and `tree` keep
+  // Facts of machine.csv that must be equal to resume. Some may differ: `commit` and `tree` keep
   // their first value, and the values of `command_line` are joined.
   Facts identity;
   Facts notes = {};  // further facts of machine.csv, which may differ
   FolderStart start = FolderStart::fresh;
   std::string work = "run";  // for messages: run, check, sweep, ...
-  std::vector<std::string> removed =
-      {};  // further files and folders of earlier work: they go when it begins anew
+  // Further files and folders of earlier work: they are removed when work begins anew.
+  std::vector<std::string> removed = {};
 };
 
 class ResultFolder {
  public:
-  // Makes the folder where it begins anew. To resume cuts the row files back to the last whole unit;
-  // read them afterwards with `rows`. InputError where the folder cannot be written, is in use by
-  // another process, holds what must not be lost, or cannot be resumed.
+  // Makes the folder where it begins anew. To resume, cuts the row files back to the last whole
+  // unit; read them afterwards with `rows`. InputError where the folder cannot be written, is in use
+  // by another process, holds work that must not be lost, or cannot be resumed.
   explicit ResultFolder(ResultFolderPlan plan);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;

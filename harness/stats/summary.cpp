@@ -16,7 +16,7 @@ namespace touchstone::stats {
 namespace {
 
 constexpr std::size_t unlimited_width = 1000;  // the table is not cut: a line is a group
-constexpr std::size_t most_groups = 10;
+constexpr std::size_t most_groups = 9;
 constexpr std::size_t most_faults = 5;
 
 // A set's best of ours and best library; a label is empty where there is none.
@@ -187,11 +187,12 @@ std::string summary(const Results& results, const Tables& tables,
                     std::span<const Departure> departures, const std::filesystem::path& folder) {
   std::string text;
   if (const std::string winners = winners_text(tables); !winners.empty()) {
-    text += fmt::format(
-                "Fastest of those that answer right (depths within {:g} of the size); ratios with "
-                "95 % intervals.\n\n",
-                tables.depth_error) +
-            winners + "\n";
+    text +=
+        fmt::format(
+            "Fastest of those that answer right (depths within {:g} of the size); the ratio is the "
+            "geometric mean over\nthe inputs, with its 95 % interval.\n\n",
+            tables.depth_error) +
+        winners + "\n";
   } else if (!results.sets.empty()) {
     text += "No input has enough undisturbed rounds for a winner (--noisy counts the others).\n";
   }

@@ -35,7 +35,8 @@ struct TableCheck {
 };
 
 // The stated bands are those of library_ratios.csv in the reference's folder, or of ratios.csv
-// where it has no such file; raw.csv and machine.csv stand there too. InputError with file and line.
+// where it has no such file; raw.csv and machine.csv stand there too. InputError with file and
+// line.
 TableCheck check_tables(const std::filesystem::path& reference, const Results& here, Noise noise);
 
 }  // namespace touchstone::stats
