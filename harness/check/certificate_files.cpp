@@ -41,9 +41,9 @@ oracle::Body body_of(const oracle::Solid& solid, const Pose& pose,
 std::int64_t save_certificates(const CheckRequest& request, const std::filesystem::path& file) {
   std::ofstream stream(file, std::ios::binary);
   std::int64_t saved = 0;
-  run_jobs(
+  run_jobs<std::string>(
       0, request.regimes.size(), request.workers,
-      [&]() -> JobWork {
+      [&] {
         const auto oracle = std::make_shared<oracle::Oracle>();
         return [&request, oracle](std::size_t job) {
           std::string lines;

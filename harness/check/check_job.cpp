@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
-#include <stdexcept>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "algorithms/core/bounds.h"
 #include "algorithms/oracle/certificates/certificate_check.h"
-#include "harness/check/margins.h"
-#include "harness/check/true_case.h"
-#include "harness/grade/solve_case.h"
+#include "harness/grade/margins.h"
 #include "harness/process/isolate.h"
+#include "harness/process/queries/solve_case.h"
 
 namespace touchstone {
 namespace {
@@ -102,32 +98,24 @@ class Job {
         for (const Variant& variant : variants_[place]) items.push_back({place, &variant, task});
       }
     }
-    SharedArray<Outcome> outcomes(items.size());
     const NarrowPhaseSettings settings = {.scalar = scalar};
     const IsolationLimits limits = {.item_seconds = request_.time_limit, .failures = most_failures};
-    const IsolationReport report = isolate(items.size(), limits, [&]() -> ItemWork {
+    const auto solved = isolated_answers<Outcome>(items.size(), limits, [&] {
       return [&](std::size_t i) {
         const Item& item = items[i];
         const Case& c =
             item.variant != nullptr ? item.variant->transformed : cases_[item.place].pair();
-        outcomes[i] = solve_case(algorithm, settings, c, item.task);
+        return solve_case(algorithm, settings, c, item.task);
       };
     });
     GradedAnswer* original = nullptr;
     const Outcome* original_outcome = nullptr;
-    Status lost = Status::crashed;  // what is not begun after too many failures has the last's
     for (std::size_t i = 0; i < items.size(); ++i) {
-      Outcome& outcome = outcomes[i];
-      if (report.states[i] != ItemState::done) {
-        if (report.states[i] != ItemState::not_run) {
-          lost = report.states[i] == ItemState::timed_out ? Status::timed_out : Status::crashed;
-        }
-        outcome = Outcome{};
-        outcome.status = lost;
-      }
+      const Outcome& outcome = solved.answers[i];
       if (items[i].variant == nullptr) {
         const Query query = {result_.summary.regime, entry, scalar, items[i].task};
-        result_.answers.push_back(grade_answer(request_, query, cases_[items[i].place], outcome));
+        result_.answers.push_back(
+            grade_answer(algorithm, regime().extreme, query, cases_[items[i].place], outcome));
         original = &result_.answers.back();
         original_outcome = &outcome;
       } else {
@@ -141,19 +129,16 @@ class Job {
     const NarrowPhaseEntry& algorithm = *request_.narrow[original.entry];
     const std::string kind = kind_of(variant);
     VariantCount& count = counts_[{original.entry, original.scalar, original.task, kind}];
-    if (count.variant[0] == '\0') {
-      count.entry = original.entry;
-      count.scalar = original.scalar;
-      count.task = original.task;
-      kind.copy(count.variant.data(), count.variant.size() - 1);
-    }
-    const auto is_lost = [](const Outcome& o) {
-      return o.status == Status::crashed || o.status == Status::timed_out;
-    };
+    count.regime = result_.summary.regime;
+    count.round = result_.summary.round;
+    count.entry = original.entry;
+    count.scalar = original.scalar;
+    count.task = original.task;
+    count.kind = kind;
     const Margins margins = documented_margins(original.scalar, regime().extreme);
     bool beyond = false;
     bool worse = false;
-    if (is_lost(of_variant) && !is_lost(outcome)) {
+    if (is_lost(of_variant.status) && !is_lost(outcome.status)) {
       ++count.lost;
       beyond = true;
     }
@@ -191,33 +176,6 @@ class Job {
   JobResult result_;
 };
 
-template <class T>
-void append(std::string& bytes, const T& value) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-template <class T>
-void append(std::string& bytes, const std::vector<T>& values) {
-  append(bytes, values.size());
-  for (const T& value : values) append(bytes, value);
-}
-
-template <class T>
-void take(std::string_view& bytes, T& value) {
-  if (bytes.size() < sizeof value) throw std::logic_error("a result is cut short");
-  std::memcpy(static_cast<void*>(&value), bytes.data(), sizeof value);
-  bytes.remove_prefix(sizeof value);
-}
-
-template <class T>
-void take(std::string_view& bytes, std::vector<T>& values) {
-  std::size_t size = 0;
-  take(bytes, size);
-  values.resize(size);
-  for (T& value : values) take(bytes, value);
-}
-
 }  // namespace
 
 JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle) {
@@ -232,23 +190,6 @@ std::vector<Variant> sampled_variants(const Case& c, std::uint64_t seed, std::ui
 
 std::string kind_of(const Variant& variant) {
   return variant.name.substr(0, variant.name.find_first_of("+-"));
-}
-
-std::string pack(const JobResult& result) {
-  std::string bytes;
-  append(bytes, result.summary);
-  append(bytes, result.answers);
-  append(bytes, result.variants);
-  return bytes;
-}
-
-JobResult unpack(const std::string& bytes) {
-  JobResult result;
-  std::string_view rest = bytes;
-  take(rest, result.summary);
-  take(rest, result.answers);
-  take(rest, result.variants);
-  return result;
 }
 
 }  // namespace touchstone

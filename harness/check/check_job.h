@@ -1,34 +1,46 @@
 // A part of a check: the cases of one regime in one round, through every algorithm.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/check_request.h"
 #include "harness/check/metamorphic.h"
+#include "harness/grade/graded_answer.h"
 
 namespace touchstone {
 
 // An algorithm's answers about cases in one other form (harness/check/metamorphic.h), against its
 // own about the cases themselves.
 struct VariantCount {
+  std::uint32_t regime = 0;  // place in the request
+  std::uint64_t round = 0;
   std::uint32_t entry = 0;  // place in the request
   Precision scalar{};
   Task task{};
-  std::array<char, 48> variant{};  // its name
-  std::int64_t compared = 0;       // both were answered
-  std::int64_t flips = 0;          // on different sides of contact, bodies that do not touch
-  std::int64_t lost = 0;           // the other form crashed or hung, the case itself did not
-  std::int64_t beyond = 0;         // ours, and more than its documented margins
-  double worst_flip = 0;           // the exact |signed distance|, as a part of the scale
-  double worst_difference = 0;     // of distances or depths, as a part of the scale
-  std::uint64_t worst_index = 0;   // the case of the first beyond, or else of the worst flip
+  std::string kind;               // of the variants: "rotation"
+  std::int64_t compared = 0;      // both were answered
+  std::int64_t flips = 0;         // on different sides of contact, bodies that do not touch
+  std::int64_t lost = 0;          // the other form crashed or hung, the case itself did not
+  std::int64_t beyond = 0;        // ours, and more than its documented margins
+  double worst_flip = 0;          // the exact |signed distance|, as a part of the scale
+  double worst_difference = 0;    // of distances or depths, as a part of the scale
+  std::uint64_t worst_index = 0;  // the case of the first beyond, or else of the worst flip
 
-  std::string_view name() const { return variant.data(); }
+  template <class Visit>
+  void for_each_field(Visit visit) {
+    visit(regime);
+    visit(round);
+    visit(entry);
+    visit(scalar);
+    visit(task);
+    visit(kind);
+    for (std::int64_t* count : {&compared, &flips, &lost, &beyond}) visit(*count);
+    for (double* worst : {&worst_flip, &worst_difference}) visit(*worst);
+    visit(worst_index);
+  }
 };
 
 // Of the regime's cases in the round.
@@ -48,6 +60,13 @@ struct JobResult {
   JobSummary summary;
   std::vector<GradedAnswer> answers;
   std::vector<VariantCount> variants;
+
+  template <class Visit>
+  void for_each_field(Visit visit) {
+    visit(summary);
+    visit(answers);
+    visit(variants);
+  }
 };
 
 // Job number -> regime and round: all regimes of a round, then the next.
@@ -57,9 +76,5 @@ JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& o
 std::vector<Variant> sampled_variants(const Case& c, std::uint64_t seed, std::uint64_t index);
 // "rotation" of "rotation+y+z+x".
 std::string kind_of(const Variant& variant);
-
-// The same bytes for another process.
-std::string pack(const JobResult& result);
-JobResult unpack(const std::string& bytes);
 
 }  // namespace touchstone

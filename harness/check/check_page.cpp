@@ -7,6 +7,7 @@
 #include "harness/base/markdown.h"
 #include "harness/check/check_report.h"
 #include "harness/check/grouped_counts.h"
+#include "harness/grade/wrong.h"
 #include "harness/record/machine.h"
 
 namespace touchstone {

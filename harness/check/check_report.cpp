@@ -58,8 +58,7 @@ std::vector<std::string> CheckReport::ours_wrong() const {
         "{} {} {} on {} and its variant '{}': {} answers in another form differ, by {:.0e} of the "
         "size",
         request->narrow[count.entry]->info.name, to_string(count.scalar), to_string(count.task),
-        failure.id, count.name(), count.beyond,
-        std::max(count.worst_flip, count.worst_difference)));
+        failure.id, count.kind, count.beyond, std::max(count.worst_flip, count.worst_difference)));
   }
   for (const TruthFailure& failure : truth_failures) {
     lines.push_back(fmt::format(

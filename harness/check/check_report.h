@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/check/broad_check.h"
+#include "harness/check/broad/broad_check.h"
 #include "harness/check/failures.h"
 #include "harness/check/tally.h"
 

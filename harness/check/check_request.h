@@ -3,12 +3,27 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/check/graded_answer.h"
+#include "harness/check/regimes/regimes.h"
 
 namespace touchstone {
+
+// The lists in which rows have their regimes and algorithms as places.
+struct CheckSubjects {
+  std::span<const NarrowPhaseEntry* const> narrow;
+  std::span<const Regime* const> regimes;
+
+  auto narrow_name() const {
+    return [narrow = narrow](std::size_t i) -> const std::string& { return narrow[i]->info.name; };
+  }
+  auto regime_name() const {
+    return [regimes = regimes](std::size_t i) -> const std::string& { return regimes[i]->name; };
+  }
+};
 
 struct CheckRequest {
   std::vector<const NarrowPhaseEntry*> narrow;

@@ -1,44 +1,64 @@
 #include "harness/check/check_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
-#include <system_error>
 
 #include "harness/base/clock.h"
-#include "harness/base/error.h"
 #include "harness/base/progress.h"
-#include "harness/check/check_files.h"
 #include "harness/check/check_job.h"
-#include "harness/process/worker_pool.h"
-#include "harness/record/machine.h"
+#include "harness/check/check_rows.h"
+#include "harness/check/job_folder.h"
 
 namespace touchstone {
 namespace {
 
 constexpr double broad_seconds = 20;  // that a broad phase may take over a scene
 
-void grade_all(const CheckRequest& request, CheckFiles& files, Tally& tally) {
+enum : std::size_t { grades_file, variants_file, jobs_file };
+
+ResultFolderPlan plan_of(const CheckRequest& request) {
+  std::vector<std::string> regimes;
+  for (const Regime* regime : request.regimes) regimes.push_back(regime->name);
+  const CheckSubjects subjects = request.subjects();
+  return job_folder(request, "check", {"regimes", fmt::format("{}", fmt::join(regimes, " "))},
+                    {{"grades.csv", header_of<GradedAnswer>(subjects)},
+                     {"variants.csv", header_of<VariantCount>(subjects)},
+                     {"jobs.csv", header_of<JobSummary>(subjects)}});
+}
+
+// Counts the rows that an interrupted check left.
+void take_up(const ResultFolder& folder, const CheckSubjects& subjects, Tally& tally) {
+  const auto add = [&]<class Row>(std::size_t file) {
+    for (const Row& row : folder.rows<Row>(file, subjects)) tally.add(row);
+  };
+  add.operator()<GradedAnswer>(grades_file);
+  add.operator()<VariantCount>(variants_file);
+  add.operator()<JobSummary>(jobs_file);
+}
+
+void grade_all(const CheckRequest& request, ResultFolder& folder, Tally& tally) {
   const std::size_t regimes = request.regimes.size();
   const bool endless = request.seconds > 0;
   const std::size_t end = endless ? std::numeric_limits<std::size_t>::max() : regimes;
-  if (files.jobs() >= end) return;
+  const auto first = static_cast<std::size_t>(folder.units());
+  if (first >= end) return;
+  const CheckSubjects subjects = request.subjects();
   const Stopwatch watch;
-  Progress progress(endless ? 1 : end - files.jobs());
+  Progress progress(endless ? 1 : end - first);
   if (endless) progress.start(fmt::format("checking for {:g} s", request.seconds));
-  run_jobs(
-      files.jobs(), end, request.workers,
-      [&]() -> JobWork {
-        // One oracle for each process: it keeps its memory from query to query.
-        const auto oracle = std::make_shared<oracle::Oracle>();
-        return [&request, oracle](std::size_t job) { return pack(do_job(request, job, *oracle)); };
-      },
-      [&](std::size_t job, const std::string& bytes) {
-        const JobResult result = unpack(bytes);
-        files.write(result);
-        for (const GradedAnswer& answer : result.answers) tally.add(answer);
-        for (const VariantCount& count : result.variants) tally.add(result.summary.regime, count);
-        tally.add(result.summary);
+  const auto keep = [&](std::size_t file, const auto& row) {
+    folder.write(file, row, subjects);
+    tally.add(row);
+  };
+  do_jobs<JobResult>(
+      folder, request, end,
+      [&](std::size_t job, oracle::Oracle& oracle) { return do_job(request, job, oracle); },
+      [&](std::size_t job, const JobResult& result) {
+        for (const GradedAnswer& answer : result.answers) keep(grades_file, answer);
+        for (const VariantCount& count : result.variants) keep(variants_file, count);
+        keep(jobs_file, result.summary);
         if (!endless) {
           progress.start(request.regimes[job % regimes]->name);
           return true;
@@ -51,21 +71,15 @@ void grade_all(const CheckRequest& request, CheckFiles& files, Tally& tally) {
 }  // namespace
 
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
-  std::error_code error;
-  if (!request.resume) std::filesystem::create_directories(request.out, error);
-  if (error) throw InputError(request.out.string(), 0, "cannot be made: " + error.message());
   auto result = std::make_unique<CheckResult>();
   result->report.request = &request;
   result->report.tally = &result->tally;
-  CheckFiles files(request, result->tally);
-  write_facts({{"check", request.resume ? "resumed" : "whole"},
-               {"seed", std::to_string(request.seed)},
-               {"cases", std::to_string(request.cases)}},
-              request.out / "machine.csv");
-  if (!request.narrow.empty()) grade_all(request, files, result->tally);
-  files.close();
+  ResultFolder folder(plan_of(request));
+  if (request.resume) take_up(folder, request.subjects(), result->tally);
+  if (!request.narrow.empty()) grade_all(request, folder, result->tally);
+  folder.finish();
   if (!request.broad.empty()) result->scenes = box_scenes(request.seed);
-  result->report.failures = write_failures(request, result->tally);
+  result->report.failures = write_failures(request, result->tally.failures(request));
   result->report.variant_failures = write_variant_failures(request, result->tally);
   result->report.truth_failures = write_truth_failures(request, result->tally);
   result->report.broad = check_broad_phases(request.broad, result->scenes, broad_seconds);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "harness/check/tally.h"
-#include "harness/check/true_case.h"
 
 namespace touchstone {
 
@@ -35,17 +34,13 @@ struct TruthFailure {
   std::filesystem::path file;
 };
 
-// What is wrong with an answer, in words.
-std::string describe(const GradedAnswer& answer, const CheckRequest& request);
 // That shows the cases of a file again.
 std::string query_command(const CheckRequest& request, const Query& query,
                           const std::filesystem::path& file);
 
-// Writes Tally::failures, each shrunk as far as it still fails in the same way, into the request's
-// folder: failures/ALGORITHM-SCALAR-TASK.jsonl, one case a line. Case files of an earlier check
-// there are removed first.
-std::vector<FailureCase> write_failures(const CheckRequest& request, const Tally& tally);
-// The same for these answers.
+// Writes the cases of these answers, each shrunk as far as it still fails in the same way, into the
+// request's folder: failures/ALGORITHM-SCALAR-TASK.jsonl, one case a line. Case files of an earlier
+// check there are removed first.
 std::vector<FailureCase> write_failures(const CheckRequest& request,
                                         const std::vector<GradedAnswer>& failures);
 // The same for failures/ALGORITHM-SCALAR-TASK-variants.jsonl and failures/truth.jsonl, not shrunk.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "harness/check/regimes/check_shapes.h"
-#include "harness/grade/ordered_pair.h"
+#include "harness/process/queries/ordered_pair.h"
 
 namespace touchstone {
 namespace {

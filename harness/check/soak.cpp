@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -13,12 +13,13 @@
 #include "algorithms/oracle/oracle.h"
 #include "harness/base/error.h"
 #include "harness/base/progress.h"
-#include "harness/check/graded_answer.h"
 #include "harness/grade/encoding.h"
-#include "harness/grade/ordered_pair.h"
+#include "harness/grade/grade.h"
 #include "harness/process/isolate.h"
+#include "harness/process/queries/ordered_pair.h"
 #include "harness/process/worker_pool.h"
 #include "harness/record/machine.h"
+#include "harness/record/row.h"
 
 namespace touchstone {
 namespace {
@@ -27,10 +28,37 @@ constexpr std::int64_t cases_a_job = 1000;
 constexpr std::size_t most_failures = 20;  // of an algorithm in a job; a hang costs a time limit
 constexpr double seconds_between_writes = 1;
 
-const std::vector<std::string> header = {"algorithm",   "scalar",      "regime",    "seed",
-                                         "drawn",       "pairs",       "separated", "touching",
-                                         "overlapping", "unresolved",  "silent",    "honest",
-                                         "lost",        "first_wrong", "program"};
+struct SoakRow {
+  std::uint32_t entry = 0, regime = 0;  // places in the request
+  Precision scalar{};
+  std::uint64_t seed = 0;
+  std::int64_t drawn = 0;
+  SoakCount count;
+  std::string program;
+};
+
+template <row_of<SoakRow> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  visit("algorithm", place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
+        "The narrow phase.");
+  visit("scalar", row.scalar, "Precision that it computes in.");
+  visit("regime", place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
+        "Regime of the pairs.");
+  visit("seed", row.seed, "Seed of the cases.");
+  visit("drawn", row.drawn, "Pairs drawn in all regimes, whether an algorithm takes them or not.");
+  auto& count = row.count;
+  visit("pairs", count.pairs, "Pairs that it was asked about.");
+  visit("separated", count.separated, "Pairs that are apart.");
+  visit("touching", count.touching, "Pairs that touch exactly.");
+  visit("overlapping", count.overlapping, "Pairs that overlap.");
+  visit("unresolved", count.unresolved, "Pairs whose side of contact the oracle leaves open.");
+  visit("silent", count.silent, "Answers on the wrong side of contact that nothing tells.");
+  visit("honest", count.honest, "Answers that it does not stand by.");
+  visit("lost", count.lost, "Queries that crashed, or gave no answer in time.");
+  visit("first_wrong", with_sign(count.first_wrong),
+        "First case that was silently wrong or lost; -1 where there is none.");
+  visit("program", row.program, "Hash of the program.");
+}
 
 // The counts of a job, in the order of the request's algorithms and their scalars.
 using JobCounts = std::vector<SoakCount>;
@@ -75,13 +103,14 @@ class Cases {
       if (offers(entry, cases_[i].shape_a.kind, cases_[i].shape_b.kind, Task::intersect))
         asked.push_back(i);
     }
-    SharedArray<Outcome> outcomes(asked.size());
     const IsolationLimits limits = {.item_seconds = time_limit, .failures = most_failures};
-    const IsolationReport report = isolate(asked.size(), limits, [&]() -> ItemWork {
+    const auto solved = isolated_answers<Outcome>(asked.size(), limits, [&] {
       const std::shared_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
       algorithm->bind(shapes_);
       return [&, algorithm](std::size_t item) {
-        algorithm->solve(Task::intersect, batch_of(asked[item]), outcomes.span().subspan(item, 1));
+        Outcome outcome;
+        algorithm->solve(Task::intersect, batch_of(asked[item]), {&outcome, 1});
+        return outcome;
       };
     });
     SoakCount count;
@@ -90,8 +119,8 @@ class Cases {
       const Case& c = cases_[i];
       const Encoding encoding =
           encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::intersect, scalar);
-      count_one(outcomes[item], report.states[item] == ItemState::done, truth(i, encoding),
-                first_ + static_cast<std::int64_t>(i), count);
+      count_one(solved.answers[item], truth(i, encoding), first_ + static_cast<std::int64_t>(i),
+                count);
     }
     return count;
   }
@@ -117,7 +146,7 @@ class Cases {
     return *known[i];
   }
 
-  static void count_one(const Outcome& outcome, bool is_done, Answer exact, std::int64_t index,
+  static void count_one(const Outcome& outcome, Answer exact, std::int64_t index,
                         SoakCount& count) {
     ++count.pairs;
     switch (exact) {
@@ -126,17 +155,16 @@ class Cases {
       case Answer::overlapping: ++count.overlapping; break;
       case Answer::unknown: ++count.unresolved; break;
     }
-    bool is_wrong = false;
-    if (!is_done) {
-      ++count.lost;
-      is_wrong = true;
-    } else if (!stands_by(outcome)) {
-      ++count.honest;
-    } else if (exact != Answer::unknown && is_contact(outcome.answer) != is_contact(exact)) {
-      ++count.silent;
-      is_wrong = true;
+    switch (judge(outcome, exact, Touching::contact)) {
+      case Verdict::right:
+      case Verdict::unscored: return;
+      case Verdict::unsupported:
+      case Verdict::honest_failure: ++count.honest; return;
+      case Verdict::silent_error: ++count.silent; break;
+      case Verdict::crashed:
+      case Verdict::timed_out: ++count.lost; break;
     }
-    if (is_wrong && count.first_wrong < 0) count.first_wrong = index;
+    if (count.first_wrong < 0) count.first_wrong = index;
   }
 
   std::int64_t first_;
@@ -169,10 +197,10 @@ class Soak {
       Progress progress(1);
       progress.start(fmt::format("{} verdicts", request_.pairs));
       Stopwatch since_written;
-      run_jobs(
+      run_jobs<JobCounts>(
           first, end, request_.workers, [&] { return work(); },
-          [&](std::size_t job, const std::string& bytes) {
-            take(job, bytes);
+          [&](std::size_t job, const JobCounts& counts) {
+            take(job, counts);
             progress.part(static_cast<double>(result_.drawn) / static_cast<double>(request_.pairs));
             if (since_written.seconds() > seconds_between_writes) {
               write();
@@ -191,7 +219,7 @@ class Soak {
     return *request_.regimes[job % request_.regimes.size()];
   }
 
-  JobWork work() const {
+  std::function<JobCounts(std::size_t)> work() const {
     // One oracle for each process: it keeps its memory from query to query.
     const auto oracle = std::make_shared<oracle::Oracle>();
     return [this, oracle](std::size_t job) {
@@ -202,30 +230,32 @@ class Soak {
         counts.push_back(
             cases.ask(*request_.narrow[subject.entry], subject.scalar, request_.time_limit));
       }
-      return std::string(reinterpret_cast<const char*>(counts.data()),
-                         counts.size() * sizeof(SoakCount));
+      return counts;
     };
   }
 
-  void take(std::size_t job, const std::string& bytes) {
+  void take(std::size_t job, const JobCounts& counts) {
     for (std::size_t i = 0; i < subjects_.size(); ++i) {
-      SoakCount count;
-      std::memcpy(static_cast<void*>(&count), bytes.data() + i * sizeof count, sizeof count);
       result_.counts[{subjects_[i].entry, subjects_[i].scalar, job % request_.regimes.size()}].add(
-          count);
+          counts[i]);
     }
     result_.drawn += cases_a_job;
   }
 
   void write() const {
-    CsvWriter csv(file_, header);
+    const CheckSubjects subjects = request_.subjects();
+    CsvWriter csv(file_, header_of<SoakRow>(subjects));
     for (const auto& [key, count] : result_.counts) {
       const auto& [entry, scalar, regime] = key;
-      csv.field(request_.narrow[entry]->info.name).field(to_string(scalar));
-      csv.field(request_.regimes[regime]->name).field(std::to_string(request_.seed));
-      csv.field(result_.drawn).field(count.pairs).field(count.separated).field(count.touching);
-      csv.field(count.overlapping).field(count.unresolved).field(count.silent).field(count.honest);
-      csv.field(count.lost).field(count.first_wrong).field(program_).end_row();
+      write_row(csv,
+                SoakRow{.entry = static_cast<std::uint32_t>(entry),
+                        .regime = static_cast<std::uint32_t>(regime),
+                        .scalar = scalar,
+                        .seed = request_.seed,
+                        .drawn = result_.drawn,
+                        .count = count,
+                        .program = program_},
+                subjects);
     }
     csv.close();
   }
@@ -234,31 +264,17 @@ class Soak {
     if (!std::filesystem::exists(file_)) {
       throw InputError(file_.string(), 0, "no such file; expected the folder of a soak");
     }
-    CsvReader(file_, header).read([&](const CsvReader::Row& row) {
-      const auto place = [&](std::size_t column, const auto& list, const auto& name_of) {
-        const auto at = std::ranges::find_if(
-            list, [&](const auto* one) { return name_of(*one) == row.text(column); });
-        if (at == list.end()) row.fail("a name that is not of this request");
-        return static_cast<std::size_t>(at - list.begin());
-      };
-      if (row.text(3) != std::to_string(request_.seed)) {
-        row.fail(fmt::format("seed {}; this request has {}", row.text(3), request_.seed));
+    const CheckSubjects subjects = request_.subjects();
+    reader_of<SoakRow>(file_, subjects).read([&](const CsvReader::Row& fields) {
+      const auto row = read_row<SoakRow>(fields, subjects);
+      if (row.seed != request_.seed) {
+        fields.fail(fmt::format("seed {}; this request has {}", row.seed, request_.seed));
       }
-      if (row.text(14) != program_) {
-        row.fail("counted by another program; expected the same one, or no --resume");
+      if (row.program != program_) {
+        fields.fail("counted by another program; expected the same one, or no --resume");
       }
-      SoakCount count;
-      result_.drawn = row.integer(4);
-      std::size_t column = 5;
-      for (std::int64_t* value :
-           {&count.pairs, &count.separated, &count.touching, &count.overlapping, &count.unresolved,
-            &count.silent, &count.honest, &count.lost, &count.first_wrong}) {
-        *value = row.integer(column++);
-      }
-      const auto entry = place(0, request_.narrow, [](const auto& e) { return e.info.name; });
-      const auto regime = place(2, request_.regimes, [](const Regime& r) { return r.name; });
-      result_.counts[{entry, row.text(1) == "float" ? Precision::float32 : Precision::float64,
-                      regime}] = count;
+      result_.drawn = row.drawn;
+      result_.counts[{row.entry, row.scalar, row.regime}] = row.count;
     });
     // Before each regime had its turn there are fewer rows.
     const std::size_t rounds =

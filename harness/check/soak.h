@@ -2,26 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <tuple>
-#include <vector>
 
-#include "algorithms/registry.h"
-#include "harness/check/regimes/regimes.h"
+#include "harness/check/check_request.h"
 
 namespace touchstone {
 
-struct SoakRequest {
-  std::vector<const NarrowPhaseEntry*> narrow;
-  std::vector<Precision> scalars = {Precision::float64, Precision::float32};
-  std::vector<const Regime*> regimes;
-  std::uint64_t seed = 1;
+// `broad`, `cases` and `seconds` are not read.
+struct SoakRequest : CheckRequest {
   std::int64_t pairs = 1'000'000;  // in all, spread evenly over the regimes
-  int workers = 2;                 // processes
-  double time_limit = 10;          // seconds a query
-  std::filesystem::path out;       // folder
-  bool resume = false;             // go on where the folder's last run ended
 };
 
 // Of one algorithm in one scalar in one regime.

@@ -13,6 +13,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/csv.h"
 
 namespace touchstone {
 namespace {

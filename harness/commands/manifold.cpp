@@ -18,9 +18,9 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
-#include "harness/grade/manifold_tally.h"
-#include "harness/grade/solve_manifold.h"
+#include "harness/grade/manifold/manifold_tally.h"
 #include "harness/process/isolate.h"
+#include "harness/process/queries/solve_manifold.h"
 
 namespace touchstone {
 namespace {
@@ -75,24 +75,15 @@ void ask(Contestant& contestant, const std::vector<Asked>& asked, double time_li
     const Case& c = asked[i].pair;
     if (offers(entry, c.shape_a.kind, c.shape_b.kind)) taken.push_back(i);
   }
-  SharedArray<Manifold> shared(taken.size());
-  const IsolationReport report =
-      isolate(taken.size(), {.item_seconds = time_limit}, [&]() -> ItemWork {
-        return [&](std::size_t item) {
-          shared[item] =
-              solve_manifold(entry, {.scalar = contestant.scalar}, asked[taken[item]].pair);
-        };
-      });
+  const auto solved = isolated_answers<Manifold>(taken.size(), {.item_seconds = time_limit}, [&] {
+    return [&](std::size_t item) {
+      return solve_manifold(entry, {.scalar = contestant.scalar}, asked[taken[item]].pair);
+    };
+  });
   for (std::size_t item = 0; item < taken.size(); ++item) {
-    Manifold& manifold = contestant.manifolds[taken[item]];
-    if (report.states[item] == ItemState::done) {
-      manifold = shared[item];
-    } else {
-      manifold.status = report.states[item] == ItemState::timed_out ? Status::timed_out  //
-                                                                    : Status::crashed;
-    }
+    contestant.manifolds[taken[item]] = solved.answers[item];
   }
-  print_failures(entry.info.name, report.failures, [&](std::size_t item) {
+  print_failures(entry.info.name, solved.failures, [&](std::size_t item) {
     return fmt::format("case '{}'", asked[taken[item]].pair.id);
   });
 }

@@ -70,8 +70,7 @@ class Contender {
     });
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       Result& result = results_[i];
-      if (report.states[i] != ItemState::done) result = {};
-      if (report.states[i] == ItemState::timed_out) result.status = Status::timed_out;
+      if (report.states[i] != ItemState::done) result = {.status = status_of(report.states[i])};
       if (result.error != 0) keeping_failed(result.error);
     }
     print_failures(name(), report.failures, [this](std::size_t item) {

@@ -16,8 +16,8 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
-#include "harness/grade/solve_case.h"
 #include "harness/process/isolate.h"
+#include "harness/process/queries/solve_case.h"
 
 namespace touchstone {
 namespace {
@@ -45,23 +45,16 @@ Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
       taken.push_back(i);
     }
   }
-  SharedArray<Outcome> shared(taken.size());
   const IsolationLimits limits = {.item_seconds = options.time_limit};
-  const IsolationReport report = isolate(taken.size(), limits, [&]() -> ItemWork {
+  const auto solved = isolated_answers<Outcome>(taken.size(), limits, [&] {
     return [&](std::size_t item) {
-      shared[item] = solve_case(entry, options.settings, cases[taken[item]], options.task);
+      return solve_case(entry, options.settings, cases[taken[item]], options.task);
     };
   });
   for (std::size_t item = 0; item < taken.size(); ++item) {
-    Outcome& outcome = answers.outcomes[taken[item]];
-    if (report.states[item] == ItemState::done) {
-      outcome = shared[item];
-    } else {
-      outcome.status = report.states[item] == ItemState::timed_out ? Status::timed_out  //
-                                                                   : Status::crashed;
-    }
+    answers.outcomes[taken[item]] = solved.answers[item];
   }
-  print_failures(entry.info.name, report.failures,
+  print_failures(entry.info.name, solved.failures,
                  [&](std::size_t item) { return fmt::format("case '{}'", cases[taken[item]].id); });
   return answers;
 }

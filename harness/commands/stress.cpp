@@ -26,17 +26,17 @@ struct Options {
 
 constexpr int quick_cases = 4;
 
-std::vector<const Axis*> chosen_axes(const std::string& names) {
-  std::vector<const Axis*> chosen;
+std::vector<const StressAxis*> chosen_axes(const std::string& names) {
+  std::vector<const StressAxis*> chosen;
   if (names.empty()) {
-    for (const Axis& axis : axes()) chosen.push_back(&axis);
+    for (const StressAxis& axis : axes()) chosen.push_back(&axis);
     return chosen;
   }
   for (const std::string& name : split_names(names)) {
-    const auto at = std::ranges::find(axes(), name, &Axis::name);
+    const auto at = std::ranges::find(axes(), name, &StressAxis::name);
     if (at == axes().end()) {
       std::vector<std::string_view> known;
-      for (const Axis& axis : axes()) known.push_back(axis.name);
+      for (const StressAxis& axis : axes()) known.push_back(axis.name);
       throw InputError(
           fmt::format("no axis is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
     }

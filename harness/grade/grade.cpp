@@ -24,18 +24,6 @@ double apart(double lower, double upper, double other_lower, double other_upper)
   return 0;
 }
 
-Verdict verdict_of(const Outcome& outcome, Answer exact) {
-  switch (outcome.status) {
-    case Status::crashed: return Verdict::crashed;
-    case Status::timed_out: return Verdict::timed_out;
-    case Status::unsupported: return Verdict::unsupported;
-    default: break;
-  }
-  if (!stands_by(outcome)) return Verdict::honest_failure;
-  if (exact == Answer::touching || exact == Answer::unknown) return Verdict::unscored;
-  return is_contact(outcome.answer) == is_contact(exact) ? Verdict::right : Verdict::silent_error;
-}
-
 double bounds_error(const Outcome& outcome, const oracle::Measure& exact) {
   if (std::isnan(outcome.lower) && std::isnan(outcome.upper)) return Grade::none;
   double error = 0;
@@ -78,10 +66,17 @@ std::string_view to_string(Verdict verdict) {
   return verdict_names[static_cast<std::size_t>(verdict)];
 }
 
-std::optional<Verdict> verdict_from(std::string_view name) {
-  const auto at = std::ranges::find(verdict_names, name);
-  if (at == verdict_names.end()) return {};
-  return static_cast<Verdict>(at - verdict_names.begin());
+Verdict judge(const Outcome& outcome, Answer exact, Touching touching) {
+  switch (outcome.status) {
+    case Status::crashed: return Verdict::crashed;
+    case Status::timed_out: return Verdict::timed_out;
+    case Status::unsupported: return Verdict::unsupported;
+    default: break;
+  }
+  if (!stands_by(outcome)) return Verdict::honest_failure;
+  if (exact == Answer::unknown) return Verdict::unscored;
+  if (exact == Answer::touching && touching == Touching::unscored) return Verdict::unscored;
+  return is_contact(outcome.answer) == is_contact(exact) ? Verdict::right : Verdict::silent_error;
 }
 
 bool asks_for_distance(Task task, Answer answer) {
@@ -103,7 +98,7 @@ bool stands_by(const Outcome& outcome) {
 Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, const oracle::Body& a,
             const oracle::Body& b) {
   Grade grade;
-  grade.verdict = verdict_of(outcome, exact.answer);
+  grade.verdict = judge(outcome, exact.answer);
   switch (grade.verdict) {
     case Verdict::crashed:
     case Verdict::timed_out:

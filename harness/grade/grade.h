@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "algorithms/core/outcome.h"
@@ -10,6 +9,7 @@
 
 namespace touchstone {
 
+// What an answer is worth by its side of contact.
 enum class Verdict : std::uint8_t {
   right,
   silent_error,    // the wrong side of contact, with status ok or not_reported
@@ -20,7 +20,19 @@ enum class Verdict : std::uint8_t {
   unscored,  // the bodies touch exactly, or the oracle's enclosure does not tell
 };
 std::string_view to_string(Verdict verdict);
-std::optional<Verdict> verdict_from(std::string_view name);
+
+inline bool is_contact(Answer answer) {
+  return answer == Answer::touching || answer == Answer::overlapping;
+}
+// Whether the algorithm gave an answer, and either stands by it or cannot say.
+bool stands_by(const Outcome& outcome);
+
+// What bodies that touch exactly are taken for: an answer about them is not scored, or they are in
+// contact.
+enum class Touching : std::uint8_t { unscored, contact };
+// Every judgement of a side of contact in the project is this one. The band in which a wrong side
+// is forgiven is the caller's: see margins.h.
+Verdict judge(const Outcome& outcome, Answer exact, Touching touching = Touching::unscored);
 
 // All numbers are metres; NaN where the task does not ask for the number, the algorithm does not
 // report it, or the bodies are not in the state that it is about. An error against an enclosure is
@@ -63,14 +75,8 @@ WitnessGrade grade_witnesses(const Outcome& outcome, Task task, const oracle::Bo
 
 // Whether the task asks for a distance where the bodies are as answered.
 bool asks_for_distance(Task task, Answer answer);
-// Whether the algorithm gave an answer, and either stands by it or cannot say.
-bool stands_by(const Outcome& outcome);
 
 // Of the end of an enclosure that is nearer to zero; 0 where it holds zero.
 double least_magnitude(double lower, double upper);
-
-inline bool is_contact(Answer answer) {
-  return answer == Answer::touching || answer == Answer::overlapping;
-}
 
 }  // namespace touchstone

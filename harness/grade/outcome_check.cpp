@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algorithms/core/bounds.h"
+#include "harness/grade/grade.h"
+#include "harness/grade/margins.h"
 
 namespace touchstone {
 namespace {
-
-bool in_contact(Answer answer) {
-  return answer == Answer::touching || answer == Answer::overlapping;
-}
 
 // The greatest extent and coordinate of a body, from its box; a half-space has none of its own.
 void grow(ReferenceOutcome& reference, const Shape& shape, const Pose& pose) {
@@ -47,13 +44,6 @@ void OutcomeFaults::add(const OutcomeFaults& other) {
   worst_value_error = std::max(worst_value_error, other.worst_value_error);
 }
 
-double grazing_band(const ReferenceOutcome& reference, Precision scalar) {
-  const bool single = scalar == Precision::float32;
-  const double epsilon =
-      single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
-  return (single ? 1e-4 : 1e-6) * reference.size + 8 * epsilon * reference.reach;
-}
-
 OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
                              std::span<const ReferenceOutcome> reference, Task task,
                              Precision scalar) {
@@ -61,36 +51,33 @@ OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& outcome = outcomes[i];
     const ReferenceOutcome& expected = reference[i];
-    if (in_contact(outcome.answer)) ++faults.contacts;
-    switch (outcome.status) {
-      case Status::crashed: ++faults.crashed; continue;
-      case Status::timed_out: ++faults.timed_out; continue;
-      case Status::not_converged:
-      case Status::degenerate:
-      case Status::capacity: ++faults.failed; continue;
-      case Status::unsupported: ++faults.unanswered; continue;
-      case Status::ok:
-      case Status::not_reported: break;
-    }
-    if (outcome.answer == Answer::unknown) {
-      ++faults.unanswered;
-      continue;
-    }
-    if (expected.answer == Answer::unknown) continue;
-    ++faults.compared;
-    if (in_contact(outcome.answer) != in_contact(expected.answer)) {
-      const double by = std::abs(expected.distance);
-      // Written so that an unknown distance counts as a disagreement.
-      if (by <= grazing_band(expected, scalar)) {
-        ++faults.grazing;
-      } else {
-        ++faults.disagree;
-        if (!faults.worst_pair || by > faults.worst) {
-          faults.worst = std::isnan(by) ? faults.worst : by;
-          faults.worst_pair = i;
-        }
+    if (is_contact(outcome.answer)) ++faults.contacts;
+    switch (judge(outcome, expected.answer, Touching::contact)) {
+      case Verdict::crashed: ++faults.crashed; continue;
+      case Verdict::timed_out: ++faults.timed_out; continue;
+      case Verdict::unsupported: ++faults.unanswered; continue;
+      case Verdict::honest_failure: {
+        const bool says_so = outcome.status != Status::ok && outcome.status != Status::not_reported;
+        ++(says_so ? faults.failed : faults.unanswered);
+        continue;
       }
-      continue;
+      case Verdict::unscored: continue;
+      case Verdict::silent_error: {
+        ++faults.compared;
+        const double by = std::abs(expected.distance);
+        // Written so that an unknown distance counts as a disagreement.
+        if (by <= grazing_band(expected.size, expected.reach, scalar)) {
+          ++faults.grazing;
+        } else {
+          ++faults.disagree;
+          if (!faults.worst_pair || by > faults.worst) {
+            faults.worst = std::isnan(by) ? faults.worst : by;
+            faults.worst_pair = i;
+          }
+        }
+        continue;
+      }
+      case Verdict::right: ++faults.compared; break;
     }
     if (task != Task::intersect && std::isfinite(outcome.distance) &&
         std::isfinite(expected.distance) && expected.size > 0) {

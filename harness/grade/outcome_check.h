@@ -42,10 +42,6 @@ struct OutcomeFaults {
   void add(const OutcomeFaults& other);  // sums and maxima; the pair is the worse one's
 };
 
-// The band about contact in which scalars of this precision cannot be held to a side: its width in
-// metres for this pair, from the rounding of sizes and of coordinates.
-double grazing_band(const ReferenceOutcome& reference, Precision scalar);
-
 OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
                              std::span<const ReferenceOutcome> reference, Task task,
                              Precision scalar);

@@ -6,18 +6,13 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <csignal>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <exception>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -32,13 +27,6 @@ namespace {
 
 constexpr int tick_milliseconds = 20;
 constexpr double seconds_to_leave = 2;  // of a worker that hung up
-
-// What a worker says: once when it is made, then once a sample.
-struct Message {
-  bool threw = false;
-  std::array<char, LastWords::kept> thrown{};
-  SampleReply reply;
-};
 
 // Where its heap, its mappings and its stack begin is a little different in each process, as it is
 // from one start of a program to the next: forked workers would all have their parent's layout.
@@ -143,9 +131,9 @@ class Usage {
 void serve(int line, const Worker::Make& make, Usage& usage) {
   usage.be_empty();
   const std::unique_ptr<Sampler> sampler = make();
-  Message message;
+  SampleReply reply;  // the first says that the sampler is made
   for (;;) {
-    if (send(line, &message, sizeof message, MSG_NOSIGNAL) < 0) return;
+    if (send(line, &reply, sizeof reply, MSG_NOSIGNAL) < 0) return;
     SampleRequest request;
     ssize_t got = 0;
     do {
@@ -153,36 +141,18 @@ void serve(int line, const Worker::Make& make, Usage& usage) {
     } while (got < 0 && errno == EINTR);
     if (got != sizeof request) return;
     usage.start();
-    message.reply = sampler->sample(request);
-    usage.finish(message.reply);
+    reply = sampler->sample(request);
+    usage.finish(reply);
     come_to_rest();
   }
 }
 
-// Never returns: what the parent has open, buffered and registered for its exit is none of its.
-[[noreturn]] void be_worker(pid_t parent, int line, int output, const Worker::Make& make,
-                            const WorkerSettings& settings) {
-  Usage usage;
-  begin_child(parent, output);
+// What the worker's process does, in a layout of its own.
+void be_worker(int line, const Worker::Make& make, const WorkerSettings& settings, Usage& usage) {
   Random random(settings.layout);
   const Layout layout(random);
-  allow_memory(settings.memory);
-  Message message;
-  message.threw = true;
-  const auto keep = [&](std::string_view what) {
-    std::copy_n(what.data(), std::min(what.size(), message.thrown.size() - 1),
-                message.thrown.data());
-  };
-  try {
-    deeper(16 * random.below(1024), [&] { serve(line, make, usage); });
-    _exit(EXIT_SUCCESS);
-  } catch (const std::exception& error) {
-    keep(error.what());
-  } catch (...) {
-    keep("something that is no std::exception");
-  }
-  send(line, &message, sizeof message, MSG_NOSIGNAL);
-  _exit(EXIT_FAILURE);
+  deeper(16 * random.below(1024), [&] { serve(line, make, usage); });
+  _exit(EXIT_SUCCESS);
 }
 
 }  // namespace
@@ -193,29 +163,17 @@ Worker::Worker(const Make& make, const WorkerSettings& settings) {
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     throw std::system_error(errno, std::generic_category(), "socketpair");
   }
-  const WordsPipe pipe = make_words_pipe();
-  words_ = std::make_unique<LastWords>(pipe.listening);
-  std::fflush(nullptr);  // or the worker would have a copy of what is not written yet
-  const pid_t parent = getpid();
-  pid_ = fork();
-  const int error = errno;
-  if (pid_ == 0) {
-    ::close(ends[0]);
-    be_worker(parent, ends[1], pipe.speaking, make, settings);
-  }
-  ::close(ends[1]);
-  ::close(pipe.speaking);
   line_ = ends[0];
-  if (pid_ < 0) {
-    ::close(line_);
-    throw std::system_error(error, std::generic_category(), "fork");
-  }
+  std::optional<Usage> usage;  // the child's
+  child_ = std::make_unique<ChildProcess>(
+      ChildProcess::Settings{.memory = settings.memory, .before = [&] { usage.emplace(); }}, [&] {
+        ::close(ends[0]);
+        be_worker(ends[1], make, settings, *usage);
+      });
+  ::close(ends[1]);
 }
 
-Worker::~Worker() {
-  if (alive()) kill_and_wait(pid_);
-  if (line_ >= 0) ::close(line_);
-}
+Worker::~Worker() { ::close(line_); }
 
 std::optional<IsolationFailure> Worker::wait_until_made(double seconds) {
   if (wait(seconds)) return {};
@@ -235,23 +193,16 @@ std::optional<SampleReply> Worker::ask(const SampleRequest& request, double seco
 std::optional<SampleReply> Worker::wait(double seconds) {
   const Stopwatch watch;
   while (watch.seconds() <= seconds) {
-    std::array<pollfd, 2> sources = {
-        {{.fd = line_, .events = POLLIN, .revents = 0},
-         {.fd = words_->descriptor(), .events = POLLIN, .revents = 0}}};
+    std::array<pollfd, 2> sources = {{{.fd = line_, .events = POLLIN, .revents = 0},
+                                      {.fd = child_->words(), .events = POLLIN, .revents = 0}}};
     if (poll(sources.data(), sources.size(), tick_milliseconds) <= 0) continue;
-    if (sources[1].revents != 0) words_->listen(0);
+    if (sources[1].revents != 0) child_->listen(0);
     if (sources[0].revents == 0) continue;
-    Message message;
-    const ssize_t got = recv(line_, &message, sizeof message, 0);
+    SampleReply reply;
+    const ssize_t got = recv(line_, &reply, sizeof reply, 0);
     if (got < 0 && errno == EINTR) continue;
-    if (got == sizeof message && !message.threw) return message.reply;
-    if (got == sizeof message) {
-      end(false);
-      failure_.state = ItemState::threw;
-      failure_.words = message.thrown.data();
-    } else {
-      end(false);
-    }
+    if (got == sizeof reply) return reply;
+    end(false);
     return {};
   }
   end(true);
@@ -260,24 +211,12 @@ std::optional<SampleReply> Worker::wait(double seconds) {
 
 // A worker that hung up has ended or is about to, unless it closed its line by mistake.
 void Worker::end(bool late) {
-  int status = 0;
   if (late) {
-    status = kill_and_wait(pid_);
+    child_->stop();
   } else {
-    const Stopwatch watch;
-    while (waitpid(pid_, &status, WNOHANG) == 0) {
-      words_->listen(1);
-      if (watch.seconds() > seconds_to_leave) {
-        status = kill_and_wait(pid_);
-        break;
-      }
-    }
+    child_->wait(seconds_to_leave);
   }
-  pid_ = -1;
-  failure_.words = words_->take();
-  failure_.state = late ? ItemState::timed_out : ItemState::crashed;
-  if (!late && WIFSIGNALED(status)) failure_.signal = WTERMSIG(status);
-  if (!late && WIFEXITED(status)) failure_.exit_code = WEXITSTATUS(status);
+  failure_ = child_->failure();
 }
 
 }  // namespace touchstone

@@ -2,8 +2,6 @@
 // itself.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,7 +11,6 @@
 
 #include "harness/measure/sampler.h"
 #include "harness/process/child_process.h"
-#include "harness/process/isolate.h"
 
 namespace touchstone {
 
@@ -40,15 +37,14 @@ class Worker {
   // failure() says how.
   std::optional<SampleReply> ask(const SampleRequest& request, double seconds);
   const IsolationFailure& failure() const { return failure_; }
-  bool alive() const { return pid_ > 0; }
+  bool alive() const { return child_->alive(); }
 
  private:
   std::optional<SampleReply> wait(double seconds);
   void end(bool late);
 
-  pid_t pid_ = -1;
   int line_ = -1;  // requests and replies, one a packet
-  std::unique_ptr<LastWords> words_;
+  std::unique_ptr<ChildProcess> child_;
   IsolationFailure failure_;
 };
 

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -18,24 +17,16 @@
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "harness/base/clock.h"
+
 namespace touchstone {
+namespace {
 
-void expect_one_thread() {
-#if !defined(__SANITIZE_THREAD__)
-  std::error_code error;
-  const std::filesystem::directory_iterator threads("/proc/self/task", error);
-  if (error) return;
-  const auto count = std::distance(begin(threads), end(threads));
-  if (count > 1) {
-    throw std::logic_error(fmt::format(
-        "a process of {} threads is about to fork workers; expected one thread", count));
-  }
-#endif
-}
-
+// Lets this process add so many bytes to what it has; beyond, its allocations fail.
 void allow_memory(std::size_t bytes) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   static_cast<void>(bytes);
@@ -54,7 +45,7 @@ void allow_memory(std::size_t bytes) {
 #endif
 }
 
-void begin_child(pid_t parent, int output) {
+void become_child(pid_t parent, int output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could be asked for
   prctl(PR_SET_DUMPABLE, 0);                     // no core dump, not even into a pipe
@@ -66,46 +57,128 @@ void begin_child(pid_t parent, int output) {
   dup2(output, STDERR_FILENO);
 }
 
-LastWords::~LastWords() { close(descriptor_); }
+}  // namespace
 
-void LastWords::listen(int milliseconds) {
-  if (at_end_) {
+void expect_one_thread() {
+#if !defined(__SANITIZE_THREAD__)
+  std::error_code error;
+  const std::filesystem::directory_iterator threads("/proc/self/task", error);
+  if (error) return;
+  const auto count = std::distance(begin(threads), end(threads));
+  if (count > 1) {
+    throw std::logic_error(fmt::format(
+        "a process of {} threads is about to fork workers; expected one thread", count));
+  }
+#endif
+}
+
+ChildProcess::ChildProcess(const Settings& settings, const std::function<void()>& work) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  std::fflush(nullptr);  // or the child would have a copy of what is not written yet
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  const int error = errno;
+  if (child == 0) run(parent, ends[1], settings, work);
+  close(ends[1]);
+  if (child < 0) {
+    close(ends[0]);
+    throw std::system_error(error, std::generic_category(), "fork");
+  }
+  pid_ = child;
+  words_ = ends[0];
+}
+
+// Never returns: what the parent has open, buffered and registered for its exit is not the child's.
+void ChildProcess::run(pid_t parent, int output, const Settings& settings,
+                       const std::function<void()>& work) {
+  const auto keep = [&](std::string_view what) {
+    Thrown& thrown = thrown_[0];
+    const std::size_t size = std::min(what.size(), thrown.text.size() - 1);
+    std::copy_n(what.data(), size, thrown.text.data());
+    thrown.is_set = true;
+  };
+  try {
+    settings.before();
+    become_child(parent, output);
+    allow_memory(settings.memory);
+    work();
+    _exit(EXIT_SUCCESS);
+  } catch (const std::exception& error) {
+    keep(error.what());
+  } catch (...) {
+    keep("something that is no std::exception");
+  }
+  _exit(EXIT_FAILURE);
+}
+
+ChildProcess::~ChildProcess() {
+  if (alive()) stop();
+  close(words_);
+}
+
+void ChildProcess::listen(int milliseconds) {
+  heard_ = false;
+  if (words_at_end_) {
     std::this_thread::sleep_for(std::chrono::milliseconds(std::min(milliseconds, 1)));
     return;
   }
-  pollfd waiting{.fd = descriptor_, .events = POLLIN, .revents = 0};
+  pollfd waiting{.fd = words_, .events = POLLIN, .revents = 0};
   if (poll(&waiting, 1, milliseconds) <= 0) return;
   std::array<char, 4096> bytes;
-  const ssize_t got = read(descriptor_, bytes.data(), bytes.size());
+  const ssize_t got = read(words_, bytes.data(), bytes.size());
   if (got > 0) {
     text_.append(bytes.data(), static_cast<std::size_t>(got));
-    if (text_.size() > kept) text_.erase(0, text_.size() - kept);
+    if (text_.size() > kept_words) text_.erase(0, text_.size() - kept_words);
   }
-  at_end_ = got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN);
+  words_at_end_ = got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN);
   heard_ = got > 0;
 }
 
-std::string LastWords::take() {
+bool ChildProcess::has_ended() {
+  if (!alive()) return true;
+  if (waitpid(pid_, &status_, WNOHANG) == 0) return false;
+  pid_ = -1;
+  return true;
+}
+
+void ChildProcess::wait(double seconds) {
+  const Stopwatch watch;
+  while (!has_ended()) {
+    listen(1);
+    if (watch.seconds() > seconds) {
+      stop();
+      stopped_ = false;  // it had hung up, and was not at work
+    }
+  }
+}
+
+void ChildProcess::stop() {
+  kill(pid_, SIGKILL);
+  while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  stopped_ = true;
+}
+
+IsolationFailure ChildProcess::failure() {
   do {
-    heard_ = false;
     listen(0);
   } while (heard_);
   while (!text_.empty() && (text_.back() == '\n' || text_.back() == ' ')) text_.pop_back();
-  return text_;
-}
-
-WordsPipe make_words_pipe() {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  return {ends[0], ends[1]};
-}
-
-int kill_and_wait(pid_t pid) {
-  int status = 0;
-  kill(pid, SIGKILL);
-  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  IsolationFailure failure;
+  failure.words = text_;
+  if (stopped_) {
+    failure.state = ItemState::timed_out;
+  } else if (thrown_[0].is_set) {
+    failure.state = ItemState::threw;
+    failure.words = thrown_[0].text.data();
+  } else if (WIFSIGNALED(status_)) {
+    failure.signal = WTERMSIG(status_);
+  } else if (WIFEXITED(status_)) {
+    failure.exit_code = WEXITSTATUS(status_);
   }
-  return status;
+  return failure;
 }
 
 }  // namespace touchstone

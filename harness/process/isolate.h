@@ -1,49 +1,23 @@
 // Work done in a forked child, so that a crash or a hang of a library costs only the item at hand.
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <memory>
-#include <new>
-#include <span>
-#include <string>
-#include <type_traits>
 #include <vector>
 
-namespace touchstone {
+#include "harness/process/ending.h"
+#include "harness/process/shared_array.h"
 
-enum class ItemState : std::uint8_t {
-  not_run,    // never begun: the failures before it were too many
-  running,    // begun, and not ended yet
-  done,       // its work returned
-  threw,      // its work, or the setup before it, threw
-  crashed,    // it ended the child: a signal, an assertion, exit()
-  timed_out,  // it was stopped
-};
+namespace touchstone {
 
 struct IsolationLimits {
   static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
   double item_seconds = 5;  // wall clock; an item is stopped at most a twentieth of a second later
   double setup_seconds = 60;        // the same for the setup of a child
   std::size_t failures = no_limit;  // no further item is begun after these
-  std::size_t memory = std::size_t{4}
-                       << 30;  // bytes that a child may add to what is there; beyond,
-                               // its allocations fail. Not kept under a sanitizer.
-};
-
-struct IsolationFailure {
-  std::size_t item = 0;
-  bool in_setup = false;  // `item` is then the one that the setup was for; it ends the whole work
-  ItemState state = ItemState::crashed;
-  int signal = 0;     // that ended the child, or 0
-  int exit_code = 0;  // of a child that left by exit()
-  std::string words;  // what was thrown, or the last that the child printed; may be empty
-
-  // "killed by signal 11 (Segmentation fault)", "no answer in time", ...
-  std::string reason() const;
+  // Bytes that a child may add to what is there; beyond, its allocations fail. The limit is not
+  // kept under a sanitizer.
+  std::size_t memory = std::size_t{4} << 30;
 };
 
 struct IsolationReport {
@@ -65,36 +39,34 @@ using ItemWork = std::function<void(std::size_t item)>;
 IsolationReport isolate(std::size_t items, const IsolationLimits& limits,
                         const std::function<ItemWork()>& setup);
 
-// Memory for `size` elements, value-initialised, that a child and its parent both see. Elements
-// hold no pointers to memory of their own.
-template <class T>
-class SharedArray {
- public:
-  static_assert(std::is_trivially_destructible_v<T>);
-
-  explicit SharedArray(std::size_t size) : size_(size) {
-    if (size == 0) return;
-    void* const memory = mmap(nullptr, size * sizeof(T), PROT_READ | PROT_WRITE,
-                              MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    data_ = static_cast<T*>(memory);
-    std::uninitialized_value_construct_n(data_, size);
-  }
-  ~SharedArray() {
-    if (data_ != nullptr) munmap(data_, size_ * sizeof(T));
-  }
-  SharedArray(const SharedArray&) = delete;
-  SharedArray& operator=(const SharedArray&) = delete;
-
-  std::size_t size() const { return size_; }
-  T& operator[](std::size_t i) { return data_[i]; }
-  const T& operator[](std::size_t i) const { return data_[i]; }
-  std::span<T> span() { return {data_, size_}; }
-  std::span<const T> span() const { return {data_, size_}; }
-
- private:
-  T* data_ = nullptr;
-  std::size_t size_ = 0;
+// Answers of items that a child answered; an answer has a `status`.
+template <class Answer>
+struct IsolatedAnswers {
+  std::vector<Answer> answers;             // of each item
+  std::vector<IsolationFailure> failures;  // in the order of the items
 };
+
+// Runs the items as isolate() does; `setup` returns a function from an item to its answer, which is
+// plain bytes. The answer of an item that was lost is a default one whose status is crashed or
+// timed_out; items that were not begun share the status of the last that was lost.
+template <class Answer, class Setup>
+IsolatedAnswers<Answer> isolated_answers(std::size_t items, const IsolationLimits& limits,
+                                         const Setup& setup) {
+  SharedArray<Answer> shared(items);
+  IsolationReport report = isolate(items, limits, [&]() -> ItemWork {
+    return [&shared, answer = setup()](std::size_t item) { shared[item] = answer(item); };
+  });
+  IsolatedAnswers<Answer> result = {{shared.span().begin(), shared.span().end()},
+                                    std::move(report.failures)};
+  Status lost = Status::crashed;
+  for (std::size_t item = 0; item < items; ++item) {
+    const ItemState state = report.states[item];
+    if (state == ItemState::done) continue;
+    if (state != ItemState::not_run) lost = status_of(state);
+    result.answers[item] = Answer{};
+    result.answers[item].status = lost;
+  }
+  return result;
+}
 
 }  // namespace touchstone

@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
+
+#include "harness/process/bytes.h"
 
 namespace touchstone {
 
@@ -15,5 +18,19 @@ namespace touchstone {
 using JobWork = std::function<std::string(std::size_t job)>;
 void run_jobs(std::size_t first, std::size_t end, int workers, const std::function<JobWork()>& make,
               const std::function<bool(std::size_t job, std::string result)>& take);
+
+// The same for results that are any values of bytes.h: `make` returns a function from a job to its
+// result.
+template <class Result, class Make, class Take>
+void run_jobs(std::size_t first, std::size_t end, int workers, const Make& make, const Take& take) {
+  run_jobs(
+      first, end, workers,
+      [&]() -> JobWork {
+        return [work = make()](std::size_t job) { return to_bytes<Result>(work(job)); };
+      },
+      [&](std::size_t job, const std::string& bytes) {
+        return take(job, from_bytes<Result>(bytes));
+      });
+}
 
 }  // namespace touchstone

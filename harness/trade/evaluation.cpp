@@ -57,14 +57,11 @@ std::vector<Evaluation> evaluate(const SceneFrames& frames, std::span<const Trad
   std::vector<Evaluation> evaluations(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     Evaluation& evaluation = evaluations[i];
+    evaluation.status = to_string(report.states[i]);
     if (report.states[i] == ItemState::done) {
       evaluation.errors = found[i].errors;
       evaluation.counters = found[i].counters;
       evaluation.rough = found[i].rough;
-    } else {
-      evaluation.status = report.states[i] == ItemState::timed_out ? "timed_out"
-                          : report.states[i] == ItemState::threw   ? "threw"
-                                                                   : "crashed";
     }
   }
   for (const IsolationFailure& failure : report.failures) {

@@ -42,7 +42,7 @@ SampleReply PointSampler::sample(const SampleRequest& request) {
     reply.pairs += static_cast<std::int64_t>(pipeline_.pairs().size());
     reply.pair_hash += pair_hash(pipeline_.pairs());
     reply.contacts += std::ranges::count_if(
-        pipeline_.answers(), [](const PairAnswer& answer) { return in_contact(answer.answer); });
+        pipeline_.answers(), [](const PairAnswer& answer) { return is_contact(answer.answer); });
   }
   return reply;
 }

@@ -121,9 +121,7 @@ class Timing {
 
   void lose(std::size_t point, const IsolationFailure& failure) {
     TimedPoint& timed = times_.points[point];
-    timed.status = failure.state == ItemState::timed_out ? "timed_out"
-                   : failure.state == ItemState::threw   ? "threw"
-                                                         : "crashed";
+    timed.status = to_string(failure.state);
     timed.words = failure.reason();
   }
 

@@ -11,8 +11,8 @@
 
 #include "harness/base/error.h"
 #include "harness/files/cases.h"
-#include "harness/grade/guarded_solve.h"
 #include "harness/measure/outcome_hash.h"
+#include "harness/process/queries/guarded_solve.h"
 
 namespace touchstone {
 namespace {
@@ -138,9 +138,7 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
       // A child whose setup failed reports one failure for all remaining pieces.
       while (failure + 1 < report.failures.end() && failure->item < item) ++failure;
       out_.insert(key);
-      lose(piece, choice, reference,
-           report.states[item] == ItemState::timed_out ? Status::timed_out : Status::crashed,
-           failure->words);
+      lose(piece, choice, reference, status_of(report.states[item]), failure->words);
       continue;
     }
     const ChildAnswer& answer = answers[item];
@@ -215,9 +213,8 @@ void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
                                    group(piece).size()),
                 outcomes, settings.time_limit, settings.memory_limit);
   OutcomeFaults faults = check_outcomes(outcomes, reference, set.task, choice.settings.scalar);
-  const auto at = std::ranges::find_if(outcomes, [](const Outcome& outcome) {
-    return outcome.status == Status::crashed || outcome.status == Status::timed_out;
-  });
+  const auto at = std::ranges::find_if(
+      outcomes, [](const Outcome& outcome) { return is_lost(outcome.status); });
   if (at != outcomes.end()) {
     faults.worst_pair = static_cast<std::size_t>(at - outcomes.begin());
   } else {

@@ -59,7 +59,7 @@ bool has_depth(double value, const oracle::Measure& exact, double size) {
   return exact.upper < -0.3 * value * size && exact.lower > -1.1 * value * size;
 }
 
-std::vector<Axis> all_axes() {
+std::vector<StressAxis> all_axes() {
   return {
       {"scale-down", "metres", "both bodies so large", down_to(12), true, draw_at_scale},
       {"scale-up", "metres", "both bodies so large", up_to(12), true, draw_at_scale},
@@ -84,19 +84,19 @@ std::vector<Axis> all_axes() {
 
 }  // namespace
 
-std::uint64_t Axis::most_cases(double value) const {
+std::uint64_t StressAxis::most_cases(double value) const {
   if (name != "vertices" || value < 1e4) return ~std::uint64_t{0};
   return value < 1e5 ? 12 : 6;
 }
 
-std::span<const Axis> axes() {
-  static const std::vector<Axis> list = all_axes();
+std::span<const StressAxis> axes() {
+  static const std::vector<StressAxis> list = all_axes();
   return list;
 }
 
-std::vector<StressCell> cells_of(std::span<const Axis* const> axes) {
+std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes) {
   std::vector<StressCell> cells;
-  for (const Axis* axis : axes) {
+  for (const StressAxis* axis : axes) {
     for (std::size_t place = 0; place < axis->values.size(); ++place) {
       const AxisValue& value = axis->values[place];
       cells.push_back({axis,

@@ -22,7 +22,7 @@ struct AxisValue {
   double value = 0;
 };
 
-struct Axis {
+struct StressAxis {
   std::string name;               // "scale-down": lower case, words joined by '-'
   std::string unit;               // of the values, in words
   std::string what;               // one line for people
@@ -38,16 +38,16 @@ struct Axis {
 
 // A place on an axis, and the regime that its cases are drawn from.
 struct StressCell {
-  const Axis* axis = nullptr;
+  const StressAxis* axis = nullptr;
   std::size_t place = 0;  // in the axis' values
   Regime regime;          // its parameter is the value
 
   const AxisValue& value() const { return axis->values[place]; }
 };
 
-std::span<const Axis> axes();
+std::span<const StressAxis> axes();
 // Those of these axes, in order. The axes stay alive.
-std::vector<StressCell> cells_of(std::span<const Axis* const> axes);
+std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes);
 
 // A case's index in its regime: of several tries to draw a slot the first that is accepted counts.
 inline constexpr std::uint64_t tries = 8;

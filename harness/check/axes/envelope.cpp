@@ -6,22 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/grade/answer_count.h"
+
 namespace touchstone {
 namespace {
 
-void keep_greater(double& worst, double value) {
-  if (!(worst >= value)) worst = value >= 0 ? value : worst;
-}
-
-std::vector<const Axis*> axes_of(const StressRequest& request) {
-  std::vector<const Axis*> list;
-  for (const StressCell& cell : request.cells) {
-    if (list.empty() || list.back() != cell.axis) list.push_back(cell.axis);
-  }
-  return list;
-}
-
-std::string name_at(const Axis& axis, const std::optional<std::size_t>& place) {
+std::string name_at(const StressAxis& axis, const std::optional<std::size_t>& place) {
   return place ? axis.values[*place].name : "";
 }
 
@@ -29,12 +19,12 @@ std::string name_at(const Axis& axis, const std::optional<std::size_t>& place) {
 // named.
 std::string first_wrong(const Reach& reach, bool side_only) {
   using Place = std::optional<std::size_t>;
-  const auto first = [&](StressOutcome outcome) { return reach.first_of(outcome); };
+  const auto first = [&](AnswerClass outcome) { return reach.first_of(outcome); };
   const std::array<std::pair<Place, const char*>, 4> all = {
-      {{side_only ? reach.first_side : first(StressOutcome::silent), ""},
-       {side_only ? Place() : first(StressOutcome::rounded), " (input)"},
-       {first(StressOutcome::crashed), " crashes"},
-       {first(StressOutcome::hung), " hangs"}}};
+      {{side_only ? reach.first_side : first(AnswerClass::silent), ""},
+       {side_only ? Place() : first(AnswerClass::rounded), " (input)"},
+       {first(AnswerClass::crashed), " crashes"},
+       {first(AnswerClass::hung), " hangs"}}};
   const std::pair<Place, const char*>* found = nullptr;
   for (const auto& one : all) {
     if (one.first && (found == nullptr || *one.first < *found->first)) found = &one;
@@ -43,18 +33,26 @@ std::string first_wrong(const Reach& reach, bool side_only) {
 }
 
 std::string first_honest(const Reach& reach) {
-  const std::optional<std::size_t> place = reach.first_of(StressOutcome::honest);
+  const std::optional<std::size_t> place = reach.first_of(AnswerClass::honest);
   return place ? name_at(*reach.axis, place) : "-";
 }
 
 }  // namespace
 
+std::vector<const StressAxis*> axes_of(const StressRequest& request) {
+  std::vector<const StressAxis*> list;
+  for (const StressCell& cell : request.cells) {
+    if (list.empty() || list.back() != cell.axis) list.push_back(cell.axis);
+  }
+  return list;
+}
+
 std::vector<Reach> envelope(const StressRequest& request, std::span<const StressRow> rows) {
   std::vector<Reach> reaches;
-  const std::vector<const Axis*> axes = axes_of(request);
+  const std::vector<const StressAxis*> axes = axes_of(request);
   for (std::uint32_t entry = 0; entry < request.narrow.size(); ++entry) {
     for (const Precision scalar : request.scalars) {
-      for (const Axis* axis : axes) {
+      for (const StressAxis* axis : axes) {
         Reach reach;
         reach.entry = entry;
         reach.scalar = scalar;
@@ -69,10 +67,10 @@ std::vector<Reach> envelope(const StressRequest& request, std::span<const Stress
           if (!std::isnan(row.margin) && (!reach.first_side || cell.place < *reach.first_side)) {
             reach.first_side = cell.place;
           }
-          for (const StressOutcome outcome : all_stress_outcomes) {
+          for (const AnswerClass outcome : all_answer_classes) {
             const auto i = static_cast<std::size_t>(outcome);
             reach.counts[i] += row.counts[i];
-            if (row.counts[i] == 0 || outcome == StressOutcome::right) continue;
+            if (row.counts[i] == 0 || outcome == AnswerClass::right) continue;
             if (!reach.first[i] || cell.place < *reach.first[i]) reach.first[i] = cell.place;
           }
         }
@@ -90,8 +88,8 @@ std::vector<std::string> broken_promises(const StressRequest& request,
     const AlgorithmInfo& info = request.narrow[row.entry]->info;
     if (info.origin != Origin::ours || row.scalar != Precision::float64) continue;
     const StressCell& cell = request.cells[row.cell];
-    for (const StressOutcome outcome :
-         {StressOutcome::silent, StressOutcome::crashed, StressOutcome::hung}) {
+    for (const AnswerClass outcome :
+         {AnswerClass::silent, AnswerClass::crashed, AnswerClass::hung}) {
       if (row.count(outcome) == 0) continue;
       lines.push_back(fmt::format("{} double {}: {} of {} {} at {} {}", info.name,
                                   to_string(row.task), row.count(outcome), row.answers(),
@@ -105,24 +103,24 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
                     const std::filesystem::path& file) {
   std::vector<std::string> header = {"algorithm", "origin", "scalar", "axis",
                                      "unit",      "from",   "to",     "answers"};
-  for (const StressOutcome outcome : all_stress_outcomes) header.emplace_back(to_string(outcome));
+  for (const AnswerClass outcome : all_answer_classes) header.emplace_back(to_string(outcome));
   header.emplace_back("skipped");
-  for (const StressOutcome outcome : all_stress_outcomes) {
-    if (outcome == StressOutcome::right) continue;
+  for (const AnswerClass outcome : all_answer_classes) {
+    if (outcome == AnswerClass::right) continue;
     header.push_back("first_" + std::string(to_string(outcome)));
   }
   header.insert(header.end(), {"first_wrong_side", "worst_margin", "worst_error"});
   CsvWriter csv(file, header);
   for (const Reach& reach : reaches) {
     const AlgorithmInfo& info = request.narrow[reach.entry]->info;
-    const Axis& axis = *reach.axis;
+    const StressAxis& axis = *reach.axis;
     csv.field(info.name).field(to_string(info.origin)).field(to_string(reach.scalar));
     csv.field(axis.name).field(axis.unit);
     csv.field(axis.values.front().name).field(axis.values.back().name).field(reach.answers);
     for (const std::int64_t count : reach.counts) csv.field(count);
     csv.field(reach.skipped);
-    for (const StressOutcome outcome : all_stress_outcomes) {
-      if (outcome != StressOutcome::right) csv.field(name_at(axis, reach.first_of(outcome)));
+    for (const AnswerClass outcome : all_answer_classes) {
+      if (outcome != AnswerClass::right) csv.field(name_at(axis, reach.first_of(outcome)));
     }
     csv.field(name_at(axis, reach.first_side)).field(reach.margin).field(reach.error).end_row();
   }
@@ -131,9 +129,9 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
 
 std::vector<std::vector<std::string>> table(const StressRequest& request,
                                             std::span<const Reach> reaches, EnvelopeTable which) {
-  const std::vector<const Axis*> axes = axes_of(request);
+  const std::vector<const StressAxis*> axes = axes_of(request);
   std::vector<std::vector<std::string>> rows = {{"algorithm"}};
-  for (const Axis* axis : axes) rows.front().push_back(axis->name);
+  for (const StressAxis* axis : axes) rows.front().push_back(axis->name);
   const Reach* last = nullptr;
   for (const Reach& reach : reaches) {
     if (last == nullptr || last->entry != reach.entry || last->scalar != reach.scalar) {

@@ -17,15 +17,15 @@ namespace touchstone {
 struct Reach {
   std::uint32_t entry = 0;
   Precision scalar{};
-  const Axis* axis = nullptr;
+  const StressAxis* axis = nullptr;
   // Of each outcome but right: the place of the first value at which there was one.
-  std::array<std::optional<std::size_t>, all_stress_outcomes.size()> first{};
+  std::array<std::optional<std::size_t>, all_answer_classes.size()> first{};
   std::optional<std::size_t> first_side;  // the same of silent answers on the wrong side of contact
   std::int64_t answers = 0, skipped = 0;
-  std::array<std::int64_t, all_stress_outcomes.size()> counts{};
+  std::array<std::int64_t, all_answer_classes.size()> counts{};
   double margin = Outcome::none, error = Outcome::none;  // the greatest; see StressRow
 
-  std::optional<std::size_t> first_of(StressOutcome outcome) const {
+  std::optional<std::size_t> first_of(AnswerClass outcome) const {
     return first[static_cast<std::size_t>(outcome)];
   }
 };

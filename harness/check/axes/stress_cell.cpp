@@ -1,14 +1,12 @@
 #include "harness/check/axes/stress_cell.h"
 
 #include <algorithm>
-#include <cstring>
-#include <stdexcept>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "harness/grade/limited_query.h"
+#include "harness/grade/answer_count.h"
 #include "harness/grade/pair_size.h"
+#include "harness/process/queries/limited_query.h"
 
 namespace touchstone {
 namespace {
@@ -21,14 +19,10 @@ double badness(const NarrowPhaseEntry& entry, const GradedAnswer& answer) {
   return error >= 0 ? std::min(error, 1e3) : 0;
 }
 
-void keep_greater(double& worst, double value) {
-  if (!(worst >= value)) worst = value >= 0 ? value : worst;
-}
-
 class CellWork {
  public:
   CellWork(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle)
-      : request_(request), check_(request.as_check()), cell_(cell) {
+      : request_(request), cell_(cell) {
     result_.summary.cell = static_cast<std::uint32_t>(cell);
     cases_ = true_cases(request, cell, oracle, result_.summary);
   }
@@ -82,16 +76,16 @@ class CellWork {
   void count(StressRow& row, TrueCase& c, const Outcome& outcome, double& worst) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[row.entry];
     const Query query = {static_cast<std::uint32_t>(cell_), row.entry, row.scalar, row.task};
-    const GradedAnswer answer = grade_answer(check_, query, c, outcome);
     const bool extreme = request_.cells[cell_].regime.extreme;
-    const StressOutcome became = outcome_of(algorithm, answer, extreme);
+    const GradedAnswer answer = grade_answer(algorithm, extreme, query, c, outcome);
+    const AnswerClass became = class_of(algorithm, answer, extreme);
     row.add(became);
     keep_greater(row.margin, wrong_margin(algorithm, answer));
     keep_greater(row.error, worst_error(algorithm, answer));
     const auto index = static_cast<std::int64_t>(c.index());
-    if (became == StressOutcome::crashed || became == StressOutcome::hung) {
+    if (became == AnswerClass::crashed || became == AnswerClass::hung) {
       if (row.lost < 0) row.lost = index;
-    } else if (became == StressOutcome::silent) {
+    } else if (became == AnswerClass::silent) {
       const double bad = badness(algorithm, answer);
       if (bad > worst) {
         row.worst = index;
@@ -101,14 +95,10 @@ class CellWork {
   }
 
   const StressRequest& request_;
-  CheckRequest check_;
   std::size_t cell_;
   std::vector<TrueCase> cases_;
   CellResult result_;
 };
-
-static_assert(std::is_trivially_copyable_v<CellSummary>);
-static_assert(std::is_trivially_copyable_v<StressRow>);
 
 }  // namespace
 
@@ -138,26 +128,6 @@ std::vector<TrueCase> true_cases(const StressRequest& request, std::size_t cell,
 
 CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle) {
   return CellWork(request, cell, oracle).run();
-}
-
-std::string pack(const CellResult& result) {
-  const std::size_t rows = result.rows.size() * sizeof(StressRow);
-  std::string bytes(sizeof(CellSummary) + rows, '\0');
-  std::memcpy(bytes.data(), &result.summary, sizeof(CellSummary));
-  if (rows > 0) std::memcpy(bytes.data() + sizeof(CellSummary), result.rows.data(), rows);
-  return bytes;
-}
-
-CellResult unpack_cell(const std::string& bytes) {
-  if (bytes.size() < sizeof(CellSummary)) throw std::logic_error("a result is cut short");
-  CellResult result;
-  std::memcpy(static_cast<void*>(&result.summary), bytes.data(), sizeof(CellSummary));
-  const std::size_t rest = bytes.size() - sizeof(CellSummary);
-  result.rows.resize(rest / sizeof(StressRow));
-  if (rest > 0) {
-    std::memcpy(static_cast<void*>(result.rows.data()), bytes.data() + sizeof(CellSummary), rest);
-  }
-  return result;
 }
 
 }  // namespace touchstone

@@ -7,7 +7,7 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/axes/stress_row.h"
-#include "harness/check/true_case.h"
+#include "harness/grade/true_case.h"
 
 namespace touchstone {
 
@@ -18,9 +18,23 @@ struct CellSummary {
   std::int32_t unresolved = 0;  // the oracle's enclosure does not tell the side of contact
 };
 
+template <row_of<CellSummary> Row, class Visit>
+void columns(Row& row, Visit visit, const StressRequest& request) {
+  cell_columns(row, visit, request);
+  visit("cases", row.cases, "Cases that were drawn, and are what the value asks for.");
+  visit("dropped", row.dropped, "Cases that could not be drawn so.");
+  visit("unresolved", row.unresolved, "Cases whose side of contact the oracle leaves open.");
+}
+
 struct CellResult {
   CellSummary summary;
   std::vector<StressRow> rows;
+
+  template <class Visit>
+  void for_each_field(Visit visit) {
+    visit(summary);
+    visit(rows);
+  }
 };
 
 // Asks every algorithm of the request in each of its scalars for each task that it offers.
@@ -29,9 +43,5 @@ CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracl
 // The cell's cases with their exact answers.
 std::vector<TrueCase> true_cases(const StressRequest& request, std::size_t cell,
                                  oracle::Oracle& oracle, CellSummary& summary);
-
-// The same bytes for another process.
-std::string pack(const CellResult& result);
-CellResult unpack_cell(const std::string& bytes);
 
 }  // namespace touchstone

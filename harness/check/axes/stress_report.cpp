@@ -56,7 +56,7 @@ std::string ranges(const StressRequest& request) {
   Rows rows = {{"axis", "from", "to", "unit", "what"}};
   for (const StressCell& cell : request.cells) {
     if (cell.place > 0) continue;
-    const Axis& axis = *cell.axis;
+    const StressAxis& axis = *cell.axis;
     rows.push_back(
         {axis.name, axis.values.front().name, axis.values.back().name, axis.unit, axis.what});
   }
@@ -134,7 +134,7 @@ std::string stress_page(const StressRequest& request, const StressResult& result
   text +=
       "\n## First value that is wrong in any way\n\nThe same, or a distance, depth or separating "
       "translation off by more than 1e-9 of the size in double and 1e-4 in float, or a certified "
-      "bound by more than the margins of `harness/check/margins.h`. What an algorithm was given "
+      "bound by more than the margins of `harness/grade/margins.h`. What an algorithm was given "
       "counts: *(input)* is where it was right about that, and only the conversion of the input to "
       "its scalar made the answer wrong.\n\n";
   text += as_markdown(table(request, result.reaches, EnvelopeTable::wrong));

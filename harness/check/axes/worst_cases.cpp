@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "harness/check/true_case.h"
-#include "harness/grade/limited_query.h"
+#include "harness/grade/true_case.h"
+#include "harness/process/queries/limited_query.h"
 
 namespace touchstone {
 namespace {
@@ -33,7 +33,7 @@ bool is_readable(const StressRequest& request, const StressRow& row) {
 
 void find_of_ours(const StressRequest& request, std::span<const StressRow> rows,
                   std::vector<Found>& found) {
-  std::map<std::tuple<std::uint32_t, Task, const Axis*>, bool> known;
+  std::map<std::tuple<std::uint32_t, Task, const StressAxis*>, bool> known;
   for (const StressRow& row : rows) {
     if (request.narrow[row.entry]->info.origin != Origin::ours) continue;
     if (row.scalar != Precision::float64 || !is_readable(request, row)) continue;
@@ -56,9 +56,9 @@ void find_of_peers(const StressRequest& request, std::span<const StressRow> rows
   for (auto& [subject, list] : silent) {
     std::ranges::stable_sort(
         list, [](const StressRow* x, const StressRow* y) { return badness(*x) > badness(*y); });
-    std::vector<const Axis*> taken;
+    std::vector<const StressAxis*> taken;
     for (const StressRow* row : list) {
-      const Axis* const axis = request.cells[row->cell].axis;
+      const StressAxis* const axis = request.cells[row->cell].axis;
       if (taken.size() == axes_of_a_peer) break;
       if (std::ranges::find(taken, axis) != taken.end()) continue;
       taken.push_back(axis);
@@ -78,7 +78,6 @@ std::vector<GradedAnswer> worst_cases(const StressRequest& request,
   std::ranges::stable_sort(found, {}, [](const Found& f) {
     return std::tuple(f.row->entry, f.row->scalar, f.row->task);
   });
-  const CheckRequest check = request.as_check();
   oracle::Oracle oracle;
   std::vector<GradedAnswer> answers;
   for (const auto& [row, place] : found) {
@@ -88,7 +87,9 @@ std::vector<GradedAnswer> worst_cases(const StressRequest& request,
         ask_limited(*request.narrow[row->entry], {.scalar = row->scalar}, {{&c.pair(), row->task}},
                     {.seconds = request.time_limit, .lost = most_lost});
     const Query query = {row->cell, row->entry, row->scalar, row->task};
-    answers.push_back(grade_answer(check, query, c, outcomes.front()));
+    answers.push_back(grade_answer(*request.narrow[row->entry],
+                                   request.cells[row->cell].regime.extreme, query, c,
+                                   outcomes.front()));
   }
   return answers;
 }

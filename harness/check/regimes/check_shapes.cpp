@@ -40,8 +40,8 @@ Vec3d random_sides(const ShapeStyle& style, Random& random) {
   const double longest = style.size * random.uniform(0.5, 1);
   std::array<double, 3> half = {longest, longest * random.uniform(0.25, 1),
                                 longest * random.uniform(0.25, 1)};
-  if (style.form == Form::needle) half[1] /= style.aspect;
-  if (style.form != Form::compact) half[2] /= style.aspect;
+  if (style.form == Proportions::needle) half[1] /= style.aspect;
+  if (style.form != Proportions::compact) half[2] /= style.aspect;
   for (std::size_t i = 2; i > 0; --i) std::swap(half[i], half[random.below(i + 1)]);
   return {half[0], half[1], half[2]};
 }
@@ -69,7 +69,8 @@ Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed, 
   switch (kind) {
     case ShapeKind::sphere: shape.radius = style.size * random.uniform(0.5, 1); return shape;
     case ShapeKind::hull: {
-      const std::uint64_t entries = style.form == Form::compact && style.size == 1 ? 160 : 48;
+      const std::uint64_t entries =
+          style.form == Proportions::compact && style.size == 1 ? 160 : 48;
       return hull_shape(pooled_hull(seed, random.below(entries), style));
     }
     case ShapeKind::halfspace: return random_halfspace(style, random);
@@ -87,8 +88,8 @@ Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed, 
       shape.half_length = greatest - least;
       break;
     default:  // cylinder, cone
-      shape.radius = style.form == Form::needle ? least : middle;
-      shape.half_length = style.form == Form::plate ? least : greatest;
+      shape.radius = style.form == Proportions::needle ? least : middle;
+      shape.half_length = style.form == Proportions::plate ? least : greatest;
       break;
   }
   return shape;

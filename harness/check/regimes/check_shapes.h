@@ -9,14 +9,14 @@
 
 namespace touchstone {
 
-enum class Form : std::uint8_t { compact, needle, plate };
+enum class Proportions : std::uint8_t { compact, needle, plate };
 
 // What a random shape is to be like. A compact shape's sides are within a factor of four of each
 // other; a needle has one long side and two short ones, a plate two long sides and a short one, in
 // the ratio `aspect`. Spheres are always compact, and capsules never plates.
 struct ShapeStyle {
   double size = 1;  // metres: the longest side is between this and twice it (hulls: or less)
-  Form form = Form::compact;
+  Proportions form = Proportions::compact;
   double aspect = 1;
 
   friend bool operator==(const ShapeStyle&, const ShapeStyle&) = default;

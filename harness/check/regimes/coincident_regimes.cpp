@@ -52,7 +52,7 @@ RegimeCase draw_contained(RegimeDraw& draw) {
   Case& c = result.pair;
   c.shape_a = random_shape(random_kind(random), {}, draw.seed, random);
   const double size = std::array{0.1, 0.01, 0.001}[random.below(3)];
-  c.shape_b = random_shape(random_kind(random), {size, Form::compact, 1}, draw.seed, random);
+  c.shape_b = random_shape(random_kind(random), {size, Proportions::compact, 1}, draw.seed, random);
   c.pose_a = random_pose(1, random);
   c.pose_b.rotation = random.rotation();
   // At the middle, or some way off it.

@@ -233,7 +233,7 @@ RegimeCase draw_contact(RegimeDraw& draw) {
 
 RegimeCase draw_aspect(RegimeDraw& draw) {
   const auto style = [&] {
-    return ShapeStyle{1, draw.random.below(2) == 0 ? Form::needle : Form::plate,
+    return ShapeStyle{1, draw.random.below(2) == 0 ? Proportions::needle : Proportions::plate,
                       draw.regime.parameter};
   };
   ContactSetting setting;

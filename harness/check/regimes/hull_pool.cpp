@@ -84,7 +84,7 @@ Points hull_points(std::uint64_t entry, Random& random) {
 
 struct HullKey {
   std::uint64_t seed, entry;
-  Form form;
+  Proportions form;
   double aspect, size;
   bool mirrored;
 

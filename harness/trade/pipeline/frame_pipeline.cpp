@@ -246,8 +246,8 @@ void FramePipeline::reduce() {
       if (std::isfinite(outcome.distance) && !(answer.distance <= outcome.distance)) {
         answer.distance = outcome.distance;
       }
-      if (in_contact(answer.answer)) continue;
-      if (in_contact(outcome.answer) || outcome.answer == Answer::unknown) {
+      if (is_contact(answer.answer)) continue;
+      if (is_contact(outcome.answer) || outcome.answer == Answer::unknown) {
         answer.answer = outcome.answer;
         answer.status = outcome.status;
       }

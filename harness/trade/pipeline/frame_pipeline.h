@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algorithms/core/executor.h"
+#include "harness/grade/grade.h"
 #include "harness/trade/pipeline/body_boxes.h"
 #include "harness/trade/pipeline/kind_batches.h"
 #include "harness/trade/pipeline/stand_ins.h"
@@ -34,10 +35,6 @@ struct PipelineCounters {
   std::int64_t queries = 0;    // of pairs of parts
   std::int64_t witnesses = 0;  // queries that gave witness points; only where they are counted
 };
-
-inline bool in_contact(Answer answer) {
-  return answer == Answer::touching || answer == Answer::overlapping;
-}
 
 // The answer for a pair of bodies, taken as it is given even where the algorithm did not converge.
 // Of several parts: in contact if some pair of parts is, else unknown if one is, with the least

@@ -14,7 +14,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/random.h"
 #include "harness/grade/encoding.h"
-#include "harness/grade/guarded_solve.h"
+#include "harness/process/queries/guarded_solve.h"
 
 namespace touchstone {
 namespace {

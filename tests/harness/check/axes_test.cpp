@@ -13,12 +13,14 @@
 #include "harness/check/axes/stress_cell.h"
 #include "harness/check/axes/stress_shapes.h"
 #include "harness/grade/pair_size.h"
-#include "harness/grade/solve_case.h"
+#include "harness/process/queries/solve_case.h"
 
 namespace touchstone {
 namespace {
 
-const Axis& axis(const std::string& name) { return *std::ranges::find(axes(), name, &Axis::name); }
+const StressAxis& axis(const std::string& name) {
+  return *std::ranges::find(axes(), name, &StressAxis::name);
+}
 
 // What a cell has for each of its cases, and in how many they are apart and overlap.
 struct Drawn {
@@ -33,8 +35,8 @@ class Axes : public ::testing::Test {
   template <class Visit>
   void for_each_value(const std::string& name, int cases, const Visit& visit,
                       double greatest = 1e300) {
-    const Axis& of = axis(name);
-    const std::vector<const Axis*> list = {&of};
+    const StressAxis& of = axis(name);
+    const std::vector<const StressAxis*> list = {&of};
     StressRequest request;
     request.cells = cells_of(list);
     request.cases = cases;
@@ -78,8 +80,8 @@ TEST_F(Axes, HaveTheEndsThatTheyPromise) {
   EXPECT_EQ(ends("coplanar"), "1e-1 to 0");
   EXPECT_EQ(ends("parallel"), "1e0 to 0");
   std::set<std::string> names;
-  std::vector<const Axis*> list;
-  for (const Axis& one : axes()) list.push_back(&one);
+  std::vector<const StressAxis*> list;
+  for (const StressAxis& one : axes()) list.push_back(&one);
   for (const StressCell& cell : cells_of(list)) EXPECT_TRUE(names.insert(cell.regime.name).second);
 }
 

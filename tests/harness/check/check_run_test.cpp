@@ -2,10 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <csignal>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -13,6 +10,7 @@
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
 #include "harness/base/text_table.h"
+#include "harness/files/csv.h"
 #include "tests/harness/check/planted.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
@@ -249,110 +247,6 @@ TEST_F(CheckRun, BoxesOfBodiesAreChecked) {
   const auto result = run_check(request);
   EXPECT_EQ(result->tally.jobs()[0].boxes, 80);
   EXPECT_EQ(result->tally.jobs()[0].boxes_broken, 0);
-}
-
-// --- what is interrupted is gone on with
-// -----------------------------------------------------------
-
-class CheckResume : public CheckRun {
- protected:
-  CheckResume() {
-    for (int i = 0; i < 6; ++i) more.push_back(balls_regime("balls-" + std::to_string(i)));
-    request = request_for({&slow, &bad});
-    for (const Regime& regime : more) request.regimes.push_back(&regime);
-    request.workers = 2;
-  }
-
-  // Kills a check when it has done so many jobs.
-  void kill_after(std::size_t jobs) {
-    const pid_t child = fork();
-    if (child == 0) {
-      std::freopen("/dev/null", "w", stderr);
-      run_check(request);
-      _exit(0);
-    }
-    const std::string wanted = "\njobs,";
-    const Stopwatch watch;
-    while (watch.seconds() < 60) {
-      const std::string progress = read("progress.csv");
-      const auto at = progress.find(wanted);
-      if (at != std::string::npos && std::stoul(progress.substr(at + wanted.size())) >= jobs) break;
-      usleep(1000);
-    }
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "it was done before it could be killed";
-  }
-
-  NarrowPhaseEntry slow = planted<Harm::none, 300>("slow", Origin::ours);
-  NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
-  std::vector<Regime> more;
-  CheckRequest request;
-};
-
-TEST_F(CheckResume, NoRowIsLostOrDoubled) {
-  kill_after(2);
-  // A job that was being written when the process was killed.
-  std::ofstream(request.out / "grades.csv", std::ios::app) << "balls-5,3,sphere,sph";
-  std::ofstream(request.out / "jobs.csv", std::ios::app) << "balls-5,test,0,8,0,0,0,0,0,0\n";
-  request.resume = true;
-  const auto resumed = run_check(request);
-  const std::map<std::string, std::string> found = {{"grades.csv", read("grades.csv")},
-                                                    {"variants.csv", read("variants.csv")},
-                                                    {"jobs.csv", read("jobs.csv")},
-                                                    {"summary.csv", read("summary.csv")}};
-  request.resume = false;
-  run_check(request);
-  for (const auto& [name, text] : found) EXPECT_EQ(text, read(name)) << name;
-  EXPECT_EQ(resumed->tally.jobs().size(), 7u);
-
-  // What is done is not done again, and tells the same.
-  request.resume = true;
-  const auto again = run_check(request);
-  for (const auto& [name, text] : found) EXPECT_EQ(text, read(name)) << name;
-  EXPECT_EQ(again->report.failures.size(), resumed->report.failures.size());
-}
-
-TEST_F(CheckResume, AnotherRequestIsRefused) {
-  run_check(request);
-  const std::string before = read("grades.csv");
-  request.resume = true;
-  const auto refuse = [&](const std::function<void(CheckRequest&)>& change,
-                          const std::string& text) {
-    CheckRequest other = request;
-    change(other);
-    EXPECT_THAT(input_fault([&] { run_check(other); }),
-                testing::AllOf(HasSubstr("progress.csv: "), HasSubstr(text)));
-  };
-  refuse([](CheckRequest& r) { r.seed = 2; }, "had seed '1', and this one has '2'");
-  refuse([](CheckRequest& r) { r.cases = 9; }, "cases '8'");
-  refuse([](CheckRequest& r) { r.narrow.pop_back(); }, "narrow 'slow bad'");
-  refuse([](CheckRequest& r) { r.regimes.pop_back(); }, "regimes");
-  refuse([](CheckRequest& r) { r.scalars = {Precision::float32}; }, "scalars 'double'");
-  refuse([](CheckRequest& r) { r.time_limit = 3; }, "time_limit");
-  refuse([](CheckRequest& r) { r.out /= "none"; }, "no such file");
-  EXPECT_EQ(read("grades.csv"), before);
-  // Rounds may be added.
-  request.seconds = 0.1;
-  run_check(request);
-  EXPECT_TRUE(read("grades.csv").starts_with(before));
-  EXPECT_GT(read("grades.csv").size(), before.size());
-}
-
-TEST_F(CheckResume, AnotherProgramAndShortFilesAreRefused) {
-  run_check(request);
-  request.resume = true;
-  const std::string progress = read("progress.csv");
-  const auto at = progress.find("program,") + 8;
-  folder.write("out/progress.csv", progress.substr(0, at) + "x" + progress.substr(at + 1));
-  EXPECT_THAT(input_fault([&] { run_check(request); }), HasSubstr("program"));
-  folder.write("out/progress.csv", progress);
-  std::filesystem::resize_file(request.out / "grades.csv", 10);
-  EXPECT_THAT(input_fault([&] { run_check(request); }),
-              HasSubstr("grades.csv: 10 bytes; expected"));
-  std::filesystem::remove(request.out / "grades.csv");
-  EXPECT_THAT(input_fault([&] { run_check(request); }), HasSubstr("grades.csv: 0 bytes; expected"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "algorithms/registry.h"
+#include "harness/check/axes/axes.h"
 #include "harness/check/check_request.h"
 #include "tests/harness/check/pairs.h"
 
@@ -81,6 +82,27 @@ inline Regime balls_regime(const std::string& name = "balls", const std::string&
             c.pair.pose_b.translation.y() = draw.random.uniform(-0.25, 0.25);
             return c;
           }};
+}
+
+// Balls of radius 1, apart and overlapping in turn, on both sides of each other. From the value 2
+// on the second is further to the right, where the planted algorithms do harm, in half of the
+// slots.
+inline RegimeCase draw_balls(RegimeDraw& draw) {
+  const std::uint64_t slot = slot_of(draw.index);
+  const double gap = slot % 2 == 0 ? 0.5 : -0.5;
+  const double side = draw.regime.parameter >= 2 && slot / 2 % 2 == 0 ? 1 : -1;
+  RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
+  c.pair.pose_b.translation.y() = draw.random.uniform(-0.25, 0.25);
+  return c;
+}
+
+inline StressAxis balls_axis(int values) {
+  StressAxis axis;
+  axis.name = axis.what = "balls";
+  axis.unit = "steps";
+  axis.draw = draw_balls;
+  for (int i = 1; i <= values; ++i) axis.values.push_back({std::to_string(i), 1.0 * i});
+  return axis;
 }
 
 }  // namespace touchstone

@@ -97,7 +97,8 @@ TEST_F(SoakRun, OnlyGoesOnWithItsOwn) {
   EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("seed 1; this request has 2"));
   request.seed = 1;
   request.narrow = {&other};
-  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("a name that is not"));
+  EXPECT_THAT(input_fault([&] { run_soak(request); }),
+              HasSubstr("one of the names of this request"));
   request.narrow = {&good, &other};
   EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("expected the same request"));
   request.narrow = {&good};

@@ -8,7 +8,7 @@
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "harness/base/random.h"
-#include "harness/grade/solve_case.h"
+#include "harness/process/queries/solve_case.h"
 #include "tests/harness/check/pairs.h"
 
 namespace touchstone {

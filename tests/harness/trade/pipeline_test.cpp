@@ -179,9 +179,9 @@ TEST(TradePipeline, PartsAnswerAsTheWhole) {
     for (const PairAnswer& answer : b.answers()) {
       const auto of_whole = expected.find({answer.pair.a, answer.pair.b});
       if (of_whole == expected.end()) continue;  // boxes that rounding made larger
-      ASSERT_EQ(in_contact(answer.answer), in_contact(of_whole->second.answer));
-      ++(in_contact(answer.answer) ? contacts : apart);
-      if (task == Task::distance && !in_contact(answer.answer)) {
+      ASSERT_EQ(is_contact(answer.answer), is_contact(of_whole->second.answer));
+      ++(is_contact(answer.answer) ? contacts : apart);
+      if (task == Task::distance && !is_contact(answer.answer)) {
         EXPECT_NEAR(answer.distance, of_whole->second.distance, 1e-12);
       }
     }

@@ -62,10 +62,10 @@ TEST(TradeTruth, AMeshIsASolidAndAnswersAsTheBoxThatItIs) {
     ASSERT_EQ(found[frame].pairs.size(), expected[frame].pairs.size());
     for (std::size_t i = 0; i < found[frame].pairs.size(); ++i) {
       const TruePair &mesh = found[frame].pairs[i], &box = expected[frame].pairs[i];
-      ASSERT_EQ(in_contact(mesh.answer), in_contact(box.answer))
+      ASSERT_EQ(is_contact(mesh.answer), is_contact(box.answer))
           << mesh.pair.a << " " << mesh.pair.b;
-      ++(in_contact(mesh.answer) ? contacts : apart);
-      if (!in_contact(mesh.answer)) {
+      ++(is_contact(mesh.answer) ? contacts : apart);
+      if (!is_contact(mesh.answer)) {
         EXPECT_NEAR(mesh.gap, box.gap, 1e-12);
       }
     }

@@ -1,0 +1,34 @@
+#include "harness/check/job_folder.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string_view>
+
+#include "harness/record/machine.h"
+
+namespace touchstone {
+
+ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
+                            std::pair<std::string, std::string> subject,
+                            std::vector<RowFile> files) {
+  std::vector<std::string_view> narrow, scalars;
+  for (const NarrowPhaseEntry* entry : request.narrow) narrow.push_back(entry->info.name);
+  for (const Precision scalar : request.scalars) scalars.push_back(to_string(scalar));
+  Facts notes = {{std::string(work), request.resume ? "resumed" : "whole"}};
+  for (auto& fact : machine_facts()) notes.push_back(std::move(fact));
+  return {.folder = request.out,
+          .files = std::move(files),
+          .identity = {{"seed", std::to_string(request.seed)},
+                       {"cases", std::to_string(request.cases)},
+                       {"narrow", fmt::format("{}", fmt::join(narrow, " "))},
+                       {"scalars", fmt::format("{}", fmt::join(scalars, " "))},
+                       std::move(subject),
+                       {"time_limit", fmt::format("{}", request.time_limit)},
+                       {"program", hash_of_program()}},
+          .notes = std::move(notes),
+          .start = resume_or_overwrite(request.resume),
+          .work = std::move(work)};
+}
+
+}  // namespace touchstone

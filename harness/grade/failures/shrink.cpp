@@ -1,0 +1,334 @@
+#include "harness/grade/failures/shrink.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "harness/base/plain_math.h"
+#include "harness/check/regimes/check_shapes.h"
+#include "harness/geometry/signed_permutation.h"
+
+namespace touchstone {
+namespace {
+
+// To so many significant decimal digits.
+double rounded(double x, int digits) {
+  std::array<char, 40> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), x,
+                                          std::chars_format::scientific, digits - 1);
+  double result = x;
+  if (error == std::errc()) std::from_chars(text.data(), end, result);
+  return result;
+}
+
+// Digits of the shortest decimal number that reads back as x; 0 for zero.
+int digits_of(double x) {
+  if (x == 0) return 0;
+  std::array<char, 40> text{};
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
+  int digits = 0;
+  for (const char* at = text.data(); at != end && *at != 'e'; ++at)
+    digits += *at >= '0' && *at <= '9';
+  return digits;
+}
+
+// Whether nothing that had a size has lost it, so that a solid does not become flat.
+bool keeps_sizes(const Shape& before, const Shape& after) {
+  if (before.kind != after.kind) return true;
+  const auto kept = [](double x, double y) { return x == 0 || y > 0; };
+  if (before.kind == ShapeKind::hull) return after.hull->dimension >= before.hull->dimension;
+  bool all = kept(before.radius, after.radius) && kept(before.half_length, after.half_length);
+  for (int i = 0; i < 3; ++i) {
+    all = all && kept(before.half_extents[i], after.half_extents[i]) &&
+          kept(before.radii[i], after.radii[i]);
+  }
+  return all;
+}
+
+class Shrinker {
+ public:
+  Shrinker(const Case& c, const FailurePredicate& still_fails, int budget)
+      : best_(c), still_fails_(still_fails), budget_(budget) {}
+
+  Case run() {
+    do {
+      changed_ = false;
+      drop_vertices(&Case::shape_a);
+      drop_vertices(&Case::shape_b);
+      simplify_shapes();
+      move_to_origin();
+      simplify_rotations();
+      bake_poses();
+      round_all();
+    } while (changed_ && budget_ > 0);
+    return std::move(best_);
+  }
+
+ private:
+  bool keep_if_fails(Case candidate) {
+    if (budget_ <= 0 || !keeps_sizes(best_.shape_a, candidate.shape_a) ||
+        !keeps_sizes(best_.shape_b, candidate.shape_b)) {
+      return false;
+    }
+    for (Pose* pose : {&candidate.pose_a, &candidate.pose_b}) {
+      pose->translation.array() += 0.0;  // no negative zeros
+    }
+    --budget_;
+    if (!still_fails_(candidate)) return false;
+    best_ = std::move(candidate);
+    changed_ = true;
+    return true;
+  }
+
+  // --- vertices
+  // -----------------------------------------------------------------------------------
+
+  void drop_vertices(Shape Case::*shape) {
+    if ((best_.*shape).kind != ShapeKind::hull) return;
+    const auto count = [&] { return (best_.*shape).hull->vertices.size(); };
+    for (std::size_t chunk = count() / 2; chunk >= 1; chunk /= 2) {
+      for (std::size_t first = 0; first < count() && count() > 1 && budget_ > 0;) {
+        std::vector<Vec3d> vertices = (best_.*shape).hull->vertices;
+        const std::size_t dropped = std::min({chunk, count() - first, count() - 1});
+        const auto begin = vertices.begin() + static_cast<std::ptrdiff_t>(first);
+        vertices.erase(begin, begin + static_cast<std::ptrdiff_t>(dropped));
+        Case candidate = best_;
+        candidate.*shape = hull_of(std::move(vertices));
+        if (!keep_if_fails(std::move(candidate))) first += chunk;
+      }
+    }
+  }
+
+  // --- kinds of shapes
+  // ----------------------------------------------------------------------------
+
+  void simplify_shapes() {
+    for (Shape Case::*shape : {&Case::shape_a, &Case::shape_b}) {
+      const Shape& now = best_.*shape;
+      Shape simpler;  // a sphere
+      simpler.radius = now.kind == ShapeKind::ellipsoid ? now.radii.maxCoeff() : now.radius;
+      const bool round = now.kind == ShapeKind::capsule || now.kind == ShapeKind::cylinder ||
+                         now.kind == ShapeKind::cone || now.kind == ShapeKind::ellipsoid;
+      if (!round) continue;
+      Case candidate = best_;
+      candidate.*shape = simpler;
+      keep_if_fails(std::move(candidate));
+    }
+  }
+
+  // --- places and rotations
+  // -----------------------------------------------------------------------
+
+  // Hulls need no rotation of their own, and their first vertex can be the local origin.
+  void bake_poses() {
+    for (const bool first : {true, false}) {
+      Shape Case::*shape = first ? &Case::shape_a : &Case::shape_b;
+      Pose Case::*pose = first ? &Case::pose_a : &Case::pose_b;
+      if ((best_.*shape).kind != ShapeKind::hull) continue;
+      const auto try_vertices = [&](const Pose& new_pose, const auto& change) {
+        std::vector<Vec3d> vertices = (best_.*shape).hull->vertices;
+        for (Vec3d& v : vertices) v = change(v);
+        Case candidate = best_;
+        candidate.*shape = hull_of(std::move(vertices));
+        candidate.*pose = new_pose;
+        keep_if_fails(std::move(candidate));
+      };
+      const Pose old = best_.*pose;
+      if (old.rotation != Mat3d::Identity()) {
+        try_vertices({Mat3d::Identity(), old.translation},
+                     [&](const Vec3d& v) { return times(old.rotation, v); });
+      }
+      const Mat3d rotation = (best_.*pose).rotation;
+      const Vec3d origin = (best_.*shape).hull->vertices.front();
+      if (!origin.isZero(0)) {
+        try_vertices({rotation, old.translation + times(rotation, origin)},
+                     [&](const Vec3d& v) -> Vec3d { return v - origin; });
+      }
+    }
+  }
+
+  // Both bodies, so that one of them is at the origin and not turned: the first if possible, but
+  // rather a body that is no hull.
+  void move_to_origin() {
+    std::array<Pose Case::*, 2> order = {&Case::pose_a, &Case::pose_b};
+    if (best_.shape_a.kind == ShapeKind::hull && best_.shape_b.kind != ShapeKind::hull) {
+      std::swap(order[0], order[1]);
+    }
+    for (Pose Case::*first : order) {
+      if (!best_.pose_a.translation.isZero(0) && !best_.pose_b.translation.isZero(0)) {
+        Case candidate = best_;
+        const Vec3d away = (best_.*first).translation;
+        candidate.pose_a.translation -= away;
+        candidate.pose_b.translation -= away;
+        keep_if_fails(std::move(candidate));
+      }
+      if (best_.pose_a.rotation != Mat3d::Identity() &&
+          best_.pose_b.rotation != Mat3d::Identity()) {
+        Case candidate = best_;
+        const Mat3d back = (best_.*first).rotation.transpose();
+        for (Pose* pose : {&candidate.pose_a, &candidate.pose_b}) {
+          *pose = {product(back, pose->rotation), times(back, pose->translation)};
+        }
+        (candidate.*first).rotation = Mat3d::Identity();
+        keep_if_fails(std::move(candidate));
+      }
+    }
+  }
+
+  void simplify_rotations() {
+    for (Pose Case::*pose : {&Case::pose_a, &Case::pose_b}) {
+      if (is_signed_permutation((best_.*pose).rotation)) {
+        try_rotation(pose, Mat3d::Identity());
+        continue;
+      }
+      if (try_rotation(pose, Mat3d::Identity())) continue;
+      if (try_rotation(pose, nearest_signed_permutation((best_.*pose).rotation))) continue;
+      // Quaternions of whole numbers: the next greater ones are twice as close.
+      const std::array<double, 4> q = quaternion_of((best_.*pose).rotation);
+      for (double steps = 1; steps <= 1024; steps *= 2) {
+        std::array<double, 4> whole;
+        std::ranges::transform(q, whole.begin(), [&](double x) { return std::round(x * steps); });
+        if (try_rotation(pose, rotation_of(whole))) break;
+      }
+    }
+  }
+
+  bool try_rotation(Pose Case::*pose, const Mat3d& rotation) {
+    // A rotation that was found before is not changed for a finer one.
+    if ((best_.*pose).rotation == rotation) return true;
+    Case candidate = best_;
+    (candidate.*pose).rotation = rotation;
+    return keep_if_fails(std::move(candidate));
+  }
+
+  static bool is_signed_permutation(const Mat3d& m) {
+    return (m.array() == 0 || m.array().abs() == 1).all();
+  }
+
+  static Mat3d nearest_signed_permutation(const Mat3d& m) {
+    const SignedPermutation* best = nullptr;
+    double greatest = -4;
+    for (const SignedPermutation& turn : signed_permutations()) {
+      const double likeness = (turn.matrix().array() * m.array()).sum();
+      if (likeness > greatest) {
+        greatest = likeness;
+        best = &turn;
+      }
+    }
+    return best->matrix();
+  }
+
+  // The greatest part is 1.
+  static std::array<double, 4> quaternion_of(const Mat3d& m) {
+    const Eigen::Quaterniond q(m);
+    const double greatest = q.coeffs().cwiseAbs().maxCoeff();
+    return {q.w() / greatest, q.x() / greatest, q.y() / greatest, q.z() / greatest};
+  }
+
+  // --- numbers
+  // ------------------------------------------------------------------------------------
+
+  // Every length and coordinate of a case, in an order that only depends on its shapes. Those of
+  // hulls are in `vertices`, from which the hulls are to be built again.
+  struct Numbers {
+    std::array<std::vector<Vec3d>, 2> vertices;
+    std::vector<double*> all;
+
+    explicit Numbers(Case& c) {
+      collect(c.shape_a, vertices[0], all);
+      collect(c.shape_b, vertices[1], all);
+      for (Pose* pose : {&c.pose_a, &c.pose_b}) {
+        for (double& x : pose->translation) all.push_back(&x);
+      }
+    }
+    Numbers(const Numbers&) = delete;
+    Numbers& operator=(const Numbers&) = delete;
+  };
+
+  static void collect(Shape& shape, std::vector<Vec3d>& vertices, std::vector<double*>& all) {
+    const auto add = [&](Vec3d& v) {
+      for (double& x : v) all.push_back(&x);
+    };
+    switch (shape.kind) {
+      case ShapeKind::capsule:
+      case ShapeKind::cylinder:
+      case ShapeKind::cone: all.push_back(&shape.half_length); [[fallthrough]];
+      case ShapeKind::sphere: all.push_back(&shape.radius); break;
+      case ShapeKind::box: add(shape.half_extents); break;
+      case ShapeKind::ellipsoid: add(shape.radii); break;
+      case ShapeKind::hull:
+        vertices = shape.hull->vertices;
+        for (Vec3d& v : vertices) add(v);
+        break;
+      case ShapeKind::halfspace:
+        add(shape.normal);
+        all.push_back(&shape.offset);
+        break;
+    }
+  }
+
+  // The case with each number x replaced by change(place, x); false where nothing changes, or where
+  // a half-space would lose its normal.
+  template <class Change>
+  bool try_numbers(Change change) {
+    Case candidate = best_;
+    Numbers numbers(candidate);
+    bool differs = false;
+    for (std::size_t i = 0; i < numbers.all.size(); ++i) {
+      const double before = *numbers.all[i];
+      *numbers.all[i] = change(i, before);
+      differs = differs || *numbers.all[i] != before;
+    }
+    if (!differs || candidate.shape_a.normal.isZero(0) || candidate.shape_b.normal.isZero(0)) {
+      return false;
+    }
+    for (std::size_t body = 0; body < 2; ++body) {
+      Shape& shape = body == 0 ? candidate.shape_a : candidate.shape_b;
+      if (shape.kind == ShapeKind::hull && shape.hull->vertices != numbers.vertices[body]) {
+        shape = hull_of(std::move(numbers.vertices[body]));
+      }
+    }
+    return keep_if_fails(std::move(candidate));
+  }
+
+  void round_all() {
+    constexpr std::array<int, 7> few_digits = {1, 2, 3, 4, 6, 9, 13};
+    // All at once first.
+    for (const int digits : few_digits) {
+      if (try_numbers([&](std::size_t, double x) { return rounded(x, digits); })) break;
+    }
+    std::vector<double> values;
+    Case copy = best_;
+    for (const double* x : Numbers(copy).all) values.push_back(*x);
+    for (std::size_t i = 0; i < values.size() && budget_ > 0; ++i) {
+      const double value = values[i];
+      const auto try_value = [&](double simpler) {
+        return simpler != value &&
+               try_numbers([&](std::size_t place, double x) { return place == i ? simpler : x; });
+      };
+      if (value == 0 || try_value(0) || try_value(value < 0 ? -1 : 1)) continue;
+      const int digits_now = digits_of(value);
+      for (const int digits : few_digits) {
+        if (digits >= digits_now || try_value(rounded(value, digits))) break;
+      }
+    }
+  }
+
+  Case best_;
+  const FailurePredicate& still_fails_;
+  int budget_;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+Case shrink(const Case& c, const FailurePredicate& still_fails, int budget) {
+  return Shrinker(c, still_fails, budget).run();
+}
+
+}  // namespace touchstone

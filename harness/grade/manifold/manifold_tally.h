@@ -1,0 +1,45 @@
+// Grades of contact manifolds, gathered by family of cases and algorithm.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/grade/manifold/manifold_grade.h"
+
+namespace touchstone {
+
+class ManifoldTally {
+ public:
+  // `algorithm` as it is to be called in the tables. Ours are held to what they promise.
+  void add(const std::string& family, const std::string& algorithm, const AlgorithmInfo& info,
+           Precision scalar, const Case& c, const ManifoldTruth& truth, const Manifold& manifold);
+
+  // A row for each family and algorithm: how often it was asked and missed, and the worst of each
+  // grade.
+  std::string text(std::size_t page_width) const;
+  std::string markdown() const;
+
+  // What of ours is beyond what it promises, a line each; empty where nothing is.
+  const std::vector<std::string>& ours_wrong() const { return wrong_; }
+
+ private:
+  struct Worst {
+    std::size_t asked = 0, missed = 0, with_area = 0;
+    double off_body = 0, depth_error = 0, apart = 0;
+    double of_best_four = 1, of_all = 1, sum_of_best_four = 0;
+    int least_points = Manifold::most_points, most_points = 0;
+  };
+  struct Key {
+    std::string family, algorithm;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+
+  std::vector<std::vector<std::string>> cells() const;
+
+  std::vector<std::pair<Key, Worst>> rows_;  // in the order of their coming
+  std::vector<std::string> wrong_;
+};
+
+}  // namespace touchstone

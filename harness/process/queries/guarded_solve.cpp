@@ -1,0 +1,33 @@
+#include "harness/process/queries/guarded_solve.h"
+
+#include <algorithm>
+
+#include "harness/base/clock.h"
+#include "harness/process/isolate.h"
+
+namespace touchstone {
+
+void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make, Task task,
+                   const PairBatch& batch, std::span<Outcome> outcomes, double time_limit,
+                   std::size_t memory_limit) {
+  const Stopwatch total;
+  const IsolationLimits limits = {
+      .item_seconds = time_limit, .failures = 3, .memory = memory_limit};
+  const auto solved = isolated_answers<Outcome>(batch.size(), limits, [&] {
+    return [&, algorithm = std::shared_ptr<NarrowPhase>(make())](std::size_t i) {
+      Outcome outcome;
+      if (total.seconds() > time_limit) {
+        outcome.status = Status::timed_out;
+        return outcome;
+      }
+      PairBatch one = batch;
+      one.pairs.first = batch.pairs.first.subspan(i, 1);
+      one.pairs.second = batch.pairs.second.subspan(i, 1);
+      algorithm->solve(task, one, {&outcome, 1});
+      return outcome;
+    };
+  });
+  std::ranges::copy(solved.answers, outcomes.begin());
+}
+
+}  // namespace touchstone

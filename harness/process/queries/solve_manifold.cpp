@@ -1,0 +1,40 @@
+#include "harness/process/queries/solve_manifold.h"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "harness/process/queries/ordered_pair.h"
+
+namespace touchstone {
+namespace {
+
+// The manifold of the pair (b, a), from that of (a, b).
+Manifold swapped(Manifold manifold) {
+  manifold.normal = Vec3d::Zero() - manifold.normal;  // a zero stays positive
+  for (ContactPoint& point : manifold.points) std::swap(point.on_a, point.on_b);
+  return manifold;
+}
+
+}  // namespace
+
+Manifold solve_manifold(const ManifoldEntry& entry, const ManifoldSettings& settings,
+                        const Case& c) {
+  const std::array<Shape, 2> shapes = {c.shape_a, c.shape_b};
+  const std::array<Pose, 2> poses = {c.pose_a, c.pose_b};
+  constexpr std::array<std::uint32_t, 2> bodies = {0, 1};
+  const bool swap = needs_swap(c.shape_a.kind, c.shape_b.kind);
+  const std::span<const std::uint32_t> a(&bodies[swap ? 1 : 0], 1);
+  const std::span<const std::uint32_t> b(&bodies[swap ? 0 : 1], 1);
+  const PairBatch batch = {.kind_a = shapes[a[0]].kind,
+                           .kind_b = shapes[b[0]].kind,
+                           .pairs = {.first = a, .second = b, .shape_of = bodies, .poses = poses}};
+  Manifold manifold;
+  const std::unique_ptr<ContactManifold> algorithm = entry.make(settings);
+  algorithm->bind(shapes);
+  algorithm->solve(batch, {&manifold, 1});
+  return swap ? swapped(manifold) : manifold;
+}
+
+}  // namespace touchstone
