@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/measure/sampler.h"
+#include "harness/measure/phases/broad_sampler.h"
+#include "harness/measure/phases/narrow_sampler.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone {
@@ -80,7 +81,7 @@ void broad(benchmark::State& state, int threads) {
   Executor executor(threads);
   const Take take = [](Sampler& sampler) {
     const SampleReply reply = sampler.sample({.frame = 1, .frames = frames - 1});
-    return (reply.prepare + reply.query) / (frames - 1);
+    return reply.durations.sum() / (frames - 1);
   };
   double fastest = std::numeric_limits<double>::infinity();
   for (const BroadPhaseEntry& entry : broad_phases()) {
@@ -111,7 +112,7 @@ void narrow(benchmark::State& state, int threads) {
   const auto number = static_cast<std::uint32_t>(spheres - sets.begin());
   const Take take = [&](Sampler& sampler) {
     const SampleReply reply = sampler.sample({.set = number, .frames = frames});
-    return reply.query / static_cast<double>(reply.pairs);
+    return reply.durations.sum() / static_cast<double>(reply.pairs);
   };
   double fastest = std::numeric_limits<double>::infinity();
   for (const NarrowPhaseEntry& entry : narrow_phases()) {

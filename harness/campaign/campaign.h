@@ -11,7 +11,7 @@
 
 #include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
-#include "harness/measure/narrow_choice.h"
+#include "harness/measure/phases/narrow_choice.h"
 #include "harness/scene/scene.h"
 #include "harness/stats/published.h"
 

@@ -15,7 +15,7 @@
 #include "harness/campaign/check_pass/check_broad.h"
 #include "harness/campaign/check_pass/check_narrow.h"
 #include "harness/campaign/check_pass/check_price.h"
-#include "harness/campaign/limit_entry.h"
+#include "harness/campaign/lower_bound_entry.h"
 #include "harness/campaign/run_folder.h"
 #include "harness/process/child_process.h"
 #include "harness/record/machine.h"
@@ -186,7 +186,7 @@ void run_block(RunContext context, bool checked, Progress& progress, RunFolder& 
   const Stopwatch watch;
   const double budget = context.block->group->seconds;
   const BlockInput input(*context.scene, context.block->boxes, has_narrow(context));
-  const BroadPhaseEntry limit = limit_entry(input);
+  const BroadPhaseEntry limit = lower_bound_entry(input);
   if (context.block->group->limit) context.limit = &limit;
   NarrowInput narrow;
   if (checked) {
@@ -261,7 +261,7 @@ Findings check_campaign(const Campaign& campaign) {
                        blocks};
     const IsaGuard guard(block);
     const BlockInput input(loaded.scene, block.boxes, has_narrow(context));
-    const BroadPhaseEntry limit = limit_entry(input);
+    const BroadPhaseEntry limit = lower_bound_entry(input);
     if (block.group->limit) context.limit = &limit;
     const NarrowInput narrow = check_broad_phases(context, input, false);
     NarrowCheck(context, input, narrow.checked).run();
@@ -324,7 +324,7 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
         for (const NarrowChoice& choice : group.narrow) {
           if (offers(*choice.entry, set.kind_a, set.kind_b, set.task) &&
               context.admits(choice, source, set.task, set.kind_name())) {
-            narrow.push_back(Contestant{.broad = nullptr, .narrow = &choice}.label());
+            narrow.push_back(Candidate{.broad = nullptr, .narrow = &choice}.label());
           }
         }
         add(fmt::format("{} {}{}{}", to_string(set.task), set.kind_name(),

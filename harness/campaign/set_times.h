@@ -15,12 +15,12 @@ class SetTimes {
   // The rows of one sample come one after the other.
   void add(const RawRow& row);
 
-  // The name of the baseline's second registration.
+  // The name of the baseline's second registration, the A/A control.
   static std::string twin_of(const std::string& label) { return label + " (twin)"; }
 
   bool has(const std::string& label) const { return contestants_.contains(label); }
   std::vector<std::string> labels() const;
-  // The one with a twin; empty where there is none.
+  // The contestant with a control; empty where there is none.
   const std::string& baseline() const { return baseline_; }
   // All samples that count, seconds a frame or a query. Rounds with flags do not count, unless
   // `noisy`.

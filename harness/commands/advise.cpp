@@ -35,17 +35,17 @@ int advise(const AdviceTask& task, const std::filesystem::path& folder, int draw
   std::filesystem::create_directories(folder);
   const AdviceProblem problem{task.request, scene, ours, task.budget, say};
   const Advice advice = touchstone::advise(problem);
-  write_advice(advice, task.request, task.budget, scene, folder);
-  fmt::print("{}", advice_text(advice, task.request, task.budget, scene));
+  write_advice(advice, problem, folder);
+  fmt::print("{}", advice_text(advice, problem));
   if (!advice.best) {
-    if (rows != nullptr) rows->write(task.request, task.budget, scene, nullptr);
+    if (rows != nullptr) rows->write(problem, nullptr);
     return exit_measured_wrong;
   }
   fmt::print("\n{}: `touchstone run` measures it again\n", (folder / "advice.toml").string());
   if (rows == nullptr) return exit_done;
   const Verification verification =
       verify(problem, advice.best->point.configuration, advice_draws + 1, draws, folder / "grid");
-  rows->write(task.request, task.budget, scene, &verification);
+  rows->write(problem, &verification);
   fmt::print("\n{}", verification_text(verification));
   return verification.holds() ? exit_done : exit_measured_wrong;
 }
@@ -70,7 +70,7 @@ int advise(Options& options) {
   for (const AdviceTask& task : tasks) TradeScene(task.request, representing());
   std::filesystem::create_directories(folder);
   std::optional<VerificationRows> rows;
-  if (options.verify) rows.emplace(folder / "verification.csv", options.draws);
+  if (options.verify) rows.emplace(folder, options.draws);
   int status = exit_done;
   for (const AdviceTask& task : tasks) {
     const int found = advise(task, options.list.empty() ? folder : folder / task.name,

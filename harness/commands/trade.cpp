@@ -46,12 +46,10 @@ std::filesystem::path trade_folder(const std::string& out, const std::string& na
 int run_trade(TradeRequest request, const std::filesystem::path& folder, bool with_figure) {
   TradeScene scene(request, representing());
   if (request.name.empty()) request.name = scene.scene.name;
-  std::filesystem::create_directories(folder);
   const TradeResult result = measure_trade(
       request, scene, folder, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
-  write_trade(result, request, scene, folder);
   fmt::print("{}\n", front_text(result, request, page_width()));
-  fmt::print("{}: points.csv, bins.csv, front.md, raw.csv; trade.toml measures it again\n",
+  fmt::print("{}: points.csv, bins.csv, front.md, samples.csv; trade.toml measures it again\n",
              folder.string());
   if (with_figure) draw(folder);
   return exit_done;

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <utility>
 
 namespace touchstone {
@@ -22,26 +21,37 @@ PairBatch PairGroup::batch(std::span<const std::uint32_t> shape_of, std::span<co
                     .poses = poses}};
 }
 
+void PairGrouping::clear() {
+  for (PairGroup& group : groups_) {
+    group.first.clear();
+    group.second.clear();
+  }
+}
+
+std::size_t PairGrouping::add(std::uint32_t first, ShapeKind first_kind, std::uint32_t second,
+                              ShapeKind second_kind) {
+  if (first_kind > second_kind) {
+    std::swap(first, second);
+    std::swap(first_kind, second_kind);
+  }
+  const std::size_t place = index(first_kind, second_kind);
+  PairGroup& group = groups_[place];
+  group.kind_a = first_kind;
+  group.kind_b = second_kind;
+  group.first.push_back(first);
+  group.second.push_back(second);
+  return place;
+}
+
 std::vector<PairGroup> group_by_kind(std::span<const IndexPair> pairs,
                                      std::span<const Shape> shapes,
                                      std::span<const std::uint32_t> shape_of) {
-  constexpr std::size_t kinds = all_shape_kinds.size();
-  std::array<PairGroup, kinds * kinds> table;
-  for (const IndexPair& pair : pairs) {
-    std::uint32_t first = pair.a;
-    std::uint32_t second = pair.b;
-    const auto kind = [&](std::uint32_t body) { return shapes[shape_of[body]].kind; };
-    if (kind(first) > kind(second)) std::swap(first, second);
-    PairGroup& group = table[static_cast<std::size_t>(kind(first)) * kinds +
-                             static_cast<std::size_t>(kind(second))];
-    group.kind_a = kind(first);
-    group.kind_b = kind(second);
-    group.first.push_back(first);
-    group.second.push_back(second);
-  }
+  PairGrouping grouping;
+  const auto kind = [&](std::uint32_t body) { return shapes[shape_of[body]].kind; };
+  for (const IndexPair& pair : pairs) grouping.add(pair.a, kind(pair.a), pair.b, kind(pair.b));
   std::vector<PairGroup> groups;
-  for (PairGroup& group : table) {
-    if (group.size() > 0) groups.push_back(std::move(group));
+  for (const PairGroup& group : grouping.groups()) {
+    if (group.size() > 0) groups.push_back(group);
   }
   return groups;
 }

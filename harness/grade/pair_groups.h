@@ -1,6 +1,7 @@
 // Pairs of bodies, sorted into batches of one kind of shapes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -15,7 +16,7 @@ namespace touchstone {
 // Pairs of one kind pair, kind_a <= kind_b. Body first[i] has kind_a; it need not have the smaller
 // index.
 struct PairGroup {
-  ShapeKind kind_a, kind_b;
+  ShapeKind kind_a = ShapeKind::sphere, kind_b = ShapeKind::sphere;
   std::vector<std::uint32_t> first, second;
 
   std::size_t size() const { return first.size(); }
@@ -23,6 +24,25 @@ struct PairGroup {
   // Pairs [begin, end) of the group as a batch.
   PairBatch batch(std::span<const std::uint32_t> shape_of, std::span<const Pose> poses,
                   std::size_t begin, std::size_t end) const;
+};
+
+// Pairs that are sorted by their kinds as they are added. It keeps its memory when it is cleared.
+class PairGrouping {
+ public:
+  static constexpr std::size_t kinds = all_shape_kinds.size();
+  static std::size_t index(ShapeKind a, ShapeKind b) {
+    return static_cast<std::size_t>(a) * kinds + static_cast<std::size_t>(b);
+  }
+
+  void clear();
+  // Returns the index of the pair's group.
+  std::size_t add(std::uint32_t first, ShapeKind first_kind, std::uint32_t second,
+                  ShapeKind second_kind);
+  // By index; many are empty.
+  std::span<const PairGroup> groups() const { return groups_; }
+
+ private:
+  std::array<PairGroup, kinds * kinds> groups_;
 };
 
 // In the order of the kinds; within a group in the order of `pairs`. Groups without pairs are left

@@ -1,4 +1,4 @@
-// What is asked of the heap: calls and bytes.
+// Calls of the heap, and the bytes that they ask for.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
-// What the processor counts, where the kernel lets us ask it (perf_event_open(2)).
+// The processor's own counters, where the kernel allows to read them (perf_event_open(2)).
 #pragma once
 
 #include <cstdint>
 
 namespace touchstone {
 
-// Of one kind of event, in user space, of the thread that opened it and of all threads that it
+// Counts one kind of event, in user space, in the thread that opened it and in all threads that it
 // starts afterwards.
 class EventCounter {
  public:

@@ -1,4 +1,4 @@
-// What else the machine did while something was timed.
+// Other work of the machine while something was timed.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct NoiseReading {
 std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
                         double workers_waited);
 
-// Who flags the rounds: noise_flags, unless a test put a judge of its own in its place.
+// The function that flags the rounds: noise_flags, unless a test put another in its place.
 using NoiseJudge = decltype(&noise_flags);
 NoiseJudge& noise_judge();
 

@@ -1,4 +1,4 @@
-// How long the threads of this process were ready to run and had no processor.
+// The time in which the threads of this process were ready to run and had no processor.
 #pragma once
 
 #include <optional>

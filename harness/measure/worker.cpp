@@ -28,8 +28,8 @@ namespace {
 constexpr int tick_milliseconds = 20;
 constexpr double seconds_to_leave = 2;  // of a worker that hung up
 
-// Where its heap, its mappings and its stack begin is a little different in each process, as it is
-// from one start of a program to the next: forked workers would all have their parent's layout.
+// The heap, the mappings and the stack begin at a different place in each process, as they do from
+// one start of a program to the next: forked workers would all have their parent's layout.
 // (Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything obviously
 // wrong!", ASPLOS 2009.)
 class Layout {
@@ -57,7 +57,7 @@ class Layout {
   room[bytes] = 0;
 }
 
-// What the system counts for this process: between `start` and `finish`.
+// The system's counts for this process between `start` and `finish`.
 class Usage {
  public:
   // The files are opened before the process is made undumpable, which hides them.
@@ -65,7 +65,7 @@ class Usage {
       : clear_(open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC)),
         status_(open("/proc/self/status", O_RDONLY | O_CLOEXEC)) {}
 
-  // What is in memory now is the harness's: peaks are told beyond it.
+  // The memory in use now is the harness's: peaks are counted beyond it.
   void be_empty() {
 #if defined(__GLIBC__)
     malloc_trim(0);  // or the algorithm would use up what the harness has given back

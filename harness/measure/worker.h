@@ -1,5 +1,5 @@
-// One contestant in a process of its own, warm between samples: what it does wrong costs only
-// itself.
+// One contestant in a process of its own, warm between samples: its failure costs only its own
+// samples.
 #pragma once
 
 #include <cstddef>
@@ -30,11 +30,11 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  // Waits until `make` has returned. Empty: it went well.
+  // Waits until `make` has returned; gives its failure, if any.
   std::optional<IsolationFailure> wait_until_made(double seconds);
 
-  // Nothing when it crashed, left, threw or took longer than so many seconds: it is dead then, and
-  // failure() says how.
+  // Empty when the worker crashed, left, threw or took longer than so many seconds: it is dead
+  // then, and failure() says how.
   std::optional<SampleReply> ask(const SampleRequest& request, double seconds);
   const IsolationFailure& failure() const { return failure_; }
   bool alive() const { return child_->alive(); }

@@ -18,10 +18,12 @@ inline constexpr std::size_t mesh_body = all_shape_kinds.size();
 inline constexpr std::size_t body_kinds = all_shape_kinds.size() + 1;
 std::string_view body_kind_name(std::size_t kind);
 
-// Whether it is the body itself, for bodies of that kind: a sphere's sphere, the hull of a hull.
+// Tells whether the form is the body itself, for bodies of that kind: the sphere of a sphere, the
+// hull of a hull.
 bool is_the_body(Form form, std::size_t kind);
 
-// What stands for the bodies of each kind; none: as given. Half-spaces always are.
+// The representation of the bodies of each kind; without one they are as given, as half-spaces
+// always are.
 struct Representations {
   std::array<std::optional<Representation>, body_kinds> of;
 
@@ -31,7 +33,7 @@ struct Representations {
   friend bool operator==(const Representations&, const Representations&) = default;
 };
 
-// How the box of a body is made: tight, or rotation-invariant (core/bounds.h), or tight and grown
+// A kind of boxes: tight, or rotation-invariant (core/bounds.h), or tight and grown
 // by a margin, then kept until the body leaves it.
 struct BoxChoice {
   enum class Kind : std::uint8_t { tight, loose, fat };
@@ -41,14 +43,14 @@ struct BoxChoice {
   std::string name() const;  // "tight", "loose", "fat-0.1"
   friend bool operator==(const BoxChoice&, const BoxChoice&) = default;
 };
-// Nothing where it is none.
+// Empty for a text that is no choice of boxes.
 std::optional<BoxChoice> parse_box_choice(std::string_view text);
 
 // Narrow phases in order: a pair goes to the first that takes its kinds. Empty: none, and every
 // pair of boxes counts as a contact.
 using NarrowChain = std::vector<const NarrowPhaseEntry*>;
 std::string chain_name(const NarrowChain& chain);  // "closed-form+gjk", "none"
-// Of names joined by '+'. Throws InputError with those that there are.
+// Reads names that are joined by '+'. Throws InputError with the names that there are.
 NarrowChain parse_chain(std::string_view text);
 
 struct Configuration {

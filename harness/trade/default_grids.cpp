@@ -197,7 +197,7 @@ const BroadPhaseEntry& fastest_broad(const SceneFrames& frames, StandInLibrary& 
   const BroadPhaseEntry* best = trial.broad.front();
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].status != "ok" || !(found[i].rough_seconds() < least)) continue;
+    if (!found[i].ok() || !(found[i].rough_seconds() < least)) continue;
     least = found[i].rough_seconds();
     best = grid.points[i].configuration.broad;
   }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-constexpr double no_value = 1;  // the error of who gives no number: all of the size
+constexpr double no_value = 1;  // error of an answer without a number: all of the size
 
 bool before(const IndexPair& a, const IndexPair& b) { return a.a != b.a ? a.a < b.a : a.b < b.b; }
 
@@ -50,9 +50,6 @@ Spread spread_of(std::vector<double> values) {
 double PointErrors::wrong_share() const {
   return share(false_positives + false_negatives + failed + far, near + far);
 }
-double PointErrors::false_positive_share() const {
-  return share(false_positives + far, near - contacts + far);
-}
 double PointErrors::false_negative_share() const { return share(false_negatives, contacts); }
 
 void ErrorCount::add(const TruePair& truth, const PairAnswer* answer) {
@@ -74,7 +71,7 @@ void ErrorCount::add(const TruePair& truth, const PairAnswer* answer) {
   if (task_ == Task::intersect) return;
   const bool wants_depth = task_ == Task::penetration;
   const double expected = contact != wants_depth ? 0 : std::abs(truth.gap);
-  if (!std::isfinite(expected)) return;  // what is not known of the truth is held against nobody
+  if (!std::isfinite(expected)) return;  // an unknown truth is no error of the answer
   double given = 0;
   if (answer == nullptr) {
     // Not found: no distance was asked for, unless that missed a contact, by its depth at least.

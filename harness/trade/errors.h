@@ -1,4 +1,4 @@
-// How wrong a configuration's answers are: verdicts by the true gap, distances, depths.
+// The errors of a configuration's answers: verdicts by the true gap, distances, depths.
 #pragma once
 
 #include <array>
@@ -47,9 +47,8 @@ struct PointErrors {
   std::int64_t values = 0;
   Spread value;
 
-  // Of all verdicts that were due, or given without need: 0 to 1.
+  // The share of all verdicts that were due, or given without need, 0 to 1.
   double wrong_share() const;
-  double false_positive_share() const;
   double false_negative_share() const;  // of the true contacts
 };
 

@@ -1,9 +1,6 @@
 #include "harness/trade/evaluation.h"
 
 #include <numeric>
-
-#include "harness/process/isolate.h"
-
 namespace touchstone {
 namespace {
 
@@ -24,7 +21,7 @@ void play(const SceneFrames& frames, const TradePoint& point, std::span<const Fr
     if (frame.frame == 0) {
       pipeline.start(0);
     } else {
-      // As an update, which is what the scene asks for.
+      // The frame is an update, which is what the scene asks for.
       pipeline.pass(frame.frame - 1);
       pipeline.advance();
     }
@@ -57,7 +54,7 @@ std::vector<Evaluation> evaluate(const SceneFrames& frames, std::span<const Trad
   std::vector<Evaluation> evaluations(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     Evaluation& evaluation = evaluations[i];
-    evaluation.status = to_string(report.states[i]);
+    evaluation.state = report.states[i];
     if (report.states[i] == ItemState::done) {
       evaluation.errors = found[i].errors;
       evaluation.counters = found[i].counters;

@@ -1,4 +1,4 @@
-// The errors of configurations on a scene: each plays the frames whose truth is known.
+// The errors of configurations on a scene: each one plays the frames whose exact answers are known.
 #pragma once
 
 #include <memory>
@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "harness/process/isolate.h"
 #include "harness/trade/errors.h"
 
 namespace touchstone {
 
-// What is compared on a scene. All answer the same question.
+// A configuration that is compared on a scene, with what stands for the bodies there.
 struct TradePoint {
   Configuration configuration;
   std::shared_ptr<const StandIns> stand_ins;
@@ -19,10 +20,11 @@ struct TradePoint {
 struct Evaluation {
   PointErrors errors;
   PipelineCounters counters;
-  StageSeconds rough{};  // a frame, read once: for planning only
-  // "ok"; else crashed, timed_out or threw, and the rest means nothing.
-  std::string status = "ok";
-  std::string words;
+  StageSeconds rough{};               // a frame, read once: for planning only
+  ItemState state = ItemState::done;  // how it ended; if it failed, the rest means nothing
+  std::string words;                  // why it failed
+
+  bool ok() const { return state == ItemState::done; }
   double rough_seconds() const;
 };
 

@@ -1,4 +1,4 @@
-// Who is worth having: the Pareto front of time against error.
+// The Pareto front of time against error.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace touchstone {
 
-// What is taken as the error of a configuration.
+// The number that is taken as the error of a configuration.
 enum class ErrorMeasure : std::uint8_t {
   verdicts,         // share of wrong verdicts
   false_negatives,  // share of the contacts that were missed

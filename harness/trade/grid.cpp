@@ -10,7 +10,8 @@
 namespace touchstone {
 namespace {
 
-// Of the chain those that some pair comes to; nothing, with the reason, where a pair comes to none.
+// The narrow phases of the chain that some pair comes to; empty, with the reason, where a pair
+// comes to none.
 std::optional<NarrowChain> used(const NarrowChain& chain, const StandIns& stand_ins, Task task,
                                 std::string& reason) {
   std::set<const NarrowPhaseEntry*> taking;

@@ -37,16 +37,16 @@ struct GridPoints {
 GridPoints expand(std::span<const TradeGrid> grids, const SceneFrames& frames,
                   StandInLibrary& library, Task task);
 
-// What is compared where nothing is said: algorithms in both scalars, tolerances, caps of
+// The comparison of a request without grids: algorithms in both scalars, tolerances, caps of
 // iterations, kinds of boxes and broad phases, and representations; the first is the baseline.
 // `broad` is the one that all but the grid of broad phases use.
 std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad);
-// What differs from this one by its boxes and broad phase, or by its narrow phases and scalar: of
-// those of default_grids each with each.
+// Configurations that differ from this one by boxes and broad phase, or by narrow phases and
+// scalar: every combination of those of default_grids.
 std::vector<TradeGrid> grids_like(const Configuration& configuration, Task task);
-// Of the broad phases of default_grids the one that is the fastest on this scene, by a short trial.
+// The broad phase of default_grids that is the fastest on this scene, by a short trial.
 const BroadPhaseEntry& fastest_broad(const SceneFrames& frames, StandInLibrary& library);
-// The same, with each kind of bodies represented by itself where there are several kinds.
+// Adds grids in which one kind of bodies is represented, where there are several kinds.
 void add_kinds(const SceneFrames& frames, std::vector<TradeGrid>& grids);
 
 }  // namespace touchstone

@@ -21,8 +21,6 @@ void PointSampler::play_up_to(std::size_t frame) {
 
 SampleReply PointSampler::sample(const SampleRequest& request) {
   SampleReply reply;
-  reply.stages.fill(0);
-  reply.prepare = 0;
   reply.contacts = 0;
   std::size_t frame = request.frame;
   for (std::uint32_t i = 0; i < request.frames; ++i) {
@@ -34,10 +32,8 @@ SampleReply PointSampler::sample(const SampleRequest& request) {
       pipeline_.advance();
     }
     ++frame;
-    for (std::size_t k = 0; k < reply.stages.size(); ++k) {
-      const double seconds = pipeline_.seconds()[k];
-      reply.stages[k] += seconds;
-      (k <= static_cast<std::size_t>(Stage::update) ? reply.prepare : reply.query) += seconds;
+    for (std::size_t k = 0; k < stage_names.size(); ++k) {
+      reply.durations.add(stage_names[k], pipeline_.seconds()[k]);
     }
     reply.pairs += static_cast<std::int64_t>(pipeline_.pairs().size());
     reply.pair_hash += pair_hash(pipeline_.pairs());

@@ -1,4 +1,4 @@
-// A configuration in a worker process: what it does when it is asked for a sample.
+// Samples of a whole configuration.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace touchstone {
 
-// Frames are played in order and again and again; frame 0 is where they begin, and belongs to no
-// sample, unless the scene has no other: then each of its samples begins anew. `prepare` of the
-// reply is boxes and update, `query` the rest; `stages` has each.
+// Frames are played in order and again and again. They begin at frame 0, which belongs to no
+// sample, unless the scene has no other: then each of its samples begins anew. The durations are
+// the stages of the pipeline.
 class PointSampler final : public Sampler {
  public:
   // The frames outlive it.

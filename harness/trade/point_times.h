@@ -1,5 +1,5 @@
-// The times of configurations on a scene: interleaved in shuffled rounds, each in warm processes of
-// its own, each round on frames of its own.
+// The times of configurations on a scene, by the measuring loop: each configuration in warm
+// processes of its own, each round on a window of frames of its own.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,30 @@
 #include <string>
 #include <vector>
 
-#include "harness/measure/sampler.h"
+#include "harness/measure/measuring_loop.h"
 #include "harness/trade/evaluation.h"
 
 namespace touchstone {
 
 struct TimedPoint {
-  // Of a frame: the baseline's median times the median of the paired ratios to it, and the sign
-  // test's interval at 95 %; NaN where there is none.
+  // Seconds a frame: the baseline's median times the median of the paired ratios to it, and the
+  // sign test's interval at 95 %; NaN where there is none.
   double seconds = Outcome::none, low = Outcome::none, high = Outcome::none;
   StageSeconds stages{};  // medians
   std::int64_t rounds = 0;
-  std::string status = "ok";  // else crashed, timed_out or threw, with its last words
-  std::string words;
+  ItemState state = ItemState::done;  // how its worker ended, if it failed
+  std::string words;                  // why
+
+  bool ok() const { return state == ItemState::done; }
 };
 
-// One sample, as raw.csv has it: a row for each stage.
+// A sample of a configuration, with the round that it is in.
 struct PointSample {
-  std::size_t point = 0;
-  bool twin = false;
-  std::int64_t process = 0, square = 0, round = 0, position = 0;
-  std::uint32_t frame = 0, frames = 0;
-  SampleReply reply;
-  std::string noise, status = "ok";
+  std::size_t point;
+  bool control;         // the A/A control: a second registration of the baseline
+  std::int64_t square;  // numbered through all sets
+  const Round& round;
+  const Sample& sample;
 };
 
 struct TimingPlan {
@@ -44,11 +45,11 @@ struct TimingPlan {
 
 struct PointTimes {
   std::vector<TimedPoint> points;
-  double twin = Outcome::none;  // of the baseline's second registration to itself: 1 if all is well
+  double control = Outcome::none;  // time of the A/A control over the baseline's: 1 if all is well
 };
 
 // `rough`: seconds a frame of each point, about; the first is the baseline. Points of like speed
-// are timed together, with the baseline, its twin and the same frames.
+// are timed together, with the baseline, its control and the same frames.
 PointTimes time_points(const SceneFrames& frames, std::span<const TradePoint> points,
                        std::span<const double> rough, Task task, const TimingPlan& plan,
                        const std::function<void(const PointSample&)>& keep);

@@ -4,130 +4,46 @@
 
 #include <cmath>
 
+#include "harness/base/hash.h"
 #include "harness/base/markdown.h"
 #include "harness/base/text_table.h"
 #include "harness/record/machine.h"
+#include "harness/trade/trade_rows.h"
 
 namespace touchstone {
 namespace {
 
-const std::vector<std::string> identity = {"representation", "boxes",     "broad",         "narrow",
-                                           "scalar",         "tolerance", "max_iterations"};
+constexpr Spread no_spread = {Outcome::none, Outcome::none, Outcome::none};
 
-std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+Facts facts_of(const TradeRequest& request, const TradeScene& scene, const std::string& hash) {
+  return {{"campaign", request.name},
+          {"scene", scene.scene.name},
+          {"scene_hash", hash},
+          {"bodies", std::to_string(scene.scene.size())},
+          {"frames", std::to_string(scene.frames.frames.size())},
+          {"task", std::string(to_string(request.task))},
+          {"threads", std::to_string(request.threads)},
+          {"error", std::string(to_string(request.measure))}};
 }
 
-void write_identity(CsvWriter& file, const Configuration& configuration) {
-  const bool narrow = !configuration.narrow.empty();
-  const bool broad = configuration.broad != nullptr;
-  file.field(configuration.representations.name())
-      .field(broad ? configuration.boxes.name() : "")
-      .field(broad ? configuration.broad->info.name : "")
-      .field(chain_name(configuration.narrow))
-      .field(narrow ? to_string(configuration.settings.scalar) : "")
-      .field(configuration.settings.tolerance.value_or(Outcome::none));
-  if (configuration.settings.max_iterations) {
-    file.field(*configuration.settings.max_iterations);
-  } else {
-    file.field("");
-  }
-}
-
-void write_spread(CsvWriter& file, const Spread& spread) {
-  file.field(spread.mean).field(spread.p99).field(spread.greatest);
-}
-
-void write_points(const TradeResult& result, const std::filesystem::path& path) {
-  CsvWriter file(path, joined(joined({"point", "baseline", "front", "status", "words"}, identity),
-                              {"error",
-                               "seconds",
-                               "seconds_low",
-                               "seconds_high",
-                               "rounds",
-                               "boxes_seconds",
-                               "update_seconds",
-                               "find_pairs_seconds",
-                               "parts_seconds",
-                               "narrow_seconds",
-                               "preparation_seconds",
-                               "near_pairs",
-                               "contacts",
-                               "false_positives",
-                               "false_negatives",
-                               "failed",
-                               "far_false_positives",
-                               "wrong_share",
-                               "values",
-                               "value_mean",
-                               "value_p99",
-                               "value_greatest",
-                               "volume_mean",
-                               "volume_p99",
-                               "volume_greatest",
-                               "hausdorff_mean",
-                               "hausdorff_p99",
-                               "hausdorff_greatest",
-                               "hulls_built",
-                               "shapes_bound",
-                               "boxes_computed",
-                               "builds",
-                               "updates",
-                               "searches",
-                               "pairs",
-                               "settled",
-                               "queries",
-                               "witnesses"}));
-  for (std::size_t i = 0; i < result.points.size(); ++i) {
-    const TradeOutcome& point = result.points[i];
-    const Evaluation& evaluation = point.evaluation;
-    const bool evaluated = evaluation.status == "ok";
-    file.field(point.point.configuration.name()).field(i == 0 ? 1 : 0);
-    file.field(point.on_front ? 1 : 0);
-    file.field(evaluated ? point.timed.status : evaluation.status);
-    file.field(evaluated ? point.timed.words : evaluation.words);
-    write_identity(file, point.point.configuration);
-    file.field(point.error).field(point.timed.seconds).field(point.timed.low);
-    file.field(point.timed.high).field(point.timed.rounds);
-    for (const double seconds : point.timed.stages) {
-      file.field(point.timed.rounds > 0 ? seconds : Outcome::none);
-    }
-    const PointErrors& errors = evaluation.errors;
-    file.field(point.preparation).field(errors.near).field(errors.contacts);
-    file.field(errors.false_positives).field(errors.false_negatives).field(errors.failed);
-    file.field(errors.far).field(evaluated ? errors.wrong_share() : Outcome::none);
-    file.field(errors.values);
-    write_spread(file, errors.values > 0 ? errors.value
-                                         : Spread{Outcome::none, Outcome::none, Outcome::none});
-    write_spread(file, point.representation.volume);
-    write_spread(file, point.representation.hausdorff);
-    const PipelineCounters& c = evaluation.counters;
-    for (const std::int64_t count : {c.hulls_built, c.shapes_bound, c.boxes, c.builds, c.updates,
-                                     c.searches, c.pairs, c.settled, c.queries, c.witnesses}) {
-      file.field(count);
-    }
-    file.end_row();
-  }
-  file.close();
-}
-
-void write_bins(const TradeResult& result, const std::filesystem::path& path) {
-  CsvWriter file(path, {"point", "gap_low", "gap_high", "pairs", "false_positives",
-                        "false_negatives", "failed"});
-  for (const TradeOutcome& point : result.points) {
-    const auto& bins = point.evaluation.errors.bins;
-    for (std::size_t i = 0; i < bins.size(); ++i) {
-      if (bins[i].pairs == 0) continue;
-      const GapRange range = gap_range(i);
-      const bool contact = !(range.high > 0);
-      const std::int64_t none = 0;
-      file.field(point.point.configuration.name()).field(range.low).field(range.high);
-      file.field(bins[i].pairs).field(contact ? none : bins[i].wrong);
-      file.field(contact ? bins[i].wrong : none).field(bins[i].failed).end_row();
-    }
-  }
-  file.close();
+TradePointRow row_of_point(const TradeOutcome& point) {
+  const Evaluation& evaluation = point.evaluation;
+  TradePointRow row;
+  row.point = point.point.configuration.name();
+  row.on_front = point.on_front;
+  row.status = to_string(evaluation.ok() ? point.timed.state : evaluation.state);
+  row.words = evaluation.ok() ? point.timed.words : evaluation.words;
+  row.configuration = ConfigurationNames(point.point.configuration);
+  row.error = point.error;
+  row.preparation = point.preparation;
+  if (evaluation.ok()) row.wrong_share = evaluation.errors.wrong_share();
+  row.timed = point.timed;
+  if (point.timed.rounds == 0) row.timed.stages.fill(Outcome::none);
+  row.errors = evaluation.errors;
+  if (row.errors.values == 0) row.errors.value = no_spread;
+  row.representation = point.representation;
+  row.counters = evaluation.counters;
+  return row;
 }
 
 std::string milliseconds(double seconds) { return fmt::format("{:.4g}", seconds * 1e3); }
@@ -159,84 +75,130 @@ std::string question(const TradeResult& result, const TradeRequest& request) {
                      result.truth_frames, result.frames, result.near_pairs);
 }
 
-void write_front(const TradeResult& result, const TradeRequest& request,
-                 const std::filesystem::path& folder) {
-  CsvWriter file(folder / "front.csv",
-                 joined({"point"}, joined(identity, {"seconds", "seconds_low", "seconds_high",
-                                                     "error", "error_measure"})));
+}  // namespace
+
+ConfigurationNames::ConfigurationNames(const Configuration& configuration)
+    : representation(configuration.representations.name()),
+      narrow(chain_name(configuration.narrow)),
+      tolerance(configuration.settings.tolerance.value_or(Outcome::none)),
+      max_iterations(configuration.settings.max_iterations) {
+  if (configuration.broad != nullptr) {
+    boxes = configuration.boxes.name();
+    broad = configuration.broad->info.name;
+  }
+  if (!configuration.narrow.empty()) scalar = configuration.settings.scalar;
+}
+
+TradeFiles::TradeFiles(const TradeRequest& request, const TradeScene& scene,
+                       const std::filesystem::path& folder)
+    : request_(request),
+      scene_(scene),
+      scene_hash_(scene_hash(scene.scene)),
+      path_(folder),
+      folder_({.folder = folder,
+               .files = {{"samples.csv", header_of<TradeSampleRow>()}},
+               .identity = facts_of(request, scene, scene_hash_),
+               .notes = machine_facts(),
+               .start = FolderStart::overwrite,
+               .work = "trade",
+               .removed = {"points.csv", "bins.csv", "front.csv", "front.md", "left_out.csv",
+                           "trade.toml"}}) {}
+
+void TradeFiles::write(const PointSample& from, const Configuration& configuration) {
+  const Round& round = from.round;
+  const SampleReply& reply = from.sample.reply;
+  TradeSampleRow row;
+  row.campaign = request_.name;
+  row.scene = scene_.scene.name;
+  row.scene_hash = scene_hash_;
+  row.seed = request_.overrides.seed;
+  row.bodies = static_cast<std::int64_t>(scene_.scene.size());
+  row.frame = round.request.frame;
+  row.frames = round.request.frames;
+  row.task = request_.task;
+  row.threads = request_.threads;
+  row.configuration = ConfigurationNames(configuration);
+  row.control = from.control;
+  row.process = round.process;
+  row.square = from.square;
+  row.round = round.round;
+  row.position = from.sample.position;
+  row.pair_count = reply.pairs;
+  row.pair_hash = to_hex(reply.pair_hash);
+  row.contact_count = reply.contacts;
+  row.noise = round.noise;
+  row.status = to_string(from.sample.loss ? from.sample.loss->failure.state : ItemState::done);
+  for (const std::string_view stage : stage_names) {
+    row.phase = stage;
+    row.seconds = reply.durations.of(stage);
+    folder_.write(0, row);
+  }
+  folder_.writer(0).flush();
+}
+
+void TradeFiles::finish(const TradeResult& result) {
+  write_points(result);
+  write_bins(result);
+  write_front(result);
+  CsvWriter left_out(path_ / "left_out.csv", header_of<LeftOutRow>());
+  for (const auto& [reason, count] : result.left_out) {
+    write_row(left_out, LeftOutRow{reason, count});
+  }
+  left_out.close();
+  stats::write_text(path_ / "trade.toml",
+                    trade_toml(request_, path_, "Measured by: touchstone run trade.toml"));
+  folder_.commit();
+  folder_.finish({{"checked_frames", std::to_string(result.truth_frames)},
+                  {"twin_ratio", fmt::format("{}", result.control)}});
+}
+
+void TradeFiles::write_points(const TradeResult& result) const {
+  CsvWriter file(path_ / "points.csv", header_of<TradePointRow>());
+  for (const TradeOutcome& point : result.points) {
+    TradePointRow row = row_of_point(point);
+    row.baseline = &point == &result.points.front();
+    write_row(file, row);
+  }
+  file.close();
+}
+
+void TradeFiles::write_bins(const TradeResult& result) const {
+  CsvWriter file(path_ / "bins.csv", header_of<TradeBinRow>());
+  for (const TradeOutcome& point : result.points) {
+    const auto& bins = point.evaluation.errors.bins;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      if (bins[i].pairs == 0) continue;
+      const GapRange range = gap_range(i);
+      const bool contact = !(range.high > 0);
+      write_row(file, TradeBinRow{.point = point.point.configuration.name(),
+                                  .gap_low = range.low,
+                                  .gap_high = range.high,
+                                  .pairs = bins[i].pairs,
+                                  .false_positives = contact ? 0 : bins[i].wrong,
+                                  .false_negatives = contact ? bins[i].wrong : 0,
+                                  .failed = bins[i].failed});
+    }
+  }
+  file.close();
+}
+
+void TradeFiles::write_front(const TradeResult& result) const {
+  CsvWriter file(path_ / "front.csv", header_of<TradeFrontRow>());
   std::string text =
-      question(result, request) + ".\n\n" + stats::markdown_header(front_header(request));
+      question(result, request_) + ".\n\n" + stats::markdown_header(front_header(request_));
   for (const std::size_t i : result.front) {
     const TradeOutcome& point = result.points[i];
-    file.field(point.point.configuration.name());
-    write_identity(file, point.point.configuration);
-    file.field(point.timed.seconds).field(point.timed.low).field(point.timed.high);
-    file.field(point.error).field(to_string(request.measure)).end_row();
+    write_row(file, TradeFrontRow{.point = point.point.configuration.name(),
+                                  .configuration = ConfigurationNames(point.point.configuration),
+                                  .seconds = point.timed.seconds,
+                                  .low = point.timed.low,
+                                  .high = point.timed.high,
+                                  .error = point.error,
+                                  .measure = request_.measure});
     text += stats::markdown_row(front_row(point));
   }
   file.close();
-  stats::write_text(folder / "front.md", text);
-}
-
-}  // namespace
-
-TradeSamples::TradeSamples(const std::filesystem::path& path, const TradeRequest& request,
-                           const TradeScene& scene, const std::vector<TradeOutcome>& points)
-    : request_(&request),
-      scene_(&scene),
-      points_(&points),
-      hash_(scene_hash(scene.scene)),
-      file_(path,
-            joined(joined({"campaign", "scene", "scene_hash", "seed", "bodies", "frame", "frames",
-                           "task", "threads"},
-                          identity),
-                   {"twin", "process", "square", "round", "position", "phase", "seconds",
-                    "pair_count", "pair_hash", "contact_count", "noise", "status"}),
-            CsvWriter::Keep::flushed_rows) {}
-
-void TradeSamples::write(const PointSample& sample, std::size_t point) {
-  const bool ok = sample.status == "ok";
-  for (std::size_t stage = 0; stage < stage_names.size(); ++stage) {
-    file_.field(request_->name).field(scene_->scene.name).field(hash_);
-    if (request_->overrides.seed == -1) {
-      file_.field("");
-    } else {
-      file_.field(request_->overrides.seed);
-    }
-    file_.field(scene_->scene.size()).field(static_cast<std::int64_t>(sample.frame));
-    file_.field(static_cast<std::int64_t>(sample.frames)).field(to_string(request_->task));
-    file_.field(request_->threads);
-    write_identity(file_, (*points_)[point].point.configuration);
-    file_.field(sample.twin ? 1 : 0).field(sample.process).field(sample.square);
-    file_.field(sample.round).field(sample.position).field(stage_names[stage]);
-    file_.field(ok ? sample.reply.stages[stage] : Outcome::none);
-    file_.field(sample.reply.pairs).field(fmt::format("{:016x}", sample.reply.pair_hash));
-    file_.field(sample.reply.contacts).field(sample.noise).field(sample.status).end_row();
-  }
-  file_.flush();
-}
-
-void write_trade(const TradeResult& result, const TradeRequest& request, const TradeScene& scene,
-                 const std::filesystem::path& folder) {
-  write_points(result, folder / "points.csv");
-  write_bins(result, folder / "bins.csv");
-  write_front(result, request, folder);
-  CsvWriter left_out(folder / "left_out.csv", {"reason", "combinations"});
-  for (const auto& [reason, count] : result.left_out) left_out.field(reason).field(count).end_row();
-  left_out.close();
-  stats::write_text(folder / "trade.toml",
-                    trade_toml(request, folder, "Measured by: touchstone run trade.toml"));
-  write_facts({{"campaign", request.name},
-               {"scene", scene.scene.name},
-               {"scene_hash", scene_hash(scene.scene)},
-               {"bodies", std::to_string(result.bodies)},
-               {"frames", std::to_string(result.frames)},
-               {"checked_frames", std::to_string(result.truth_frames)},
-               {"task", std::string(to_string(request.task))},
-               {"threads", std::to_string(request.threads)},
-               {"error", std::string(to_string(request.measure))},
-               {"twin_ratio", fmt::format("{}", result.twin)}},
-              folder / "machine.csv");
+  stats::write_text(path_ / "front.md", text);
 }
 
 std::string front_text(const TradeResult& result, const TradeRequest& request,
@@ -250,10 +212,11 @@ std::string front_text(const TradeResult& result, const TradeRequest& request,
   text += fmt::format("\n{} configurations: {} on the front, {} dominated, {} failed\n",
                       result.points.size(), result.front.size(),
                       result.points.size() - result.front.size() - lost, lost);
-  if (std::abs(result.twin - 1) > 0.05) {
+  if (std::abs(result.control - 1) > 0.05) {
     text += fmt::format(
-        "The baseline differs from its twin by a factor of {:.3f}: the machine was not quiet.\n",
-        result.twin);
+        "The baseline differs from its A/A control by a factor of {:.3f}: the machine was not "
+        "quiet.\n",
+        result.control);
   }
   return text;
 }

@@ -1,35 +1,37 @@
-// What a trade leaves behind; the columns are documented in results/README.md.
+// The folder of a trade; trade_rows.h has the columns of its files.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "harness/files/csv.h"
+#include "harness/record/result_folder.h"
 #include "harness/trade/trade_job.h"
 
 namespace touchstone {
 
-// raw.csv: a row for each stage of each sample, flushed round by round.
-class TradeSamples {
+class TradeFiles {
  public:
-  // All outlive it. InputError where the file cannot be written.
-  TradeSamples(const std::filesystem::path& file, const TradeRequest& request,
-               const TradeScene& scene, const std::vector<TradeOutcome>& points);
-  void write(const PointSample& sample, std::size_t point);
-  void close() { file_.close(); }
+  // Begins the folder anew. All but the path outlive it. InputError where it cannot be written, or
+  // another trade is at work in it.
+  TradeFiles(const TradeRequest& request, const TradeScene& scene,
+             const std::filesystem::path& folder);
+  // Adds a row for each stage of the sample to samples.csv, and flushes it.
+  void write(const PointSample& sample, const Configuration& configuration);
+  // Writes points.csv, bins.csv, front.csv, front.md, left_out.csv, trade.toml and machine.csv.
+  void finish(const TradeResult& result);
 
  private:
-  const TradeRequest* request_;
-  const TradeScene* scene_;
-  const std::vector<TradeOutcome>* points_;
-  std::string hash_;
-  CsvWriter file_;
-};
+  void write_points(const TradeResult& result) const;
+  void write_bins(const TradeResult& result) const;
+  void write_front(const TradeResult& result) const;
 
-// points.csv, bins.csv, front.csv, front.md, left_out.csv, trade.toml and machine.csv.
-void write_trade(const TradeResult& result, const TradeRequest& request, const TradeScene& scene,
-                 const std::filesystem::path& folder);
+  const TradeRequest& request_;
+  const TradeScene& scene_;
+  std::string scene_hash_;
+  std::filesystem::path path_;
+  ResultFolder folder_;
+};
 
 // The front as a table for a terminal, with what is worth knowing beside it.
 std::string front_text(const TradeResult& result, const TradeRequest& request,

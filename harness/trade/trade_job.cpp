@@ -22,8 +22,8 @@ int frames_of(const TradeRequest& request) {
 
 // The first point that works is what the others are measured by.
 void put_baseline_first(std::vector<TradeOutcome>& points) {
-  const auto works = std::ranges::find_if(
-      points, [](const TradeOutcome& point) { return point.evaluation.status == "ok"; });
+  const auto works =
+      std::ranges::find_if(points, [](const TradeOutcome& point) { return point.evaluation.ok(); });
   if (works == points.end()) throw InputError("no configuration works on this scene");
   std::rotate(points.begin(), works, works + 1);
 }
@@ -82,10 +82,9 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
     const Representations& representations = outcome.point.configuration.representations;
     outcome.representation = spread_of(scene.library.errors(representations));
     outcome.preparation = scene.library.seconds(representations);
-    outcome.error =
-        outcome.evaluation.status != "ok"
-            ? Outcome::none
-            : error_of(outcome.evaluation.errors, outcome.representation, request.measure);
+    outcome.error = !outcome.evaluation.ok() ? Outcome::none
+                                             : error_of(outcome.evaluation.errors,
+                                                        outcome.representation, request.measure);
   }
   put_baseline_first(result.points);
   said(fmt::format("errors of each ({:.0f} s)", watch.seconds()));
@@ -94,7 +93,7 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
   std::vector<double> rough;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < result.points.size(); ++i) {
-    if (result.points[i].evaluation.status != "ok") continue;
+    if (!result.points[i].evaluation.ok()) continue;
     points.push_back(result.points[i].point);
     rough.push_back(std::max(1e-7, result.points[i].evaluation.rough_seconds()));
     places.push_back(i);
@@ -103,15 +102,14 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
   plan.threads = request.threads;
   plan.seed = request.seed;
   plan.seconds = std::max(least_timing * request.seconds, request.seconds - watch.seconds());
-  TradeSamples samples(folder / "raw.csv", request, scene, result.points);
-  PointTimes times =
-      time_points(scene.frames, points, rough, request.task, plan,
-                  [&](const PointSample& sample) { samples.write(sample, places[sample.point]); });
-  samples.close();
+  TradeFiles files(request, scene, folder);
+  PointTimes times = time_points(
+      scene.frames, points, rough, request.task, plan,
+      [&](const PointSample& sample) { files.write(sample, points[sample.point].configuration); });
   for (std::size_t i = 0; i < points.size(); ++i) {
     result.points[places[i]].timed = std::move(times.points[i]);
   }
-  result.twin = times.twin;
+  result.control = times.control;
   said(fmt::format("times of each ({:.0f} s)", watch.seconds()));
 
   std::vector<FrontPoint> front;
@@ -120,6 +118,7 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
   }
   result.front = pareto_front(front);
   for (const std::size_t i : result.front) result.points[i].on_front = true;
+  files.finish(result);
   return result;
 }
 

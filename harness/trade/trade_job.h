@@ -1,4 +1,4 @@
-// Measures a trade: the truth, the errors, the times, and who is on the front.
+// Measures a trade: the exact answers, the errors, the times, and the Pareto front.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct TradeOutcome {
   double error = 0;  // of the request's measure; NaN where it failed
   bool on_front = false;
 
-  bool ok() const { return evaluation.status == "ok" && timed.status == "ok"; }
+  bool ok() const { return evaluation.ok() && timed.ok(); }
 };
 
 struct TradeResult {
@@ -29,7 +29,7 @@ struct TradeResult {
   std::vector<std::size_t> front;    // by rising time
   std::map<std::string, int> left_out;
   std::size_t bodies = 0, frames = 0, truth_frames = 0, near_pairs = 0;
-  double twin = Outcome::none;
+  double control = Outcome::none;  // time of the A/A control over the baseline's
 };
 
 // A scene that is ready to be measured on.
@@ -45,7 +45,8 @@ struct TradeScene {
   StandInLibrary library;
 };
 
-// Fills in the grids where the request has none. `said` is told of each step.
+// Measures into the folder, which it begins anew. Fills in the grids where the request has none.
+// `said` gets a line for each step.
 TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
                           const std::filesystem::path& folder,
                           const std::function<void(const std::string&)>& said);

@@ -1,4 +1,4 @@
-// What `touchstone trade` is asked to measure, from the command line or a file.
+// A request to `touchstone trade`, from the command line or a file.
 #pragma once
 
 #include <filesystem>

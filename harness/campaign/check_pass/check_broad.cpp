@@ -8,8 +8,8 @@
 
 #include "harness/base/hash.h"
 #include "harness/grade/pair_check.h"
+#include "harness/measure/phases/broad_sampler.h"
 #include "harness/measure/run_delay.h"
-#include "harness/measure/sampler.h"
 #include "harness/process/isolate.h"
 #include "harness/scene/box_frames.h"
 
@@ -101,6 +101,12 @@ std::string write_frames(const RunContext& context, const BlockInput& input,
   return file.string();
 }
 
+// Seconds of a frame; the conversion, where it is timed again by itself, is a part of the others.
+double frame_seconds(const SampleReply& reply) {
+  const double conversion = reply.durations.of(to_string(Phase::convert));
+  return reply.durations.sum() - (conversion >= 0 ? conversion : 0);
+}
+
 }  // namespace
 
 CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
@@ -163,7 +169,7 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
       }
       answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
       // Time in which other processes had the processor does not count.
-      if (answer.reply.prepare + answer.reply.query - waited > group.time_limit) {
+      if (frame_seconds(answer.reply) - waited > group.time_limit) {
         too_slow[0] = frame + 1;
       }
     };
@@ -172,7 +178,7 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
   const bool to_the_end = report.failures.empty() && too_slow[0] == 0;
   double seconds = 0;
   for (const ChildAnswer& answer : answers.span()) {
-    seconds += answer.reply.prepare + answer.reply.query;
+    seconds += frame_seconds(answer.reply);
   }
   std::vector<BroadSampler::FrameAllocations> allocations(count);
   if (to_the_end && seconds < longest_to_count) {
@@ -191,12 +197,13 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     }
     const ChildAnswer& answer = answers[frame];
     const bool build = group.rebuild || frame == 0;
-    RawRow prepare = context.row(frame, entry, build ? Phase::build : Phase::update);
-    prepare.seconds = answer.reply.prepare;
+    const Phase phase = build ? Phase::build : Phase::update;
+    RawRow prepare = context.row(frame, entry, phase);
+    prepare.seconds = answer.reply.durations.of(to_string(phase));
     prepare.allocations = allocations[frame].prepare.calls;
     prepare.allocated_bytes = allocations[frame].prepare.bytes;
     RawRow query = context.row(frame, entry, Phase::find_pairs);
-    query.seconds = answer.reply.query;
+    query.seconds = answer.reply.durations.of(to_string(Phase::find_pairs));
     query.status = row_status(answer.reply.status);
     query.pair_count = answer.reply.pairs;
     query.pair_hash = to_hex(answer.reply.pair_hash);
@@ -205,9 +212,10 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     query.allocated_bytes = allocations[frame].query.bytes;
     if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = RowStatus::wrong;
     context.findings->add(std::move(prepare));
-    if (answer.reply.convert >= 0) {
+    const double conversion = answer.reply.durations.of(to_string(Phase::convert));
+    if (conversion >= 0) {
       RawRow convert = context.row(frame, entry, Phase::convert);
-      convert.seconds = answer.reply.convert;
+      convert.seconds = conversion;
       context.findings->add(std::move(convert));
     }
     context.findings->add(std::move(query));
@@ -227,7 +235,7 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     if (too_slow[0] == frame + 1) {
       leave(frame, Status::timed_out,
             fmt::format("{:.1f} s for a frame, over the limit of {:g} s",
-                        answer.reply.prepare + answer.reply.query, group.time_limit),
+                        frame_seconds(answer.reply), group.time_limit),
             "");
       break;
     }

@@ -11,7 +11,7 @@
 
 #include "harness/base/error.h"
 #include "harness/files/cases.h"
-#include "harness/measure/outcome_hash.h"
+#include "harness/measure/phases/outcome_hash.h"
 #include "harness/process/queries/guarded_solve.h"
 
 namespace touchstone {
@@ -114,7 +114,7 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
       if (lost[piece.set] != 0) return;
       lost[piece.set] = 1;
       const SampleReply reply = sampler->sample(request(piece));
-      answers[item] = {reply.query, reply.outcome_hash, reply.contacts, reply.iterations,
+      answers[item] = {reply.durations.sum(), reply.outcome_hash, reply.contacts, reply.iterations,
                        reply.support_calls};
       std::ranges::copy(sampler->outcomes(),
                         outcomes.span().begin() + static_cast<std::ptrdiff_t>(piece.first));

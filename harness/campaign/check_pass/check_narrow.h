@@ -11,8 +11,8 @@
 
 #include "harness/campaign/run_context.h"
 #include "harness/grade/outcome_check.h"
-#include "harness/measure/block_input.h"
-#include "harness/measure/sampler.h"
+#include "harness/measure/phases/block_input.h"
+#include "harness/measure/phases/narrow_sampler.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone {

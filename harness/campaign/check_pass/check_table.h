@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "harness/campaign/run_context.h"
-#include "harness/measure/block_input.h"
+#include "harness/measure/phases/block_input.h"
 
 namespace touchstone {
 

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "harness/base/markdown.h"
+#include "harness/record/machine.h"
+#include "harness/trade/advice/verification_row.h"
 
 namespace touchstone {
 namespace {
@@ -52,11 +54,12 @@ std::string errors_text(const std::vector<HeldOutGrade>& grades) {
 
 }  // namespace
 
-std::string advice_text(const Advice& advice, const TradeRequest& request,
-                        const ErrorBudget& budget, const TradeScene& scene) {
-  std::string text = fmt::format("{}: {}; {} configurations, {} within the budget, {} timed\n\n",
-                                 scene.scene.name, to_string(budget, request.measure),
-                                 advice.configurations, advice.within_budget, advice.timed);
+std::string advice_text(const Advice& advice, const AdviceProblem& problem) {
+  const TradeRequest& request = problem.request;
+  std::string text =
+      fmt::format("{}: {}; {} configurations, {} within the budget, {} timed\n\n",
+                  problem.scene.scene.name, to_string(problem.budget, request.measure),
+                  advice.configurations, advice.within_budget, advice.timed);
   if (!advice.best) return text + "Nothing that was tried meets the budget.\n";
   text += fmt::format("Cheapest: {}\n{}", advice.best->point.configuration.name(),
                       describe(*advice.best, request.measure));
@@ -79,15 +82,16 @@ std::string advice_text(const Advice& advice, const TradeRequest& request,
                             describe(*advice.next_better, request.measure));
 }
 
-void write_advice(const Advice& advice, TradeRequest request, const ErrorBudget& budget,
-                  const TradeScene& scene, const std::filesystem::path& folder) {
-  stats::write_text(folder / "advice.txt", advice_text(advice, request, budget, scene));
+void write_advice(const Advice& advice, const AdviceProblem& problem,
+                  const std::filesystem::path& folder) {
+  stats::write_text(folder / "advice.txt", advice_text(advice, problem));
   if (!advice.best) return;
+  TradeRequest request = problem.request;
   request.grids = {grid_of(advice.best->point.configuration)};
   if (advice.next_better) request.grids.push_back(grid_of(advice.next_better->point.configuration));
   stats::write_text(folder / "advice.toml",
                     trade_toml(request, folder,
-                               "The cheapest with " + to_string(budget, request.measure) +
+                               "The cheapest with " + to_string(problem.budget, request.measure) +
                                    ", and the next better behind it.\n"
                                    "Measured by: touchstone run advice.toml"));
 }
@@ -113,51 +117,48 @@ std::string verification_text(const Verification& v) {
                                                     : "not known to be within 10 %");
 }
 
-VerificationRows::VerificationRows(const std::filesystem::path& file, int draws)
+VerificationRows::VerificationRows(const std::filesystem::path& folder, int draws)
     : draws_(draws),
-      file_(
-          file,
-          [&] {
-            std::vector<std::string> columns = {
-                "scene",     "scene_hash",         "bodies", "task",  "threads", "error_measure",
-                "max_error", "no_false_negatives", "choice", "error", "held_out"};
-            for (int i = 1; i <= draws; ++i) columns.push_back(fmt::format("error_{}", i));
-            for (const char* column :
-                 {"within_budget", "configurations", "rivals", "rivals_dropped", "seconds", "best",
-                  "best_seconds", "ratio", "ratio_low", "ratio_high", "rounds", "within_time",
-                  "verified"}) {
-              columns.emplace_back(column);
-            }
-            return columns;
-          }(),
-          CsvWriter::Keep::flushed_rows) {
-  file_.flush();
-}
+      folder_({.folder = folder,
+               .files = {{"verification.csv", header_of<VerificationRow>(draws)}},
+               .identity = {{"held_out_scenes", std::to_string(draws)}},
+               .notes = machine_facts(),
+               .start = FolderStart::overwrite,
+               .work = "verification"}) {}
 
-void VerificationRows::write(const TradeRequest& request, const ErrorBudget& budget,
-                             const TradeScene& scene, const Verification* verification) {
-  // Without advice: what nobody chose has no error and no time.
-  const Verification none = [] {
-    Verification empty;
-    empty.choice.error = Outcome::none;
-    empty.time = TimeVerdict::undecided;
-    return empty;
-  }();
-  const Verification& v = verification == nullptr ? none : *verification;
-  file_.field(scene.scene.name).field(scene_hash(scene.scene)).field(scene.scene.size());
-  file_.field(to_string(request.task)).field(request.threads).field(to_string(request.measure));
-  file_.field(budget.most).field(budget.no_false_negatives ? 1 : 0);
-  file_.field(verification == nullptr ? "" : v.choice.point.configuration.name());
-  file_.field(v.choice.error).field(v.held_out.empty() ? "" : v.held_out_on);
-  for (int i = 0; i < draws_; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    file_.field(at < v.held_out.size() ? v.held_out[at].error : Outcome::none);
+void VerificationRows::write(const AdviceProblem& problem, const Verification* verification) {
+  VerificationRow row;
+  const Scene& scene = problem.scene.scene;
+  row.scene = scene.name;
+  row.scene_hash = scene_hash(scene);
+  row.bodies = static_cast<std::int64_t>(scene.size());
+  row.task = problem.request.task;
+  row.threads = problem.request.threads;
+  row.measure = problem.request.measure;
+  row.max_error = problem.budget.most;
+  row.no_false_negatives = problem.budget.no_false_negatives;
+  if (verification != nullptr) {
+    const Verification& v = *verification;
+    row.choice = v.choice.point.configuration.name();
+    row.error = v.choice.error;
+    if (!v.held_out.empty()) row.held_out = v.held_out_on;
+    row.errors = errors_of(v.held_out);
+    row.within_budget = v.within_budget ? YesNo::yes : YesNo::no;
+    row.configurations = static_cast<std::int64_t>(v.configurations);
+    row.rivals = static_cast<std::int64_t>(v.rivals);
+    row.dropped = static_cast<std::int64_t>(v.dropped);
+    row.seconds = v.seconds;
+    row.best = v.best;
+    row.best_seconds = v.best_seconds;
+    row.ratio = v.ratio.median;
+    row.ratio_low = v.ratio.low;
+    row.ratio_high = v.ratio.high;
+    row.rounds = static_cast<std::int64_t>(v.ratio.n);
+    row.within_time = v.time;
+    row.verified = v.holds() ? YesNo::yes : YesNo::no;
   }
-  file_.field(v.within_budget ? "yes" : "no").field(v.configurations).field(v.rivals);
-  file_.field(v.dropped).field(v.seconds).field(v.best).field(v.best_seconds);
-  file_.field(v.ratio.median).field(v.ratio.low).field(v.ratio.high).field(v.ratio.n);
-  file_.field(to_string(v.time)).field(v.holds() ? "yes" : "no").end_row();
-  file_.flush();
+  folder_.write(0, row, draws_);
+  folder_.commit();
 }
 
 }  // namespace touchstone

@@ -1,4 +1,5 @@
-// What advice is asked for, and held against: a request, its scene, and how right is right enough.
+// The context of a search for advice and of its verification: a request, its scene, and the error
+// that is allowed.
 #pragma once
 
 #include <functional>
@@ -14,7 +15,7 @@ struct AdviceProblem {
   TradeScene& scene;  // the request's
   const Representing& representing;
   const ErrorBudget& budget;
-  std::function<void(const std::string&)> said;  // is told what comes of it on the way
+  std::function<void(const std::string&)> said;  // gets a line for each step
 };
 
 }  // namespace touchstone

@@ -184,9 +184,9 @@ class Search {
       TimedPoint& timed = all_[members[k]].timed;
       timed = std::move(times.points[k]);
       // Last in its order.
-      if (timed.status != "ok") timed.seconds = std::numeric_limits<double>::infinity();
+      if (!timed.ok()) timed.seconds = std::numeric_limits<double>::infinity();
     }
-    advice_.twin = times.twin;
+    advice_.control = times.control;
   }
 
   void find_next_better() {
@@ -195,11 +195,11 @@ class Search {
       if (all_[i].error < advice_.best->error) better.push_back(i);
     }
     if (better.empty()) return;
-    const double twin = advice_.twin;
+    const double control = advice_.control;
     const std::vector<std::size_t> ranked =
         halve(better, enough_for_better * problem_.request.seconds);
     if (all_[ranked.front()].ok()) advice_.next_better = all_[ranked.front()];
-    advice_.twin = twin;
+    advice_.control = control;
   }
 
   const AdviceProblem& problem_;

@@ -1,8 +1,8 @@
 // The cheapest configuration that is right enough on a scene, found by measuring.
 // Paper:   Jamieson, Talwalkar, "Non-stochastic best arm identification and hyperparameter
 //          optimization", AISTATS 2016 (successive halving).
-// Departs: errors are looked at first, on few frames and then on more, and who is over the budget
-//          is out; only the others are timed, longer as they get fewer.
+// Departs: errors are found first, on few frames and then on more, and configurations over the
+//          budget are dropped; only the others are timed, longer as they get fewer.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace touchstone {
 
-// Draws of held_out.h that advice itself looks at, from 1 on: those behind are nobody's.
+// Draws of held_out.h that the search itself uses, from 1 on; a verification uses those behind.
 inline constexpr int advice_draws = 2;
 
 struct Advice {
@@ -23,8 +23,8 @@ struct Advice {
   std::vector<HeldOutGrade> held_out;       // of the best, on scenes that were not looked at before
   std::string held_out_on;
   std::size_t configurations = 0, within_budget = 0, timed = 0;
-  std::int64_t hulls_built = 0;  // in all of the search, for whatever was tried
-  double twin = Outcome::none;
+  std::int64_t hulls_built = 0;    // in all of the search, for whatever was tried
+  double control = Outcome::none;  // time of the A/A control over the baseline's
 };
 
 // Without grids in the request: those of default_grids, each kind of bodies represented by itself

@@ -6,7 +6,7 @@ namespace touchstone {
 
 bool meets(const ErrorBudget& budget, ErrorMeasure measure, const Evaluation& evaluation,
            const RepresentationSpread& representation) {
-  if (evaluation.status != "ok") return false;
+  if (!evaluation.ok()) return false;
   const PointErrors& errors = evaluation.errors;
   if (budget.no_false_negatives) {
     if (errors.false_negatives > 0) return false;

@@ -1,4 +1,4 @@
-// How wrong a configuration may be.
+// The error that a configuration may have.
 #pragma once
 
 #include <string>

@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t most_frames = 4;
 
-// That of the scene as it is asked for; what has none is not generated.
+// The seed of the scene as it is asked for; 1 for a scene that is not generated.
 std::int64_t own_seed(const TradeRequest& request) {
   if (request.overrides.seed != -1) return request.overrides.seed;
   if (request.scene.extension() != ".toml") return 1;
   return parse_toml(request.scene)["seed"].value<std::int64_t>().value_or(1);
 }
 
-// Nothing where the scene has no seeds.
+// Empty where the scene has no seeds.
 std::optional<Scene> with_seed(const TradeRequest& request, std::int64_t seed) {
   SceneOverrides overrides = request.overrides;
   overrides.seed = seed;
@@ -34,7 +34,7 @@ std::optional<Scene> with_seed(const TradeRequest& request, std::int64_t seed) {
   }
 }
 
-// Nothing where nothing moves.
+// Empty where nothing moves.
 std::optional<Scene> begun_later(const TradeRequest& request, int number) {
   Scene scene = load_scene(request.scene, request.overrides);
   Random random(static_cast<std::uint64_t>(number));
@@ -60,7 +60,7 @@ std::optional<Scene> begun_later(const TradeRequest& request, int number) {
 HeldOutScenes::HeldOutScenes(const TradeRequest& request, const Representing& representing,
                              int first, int count, double seconds)
     : request_(request) {
-  // What stands for a body is made however long it takes.
+  // Representations are made however long that takes.
   request_.seconds = std::numeric_limits<double>::infinity();
   const std::int64_t seed = own_seed(request);
   for (int number = first; number < first + count; ++number) {
@@ -96,7 +96,7 @@ std::vector<HeldOutGrade> HeldOutScenes::grade(const Configuration& configuratio
     const GridPoints made = expand({&grid, 1}, scene.frames, scene.library, request_.task);
     if (made.points.size() != 1) continue;  // it makes no sense there
     const Evaluation found = evaluate(scene.frames, made.points, one.truth, request_.task).front();
-    if (found.status != "ok") continue;
+    if (!found.ok()) continue;
     const RepresentationSpread representation =
         spread_of(scene.library.errors(made.points[0].configuration.representations));
     grade.error = error_of(found.errors, representation, request_.measure);

@@ -1,4 +1,4 @@
-// Scenes like the one that a configuration was chosen on, which nobody looked at while choosing.
+// Scenes like the one that a configuration was chosen on, which were not used for the choice.
 #pragma once
 
 #include <memory>

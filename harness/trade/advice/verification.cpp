@@ -6,8 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "harness/trade/trade_files.h"
-
 namespace touchstone {
 namespace {
 
@@ -57,9 +55,7 @@ class Verifier {
       add_kinds(problem_.scene.frames, whole.grids);
     }
     whole.grids.push_back(grid_of(choice));
-    std::filesystem::create_directories(folder);
     TradeResult result = measure_trade(whole, problem_.scene, folder, problem_.said);
-    write_trade(result, whole, problem_.scene, folder);
     found_.configurations = result.points.size();
     bool has_choice = false;
     for (TradeOutcome& point : result.points) {
@@ -111,7 +107,7 @@ class Verifier {
     for (std::size_t i = 1; i < points.size(); ++i) {
       const TimedPoint& rival = times.points[i];
       // Written so that the first takes the place of none.
-      if (rival.status != "ok" || found_.best_seconds <= rival.seconds) continue;
+      if (!rival.ok() || found_.best_seconds <= rival.seconds) continue;
       found_.best = points[i].configuration.name();
       found_.best_seconds = rival.seconds;
       found_.ratio = {own.seconds / rival.seconds, own.seconds / rival.high,

@@ -1,4 +1,4 @@
-// Whether advice holds: its choice against the whole grid, and on scenes that nobody looked at.
+// A test of advice: its choice against the whole grid, and on scenes that it was not made on.
 #pragma once
 
 #include <filesystem>

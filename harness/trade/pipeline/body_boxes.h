@@ -19,7 +19,7 @@ class BodyBoxes {
 
   // The boxes of a frame from nothing; fat ones begin anew.
   void start(std::size_t frame);
-  // Those of a frame from the ones before: bodies that never move keep theirs, fat ones are kept
+  // The boxes of the next frame: bodies that never move keep theirs, fat boxes are kept
   // until the body leaves them. The boxes before stay valid, and those only.
   void advance(std::size_t frame);
 

@@ -26,7 +26,7 @@ FramePipeline::FramePipeline(const SceneFrames& frames, const StandIns& stand_in
       boxes_(frames, stand_ins, configuration.boxes, executor) {
   if (configuration.broad != nullptr) broad_ = configuration.broad->make(executor);
   counters_.hulls_built = stand_ins.hulls;
-  // Of the chain only those that some pair of the scene can come to.
+  // Only the narrow phases of the chain that some pair of the scene can come to are made.
   std::vector<std::size_t> place(configuration.narrow.size(), configuration.narrow.size());
   for (const auto& [a, b] : stand_ins.kind_pairs) {
     for (std::size_t i = 0; i < configuration.narrow.size(); ++i) {
@@ -41,7 +41,7 @@ FramePipeline::FramePipeline(const SceneFrames& frames, const StandIns& stand_in
           counters_.shapes_bound += static_cast<std::int64_t>(stand_ins.shapes.size());
         }
       }
-      takes_[KindBatches::index(a, b)] = static_cast<std::uint8_t>(place[i]);
+      takes_[PairGrouping::index(a, b)] = static_cast<std::uint8_t>(place[i]);
       break;
     }
   }
@@ -141,12 +141,14 @@ void FramePipeline::split_into_parts() {
   }
   counters_.pairs += static_cast<std::int64_t>(asked_.size());
   batches_.clear();
+  for (std::vector<std::uint32_t>& owners : owners_) owners.clear();
   if (!narrow_.empty()) {
     const auto add = [&](std::uint32_t part_a, std::uint32_t part_b, std::size_t owner) {
       const auto kind = [&](std::uint32_t part) {
         return stand_ins_->shapes[stand_ins_->shape_of[part]].kind;
       };
-      batches_.add(part_a, kind(part_a), part_b, kind(part_b), static_cast<std::uint32_t>(owner));
+      const std::size_t batch = batches_.add(part_a, kind(part_a), part_b, kind(part_b));
+      owners_[batch].push_back(static_cast<std::uint32_t>(owner));
     };
     const std::vector<std::uint32_t>& first = stand_ins_->first;
     if (stand_ins_->single) {
@@ -186,7 +188,7 @@ void FramePipeline::solve() {
   const Stopwatch watch;
   pieces_.clear();
   std::size_t total = 0;
-  const auto batches = batches_.batches();
+  const auto batches = batches_.groups();
   for (std::size_t k = 0; k < batches.size(); ++k) {
     for (std::size_t begin = 0; begin < batches[k].size(); begin += queries_a_piece) {
       const std::size_t end = std::min(batches[k].size(), begin + queries_a_piece);
@@ -200,24 +202,17 @@ void FramePipeline::solve() {
       stand_ins_->plain ? std::span<const Pose>(frames_->frames[frame_].poses) : part_poses_;
   executor_->run(pieces_.size(), [&](std::size_t i, int worker) {
     const Piece& piece = pieces_[i];
-    const KindBatches::Batch& batch = batches[piece.batch];
-    const std::size_t count = piece.end - piece.begin;
-    const std::span<Outcome> outcomes = std::span(outcomes_).subspan(piece.outcome, count);
-    // What the task does not ask for stays as it was.
+    const std::span<Outcome> outcomes =
+        std::span(outcomes_).subspan(piece.outcome, piece.end - piece.begin);
+    // solve() leaves numbers that the task does not ask for as they were.
     if (task_ != Task::intersect) {
       for (Outcome& outcome : outcomes) outcome.distance = Outcome::none;
     }
     narrow_[takes_[piece.batch]][static_cast<std::size_t>(worker)]->solve(
-        task_,
-        {.kind_a = batch.kind_a,
-         .kind_b = batch.kind_b,
-         .pairs = {.first = std::span(batch.first).subspan(piece.begin, count),
-                   .second = std::span(batch.second).subspan(piece.begin, count),
-                   .shape_of = stand_ins_->shape_of,
-                   .poses = poses}},
+        task_, batches[piece.batch].batch(stand_ins_->shape_of, poses, piece.begin, piece.end),
         outcomes);
   });
-  // Of several parts an answer is made here; of one part the outcome is the answer.
+  // Bodies of several parts get their answer here; with one part the outcome is the answer.
   if (!stand_ins_->single && !narrow_.empty()) reduce();
   of(seconds_, Stage::narrow) = watch.seconds();
   counters_.queries += static_cast<std::int64_t>(total);
@@ -236,12 +231,10 @@ void FramePipeline::reduce() {
     answers_[i] = {asked_[i], asks_nobody ? Answer::overlapping : Answer::separated, Status::ok,
                    Outcome::none};
   }
-  const auto batches = batches_.batches();
   for (const Piece& piece : pieces_) {
-    const KindBatches::Batch& batch = batches[piece.batch];
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
       const Outcome& outcome = outcomes_[piece.outcome + i - piece.begin];
-      PairAnswer& answer = answers_[batch.owner[i]];
+      PairAnswer& answer = answers_[owners_[piece.batch][i]];
       // Written so that the first number takes the place of none.
       if (std::isfinite(outcome.distance) && !(answer.distance <= outcome.distance)) {
         answer.distance = outcome.distance;

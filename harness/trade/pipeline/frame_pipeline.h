@@ -11,20 +11,20 @@
 
 #include "algorithms/core/executor.h"
 #include "harness/grade/grade.h"
+#include "harness/grade/pair_groups.h"
 #include "harness/trade/pipeline/body_boxes.h"
-#include "harness/trade/pipeline/kind_batches.h"
 #include "harness/trade/pipeline/stand_ins.h"
 
 namespace touchstone {
 
-// Of a frame, in order: the bodies' boxes and their parts' poses; build or update; find_pairs; from
+// The stages of a frame in order: bodies' boxes and parts' poses; build or update; find_pairs; from
 // pairs of bodies to batches of pairs of parts; their answers.
 enum class Stage : std::uint8_t { boxes, update, find_pairs, parts, narrow };
 inline constexpr std::array<std::string_view, 5> stage_names = {"boxes", "update", "find_pairs",
                                                                 "parts", "narrow"};
 using StageSeconds = std::array<double, stage_names.size()>;
 
-// What was done, over all frames so far.
+// Counts of the work done, over all frames so far.
 struct PipelineCounters {
   std::int64_t hulls_built = 0;                        // beyond the scene's own
   std::int64_t shapes_bound = 0;                       // by narrow phases, over all their instances
@@ -37,8 +37,8 @@ struct PipelineCounters {
 };
 
 // The answer for a pair of bodies, taken as it is given even where the algorithm did not converge.
-// Of several parts: in contact if some pair of parts is, else unknown if one is, with the least
-// signed distance of them all.
+// Bodies of several parts are in contact if some pair of parts is, else unknown if some pair is,
+// with the least signed distance of all pairs.
 struct PairAnswer {
   IndexPair pair;
   Answer answer = Answer::unknown;
@@ -57,14 +57,14 @@ class FramePipeline {
   void start(std::size_t frame);
   // The one behind.
   void advance();
-  // The same without its narrow phase: to get to a frame.
+  // Starts a frame without its narrow phase, to get to the one behind it.
   void pass(std::size_t frame);
 
   std::size_t frame() const { return frame_; }
   const StageSeconds& seconds() const { return seconds_; }  // of the last frame
-  // Of the last frame, in an order of its own; valid until the next.
+  // The answers of the last frame, in an order of their own; valid until the next frame.
   std::span<const PairAnswer> answers();
-  // Of all pairs of bodies that it found; those that were settled are among them.
+  // All pairs of bodies that it found, settled ones among them.
   std::span<const IndexPair> pairs() const { return pairs_; }
   // From now on witness points are counted, which takes time.
   void count_witnesses() { counts_witnesses_ = true; }
@@ -92,14 +92,16 @@ class FramePipeline {
   PairSink sink_;
   // Narrow phases that are needed: one instance a worker; and which of them takes a pair of kinds.
   std::vector<std::vector<std::unique_ptr<NarrowPhase>>> narrow_;
-  std::array<std::uint8_t, KindBatches::kinds * KindBatches::kinds> takes_{};
+  std::array<std::uint8_t, PairGrouping::kinds * PairGrouping::kinds> takes_{};
 
   std::size_t frame_ = 0;
   std::vector<IndexPair> pairs_, asked_;
   std::vector<Pose> part_poses_;          // empty where parts are where bodies are
   std::vector<std::uint32_t> placed_at_;  // of each part: frame + 1 of its pose; several parts only
   std::vector<std::vector<PartPair>> part_pairs_;  // of each task
-  KindBatches batches_;
+  PairGrouping batches_;                           // of pairs of parts
+  // The pair of bodies of each pair of parts: a place in asked_.
+  std::array<std::vector<std::uint32_t>, PairGrouping::kinds * PairGrouping::kinds> owners_;
   std::vector<Piece> pieces_;
   std::vector<Outcome> outcomes_;
   std::vector<PairAnswer> answers_;

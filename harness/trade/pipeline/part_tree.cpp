@@ -35,7 +35,7 @@ struct Relative {
   double scale;
 };
 
-// How far the boxes are apart along the axes of either frame: at most the distance of what is in
+// The distance of the boxes along the axes of either frame: at most the distance of what is in
 // them.
 double gap(const PartTree::Node& a, const PartTree::Node& b, const Relative& r) {
   const Vec3d apart = r.turn * b.centre + r.shift - a.centre;
@@ -45,7 +45,7 @@ double gap(const PartTree::Node& a, const PartTree::Node& b, const Relative& r) 
   return std::max(0.0, std::max(along_a.norm(), along_b.norm()) - slack);
 }
 
-// The same for a half-space and a box in the frame of the tree: n.x <= offset there.
+// The distance of a half-space and a box in the frame of the tree: n.x <= offset there.
 struct Plane {
   Plane(const PartTree& plane, const Pose& pose_plane, const Pose& pose_tree) {
     // x in the tree's frame -> the plane's: one affine map.

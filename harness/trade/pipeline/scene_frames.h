@@ -30,7 +30,7 @@ struct SceneFrames {
   std::size_t kind_of(std::size_t body) const;
 
   const Scene* scene;
-  // Of each of the scene's shapes; null where it has none. As a solid, the mesh is the body.
+  // The mesh of each of the scene's shapes, or null. As a solid, the mesh is the body.
   std::vector<const Mesh*> mesh_of;
   std::vector<SceneFrame> frames;
   std::vector<char> moves;  // of each body: its pose changes, or it comes and goes

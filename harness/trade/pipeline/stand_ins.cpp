@@ -37,7 +37,7 @@ bool append_corners(const Part& part, std::vector<Vec3d>& corners) {
   return true;
 }
 
-// Of many flat-sided parts the hull of all, so that the body's box costs what a hull's does.
+// Many flat-sided parts become the hull of all, so that the body's box costs what a hull's does.
 std::vector<Part> outline_of(const std::vector<Part>& parts, std::int64_t& hulls) {
   if (parts.size() == 1) return parts;
   std::vector<Vec3d> corners;
@@ -190,7 +190,7 @@ std::vector<RepresentationError> StandInLibrary::errors(const Representations& r
     if (!one.has_error) {
       if (!errors.empty() && watch.seconds() > most_seconds_) break;
       const Mesh* mesh = frames_->mesh_of[shape];
-      // What is given stands for itself, unless there is a mesh, whose hull it is.
+      // The given shape stands for itself, unless there is a mesh, whose hull it is.
       if (representation.form != Form::as_given || mesh != nullptr) {
         one.error = representing_.error(scene.shapes[shape], mesh, one.stand_in->parts);
       }

@@ -1,5 +1,5 @@
-// What stands for the bodies of a scene in a configuration: parts, and a tree over them where there
-// are several.
+// The representations of a scene's bodies in a configuration: parts, and a tree over them where
+// there are several.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@
 
 namespace touchstone {
 
-// Who represents: harness/represent's functions, or a test's own.
+// The functions that represent bodies: those of harness/proxies, or a test's own.
 struct Representing {
   std::function<std::vector<Part>(const Shape&, const Mesh*, const Representation&)> represent;
   std::function<RepresentationError(const Shape&, const Mesh*, const std::vector<Part>&)> error;
 };
 
-// What stands for the bodies of one shape.
+// The representation of the bodies of one shape.
 struct StandIn {
   StandIn(std::vector<Part> from, const Shape& body);
 
@@ -32,12 +32,13 @@ struct StandIn {
   PartTree tree;
   bool plain = false;      // one part, in the body's own frame
   std::int64_t hulls = 0;  // that were built for it: those of the scene's own shapes are not
-  // What has the tight box of all parts, in the body's frame; for one part that part.
+  // Parts with the same tight box as all parts, in the body's frame; for one part that part.
   std::vector<Part> outline;
   double reach = 0;  // metres: of loose boxes, from the only part's origin, or the body's
 };
 
-// Of all bodies. Parts are numbered through: those of body k are [first[k], first[k + 1]).
+// The representations of all bodies. Parts are numbered through: those of body k are
+// [first[k], first[k + 1]).
 struct StandIns {
   std::vector<const StandIn*> of;  // of each body
   std::vector<std::uint32_t> first;

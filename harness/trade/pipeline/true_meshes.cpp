@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "algorithms/registry.h"
-#include "harness/trade/pipeline/kind_batches.h"
+#include "harness/grade/pair_groups.h"
 
 namespace touchstone {
 namespace {
@@ -88,23 +88,17 @@ std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& 
     }
     return place->second;
   };
-  KindBatches batches;
+  PairGrouping batches;
   for (const auto& [i, j] : found) {
     const std::uint32_t first = number(pair.a, a, i), second = number(pair.b, b, j);
-    batches.add(first, a.parts[i].shape.kind, second, b.parts[j].shape.kind, 0);
+    batches.add(first, a.parts[i].shape.kind, second, b.parts[j].shape.kind);
   }
   double gap = std::numeric_limits<double>::infinity();
-  for (const KindBatches::Batch& batch : batches.batches()) {
+  for (const PairGroup& batch : batches.groups()) {
     if (batch.size() == 0) continue;
     std::vector<Outcome> outcomes(batch.size());
-    certified_[static_cast<std::size_t>(worker)]->solve(Task::distance,
-                                                        {.kind_a = batch.kind_a,
-                                                         .kind_b = batch.kind_b,
-                                                         .pairs = {.first = batch.first,
-                                                                   .second = batch.second,
-                                                                   .shape_of = shape_of,
-                                                                   .poses = part_poses}},
-                                                        outcomes);
+    certified_[static_cast<std::size_t>(worker)]->solve(
+        Task::distance, batch.batch(shape_of, part_poses, 0, batch.size()), outcomes);
     for (const Outcome& outcome : outcomes) {
       if (outcome.answer == Answer::touching || outcome.answer == Answer::overlapping) {
         return {outcome.answer, Outcome::none};

@@ -14,9 +14,9 @@ namespace touchstone {
 // The mesh's triangles, each a flat hull, in the mesh's own frame.
 std::vector<Part> triangle_parts(const Mesh& mesh);
 
-// Whether a point lies inside of a closed mesh (metres, its frame): the winding number by solid
-// angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A mesh with
-// small holes still has an inside.
+// Tells whether a point lies inside of a closed mesh (metres, its frame) by the winding number from
+// solid angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A mesh
+// with small holes still has an inside.
 bool is_inside(const Mesh& mesh, const Vec3d& point);
 
 class TrueMeshes {

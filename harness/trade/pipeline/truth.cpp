@@ -8,7 +8,7 @@
 #include "algorithms/core/bounds.h"
 #include "harness/base/clock.h"
 #include "harness/grade/outcome_check.h"
-#include "harness/measure/overlapping_pairs.h"
+#include "harness/measure/phases/overlapping_pairs.h"
 #include "harness/process/isolate.h"
 #include "harness/trade/pipeline/true_meshes.h"
 

@@ -9,8 +9,8 @@
 
 #include "harness/base/random.h"
 #include "harness/campaign/runner.h"
-#include "harness/measure/sampler.h"
-#include "harness/measure/warm_pairs.h"
+#include "harness/measure/phases/narrow_sampler.h"
+#include "harness/measure/phases/warm_pairs.h"
 #include "harness/stats/samples.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/campaign/runner.h"
+#include "harness/measure/allocations.h"
 #include "harness/measure/worker.h"
 #include "tests/harness/campaign/fakes.h"
 

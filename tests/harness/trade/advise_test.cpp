@@ -8,26 +8,14 @@
 namespace touchstone {
 namespace {
 
-struct Asked {
-  explicit Asked(const std::string& scene_text) {
-    request.scene = folder.write("scene.toml", scene_text);
-    request.threads = 1;
-    request.seconds = 1;
-    TradeGrid grid = grid_with("gjk");
-    grid.narrow = {
-        parse_chain("closed-form+gjk"), parse_chain("gjk"), parse_chain("certified"), {}};
-    grid.boxes = {{}, {BoxChoice::Kind::loose, 0}};
-    grid.representations = {{}, all_as(Form::sphere)};
-    request.grids = {grid};
+struct Asked : SmallRequest {
+  explicit Asked(const std::string& scene_text) : SmallRequest(scene_text, 1) {
+    request.grids[0].boxes = {{}, {BoxChoice::Kind::loose, 0}};
   }
   Advice advice(const ErrorBudget& budget) {
     TradeScene scene(request, representing);
     return advise({request, scene, representing, budget, [](const auto&) {}});
   }
-
-  TemporaryFolder folder;
-  TradeRequest request;
-  Representing representing = simple_representing();
 };
 
 const std::string boxes = "generator = \"uniform\"\ncount = 100\noverlaps = 6\nframes = 6\n";
@@ -135,7 +123,7 @@ TEST(Advise, ABudgetWithoutMissesCountsUnansweredContacts) {
   EXPECT_EQ(both(), std::pair(true, false));
   evaluation.errors.false_positives = 200;
   EXPECT_EQ(both(), std::pair(false, false));
-  evaluation.status = "crashed";
+  evaluation.state = ItemState::crashed;
   evaluation.errors = {};
   EXPECT_EQ(both(), std::pair(false, false));
 }

@@ -26,7 +26,6 @@ TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
   request.grids = {grid};
   TradeScene scene(request, simple_representing());
   const TradeResult result = measure_trade(request, scene, folder.path(), [](const auto&) {});
-  write_trade(result, request, scene, folder.path());
 
   ASSERT_EQ(result.points.size(), 12u);
   std::set<double> errors;
@@ -44,7 +43,7 @@ TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
   EXPECT_GT(errors.size(), 2u);
   ASSERT_FALSE(result.front.empty());
   EXPECT_EQ(result.points[result.front.back()].error, 0);
-  EXPECT_GT(result.twin, 0);
+  EXPECT_GT(result.control, 0);
 
   std::size_t on_front = 0, points = 0, samples = 0;
   CsvReader(folder.path() / "points.csv", {"point", "front", "seconds"})
@@ -56,7 +55,7 @@ TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
   EXPECT_EQ(points, 12u);
   EXPECT_EQ(on_front, result.front.size());
   std::set<std::string> stages;
-  CsvReader(folder.path() / "raw.csv",
+  CsvReader(folder.path() / "samples.csv",
             {"scene", "bodies", "frame", "broad", "narrow", "scalar", "threads", "phase", "seconds",
              "pair_count", "pair_hash", "contact_count", "status"})
       .read([&](const CsvReader::Row& row) {

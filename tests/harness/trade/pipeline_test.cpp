@@ -75,7 +75,7 @@ TEST(TradePipeline, WhatHoldsTheBodyMissesNoContact) {
   std::int64_t false_positives = 0;
   for (const TradeGrid& grid : grids) {
     const Evaluation found = world.errors_of(grid, truth);
-    ASSERT_EQ(found.status, "ok") << found.words;
+    ASSERT_TRUE(found.ok()) << found.words;
     EXPECT_EQ(found.errors.false_negatives, 0);
     EXPECT_EQ(found.errors.failed, 0);
     EXPECT_GT(found.errors.contacts, 100);
@@ -201,8 +201,8 @@ TEST(TradePipeline, WhatThrowsCostsItselfAlone) {
   std::vector<TradePoint> points(3, point_of(grid_with("gjk"), world.frames, world.library));
   points[1].configuration.narrow = {&broken};
   const auto found = evaluate(world.frames, points, truth, Task::intersect);
-  EXPECT_EQ(found[0].status, "ok");
-  EXPECT_EQ(found[1].status, "threw");
+  EXPECT_TRUE(found[0].ok());
+  EXPECT_EQ(to_string(found[1].state), "threw");
   EXPECT_THAT(found[1].words, testing::HasSubstr("broken on purpose"));
   EXPECT_EQ(found[2].errors.near, found[0].errors.near);
 }

@@ -7,7 +7,7 @@
 
 #include "algorithms/core/bounds.h"
 #include "harness/base/error.h"
-#include "harness/trade/grid.h"
+#include "harness/trade/trade_request.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -75,5 +75,23 @@ inline TradeGrid grid_with(const std::string& narrow,
   grid.narrow = {parse_chain(narrow)};
   return grid;
 }
+
+// A request about a scene, with a grid of narrow phases and representations.
+struct SmallRequest {
+  SmallRequest(const std::string& scene_text, double seconds) {
+    request.scene = folder.write("scene.toml", scene_text);
+    request.threads = 1;
+    request.seconds = seconds;
+    TradeGrid grid = grid_with("gjk");
+    grid.narrow = {
+        parse_chain("gjk"), parse_chain("closed-form+gjk"), parse_chain("certified"), {}};
+    grid.representations = {{}, all_as(Form::sphere)};
+    request.grids = {grid};
+  }
+
+  TemporaryFolder folder;
+  TradeRequest request;
+  Representing representing = simple_representing();
+};
 
 }  // namespace touchstone

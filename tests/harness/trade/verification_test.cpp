@@ -17,17 +17,8 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Small {
-  explicit Small(const std::string& scene_text) {
-    request.scene = folder.write("scene.toml", scene_text);
-    request.threads = 1;
-    request.seconds = 0.5;
-    TradeGrid grid = grid_with("gjk");
-    grid.narrow = {
-        parse_chain("gjk"), parse_chain("closed-form+gjk"), parse_chain("certified"), {}};
-    grid.representations = {{}, all_as(Form::sphere)};
-    request.grids = {grid};
-  }
+struct Small : SmallRequest {
+  explicit Small(const std::string& scene_text) : SmallRequest(scene_text, 0.5) {}
   Configuration named(const std::string& narrow) const {
     Configuration configuration;
     configuration.broad = find_broad_phase("sweep-and-prune");
@@ -41,10 +32,6 @@ struct Small {
     return verify({request, scene, representing, budget, [](const auto&) {}}, complete, 3, 2,
                   folder.path() / "grid");
   }
-
-  TemporaryFolder folder;
-  TradeRequest request;
-  Representing representing = simple_representing();
 };
 
 const std::string moving = "generator = \"uniform\"\ncount = 80\noverlaps = 6\nframes = 5\n";
@@ -109,7 +96,9 @@ TEST(Verification, HeldOutScenesAreDrawnByTheirNumber) {
 
 TEST(Verification, ARowSaysWhatCameOut) {
   Small small(moving);
-  const TradeScene scene(small.request, small.representing);
+  TradeScene scene(small.request, small.representing);
+  const ErrorBudget budget{.most = 0.5};
+  const AdviceProblem problem{small.request, scene, small.representing, budget, {}};
   Verification verification;
   verification.choice.error = 0.25;
   verification.held_out = {{"seed 4", 0.5, 10, 1, true}};
@@ -117,12 +106,12 @@ TEST(Verification, ARowSaysWhatCameOut) {
   verification.within_budget = true;
   verification.best = "other";
   verification.ratio = {1.05, 1, 1.09, 30};
-  VerificationRows rows(small.folder.path() / "v.csv", 2);
-  rows.write(small.request, {.most = 0.5}, scene, &verification);
-  rows.write(small.request, {.most = 0.5}, scene, nullptr);
+  VerificationRows rows(small.folder.path() / "v", 2);
+  rows.write(problem, &verification);
+  rows.write(problem, nullptr);
   rows.close();
   std::vector<std::vector<std::string>> found;
-  CsvReader(small.folder.path() / "v.csv",
+  CsvReader(small.folder.path() / "v/verification.csv",
             {"scene", "max_error", "error", "error_1", "error_2", "within_budget", "best",
              "ratio_high", "within_time", "verified"})
       .read([&](const CsvReader::Row& row) {

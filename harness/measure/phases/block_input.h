@@ -1,5 +1,5 @@
-// What the algorithms of a block are given, all frames of it at once, so that a window of frames
-// can be timed at any place.
+// The input of a block's algorithms, all frames at once, so that a window of frames can be timed at
+// any place.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct BlockInput {
   std::vector<BlockFrame> frames;
 };
 
-// What narrow phases are asked about together: the pairs of one kind that one source has found.
+// The pairs of one kind that one source has found: narrow phases are asked about them together.
 struct NarrowSet {
   std::string broad;  // the broad phase that found the pairs; empty where they are the true ones
   Task task;

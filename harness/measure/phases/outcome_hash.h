@@ -12,8 +12,8 @@
 
 namespace touchstone {
 
-// The same for every order of the pairs and every number of threads; a sum modulo 2^64 over the
-// pairs, so that of several frames is the sum of theirs.
+// It does not depend on the order of the pairs or on the number of threads. It is a sum modulo 2^64
+// over the pairs, so the one of several frames is the sum of theirs.
 inline std::uint64_t outcome_hash(const PairGroup& group, std::span<const Outcome> outcomes) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {

@@ -1,9 +1,9 @@
-#include "harness/measure/block_input.h"
+#include "harness/measure/phases/block_input.h"
 
 #include <map>
 #include <utility>
 
-#include "harness/measure/overlapping_pairs.h"
+#include "harness/measure/phases/overlapping_pairs.h"
 #include "harness/scene/player.h"
 
 namespace touchstone {

@@ -1,12 +1,15 @@
-#include "harness/measure/sampler.h"
+#include "harness/measure/phases/broad_sampler.h"
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
 
+#include "harness/base/clock.h"
 #include "harness/base/hash.h"
+#include "harness/record/raw_row.h"
 
 namespace touchstone {
+
 BroadSampler::BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
                            Executor& executor)
     : input_(&input),
@@ -25,16 +28,18 @@ void BroadSampler::prepare(std::size_t frame) {
 void BroadSampler::step(std::size_t frame, SampleReply& reply) {
   const Stopwatch preparing;
   prepare(frame);
-  reply.prepare += preparing.seconds();
+  const double prepared = preparing.seconds();
   const Stopwatch finding;
   const Status status = algorithm_->find_pairs(sink_);
-  reply.query += finding.seconds();
+  const double found = finding.seconds();
+  reply.durations.add(to_string(is_built(frame) ? Phase::build : Phase::update), prepared);
+  reply.durations.add(to_string(Phase::find_pairs), found);
   if (status != Status::ok) reply.status = status;
   reply.pairs += static_cast<std::int64_t>(sink_.size());
   at_ = static_cast<std::ptrdiff_t>(frame);
 }
 
-// The least of some repetitions; none where nothing is converted.
+// The least of some repetitions; NaN when the algorithm converts nothing.
 double BroadSampler::time_conversion(std::size_t frame) {
   constexpr int repetitions = 3;
   const BlockFrame& now = input_->frames[frame];
@@ -62,17 +67,17 @@ double BroadSampler::time_conversion(std::size_t frame) {
 void BroadSampler::play_up_to(std::size_t frame) {
   if (at_ == static_cast<std::ptrdiff_t>(frame) - 1) return;
   SampleReply untimed;
-  untimed.prepare = 0;
   for (std::size_t before = 0; before < frame; ++before) step(before, untimed);
 }
 
 SampleReply BroadSampler::play(std::size_t frame) {
   SampleReply reply;
-  reply.prepare = 0;
   if (!is_built(frame)) play_up_to(frame);
   step(frame, reply);
   reply.work = algorithm_->work();
-  reply.convert = time_conversion(frame);
+  if (const double seconds = time_conversion(frame); seconds >= 0) {
+    reply.durations.add(to_string(Phase::convert), seconds);
+  }
   for (const PairBuffer& chunk : sink_.chunks()) reply.pair_hash += pair_hash(chunk.pairs());
   return reply;
 }
@@ -97,7 +102,6 @@ BroadSampler::FrameAllocations BroadSampler::count_allocations(std::size_t frame
 SampleReply BroadSampler::sample(const SampleRequest& request) {
   if (request.hashed) return play(request.frame);
   SampleReply untimed, reply;
-  untimed.prepare = reply.prepare = 0;
   std::size_t frame = request.frame;
   if (!rebuild_) play_up_to(frame);
   for (std::uint32_t i = 0; i < request.frames; ++i) {

@@ -1,5 +1,5 @@
 // The pairs that broad phases are held against: two ways to find them, and the plain definition.
-#include "harness/measure/overlapping_pairs.h"
+#include "harness/measure/phases/overlapping_pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,11 @@
-// What a narrow phase does when it is asked for a sample.
+#include "harness/measure/phases/narrow_sampler.h"
+
 #include <algorithm>
 #include <functional>
 
-#include "harness/measure/outcome_hash.h"
-#include "harness/measure/sampler.h"
+#include "harness/base/clock.h"
+#include "harness/measure/phases/outcome_hash.h"
+#include "harness/record/raw_row.h"
 
 namespace touchstone {
 namespace {
@@ -178,7 +180,8 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
   for (const std::size_t frame : frames) total += set.frames[frame].size();
   outcomes_.assign(total, Outcome{});
   SampleReply reply;
-  reply.query = starts_warm_ ? solve_warm(request, frames) : solve_cold(set, frames);
+  reply.durations.add(to_string(Phase::narrow),
+                      starts_warm_ ? solve_warm(request, frames) : solve_cold(set, frames));
   reply.pairs = static_cast<std::int64_t>(outcomes_.size());
   reply.contacts = 0;
   for (const Outcome& outcome : outcomes_) {

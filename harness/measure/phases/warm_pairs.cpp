@@ -1,4 +1,4 @@
-#include "harness/measure/warm_pairs.h"
+#include "harness/measure/phases/warm_pairs.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "harness/measure/narrow_choice.h"
+#include "harness/measure/phases/narrow_choice.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "harness/measure/overlapping_pairs.h"
+#include "harness/measure/phases/overlapping_pairs.h"
 
 #include <algorithm>
 #include <array>

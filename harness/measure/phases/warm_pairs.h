@@ -1,11 +1,11 @@
-// The pairs of a set as they are asked about warm: each with a memory of its own over all frames.
+// The pairs of a set in the order for warm starts: each has a memory of its own over all frames.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "harness/measure/block_input.h"
+#include "harness/measure/phases/block_input.h"
 
 namespace touchstone {
 

@@ -1,0 +1,13 @@
+// The lower bound of algorithms/limit.h as a broad phase of a block.
+#pragma once
+
+#include "algorithms/broad_phase.h"
+#include "harness/measure/phases/block_input.h"
+
+namespace touchstone {
+
+// It is measured like the broad phases of the block, named stats::limit_label in its rows, and "finds"
+// the pairs that the input holds. It is only for the boxes of this input, which outlives it.
+BroadPhaseEntry lower_bound_entry(const BlockInput& input);
+
+}  // namespace touchstone

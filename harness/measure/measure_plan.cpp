@@ -1,0 +1,68 @@
+#include "harness/measure/measure_plan.h"
+
+#include <algorithm>
+#include <array>
+
+#include "harness/base/hash.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::array<int, 4> looks = {first_look, 12, 24, 48};  // squares of a group
+
+}  // namespace
+
+std::size_t MeasuredSet::rounds(std::size_t group) const {
+  return std::min(groups[group].size(), most_rounds);
+}
+
+SampleRequest MeasuredSet::request(int lap, std::size_t group, std::size_t round) const {
+  const std::size_t windows = warm_up_windows + rounds(group);
+  return window_at(static_cast<std::size_t>(lap) * windows + warm_up_windows + round);
+}
+
+SampleRequest MeasuredSet::warm_up_request(int lap, std::size_t group,
+                                           std::size_t warm_up_window) const {
+  const std::size_t windows = warm_up_windows + rounds(group);
+  return window_at(static_cast<std::size_t>(lap) * windows + warm_up_window);
+}
+
+SampleRequest MeasuredSet::window_at(std::size_t place) const {
+  const std::size_t wanted = starts.front() + (place * window) % (frames - starts.front());
+  const auto at = std::ranges::lower_bound(starts, wanted);
+  return {.set = number,
+          .frame = static_cast<std::uint32_t>(at == starts.end() ? starts.front() : *at),
+          .frames = window,
+          .skips_first = skips_first};
+}
+
+std::vector<Period> periods(std::optional<int> squares, int processes) {
+  std::vector<Period> all;
+  int done = 0;
+  int process = 0;
+  const auto add = [&](int until) {
+    Period& period = all.emplace_back();
+    const int count = until - done;
+    for (int i = 0; i < processes; ++i) {
+      const int first = done + i * count / processes;
+      const int end = done + (i + 1) * count / processes;
+      if (end > first) period.push_back({process++, first, end});
+    }
+    done = until;
+  };
+  if (squares) {
+    add(*squares);
+  } else {
+    for (const int look : looks) add(look);
+  }
+  return all;
+}
+
+LatinSquare square_order(const MeasurePlan& plan, std::size_t set, std::int64_t square,
+                         std::size_t size) {
+  const std::uint64_t place = mix(mix(mix(plan.number) + set) + static_cast<std::uint64_t>(square));
+  Random random(plan.seed, place);
+  return latin_square(size, random);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,51 @@
+// Samples of a broad phase.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "algorithms/core/executor.h"
+#include "harness/measure/allocations.h"
+#include "harness/measure/phases/block_input.h"
+#include "harness/measure/sampler.h"
+
+namespace touchstone {
+
+// Frame 0 is built and each other frame is an update of the one before, as in a scene that is
+// played again and again. The build of frame 0 is outside a sample of updates, and so is frame 0;
+// with `rebuild`, or when there is no other frame, every frame is built and counts. When a window
+// does not continue the one before, the frames up to it are played before the clock starts.
+//
+// The durations are `build` or `update`, and `find_pairs`. When one frame is asked for `hashed`
+// there is `convert` too: the part of a library's build or update that converts boxes to its own
+// types, run and timed again by itself.
+class BroadSampler final : public Sampler {
+ public:
+  BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
+               Executor& executor);
+
+  SampleReply sample(const SampleRequest& request) override;
+  // Plays one frame, which may be frame 0; its pairs are in sink() until the next call.
+  SampleReply play(std::size_t frame);
+  const PairSink& sink() const { return sink_; }
+  // Plays one frame without a clock, and counts the calls of the heap.
+  struct FrameAllocations {
+    Allocations prepare, query;
+  };
+  FrameAllocations count_allocations(std::size_t frame);
+
+ private:
+  void step(std::size_t frame, SampleReply& reply);
+  void prepare(std::size_t frame);
+  double time_conversion(std::size_t frame);
+  void play_up_to(std::size_t frame);
+  bool is_built(std::size_t frame) const { return rebuild_ || frame == 0; }
+
+  const BlockInput* input_;
+  bool rebuild_;
+  std::unique_ptr<BroadPhase> algorithm_;
+  PairSink sink_;
+  std::ptrdiff_t at_ = -1;  // the frame that the algorithm holds; -1: none yet
+};
+
+}  // namespace touchstone

@@ -1,0 +1,18 @@
+// Makers of the samplers of broad and narrow phases, each with the executor that it runs on.
+#pragma once
+
+#include <span>
+
+#include "harness/measure/phases/block_input.h"
+#include "harness/measure/phases/narrow_choice.h"
+#include "harness/measure/worker.h"
+
+namespace touchstone {
+
+// All that is passed by reference, and the sets, outlive the maker and its samplers.
+Worker::Make broad_maker(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
+                         int threads);
+Worker::Make narrow_maker(const NarrowChoice& choice, const BlockInput& input,
+                          std::span<const NarrowSet> sets, int threads);
+
+}  // namespace touchstone
