@@ -4,11 +4,11 @@
 
 int main(int argc, char** argv) {
   using namespace touchstone;
-  return run_program(argc, argv,
-                     {{"run", add_run},
-                      {"compare", add_compare},
-                      {"tables", add_tables},
-                      {"list", add_list},
-                      {"query", add_query},
-                      {"pairs", add_pairs}});
+  return commands::run_program(argc, argv,
+                               {{"run", commands::add_run},
+                                {"compare", commands::add_compare},
+                                {"tables", commands::add_tables},
+                                {"list", commands::add_list},
+                                {"query", commands::add_query},
+                                {"pairs", commands::add_pairs}});
 }

@@ -4,15 +4,15 @@
 
 int main(int argc, char** argv) {
   using namespace touchstone;
-  return run_program(argc, argv,
-                     {{"check", add_check},
-                      {"soak", add_soak},
-                      {"stress", add_stress},
-                      {"manifold", add_manifold},
-                      {"draw", add_draw},
-                      {"record", add_record},
-                      {"trade", add_trade},
-                      {"advise", add_advise},
-                      {"represent", add_represent},
-                      {"run", add_run_trade}});
+  return commands::run_program(argc, argv,
+                               {{"check", commands::add_check},
+                                {"soak", commands::add_soak},
+                                {"stress", commands::add_stress},
+                                {"manifold", commands::add_manifold},
+                                {"draw", commands::add_draw},
+                                {"record", commands::add_record},
+                                {"trade", commands::add_trade},
+                                {"advise", commands::add_advise},
+                                {"represent", commands::add_represent},
+                                {"run", commands::add_run_trade}});
 }

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace touchstone {
+namespace touchstone::base {
 
 // Wall-clock time since construction, from a clock that never goes backward.
 class Stopwatch {
@@ -22,4 +22,4 @@ class Stopwatch {
   Clock::time_point start_ = now_();
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::base

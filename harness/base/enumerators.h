@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::base {
 
 // True if `value` has a name in its enumeration. The compiler prints other values as a cast,
 // "(touchstone::Phase)7".
@@ -39,4 +39,4 @@ inline constexpr auto enumerators = [] {
   return values;
 }();
 
-}  // namespace touchstone
+}  // namespace touchstone::base

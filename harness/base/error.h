@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace touchstone {
+namespace touchstone::base {
 
 // A fault of the request or of an input file. main() prints the message and exits with status 2;
 // nothing has been written by then, because readers check a whole file before anything uses it.
@@ -19,4 +19,4 @@ class InputError : public std::runtime_error {
                            message) {}
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::base

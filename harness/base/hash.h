@@ -9,7 +9,7 @@
 
 #include "algorithms/core/pair_sink.h"
 
-namespace touchstone {
+namespace touchstone::base {
 
 // The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
 // generators", OOPSLA 2014).
@@ -29,4 +29,4 @@ inline std::uint64_t pair_hash(std::span<const IndexPair> pairs) {
 
 inline std::string to_hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
-}  // namespace touchstone
+}  // namespace touchstone::base

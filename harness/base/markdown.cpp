@@ -10,7 +10,7 @@
 
 #include "harness/base/error.h"
 
-namespace touchstone::stats {
+namespace touchstone::base {
 
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string all = "|";
@@ -42,4 +42,4 @@ void write_text(const std::filesystem::path& file, const std::string& content) {
   }
 }
 
-}  // namespace touchstone::stats
+}  // namespace touchstone::base

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::stats {
+namespace touchstone::base {
 
 // One row; characters that would end a cell are escaped.
 std::string markdown_row(const std::vector<std::string>& cells);
@@ -20,4 +20,4 @@ std::string cell(double value);
 // Throws InputError if the file cannot be written whole.
 void write_text(const std::filesystem::path& file, const std::string& content);
 
-}  // namespace touchstone::stats
+}  // namespace touchstone::base

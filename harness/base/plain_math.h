@@ -9,7 +9,7 @@
 #include "algorithms/core/vec.h"
 #include "harness/base/reproducible_math.h"
 
-namespace touchstone {
+namespace touchstone::base {
 
 inline Vec3d outer(const Vec3d& u, const Vec3d& v) {
   return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
@@ -46,4 +46,4 @@ inline DoubleDouble3 true_unit(const Vec3d& v) {
   return scaled(wide, DoubleDouble{1, 0} - excess * DoubleDouble{0.5, 0});
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::base

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace touchstone {
+namespace touchstone::base {
 namespace {
 
 constexpr int bar_width = 24;
@@ -47,4 +47,4 @@ void Progress::draw(double fraction) {
   std::fflush(stderr);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::base

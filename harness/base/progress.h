@@ -6,7 +6,7 @@
 
 #include "harness/base/clock.h"
 
-namespace touchstone {
+namespace touchstone::base {
 
 // A bar that is redrawn on a terminal (standard error), or one line per step elsewhere.
 class Progress {
@@ -33,4 +33,4 @@ class Progress {
   double drawn_at_ = -1;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::base

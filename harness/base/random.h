@@ -8,7 +8,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/reproducible_math.h"
 
-namespace touchstone {
+namespace touchstone::base {
 
 // SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014)
 // with distributions in plain arithmetic, because those of the standard library differ between
@@ -101,4 +101,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::base

@@ -9,7 +9,7 @@
 
 #include "algorithms/core/vec.h"
 
-namespace touchstone {
+namespace touchstone::base {
 
 struct SinCos {
   double sin, cos;
@@ -95,4 +95,4 @@ inline Mat3d rotation_over(const Vec3d& w, double time) {
   return rotation_of({half.cos, s * w.x(), s * w.y(), s * w.z()});
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::base

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace touchstone {
+namespace touchstone::base {
 namespace {
 
 // The number of UTF-8 characters, as fmt counts them when it pads a field.
@@ -56,4 +56,4 @@ std::size_t page_width() {
   return 120;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::base

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::base {
 
 // A table with the first column aligned left and the others right. A table wider than the page is
 // split into several, each with the first column again.
@@ -21,4 +21,4 @@ class TextTable {
 // The terminal's width if standard output is a terminal, else 120 characters.
 std::size_t page_width();
 
-}  // namespace touchstone
+}  // namespace touchstone::base

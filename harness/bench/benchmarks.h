@@ -2,7 +2,7 @@
 // filter makes for a quick start.
 #pragma once
 
-namespace touchstone {
+namespace touchstone::bench {
 
 // narrow/ALGORITHM/SCALAR/SHAPES/TASK/REGIME: one query per iteration, over 256 pairs
 // (placed_pairs.h). `wrong` counts the pairs with a wrong answer.
@@ -19,4 +19,4 @@ void register_oracle_benchmarks();
 // kernels/...: support functions, sorting and tests of boxes.
 void register_kernel_benchmarks();
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

@@ -20,16 +20,16 @@
 #include "harness/record/build_info.h"
 #include "harness/scene/player.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 namespace {
 
 constexpr std::array<std::string_view, 5> scenes = {"uniform", "clustered", "mixed", "city",
                                                     "ground"};
 constexpr std::array<std::int64_t, 2> body_counts = {1'000, 10'000};
 
-Scene load(std::string_view name, const SceneOverrides& overrides) {
+scene::Scene load(std::string_view name, const scene::SceneOverrides& overrides) {
   const std::filesystem::path folder = std::filesystem::path(source_folder) / "datasets";
-  return load_scene(folder / (std::string(name) + ".toml"), overrides);
+  return scene::load_scene(folder / (std::string(name) + ".toml"), overrides);
 }
 
 // The boxes of a scene drawn with many seeds. A single input in a loop would measure trained branch
@@ -39,8 +39,8 @@ class Draws {
   Draws(std::string_view scene, std::int64_t count) {
     const std::int64_t seeds = count <= 1'000 ? 64 : 16;
     for (std::int64_t seed = 1; seed <= seeds; ++seed) {
-      const Scene drawn = load(scene, {.count = count, .seed = seed, .frames = 1});
-      const ScenePlayer player(drawn, BoxKind::tight);
+      const scene::Scene drawn = load(scene, {.count = count, .seed = seed, .frames = 1});
+      const scene::ScenePlayer player(drawn, scene::BoxKind::tight);
       boxes_.emplace_back(player.boxes().begin(), player.boxes().end());
     }
   }
@@ -58,8 +58,8 @@ class Draws {
 class Film {
  public:
   Film(std::string_view scene, std::int64_t count) {
-    const Scene drawn = load(scene, {.count = count, .seed = 1, .frames = 64});
-    ScenePlayer player(drawn, BoxKind::tight);
+    const scene::Scene drawn = load(scene, {.count = count, .seed = 1, .frames = 64});
+    scene::ScenePlayer player(drawn, scene::BoxKind::tight);
     do {
       const FrameChange change = player.change();
       frames_.push_back(
@@ -95,7 +95,7 @@ struct Subject {
 
 template <class Call>
 double seconds_of(const Call& call) {
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   call();
   return watch.seconds();
 }
@@ -170,4 +170,4 @@ void register_broad_benchmarks() {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

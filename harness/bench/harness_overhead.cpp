@@ -17,7 +17,7 @@
 #include "harness/measure/phases/narrow_sampler.h"
 #include "harness/record/build_info.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 namespace {
 
 constexpr std::int64_t bodies = 1000;
@@ -38,13 +38,13 @@ class NoNarrowPhase final : public NarrowPhase {
 };
 
 struct Stage {
-  Scene scene;
-  BlockInput input;
+  scene::Scene scene;
+  measure::BlockInput input;
 
   explicit Stage(const char* file)
-      : scene(load_scene(std::filesystem::path(source_folder) / "datasets" / file,
-                         {bodies, -1, frames})),
-        input(scene, BoxKind::tight, true) {}
+      : scene(scene::load_scene(std::filesystem::path(source_folder) / "datasets" / file,
+                                {bodies, -1, frames})),
+        input(scene, scene::BoxKind::tight, true) {}
 };
 
 double median(std::vector<double> values) {
@@ -54,16 +54,16 @@ double median(std::vector<double> values) {
 }
 
 // The result of one sample, seconds per unit.
-using Take = std::function<double(Sampler& sampler)>;
+using Take = std::function<double(measure::Sampler& sampler)>;
 
-double typical(Sampler& sampler, const Take& take) {
+double typical(measure::Sampler& sampler, const Take& take) {
   take(sampler);  // warms up
   std::vector<double> values;
   for (int i = 0; i < repetitions; ++i) values.push_back(take(sampler));
   return median(std::move(values));
 }
 
-void report(benchmark::State& state, Sampler& idle, const Take& take, double fastest) {
+void report(benchmark::State& state, measure::Sampler& idle, const Take& take, double fastest) {
   std::vector<double> values;
   for (auto _ : state) {
     values.push_back(take(idle));
@@ -79,21 +79,21 @@ void report(benchmark::State& state, Sampler& idle, const Take& take, double fas
 void broad(benchmark::State& state, int threads) {
   const Stage stage("uniform.toml");
   Executor executor(threads);
-  const Take take = [](Sampler& sampler) {
-    const SampleReply reply = sampler.sample({.frame = 1, .frames = frames - 1});
+  const Take take = [](measure::Sampler& sampler) {
+    const measure::SampleReply reply = sampler.sample({.frame = 1, .frames = frames - 1});
     return reply.durations.sum() / (frames - 1);
   };
   double fastest = std::numeric_limits<double>::infinity();
   for (const BroadPhaseEntry& entry : broad_phases()) {
     if (entry.info.origin != Origin::ours) continue;
-    BroadSampler sampler(entry, stage.input, false, executor);
+    measure::BroadSampler sampler(entry, stage.input, false, executor);
     const double seconds = typical(sampler, take);
     if (seconds < fastest) state.SetLabel(entry.info.name);
     fastest = std::min(fastest, seconds);
   }
   BroadPhaseEntry none;
   none.make = [](Executor&) { return std::make_unique<NoBroadPhase>(); };
-  BroadSampler idle(none, stage.input, false, executor);
+  measure::BroadSampler idle(none, stage.input, false, executor);
   report(state, idle, take, fastest);
 }
 
@@ -102,16 +102,17 @@ void narrow(benchmark::State& state, int threads) {
   const Stage stage("primitives.toml");
   Executor executor(threads);
   std::vector<std::vector<IndexPair>> pairs;
-  for (const BlockFrame& frame : stage.input.frames) pairs.push_back(frame.truth);
+  for (const measure::BlockFrame& frame : stage.input.frames) pairs.push_back(frame.truth);
   constexpr Task task = Task::intersect;
-  const std::vector<NarrowSet> sets = narrow_sets(stage.input, "", pairs, {&task, 1});
-  const auto spheres = std::ranges::find_if(sets, [](const NarrowSet& set) {
+  const std::vector<measure::NarrowSet> sets =
+      measure::narrow_sets(stage.input, "", pairs, {&task, 1});
+  const auto spheres = std::ranges::find_if(sets, [](const measure::NarrowSet& set) {
     return set.kind_a == ShapeKind::sphere && set.kind_b == ShapeKind::sphere;
   });
   if (spheres == sets.end()) return state.SkipWithError("the scene has no pair of spheres");
   const auto number = static_cast<std::uint32_t>(spheres - sets.begin());
-  const Take take = [&](Sampler& sampler) {
-    const SampleReply reply = sampler.sample({.set = number, .frames = frames});
+  const Take take = [&](measure::Sampler& sampler) {
+    const measure::SampleReply reply = sampler.sample({.set = number, .frames = frames});
     return reply.durations.sum() / static_cast<double>(reply.pairs);
   };
   double fastest = std::numeric_limits<double>::infinity();
@@ -120,15 +121,16 @@ void narrow(benchmark::State& state, int threads) {
         !offers(entry, spheres->kind_a, spheres->kind_b, task)) {
       continue;
     }
-    const NarrowChoice choice{.entry = &entry, .settings = {.scalar = entry.scalars.front()}};
-    NarrowSampler sampler(choice, stage.input, sets, executor);
+    const measure::NarrowChoice choice{.entry = &entry,
+                                       .settings = {.scalar = entry.scalars.front()}};
+    measure::NarrowSampler sampler(choice, stage.input, sets, executor);
     const double seconds = typical(sampler, take);
     if (seconds < fastest) state.SetLabel(entry.info.name);
     fastest = std::min(fastest, seconds);
   }
   NarrowPhaseEntry none;
   none.make = [](const NarrowPhaseSettings&) { return std::make_unique<NoNarrowPhase>(); };
-  NarrowSampler idle({.entry = &none, .settings = {}}, stage.input, sets, executor);
+  measure::NarrowSampler idle({.entry = &none, .settings = {}}, stage.input, sets, executor);
   report(state, idle, take, fastest);
 }
 
@@ -151,4 +153,4 @@ void register_harness_overhead_benchmarks() {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

@@ -1,7 +1,7 @@
 // The cost of the harness inside the timed region.
 #pragma once
 
-namespace touchstone {
+namespace touchstone::bench {
 
 // harness/overhead/{broad,narrow}/THREADS: the seconds that a sample reports for algorithms that do
 // nothing, per frame or query, timed by the harness's own samplers on a scene of 1,000 bodies. They
@@ -11,4 +11,4 @@ namespace touchstone {
 // share of that in per cent (`share`).
 void register_harness_overhead_benchmarks();
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

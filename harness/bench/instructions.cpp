@@ -22,7 +22,7 @@
 #define TOUCHSTONE_CALLGRIND 0
 #endif
 
-namespace touchstone {
+namespace touchstone::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,14 +32,14 @@ std::vector<NarrowSubject> subjects_of(const std::string& filter) {
   try {
     expression = filter;
   } catch (const std::regex_error& error) {
-    throw InputError(fmt::format("the filter '{}': {}", filter, error.what()));
+    throw base::InputError(fmt::format("the filter '{}': {}", filter, error.what()));
   }
   std::vector<NarrowSubject> subjects = narrow_subjects();
   std::erase_if(subjects, [&](const NarrowSubject& subject) {
     return !std::regex_search(subject.name(), expression);
   });
   if (subjects.empty()) {
-    throw InputError(fmt::format("no narrow-phase benchmark's name matches '{}'", filter));
+    throw base::InputError(fmt::format("no narrow-phase benchmark's name matches '{}'", filter));
   }
   return subjects;
 }
@@ -62,7 +62,7 @@ Dump read_dump(const fs::path& file) {
     }
   }
   if (dump.benchmark.empty() || dump.instructions < 0) {
-    throw InputError(file.string(), 0, "no dump of Callgrind's that has a name and a sum");
+    throw base::InputError(file.string(), 0, "no dump of Callgrind's that has a name and a sum");
   }
   return dump;
 }
@@ -72,7 +72,7 @@ class DumpFolder {
  public:
   DumpFolder() {
     std::string name = (fs::temp_directory_path() / "touchstone-callgrind-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw InputError(name, 0, "cannot be made");
+    if (mkdtemp(name.data()) == nullptr) throw base::InputError(name, 0, "cannot be made");
     path_ = name;
   }
   ~DumpFolder() {
@@ -111,27 +111,27 @@ void count_under_valgrind([[maybe_unused]] const std::string& filter) {
 
 void count_instructions(const std::string& filter, const fs::path& out) {
   if (TOUCHSTONE_CALLGRIND == 0) {
-    throw InputError(
+    throw base::InputError(
         "built without Valgrind's headers, which count instructions "
         "(Debian: valgrind)");
   }
   subjects_of(filter);  // a wrong filter is reported at once
   check_output(out);
   const DumpFolder folder;
-  const int status =
-      run_and_wait("valgrind",
-                   {"--tool=callgrind", "--instr-atstart=no",
-                    "--callgrind-out-file=" + (folder.path() / "dump").string(),
-                    fs::read_symlink("/proc/self/exe").string(), "--under-valgrind=" + filter},
-                   folder.path() / "log");
+  const int status = process::run_and_wait(
+      "valgrind",
+      {"--tool=callgrind", "--instr-atstart=no",
+       "--callgrind-out-file=" + (folder.path() / "dump").string(),
+       fs::read_symlink("/proc/self/exe").string(), "--under-valgrind=" + filter},
+      folder.path() / "log");
   if (status != 0) {
     std::ifstream log(folder.path() / "log");
     std::string words((std::istreambuf_iterator<char>(log)), {});
-    throw InputError(
+    throw base::InputError(
         fmt::format("valgrind ended with {}: {}", status,
                     words.substr(words.size() - std::min<std::size_t>(words.size(), 500))));
   }
-  CsvWriter csv(out, {"benchmark", "queries", "instructions"});
+  files::CsvWriter csv(out, {"benchmark", "queries", "instructions"});
   for (int i = 1;; ++i) {
     const fs::path file = folder.path() / fmt::format("dump.{}", i);
     if (!fs::exists(file)) break;
@@ -142,4 +142,4 @@ void count_instructions(const std::string& filter, const fs::path& out) {
   csv.close();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace touchstone {
+namespace touchstone::bench {
 
 // Runs this program again under Valgrind and writes a row for each narrow-phase benchmark
 // (benchmarks.h) whose name matches the expression (as std::regex_search does):
@@ -17,4 +17,4 @@ void count_instructions(const std::string& filter, const std::filesystem::path& 
 // The task of the second run: counts, one dump of Callgrind's per benchmark.
 void count_under_valgrind(const std::string& filter);
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

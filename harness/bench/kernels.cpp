@@ -25,7 +25,7 @@
 #include "harness/bench/benchmarks.h"
 #include "harness/bench/placed_pairs.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 namespace {
 
 template <class Run>
@@ -45,7 +45,7 @@ void add_timed_by_hand(const std::string& name, const Run& run) {
 template <class Scalar>
 void support(benchmark::State& state, const ShapeFamily& family, bool coherent) {
   constexpr std::size_t shapes = 64, directions = 16 * shapes;
-  Random random(2);
+  base::Random random(2);
   std::vector<SupportShape<Scalar>> made;
   made.reserve(shapes);
   std::vector<PosedShape<Scalar>> turned;
@@ -94,7 +94,7 @@ using Items = std::vector<std::uint64_t>;
 constexpr std::size_t lists = 16;
 
 // Random coordinates as keys, with their indices.
-Items draw_items(std::size_t count, Random& random) {
+Items draw_items(std::size_t count, base::Random& random) {
   Items items;
   for (std::size_t i = 0; i < count; ++i) {
     const auto x = static_cast<float>(random.uniform(-100, 100));
@@ -111,7 +111,7 @@ void sort_lists(benchmark::State& state, const std::vector<Items>& inputs, const
   for (auto _ : state) {
     items = inputs[i];
     i = (i + 1) % inputs.size();
-    const Stopwatch watch;
+    const base::Stopwatch watch;
     const bool sorted = sort(items);
     state.SetIterationTime(watch.seconds());
     if (!sorted) {
@@ -123,7 +123,7 @@ void sort_lists(benchmark::State& state, const std::vector<Items>& inputs, const
 }
 
 void sort_anew(benchmark::State& state, std::size_t count) {
-  Random random(3);
+  base::Random random(3);
   std::vector<Items> inputs;
   for (std::size_t i = 0; i < lists; ++i) inputs.push_back(draw_items(count, random));
   Executor executor(1);
@@ -136,7 +136,7 @@ void sort_anew(benchmark::State& state, std::size_t count) {
 
 // Lists in which a tenth of the items has moved by up to three places.
 void sort_again(benchmark::State& state, std::size_t count) {
-  Random random(4);
+  base::Random random(4);
   std::vector<Items> inputs;
   for (std::size_t i = 0; i < lists; ++i) {
     Items& items = inputs.emplace_back(draw_items(count, random));
@@ -161,7 +161,7 @@ void register_sorts() {
 // --- tests of boxes ------------------------------------------------------------------------------
 
 // Cubes of side 1, each overlapping about two others, sorted by x.
-std::unique_ptr<AabbSoA> draw_boxes(std::size_t count, Random& random) {
+std::unique_ptr<AabbSoA> draw_boxes(std::size_t count, base::Random& random) {
   const double side = std::cbrt(4.0 * static_cast<double>(count));
   std::vector<Aabb> boxes(count);
   for (Aabb& box : boxes) {
@@ -181,7 +181,7 @@ std::unique_ptr<AabbSoA> draw_boxes(std::size_t count, Random& random) {
 template <class Scan>
 void scan(benchmark::State& state, Isa level, std::size_t count, const Scan& scan_set) {
   if (level > isa_of_machine()) return state.SkipWithError("this machine has no such instructions");
-  Random random(5);
+  base::Random random(5);
   std::vector<std::unique_ptr<AabbSoA>> sets;
   for (std::size_t i = 0; i < 16; ++i) sets.push_back(draw_boxes(count, random));
   PairBuffer out;
@@ -251,4 +251,4 @@ void register_kernel_benchmarks() {
   register_box_tests();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

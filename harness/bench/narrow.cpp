@@ -12,7 +12,7 @@
 #include "harness/bench/benchmarks.h"
 #include "harness/bench/narrow_subjects.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 namespace {
 
 // Solves one query per iteration, in batches that are short enough for the slowest algorithm.
@@ -70,4 +70,4 @@ void register_narrow_benchmarks() {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

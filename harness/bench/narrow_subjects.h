@@ -7,7 +7,7 @@
 #include "algorithms/registry.h"
 #include "harness/bench/placed_pairs.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 
 struct NarrowSubject {
   const NarrowPhaseEntry* entry;
@@ -22,4 +22,4 @@ struct NarrowSubject {
 // All queries of every narrow phase that is built.
 std::vector<NarrowSubject> narrow_subjects();
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

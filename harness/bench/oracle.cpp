@@ -11,7 +11,7 @@
 #include "harness/bench/benchmarks.h"
 #include "harness/bench/placed_pairs.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 namespace {
 
 // The places include gaps and depths at which the floating-point filters give way to exact
@@ -62,4 +62,4 @@ void register_oracle_benchmarks() {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

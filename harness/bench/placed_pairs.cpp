@@ -13,7 +13,7 @@
 #include "harness/geometry/tessellation.h"
 #include "harness/scene/generators/settle.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 namespace {
 
 // --- shapes -------------------------------------------------------------------------------------
@@ -24,41 +24,41 @@ Shape of_kind(ShapeKind kind) {
   return shape;
 }
 
-Shape draw_sphere(Random& random) {
+Shape draw_sphere(base::Random& random) {
   Shape shape = of_kind(ShapeKind::sphere);
   shape.radius = random.uniform(0.25, 0.5);
   return shape;
 }
 
-Shape draw_capsule(Random& random) {
+Shape draw_capsule(base::Random& random) {
   Shape shape = of_kind(ShapeKind::capsule);
   shape.radius = random.uniform(0.15, 0.3);
   shape.half_length = random.uniform(0.15, 0.3);
   return shape;
 }
 
-Shape draw_box(Random& random) {
+Shape draw_box(base::Random& random) {
   Shape shape = of_kind(ShapeKind::box);
   for (double& half : shape.half_extents) half = random.uniform(0.25, 0.5);
   return shape;
 }
 
 template <ShapeKind kind>
-Shape draw_round(Random& random) {
+Shape draw_round(base::Random& random) {
   Shape shape = of_kind(kind);
   shape.radius = random.uniform(0.25, 0.5);
   shape.half_length = random.uniform(0.25, 0.5);
   return shape;
 }
 
-Shape draw_ellipsoid(Random& random) {
+Shape draw_ellipsoid(base::Random& random) {
   Shape shape = of_kind(ShapeKind::ellipsoid);
   for (double& radius : shape.radii) radius = random.uniform(0.25, 0.5);
   return shape;
 }
 
 template <std::size_t vertices>
-Shape draw_hull(Random& random) {
+Shape draw_hull(base::Random& random) {
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i < vertices; ++i) points.push_back(0.5 * random.on_sphere());
   Shape shape = of_kind(ShapeKind::hull);
@@ -67,11 +67,11 @@ Shape draw_hull(Random& random) {
 }
 
 template <int level>
-Shape draw_icosphere(Random& random) {
-  return as_polytope(draw_sphere(random), level);
+Shape draw_icosphere(base::Random& random) {
+  return geometry::as_polytope(draw_sphere(random), level);
 }
 
-Shape draw_halfspace(Random& random) {
+Shape draw_halfspace(base::Random& random) {
   Shape shape = of_kind(ShapeKind::halfspace);
   shape.normal = random.on_sphere();
   shape.offset = random.uniform(-0.5, 0.5);
@@ -137,7 +137,7 @@ PlacedPairs::PlacedPairs(const FamilyPair& families, const PairRegime& regime)
     : kind_a(families.a->kind), kind_b(families.b->kind) {
   constexpr std::uint32_t shapes_each = 64;
   constexpr std::uint64_t seed = 1;
-  Random shape_random(seed, 0), random(seed, 1);
+  base::Random shape_random(seed, 0), random(seed, 1);
   std::vector<oracle::Solid> solids;
   for (const ShapeFamily* family : {families.a, families.b}) {
     for (std::uint32_t i = 0; i < shapes_each; ++i) {
@@ -152,7 +152,7 @@ PlacedPairs::PlacedPairs(const FamilyPair& families, const PairRegime& regime)
     const Pose a{random.rotation(), 2 * random.in_ball()};
     Pose b{random.rotation(), a.translation};
     b.translation += 2 * random.on_sphere();
-    if (!settle(oracle, solids[shape_a], a, solids[shape_b], b, regime.distance)) continue;
+    if (!scene::settle(oracle, solids[shape_a], a, solids[shape_b], b, regime.distance)) continue;
     first.push_back(static_cast<std::uint32_t>(poses.size()));
     second.push_back(first.back() + 1);
     poses.insert(poses.end(), {a, b});
@@ -176,4 +176,4 @@ const PlacedPairs& placed_pairs(const FamilyPair& families, const PairRegime& re
   return *pairs;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

@@ -14,14 +14,14 @@
 #include "algorithms/narrow_phase.h"
 #include "harness/base/random.h"
 
-namespace touchstone {
+namespace touchstone::bench {
 
 // Random shapes of one sort, of about unit size (metres): sphere, capsule, box, cylinder, cone,
 // ellipsoid, hull-N (N random points on a sphere), icosphere-N, halfspace.
 struct ShapeFamily {
   std::string_view name;
   ShapeKind kind;
-  Shape (*draw)(Random& random);
+  Shape (*draw)(base::Random& random);
 };
 std::span<const ShapeFamily> shape_families();
 // Null if there is no family with that name.
@@ -68,4 +68,4 @@ struct PlacedPairs {
 // The pairs are made when first requested, and kept.
 const PlacedPairs& placed_pairs(const FamilyPair& families, const PairRegime& regime);
 
-}  // namespace touchstone
+}  // namespace touchstone::bench

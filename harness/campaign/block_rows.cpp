@@ -6,11 +6,12 @@
 
 #include "harness/base/hash.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
-Phase phase_of(std::string_view duration) {
-  for (const Phase phase : {Phase::build, Phase::update, Phase::find_pairs, Phase::narrow}) {
+record::Phase phase_of(std::string_view duration) {
+  for (const record::Phase phase : {record::Phase::build, record::Phase::update,
+                                    record::Phase::find_pairs, record::Phase::narrow}) {
     if (to_string(phase) == duration) return phase;
   }
   throw std::logic_error("a duration of a sample that is no phase");
@@ -18,12 +19,13 @@ Phase phase_of(std::string_view duration) {
 
 }  // namespace
 
-RawRow BlockRows::empty(std::size_t c, std::size_t s, std::size_t frame) const {
+record::RawRow BlockRows::empty(std::size_t c, std::size_t s, std::size_t frame) const {
   const Candidate& candidate = schedule_.candidates[c];
-  RawRow row = candidate.broad != nullptr ? context_.row(frame, *candidate.broad, Phase::find_pairs)
-                                          : context_.row(frame, *candidate.narrow);
+  record::RawRow row = candidate.broad != nullptr
+                           ? context_.row(frame, *candidate.broad, record::Phase::find_pairs)
+                           : context_.row(frame, *candidate.narrow);
   if (candidate.control) row.twin = true;
-  if (const NarrowSet* const pairs = schedule_.pairs[s]; pairs != nullptr) {
+  if (const measure::NarrowSet* const pairs = schedule_.pairs[s]; pairs != nullptr) {
     row.broad = pairs->broad;
     row.task = pairs->task;
     row.pair_kind = pairs->kind_name();
@@ -31,9 +33,10 @@ RawRow BlockRows::empty(std::size_t c, std::size_t s, std::size_t frame) const {
   return row;
 }
 
-RawRow BlockRows::of_sample(const Round& round, const Sample& sample) const {
-  RawRow row = empty(sample.contestant, round.set, round.request.frame);
-  row.kind = RowKind::sample;
+record::RawRow BlockRows::of_sample(const measure::Round& round,
+                                    const measure::Sample& sample) const {
+  record::RawRow row = empty(sample.contestant, round.set, round.request.frame);
+  row.kind = record::RowKind::sample;
   row.process = round.process;
   row.square = round.square;
   row.round = round.round;
@@ -43,16 +46,16 @@ RawRow BlockRows::of_sample(const Round& round, const Sample& sample) const {
   return row;
 }
 
-std::vector<RawRow> BlockRows::of_reply(const Round& round, const Sample& sample,
-                                        bool gave_up) const {
-  const SampleReply& reply = sample.reply;
-  std::vector<RawRow> rows;
-  for (const Durations::Duration& duration : reply.durations.all()) {
-    RawRow& row = rows.emplace_back(of_sample(round, sample));
+std::vector<record::RawRow> BlockRows::of_reply(const measure::Round& round,
+                                                const measure::Sample& sample, bool gave_up) const {
+  const measure::SampleReply& reply = sample.reply;
+  std::vector<record::RawRow> rows;
+  for (const measure::Durations::Duration& duration : reply.durations.all()) {
+    record::RawRow& row = rows.emplace_back(of_sample(round, sample));
     row.phase = phase_of(duration.name());
     row.seconds = duration.seconds;
   }
-  RawRow& row = rows.back();
+  record::RawRow& row = rows.back();
   row.pair_count = reply.pairs;
   row.peak_kb = reply.peak_kb;
   row.minor_faults = reply.minor_faults;
@@ -64,33 +67,35 @@ std::vector<RawRow> BlockRows::of_reply(const Round& round, const Sample& sample
   row.branch_misses = reply.hardware.branch_misses;
   row.cache_misses = reply.hardware.cache_misses;
   if (schedule_.pairs[round.set] == nullptr) {
-    row.status = row_status(reply.status);
+    row.status = record::row_status(reply.status);
     return rows;
   }
-  row.pair_hash = to_hex(reply.pair_hash);
+  row.pair_hash = base::to_hex(reply.pair_hash);
   row.contact_count = reply.contacts;
-  row.outcome_hash = to_hex(reply.outcome_hash);
+  row.outcome_hash = base::to_hex(reply.outcome_hash);
   row.iterations = reply.iterations;
   row.support_calls = reply.support_calls;
   const bool is_ours = schedule_.candidates[sample.contestant].info().origin == Origin::ours;
-  row.status = gave_up   ? RowStatus::not_converged
-               : is_ours ? RowStatus::ok
-                         : RowStatus::not_reported;
+  row.status = gave_up   ? record::RowStatus::not_converged
+               : is_ours ? record::RowStatus::ok
+                         : record::RowStatus::not_reported;
   return rows;
 }
 
-Departure BlockRows::mark_lost(RawRow& row, std::size_t c, const Loss& loss,
-                               const std::string& wrong) const {
+record::Departure BlockRows::mark_lost(record::RawRow& row, std::size_t c,
+                                       const measure::Loss& loss, const std::string& wrong) const {
   const Candidate& candidate = schedule_.candidates[c];
-  const bool late = !loss.wrong && loss.failure.state == ItemState::timed_out;
+  const bool late = !loss.wrong && loss.failure.state == process::ItemState::timed_out;
   std::string where = context_.place(static_cast<std::size_t>(row.frame));
   if (!row.narrow.empty()) where += fmt::format(", {}, {}", row.pair_kind, to_string(*row.task));
-  Departure departure = context_.departure(candidate.info(), candidate.label(), where);
+  record::Departure departure = context_.departure(candidate.info(), candidate.label(), where);
   departure.known = late;
   departure.what = (loss.wrong ? wrong : loss.failure.reason()) + "; left out from here on";
-  row.status = loss.wrong ? RowStatus::wrong : late ? RowStatus::timed_out : RowStatus::crashed;
-  row.words = one_line(loss.wrong ? "" : loss.failure.words);
+  row.status = loss.wrong ? record::RowStatus::wrong
+               : late     ? record::RowStatus::timed_out
+                          : record::RowStatus::crashed;
+  row.words = record::one_line(loss.wrong ? "" : loss.failure.words);
   return departure;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -7,7 +7,7 @@
 #include "harness/campaign/schedule.h"
 #include "harness/measure/measuring_loop.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 class BlockRows {
  public:
@@ -16,19 +16,20 @@ class BlockRows {
       : context_(context), schedule_(schedule) {}
 
   // A row of a candidate in a set, with what the block decides.
-  RawRow empty(std::size_t candidate, std::size_t set, std::size_t frame) const;
+  record::RawRow empty(std::size_t candidate, std::size_t set, std::size_t frame) const;
   // A row of a candidate with the place of a sample.
-  RawRow of_sample(const Round& round, const Sample& sample) const;
+  record::RawRow of_sample(const measure::Round& round, const measure::Sample& sample) const;
   // A row for each duration of the reply; the last one has its counters. `gave_up`: the check
   // found honest failures among the candidate's answers.
-  std::vector<RawRow> of_reply(const Round& round, const Sample& sample, bool gave_up) const;
+  std::vector<record::RawRow> of_reply(const measure::Round& round, const measure::Sample& sample,
+                                       bool gave_up) const;
   // Writes into the row how the candidate was lost. `wrong` says what a wrong answer is.
-  Departure mark_lost(RawRow& row, std::size_t candidate, const Loss& loss,
-                      const std::string& wrong) const;
+  record::Departure mark_lost(record::RawRow& row, std::size_t candidate, const measure::Loss& loss,
+                              const std::string& wrong) const;
 
  private:
   const RunContext& context_;
   const Schedule& schedule_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -7,7 +7,7 @@
 
 #include "harness/measure/phases/phase_makers.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr double confidence = 0.95;
@@ -16,8 +16,9 @@ constexpr double slack = 10;    // times its time in the check, before a sample 
 
 }  // namespace
 
-BlockRun::BlockRun(const RunContext& context, const BlockInput& input,
-                   std::span<const NarrowSet> narrow, const CheckTable& checks, Schedule schedule)
+BlockRun::BlockRun(const RunContext& context, const measure::BlockInput& input,
+                   std::span<const measure::NarrowSet> narrow, const CheckTable& checks,
+                   Schedule schedule)
     : context_(context),
       input_(input),
       narrow_(narrow),
@@ -27,23 +28,23 @@ BlockRun::BlockRun(const RunContext& context, const BlockInput& input,
       times_(schedule_.sets.size()),
       progress_(schedule_.sets.size()),
       lost_(schedule_.candidates.size()) {
-  for (const RawRow& row : context.findings->rows()) {
+  for (const record::RawRow& row : context.findings->rows()) {
     if (row.block == context.number) take_over(row);
   }
 }
 
-void BlockRun::take_over(const RawRow& row) {
+void BlockRun::take_over(const record::RawRow& row) {
   if (row.lost() || row.wrong()) {
     for (std::size_t i = 0; i < lost_.size(); ++i) {
       const Candidate& candidate = schedule_.candidates[i];
       // A failure of the check pass is one of a set, and the schedule knows it.
-      if (row.process >= 0 && candidate.label() == label_of(row) &&
+      if (row.process >= 0 && candidate.label() == record::label_of(row) &&
           candidate.control == row.is_twin()) {
         lost_[i] = 1;
       }
     }
   }
-  if (row.kind != RowKind::sample) return;
+  if (row.kind != record::RowKind::sample) return;
   for (std::size_t s = 0; s < schedule_.sets.size(); ++s) {
     if (schedule_.key(s) != set_key(row)) continue;
     times_[s].add(row);
@@ -54,18 +55,19 @@ void BlockRun::take_over(const RawRow& row) {
   }
 }
 
-MeasurePlan BlockRun::plan() const {
+measure::MeasurePlan BlockRun::plan() const {
   const CampaignGroup& group = *context_.block->group;
   const int threads = context_.block->threads;
-  MeasurePlan plan;
+  measure::MeasurePlan plan;
   for (const Candidate& candidate : schedule_.candidates) {
-    plan.contestants.push_back({candidate.label(), candidate.control,
-                                candidate.broad != nullptr
-                                    ? broad_maker(*candidate.broad, input_, group.rebuild, threads)
-                                    : narrow_maker(*candidate.narrow, input_, narrow_, threads)});
+    plan.contestants.push_back(
+        {candidate.label(), candidate.control,
+         candidate.broad != nullptr
+             ? measure::broad_maker(*candidate.broad, input_, group.rebuild, threads)
+             : measure::narrow_maker(*candidate.narrow, input_, narrow_, threads)});
   }
   plan.sets = schedule_.sets;
-  plan.periods = periods(group.squares, group.processes);
+  plan.periods = measure::periods(group.squares, group.processes);
   plan.memory = group.memory_limit;
   plan.seed = context_.seed;
   plan.number = static_cast<std::uint64_t>(context_.number);
@@ -74,8 +76,8 @@ MeasurePlan BlockRun::plan() const {
 
 void BlockRun::run(const std::function<bool()>& commit) {
   commit_ = commit;
-  const MeasurePlan whole = plan();
-  MeasuringLoop(whole, *this, progress_, lost_).run();
+  const measure::MeasurePlan whole = plan();
+  measure::MeasuringLoop(whole, *this, progress_, lost_).run();
 }
 
 const Checked& BlockRun::checked(std::size_t c, std::size_t set) const {
@@ -83,12 +85,13 @@ const Checked& BlockRun::checked(std::size_t c, std::size_t set) const {
 }
 
 // Every frame once, to hold the answers in this process against those of the check.
-std::vector<MeasuringJob::Untimed> BlockRun::warm_up(std::size_t, std::span<const std::size_t> sets,
-                                                     const ProcessLaps&) {
+std::vector<measure::MeasuringJob::Untimed> BlockRun::warm_up(std::size_t,
+                                                              std::span<const std::size_t> sets,
+                                                              const measure::ProcessLaps&) {
   std::vector<Untimed> all;
   for (std::size_t frame = 0; frame < input_.frames.size(); ++frame) {
     for (const std::size_t set : sets) {
-      const NarrowSet* const pairs = schedule_.pairs[set];
+      const measure::NarrowSet* const pairs = schedule_.pairs[set];
       if (pairs != nullptr && pairs->frames[frame].size() == 0) continue;
       all.push_back({set,
                      {.set = schedule_.sets[set].number,
@@ -106,8 +109,8 @@ double BlockRun::deadline(std::size_t c, std::size_t set, std::uint32_t frames) 
              checked(c, set).greatest_seconds();
 }
 
-bool BlockRun::is_right(std::size_t c, std::size_t s, const SampleRequest& request,
-                        const SampleReply& reply) const {
+bool BlockRun::is_right(std::size_t c, std::size_t s, const measure::SampleRequest& request,
+                        const measure::SampleReply& reply) const {
   const bool is_broad = schedule_.pairs[s] == nullptr;
   const Checked& own = checked(c, s);
   const bool skips_first =
@@ -126,11 +129,11 @@ bool BlockRun::is_right(std::size_t c, std::size_t s, const SampleRequest& reque
 }
 
 void BlockRun::lose(std::size_t c, std::size_t set, int process, std::uint32_t frame,
-                    const Loss& loss) {
-  RawRow row = rows_.empty(c, set, frame);
+                    const measure::Loss& loss) {
+  record::RawRow row = rows_.empty(c, set, frame);
   row.process = process;
-  Findings& findings = *context_.findings;
-  Departure departure =
+  record::Findings& findings = *context_.findings;
+  record::Departure departure =
       rows_.mark_lost(row, c, loss,
                       fmt::format("another answer at {} threads than in the check at one",
                                   context_.block->threads));
@@ -138,43 +141,44 @@ void BlockRun::lose(std::size_t c, std::size_t set, int process, std::uint32_t f
   findings.add(std::move(departure));
 }
 
-void BlockRun::take(Round& round) {
+void BlockRun::take(measure::Round& round) {
   struct Taken {
-    std::vector<RawRow> rows;  // of one sample
-    std::optional<Departure> departure;
+    std::vector<record::RawRow> rows;  // of one sample
+    std::optional<record::Departure> departure;
   };
   std::vector<Taken> all;
-  for (const Sample& sample : round.samples) {
+  for (const measure::Sample& sample : round.samples) {
     Taken& taken = all.emplace_back();
     if (sample.loss) {
-      RawRow& row = taken.rows.emplace_back(rows_.of_sample(round, sample));
+      record::RawRow& row = taken.rows.emplace_back(rows_.of_sample(round, sample));
       taken.departure = rows_.mark_lost(row, sample.contestant, *sample.loss,
                                         "another answer in a sample than in the check");
     } else {
       taken.rows = rows_.of_reply(round, sample, checked(sample.contestant, round.set).gave_up);
     }
-    for (const RawRow& row : taken.rows) times_[round.set].add(row);
+    for (const record::RawRow& row : taken.rows) times_[round.set].add(row);
   }
-  if (round.stop == Stop::none) round.stop = reason_to_stop(round);
-  if (round.stop != Stop::none) {
-    RawRow& last = all.back().rows.back();
+  if (round.stop == measure::Stop::none) round.stop = reason_to_stop(round);
+  if (round.stop != measure::Stop::none) {
+    record::RawRow& last = all.back().rows.back();
     last.stop = to_string(round.stop);
     if (control_failed(round.set)) last.noise += last.noise.empty() ? "canary" : "+canary";
   }
   for (Taken& taken : all) {
-    for (RawRow& row : taken.rows) context_.findings->add(std::move(row));
+    for (record::RawRow& row : taken.rows) context_.findings->add(std::move(row));
     if (taken.departure) context_.findings->add(*std::move(taken.departure));
   }
 }
 
-Stop BlockRun::reason_to_stop(const Round& round) const {
+measure::Stop BlockRun::reason_to_stop(const measure::Round& round) const {
   const CampaignGroup& group = *context_.block->group;
-  if (!round.ends_lap || group.squares) return Stop::none;
-  if (round.ends_period && all_narrow(round.set)) return Stop::width;
+  if (!round.ends_lap || group.squares) return measure::Stop::none;
+  if (round.ends_period && all_narrow(round.set)) return measure::Stop::width;
   // Below the squares of the first look there is no interval: worth some time beyond the budget.
   const double share = group.seconds / static_cast<double>(schedule_.sets.size());
-  const bool looked = round.lap + 1 >= first_look;
-  return round.spent > (looked ? 1 : patience) * share ? Stop::budget : Stop::none;
+  const bool looked = round.lap + 1 >= measure::first_look;
+  return round.spent > (looked ? 1 : patience) * share ? measure::Stop::budget
+                                                       : measure::Stop::none;
 }
 
 bool BlockRun::all_narrow(std::size_t set) const {
@@ -198,4 +202,4 @@ bool BlockRun::control_failed(std::size_t set) const {
   return interval.low > std::log1p(width) || interval.high < -std::log1p(width);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

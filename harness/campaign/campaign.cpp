@@ -8,7 +8,7 @@
 #include "harness/record/machine.h"
 #include "harness/record/raw_row.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 // "hulls_8" is the name of "hulls_8 gap 0.1" too.
@@ -74,12 +74,13 @@ std::string description(const Campaign& campaign) {
     for (const auto& gap : group.gaps) {
       if (gap) text += fmt::format(" gap {}", *gap);
     }
-    for (const BoxKind boxes : group.boxes) text += fmt::format(" boxes {}", to_string(boxes));
+    for (const scene::BoxKind boxes : group.boxes)
+      text += fmt::format(" boxes {}", to_string(boxes));
     for (const auto& limit : group.isa) {
       if (limit) text += fmt::format(" isa {}", to_string(*limit));
     }
     for (const auto* entry : group.broad) text += " broad " + entry->info.name;
-    for (const NarrowChoice& choice : group.narrow) {
+    for (const measure::NarrowChoice& choice : group.narrow) {
       text += fmt::format(" narrow {} {} {} {} {}", choice.entry->info.name,
                           to_string(choice.settings.scalar), choice.settings.tolerance.value_or(0),
                           choice.settings.duality_gap.value_or(0),
@@ -103,14 +104,14 @@ std::string description(const Campaign& campaign) {
 std::vector<std::pair<std::string, std::string>> campaign_facts(
     const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes) {
   std::uint64_t hash = 0;
-  for (const char c : description(campaign)) hash = mix(hash ^ static_cast<unsigned char>(c));
+  for (const char c : description(campaign)) hash = base::mix(hash ^ static_cast<unsigned char>(c));
   std::vector<std::pair<std::string, std::string>> facts = {{"campaign", campaign.name},
                                                             {"seed", std::to_string(campaign.seed)},
-                                                            {"campaign_hash", to_hex(hash)}};
-  facts.emplace_back("program", hash_of_program());
+                                                            {"campaign_hash", base::to_hex(hash)}};
+  facts.emplace_back("program", record::hash_of_program());
   for (const auto& [name, value] : scene_hashes) facts.emplace_back("scene " + name, value);
-  for (auto& fact : machine_facts()) facts.push_back(std::move(fact));
+  for (auto& fact : record::machine_facts()) facts.push_back(std::move(fact));
   return facts;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

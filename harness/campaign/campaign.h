@@ -15,7 +15,7 @@
 #include "harness/scene/scene.h"
 #include "harness/stats/published.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 // Combination of broad and narrow phases.
 enum class Pairing : std::uint8_t {
@@ -30,7 +30,7 @@ struct CampaignRule {
   std::optional<Precision> scalar;
   std::optional<Task> task;
   std::optional<std::string> pair_kind;  // "box-sphere"
-  std::optional<BoxKind> boxes;
+  std::optional<scene::BoxKind> boxes;
   std::optional<int> threads;
   std::optional<bool> warm;
   std::optional<std::int64_t> counts_above, counts_below;  // bodies
@@ -41,7 +41,7 @@ struct CampaignRule {
 struct CampaignCell {
   std::string scene;
   std::int64_t bodies = 0;
-  BoxKind boxes = BoxKind::tight;
+  scene::BoxKind boxes = scene::BoxKind::tight;
   int threads = 1;
   std::string broad, narrow;
   std::optional<Precision> scalar;
@@ -58,14 +58,14 @@ struct CampaignGroup {
   std::vector<std::int64_t> seeds = {-1};
   std::vector<std::optional<double>> gaps = {std::nullopt};  // metres; none: as the scene says
   int frames = -1;
-  std::vector<BoxKind> boxes = {BoxKind::tight};
+  std::vector<scene::BoxKind> boxes = {scene::BoxKind::tight};
   std::vector<int> threads = {2};
   // The most vector instructions that our kernels may use; none: what the run may use.
   std::vector<std::optional<Isa>> isa = {std::nullopt};
   bool rebuild = false;  // every frame is built anew instead of updated
   std::vector<const BroadPhaseEntry*> broad;
   bool limit = false;  // the lower bound (algorithms/limit.h) is measured beside the others
-  std::vector<NarrowChoice> narrow;
+  std::vector<measure::NarrowChoice> narrow;
   std::vector<Task> tasks = {Task::intersect};
   Pairing pairing = Pairing::separate;
   std::vector<CampaignRule> include, exclude;
@@ -87,7 +87,7 @@ struct Campaign {
   std::string name;
   std::uint64_t seed = 1;  // of the order in which algorithms run
   std::vector<CampaignGroup> groups;
-  Published published;
+  stats::Published published;
 };
 
 // Reads a campaign file: datasets/README.md documents the keys. Keys at the top level are defaults
@@ -103,4 +103,4 @@ std::vector<std::pair<std::string, std::string>> campaign_facts(
 // The campaign's settings as one text, which is the same for equal campaigns only.
 std::string description(const Campaign& campaign);
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

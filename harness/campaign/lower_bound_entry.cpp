@@ -6,13 +6,13 @@
 #include "algorithms/limit.h"
 #include "harness/stats/samples.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 // Writes the pairs that the input holds.
 class LowerBound final : public BroadPhase {
  public:
-  LowerBound(Executor& executor, const BlockInput& input)
+  LowerBound(Executor& executor, const measure::BlockInput& input)
       : bound_(make_broad_phase_limit(executor)), input_(input) {}
 
   void build(std::span<const Aabb> boxes) override {
@@ -22,21 +22,22 @@ class LowerBound final : public BroadPhase {
   void update(const FrameChange& change) override { build(change.boxes); }
   Status find_pairs(PairSink& sink) override {
     // The frame that these boxes are of.
-    const auto frame = std::ranges::find_if(
-        input_.frames, [&](const BlockFrame& own) { return own.boxes.data() == boxes_.data(); });
+    const auto frame = std::ranges::find_if(input_.frames, [&](const measure::BlockFrame& own) {
+      return own.boxes.data() == boxes_.data();
+    });
     bound_->write(frame->truth, sink);
     return Status::ok;
   }
 
  private:
   std::unique_ptr<BroadPhaseLimit> bound_;
-  const BlockInput& input_;
+  const measure::BlockInput& input_;
   std::span<const Aabb> boxes_;
 };
 
 }  // namespace
 
-BroadPhaseEntry lower_bound_entry(const BlockInput& input) {
+BroadPhaseEntry lower_bound_entry(const measure::BlockInput& input) {
   return {.info = {.name = stats::limit_label,
                    .citation = "a radix sort, a gather, and the writing of the pairs",
                    .origin = Origin::oracle},
@@ -45,4 +46,4 @@ BroadPhaseEntry lower_bound_entry(const BlockInput& input) {
           }};
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -11,7 +11,7 @@
 #include "harness/campaign/selection.h"
 #include "harness/files/toml_table.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr std::array<std::string_view, 2> box_names = {"tight", "loose"};
@@ -25,16 +25,16 @@ constexpr std::int64_t greatest_count = 100'000'000;
 // The group's value where it has one, else the file's.
 class Settings {
  public:
-  Settings(TomlTable& file, TomlTable& group) : file_(&file), group_(&group) {}
+  Settings(files::TomlTable& file, files::TomlTable& group) : file_(&file), group_(&group) {}
 
-  TomlTable& of(std::string_view key) {
+  files::TomlTable& of(std::string_view key) {
     const bool own = group_->has(key);
     file_->has(key);  // known there too, whether it counts or not
     return own ? *group_ : *file_;
   }
   // The elements of an array; one value stands for an array of it. Empty where there is none.
   std::vector<const toml::node*> elements(std::string_view key) {
-    TomlTable& table = of(key);
+    files::TomlTable& table = of(key);
     const toml::node* node = table.node(key);
     std::vector<const toml::node*> list;
     if (node == nullptr) return list;
@@ -91,8 +91,8 @@ class Settings {
   }
 
  private:
-  TomlTable* file_;
-  TomlTable* group_;
+  files::TomlTable* file_;
+  files::TomlTable* group_;
 };
 
 template <class Entry>
@@ -101,7 +101,7 @@ std::vector<const Entry*> algorithms(Settings& settings, const std::string& key,
   const std::vector<std::string> names = settings.texts(key, {"ours", "peers"});
   try {
     return select(entries, names, key + " phase");
-  } catch (const InputError& error) {
+  } catch (const base::InputError& error) {
     settings.of(key).fail(key, error.what());
   }
 }
@@ -121,7 +121,7 @@ std::vector<bool> warm_starts(Settings& settings) {
 }
 
 // Each algorithm with each scalar that it offers, each tolerance and each start that it knows.
-std::vector<NarrowChoice> narrow_choices(Settings& settings) {
+std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
   const auto scalars = settings.choices<Precision>("scalars", scalar_names,
                                                    {Precision::float32, Precision::float64});
   std::vector<std::optional<double>> tolerances;
@@ -139,10 +139,11 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
         static_cast<int>(settings.of("max_iterations").integer("max_iterations", 1, 1'000'000));
   }
   std::optional<double> duality_gap;
-  TomlTable& gap_holder = settings.of("duality_gap");
-  if (gap_holder.has("duality_gap")) duality_gap = gap_holder.number("duality_gap", positive);
+  files::TomlTable& gap_holder = settings.of("duality_gap");
+  if (gap_holder.has("duality_gap"))
+    duality_gap = gap_holder.number("duality_gap", files::positive);
   const std::vector<bool> starts = warm_starts(settings);
-  std::vector<NarrowChoice> choices;
+  std::vector<measure::NarrowChoice> choices;
   for (const NarrowPhaseEntry* entry : algorithms(settings, "narrow", narrow_phases())) {
     if (duality_gap && !entry->traits.stops_by_duality_gap) {
       gap_holder.fail("duality_gap",
@@ -170,9 +171,9 @@ std::vector<NarrowChoice> narrow_choices(Settings& settings) {
 
 std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
   std::vector<CampaignRule> rules;
-  TomlTable& holder = settings.of(key);
+  files::TomlTable& holder = settings.of(key);
   for (const toml::node* node : settings.elements(key)) {
-    TomlTable table = holder.from(*node, key);
+    files::TomlTable table = holder.from(*node, key);
     CampaignRule& rule = rules.emplace_back();
     const auto text = [&](const char* name, std::optional<std::string>& value) {
       if (table.has(name)) value = table.text(name);
@@ -233,7 +234,7 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
   const std::vector<double> gaps = settings.numbers("gaps", 1e6);
   if (!gaps.empty()) group.gaps.assign(gaps.begin(), gaps.end());
   group.frames = static_cast<int>(settings.of("frames").integer("frames", 1, 1'000'000, -1));
-  group.boxes = settings.choices<BoxKind>("boxes", box_names, {BoxKind::tight});
+  group.boxes = settings.choices<scene::BoxKind>("boxes", box_names, {scene::BoxKind::tight});
   group.threads.clear();
   for (const std::int64_t threads : settings.integers("threads", 1, 1024, 2)) {
     group.threads.push_back(static_cast<int>(threads));
@@ -248,12 +249,12 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
   group.narrow = narrow_choices(settings);
   group.tasks = settings.choices<Task>("tasks", task_names, {Task::intersect});
   group.pairing = static_cast<Pairing>(settings.of("pairing").choice("pairing", pairing_names, 0));
-  group.time_limit = settings.of("time_limit").number("time_limit", positive, 10.0);
+  group.time_limit = settings.of("time_limit").number("time_limit", files::positive, 10.0);
   group.memory_limit = static_cast<std::size_t>(
                            settings.of("memory_limit").integer("memory_limit", 1, 1 << 24, 4096))
                        << 20;
   group.width = settings.of("width").number("width", {.low = 1e-4, .high = 10}, 0.02);
-  group.seconds = settings.of("seconds").number("seconds", positive, 10.0);
+  group.seconds = settings.of("seconds").number("seconds", files::positive, 10.0);
   if (settings.of("squares").has("squares")) {
     group.squares = static_cast<int>(settings.of("squares").integer("squares", 6, 10'000));
   }
@@ -269,20 +270,20 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
 }  // namespace
 
 Campaign read_campaign(const std::filesystem::path& file) {
-  const toml::table root = parse_toml(file);
-  TomlTable table(root, file.string(), "");
+  const toml::table root = files::parse_toml(file);
+  files::TomlTable table(root, file.string(), "");
   Campaign campaign;
   campaign.name = table.text("name", file.stem().string());
   campaign.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
-  campaign.published = read_published(table);
+  campaign.published = stats::read_published(table);
   const std::filesystem::path folder = file.parent_path();
   const toml::table nothing;
-  TomlTable empty(nothing, file.string(), "");
+  files::TomlTable empty(nothing, file.string(), "");
   if (table.has("group")) {
     // A wrong default is told even where every group has a value of its own.
     read_group(Settings(table, empty), folder, Whole::defaults);
-    for (TomlTable& group : table.tables("group")) {
+    for (files::TomlTable& group : table.tables("group")) {
       campaign.groups.push_back(read_group(Settings(table, group), folder, Whole::group));
       group.finish();
     }
@@ -293,4 +294,4 @@ Campaign read_campaign(const std::filesystem::path& file) {
   return campaign;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

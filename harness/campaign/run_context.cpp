@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::campaign {
 
-RawRow RunContext::row(std::size_t frame) const {
-  RawRow row;
+record::RawRow RunContext::row(std::size_t frame) const {
+  record::RawRow row;
   row.campaign = campaign;
   row.block = number;
   row.scene = scene->name;
@@ -23,25 +23,27 @@ RawRow RunContext::row(std::size_t frame) const {
   return row;
 }
 
-RawRow RunContext::row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const {
-  RawRow result = row(frame);
+record::RawRow RunContext::row(std::size_t frame, const BroadPhaseEntry& entry,
+                               record::Phase phase) const {
+  record::RawRow result = row(frame);
   result.broad = entry.info.name;
-  result.origin = &entry == limit ? RowOrigin::limit : row_origin(entry.info.origin);
+  result.origin =
+      &entry == limit ? record::RowOrigin::limit : record::row_origin(entry.info.origin);
   result.phase = phase;
-  result.status = RowStatus::ok;
+  result.status = record::RowStatus::ok;
   if (block->group->rebuild) result.rebuild = true;
   return result;
 }
 
-RawRow RunContext::row(std::size_t frame, const NarrowChoice& choice) const {
-  RawRow result = row(frame);
+record::RawRow RunContext::row(std::size_t frame, const measure::NarrowChoice& choice) const {
+  record::RawRow result = row(frame);
   result.narrow = choice.entry->info.name;
-  result.origin = row_origin(choice.entry->info.origin);
+  result.origin = record::row_origin(choice.entry->info.origin);
   result.scalar = choice.settings.scalar;
   result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
   result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
   if (choice.warm) result.warm = true;
-  result.phase = Phase::narrow;
+  result.phase = record::Phase::narrow;
   return result;
 }
 
@@ -67,7 +69,7 @@ bool RunContext::admits(const BroadPhaseEntry& entry) const {
                                .pair_kind = {}});
 }
 
-bool RunContext::admits(const NarrowChoice& choice, const std::string& broad, Task task,
+bool RunContext::admits(const measure::NarrowChoice& choice, const std::string& broad, Task task,
                         const std::string& pair_kind) const {
   return block->group->admits({.scene = scene->name,
                                .bodies = static_cast<std::int64_t>(scene->size()),
@@ -90,8 +92,8 @@ std::string RunContext::file_name(std::string text) {
   return text;
 }
 
-Departure RunContext::departure(const AlgorithmInfo& info, std::string label,
-                                std::string where) const {
+record::Departure RunContext::departure(const AlgorithmInfo& info, std::string label,
+                                        std::string where) const {
   return {.block = number,
           .row = -1,
           .algorithm = std::move(label),
@@ -102,4 +104,4 @@ Departure RunContext::departure(const AlgorithmInfo& info, std::string label,
           .reproduction = ""};
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -14,14 +14,14 @@
 #include "harness/record/findings.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 // One block: a scene as it is played, for every algorithm of a group.
 struct Block {
   const CampaignGroup* group = nullptr;
   std::filesystem::path scene_file;
-  SceneOverrides overrides;
-  BoxKind boxes = BoxKind::tight;
+  scene::SceneOverrides overrides;
+  scene::BoxKind boxes = scene::BoxKind::tight;
   int threads = 2;
   std::optional<Isa> isa = {};  // the most that the kernels may use, where the campaign says
 };
@@ -31,30 +31,31 @@ struct RunContext {
   std::uint64_t seed = 1;   // the campaign's
   std::int64_t number = 0;  // the block's, in the campaign's order
   const Block* block = nullptr;
-  const Scene* scene = nullptr;
+  const scene::Scene* scene = nullptr;
   std::string scene_hash;
   std::filesystem::path reproductions;  // folder for files that show a discrepancy; empty: none
-  Findings* findings = nullptr;
+  record::Findings* findings = nullptr;
   std::span<const Block> blocks = {};      // all of the campaign, by their numbers
   const BroadPhaseEntry* limit = nullptr;  // the lower bound, where the campaign asks for it
 
   // A row with the columns that the block decides.
-  RawRow row(std::size_t frame) const;
+  record::RawRow row(std::size_t frame) const;
   // A row of an algorithm.
-  RawRow row(std::size_t frame, const BroadPhaseEntry& entry, Phase phase) const;
-  RawRow row(std::size_t frame, const NarrowChoice& choice) const;
+  record::RawRow row(std::size_t frame, const BroadPhaseEntry& entry, record::Phase phase) const;
+  record::RawRow row(std::size_t frame, const measure::NarrowChoice& choice) const;
   // The broad phases of the group that its rules admit, the lower bound last.
   std::vector<const BroadPhaseEntry*> broad() const;
   // True where the campaign's rules let it take part.
   bool admits(const BroadPhaseEntry& entry) const;
-  bool admits(const NarrowChoice& choice, const std::string& broad, Task task,
+  bool admits(const measure::NarrowChoice& choice, const std::string& broad, Task task,
               const std::string& pair_kind) const;
   // "home, 85 bodies, frame 3"
   std::string place(std::size_t frame) const;
   // The text with '_' for each blank: names of scenes may have some.
   static std::string file_name(std::string text);
   // A discrepancy of this algorithm in this block.
-  Departure departure(const AlgorithmInfo& info, std::string label, std::string where) const;
+  record::Departure departure(const AlgorithmInfo& info, std::string label,
+                              std::string where) const;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

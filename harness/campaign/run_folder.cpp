@@ -2,30 +2,31 @@
 
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr std::size_t raw = 0, departures = 1;
 
 }  // namespace
 
-RunFolder::RunFolder(std::filesystem::path folder, Facts facts, FolderStart start,
-                     Findings& findings)
-    : folder_(
-          {.folder = std::move(folder),
-           .files = {{"raw.csv", header_of<RawRow>()}, {"departures.csv", header_of<Departure>()}},
-           .identity = std::move(facts),
-           .start = start,
-           .work = "run",
-           .removed = {"reproductions", "tables.md"}}) {
-  if (start != FolderStart::resume) return;
-  for (RawRow& row : folder_.rows<RawRow>(raw)) findings.add(std::move(row));
-  for (Departure& one : folder_.rows<Departure>(departures)) findings.add(std::move(one));
+RunFolder::RunFolder(std::filesystem::path folder, record::Facts facts, record::FolderStart start,
+                     record::Findings& findings)
+    : folder_({.folder = std::move(folder),
+               .files = {{"raw.csv", record::header_of<record::RawRow>()},
+                         {"departures.csv", record::header_of<record::Departure>()}},
+               .identity = std::move(facts),
+               .start = start,
+               .work = "run",
+               .removed = {"reproductions", "tables.md"}}) {
+  if (start != record::FolderStart::resume) return;
+  for (record::RawRow& row : folder_.rows<record::RawRow>(raw)) findings.add(std::move(row));
+  for (record::Departure& one : folder_.rows<record::Departure>(departures))
+    findings.add(std::move(one));
   rows_ = findings.rows().size();
   departures_ = findings.departures().size();
 }
 
-void RunFolder::commit(const Findings& findings) {
+void RunFolder::commit(const record::Findings& findings) {
   if (rows_ == findings.rows().size() && departures_ == findings.departures().size()) return;
   for (; departures_ < findings.departures().size(); ++departures_) {
     folder_.write(departures, findings.departures()[departures_]);
@@ -34,4 +35,4 @@ void RunFolder::commit(const Findings& findings) {
   folder_.commit();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

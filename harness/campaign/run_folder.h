@@ -7,22 +7,23 @@
 #include "harness/record/findings.h"
 #include "harness/record/result_folder.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 // A unit is a block's check pass, a worker's first pass, or a round.
 class RunFolder {
  public:
   // Fills the findings from the folder where the run is resumed.
-  RunFolder(std::filesystem::path folder, Facts facts, FolderStart start, Findings& findings);
+  RunFolder(std::filesystem::path folder, record::Facts facts, record::FolderStart start,
+            record::Findings& findings);
 
   bool was_finished() const { return folder_.was_finished(); }
   // Appends what is new in the findings, as a unit; without anything new does nothing.
-  void commit(const Findings& findings);
+  void commit(const record::Findings& findings);
   void finish() { folder_.finish(); }
 
  private:
-  ResultFolder folder_;
+  record::ResultFolder folder_;
   std::size_t rows_ = 0, departures_ = 0;  // written
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -20,7 +20,7 @@
 #include "harness/process/child_process.h"
 #include "harness/record/machine.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr int tried_frames = 2;
@@ -52,8 +52,8 @@ std::vector<Block> blocks_of(const Campaign& campaign) {
       for (const std::int64_t count : group.counts) {
         for (const std::int64_t seed : group.seeds) {
           for (const auto& gap : group.gaps) {
-            const SceneOverrides overrides{count, seed, group.frames, gap};
-            for (const BoxKind boxes : group.boxes) {
+            const scene::SceneOverrides overrides{count, seed, group.frames, gap};
+            for (const scene::BoxKind boxes : group.boxes) {
               for (const int threads : group.threads) {
                 for (const auto& isa : group.isa) {
                   blocks.push_back({&group, scene, overrides, boxes, threads, isa});
@@ -65,11 +65,11 @@ std::vector<Block> blocks_of(const Campaign& campaign) {
       }
     }
   }
-  if (blocks.empty()) throw InputError("the campaign has no scene");
+  if (blocks.empty()) throw base::InputError("the campaign has no scene");
   return blocks;
 }
 
-std::string label(const Block& block, const Scene& scene) {
+std::string label(const Block& block, const scene::Scene& scene) {
   return fmt::format("{}, {} bodies, {} frames{}, {} boxes, {} thread{}{}", scene.name,
                      scene.size(), scene.frames, block.group->rebuild ? " rebuilt" : "",
                      to_string(block.boxes), block.threads, block.threads == 1 ? "" : "s",
@@ -91,19 +91,20 @@ class IsaGuard {
 };
 
 // A warm start needs a frame before.
-void expect_frames(const Block& block, const Scene& scene) {
-  const bool warm = std::ranges::any_of(block.group->narrow, &NarrowChoice::warm);
+void expect_frames(const Block& block, const scene::Scene& scene) {
+  const bool warm = std::ranges::any_of(block.group->narrow, &measure::NarrowChoice::warm);
   if (!warm || scene.frames > 1 || !scene.recording.empty()) return;
-  throw InputError(block.scene_file.string(), 0,
-                   "has 1 frame, and the campaign wants warm starts; expected `frames` of 2 or "
-                   "more, in the scene or the campaign");
+  throw base::InputError(
+      block.scene_file.string(), 0,
+      "has 1 frame, and the campaign wants warm starts; expected `frames` of 2 or "
+      "more, in the scene or the campaign");
 }
 
 // Each distinct scene once.
 class Scenes {
  public:
   struct Loaded {
-    Scene scene;
+    scene::Scene scene;
     std::string hash;
   };
   explicit Scenes(const std::vector<Block>& blocks) {
@@ -112,7 +113,7 @@ class Scenes {
         expect_frames(block, at->second.scene);
         continue;
       }
-      Scene scene = load_scene(block.scene_file, block.overrides);
+      scene::Scene scene = scene::load_scene(block.scene_file, block.overrides);
       expect_frames(block, scene);
       std::string hash = scene_hash(scene);
       loaded_.emplace(key(block), Loaded{std::move(scene), std::move(hash)});
@@ -134,7 +135,7 @@ class Scenes {
   using Key =
       std::tuple<std::filesystem::path, std::int64_t, std::int64_t, int, std::optional<double>>;
   static Key key(const Block& block) {
-    const SceneOverrides& overrides = block.overrides;
+    const scene::SceneOverrides& overrides = block.overrides;
     return {block.scene_file, overrides.count, overrides.seed, overrides.frames, overrides.gap};
   }
   std::map<Key, Loaded> loaded_;
@@ -151,29 +152,30 @@ bool finds_pairs(const RunContext& context) {
 
 // The sets of true pairs, and those of what broad phases found.
 struct NarrowInput {
-  std::vector<NarrowSet> checked, measured;
+  std::vector<measure::NarrowSet> checked, measured;
 };
 
-std::vector<std::vector<IndexPair>> true_pairs(const BlockInput& input) {
+std::vector<std::vector<IndexPair>> true_pairs(const measure::BlockInput& input) {
   std::vector<std::vector<IndexPair>> pairs;
-  for (const BlockFrame& frame : input.frames) pairs.push_back(frame.truth);
+  for (const measure::BlockFrame& frame : input.frames) pairs.push_back(frame.truth);
   return pairs;
 }
 
 // Checks the broad phases and returns the pairs for the narrow phases. Rows go to
 // `context.findings`. `again`: the rows are known, and only the pairs are wanted.
-NarrowInput check_broad_phases(const RunContext& context, const BlockInput& input, bool again) {
+NarrowInput check_broad_phases(const RunContext& context, const measure::BlockInput& input,
+                               bool again) {
   const CampaignGroup& group = *context.block->group;
   const bool narrow = has_narrow(context);
   const bool product = narrow && finds_pairs(context);
   NarrowInput sets;
-  if (narrow) sets.checked = narrow_sets(input, "", true_pairs(input), group.tasks);
+  if (narrow) sets.checked = measure::narrow_sets(input, "", true_pairs(input), group.tasks);
   if (!product) sets.measured = sets.checked;
   if (again && !product) return sets;
   for (const BroadPhaseEntry* entry : context.broad()) {
     const CheckedBroad check = check_broad(context, input, *entry, product);
     if (!product || !check.whole || entry == context.limit) continue;
-    auto found = narrow_sets(input, entry->info.name, check.pairs, group.tasks);
+    auto found = measure::narrow_sets(input, entry->info.name, check.pairs, group.tasks);
     // Other pairs than the true ones have answers of their own.
     if (!check.right) sets.checked.insert(sets.checked.end(), found.begin(), found.end());
     sets.measured.insert(sets.measured.end(), found.begin(), found.end());
@@ -181,17 +183,17 @@ NarrowInput check_broad_phases(const RunContext& context, const BlockInput& inpu
   return sets;
 }
 
-void run_block(RunContext context, bool checked, Progress& progress, RunFolder& files) {
+void run_block(RunContext context, bool checked, base::Progress& progress, RunFolder& files) {
   const IsaGuard guard(*context.block);
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   const double budget = context.block->group->seconds;
-  const BlockInput input(*context.scene, context.block->boxes, has_narrow(context));
+  const measure::BlockInput input(*context.scene, context.block->boxes, has_narrow(context));
   const BroadPhaseEntry limit = lower_bound_entry(input);
   if (context.block->group->limit) context.limit = &limit;
   NarrowInput narrow;
   if (checked) {
     // The rows are there; what the broad phases found has to be found again.
-    Findings known;
+    record::Findings known;
     RunContext silent = context;
     silent.findings = &known;
     narrow = check_broad_phases(silent, input, true);
@@ -213,8 +215,8 @@ void run_block(RunContext context, bool checked, Progress& progress, RunFolder& 
 }  // namespace
 
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                       FolderStart start) {
-  expect_one_thread();
+                       record::FolderStart start) {
+  process::expect_one_thread();
   const std::vector<Block> blocks = blocks_of(campaign);
   const Scenes scenes(blocks);
   RunResult result;
@@ -224,7 +226,7 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
   const std::int64_t at = rows.empty() ? -1 : rows.back().block;  // where it stopped
   {
     const InterruptGuard guard;
-    Progress progress(blocks.size());
+    base::Progress progress(blocks.size());
     for (std::size_t number = 0; number < blocks.size() && interrupt == 0; ++number) {
       const Block& block = blocks[number];
       const Scenes::Loaded& loaded = scenes.of(block);
@@ -242,11 +244,11 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
   return result;
 }
 
-Findings check_campaign(const Campaign& campaign) {
-  expect_one_thread();
+record::Findings check_campaign(const Campaign& campaign) {
+  process::expect_one_thread();
   const std::vector<Block> blocks = blocks_of(campaign);
   const Scenes scenes(blocks);
-  Findings findings;
+  record::Findings findings;
   for (std::size_t number = 0; number < blocks.size(); ++number) {
     const Block& block = blocks[number];
     const Scenes::Loaded& loaded = scenes.of(block);
@@ -260,7 +262,7 @@ Findings check_campaign(const Campaign& campaign) {
                        &findings,
                        blocks};
     const IsaGuard guard(block);
-    const BlockInput input(loaded.scene, block.boxes, has_narrow(context));
+    const measure::BlockInput input(loaded.scene, block.boxes, has_narrow(context));
     const BroadPhaseEntry limit = lower_bound_entry(input);
     if (block.group->limit) context.limit = &limit;
     const NarrowInput narrow = check_broad_phases(context, input, false);
@@ -300,7 +302,7 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     add("broad phases", listed);
     // Without narrow phases the first frames give the time of all.
     const bool has_pairs = has_narrow(context);
-    Scene scene = loaded.scene;
+    scene::Scene scene = loaded.scene;
     const auto frames = static_cast<std::size_t>(
         scene.recording.empty() ? scene.frames : static_cast<int>(scene.recording.size()));
     if (!has_pairs) {
@@ -309,19 +311,19 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
         scene.recording.resize(std::min<std::size_t>(frames, tried_frames));
       }
     }
-    const Stopwatch watch;
-    const BlockInput input(scene, block.boxes, has_pairs);
+    const base::Stopwatch watch;
+    const measure::BlockInput input(scene, block.boxes, has_pairs);
     planned.check_seconds =
         watch.seconds() * static_cast<double>(frames) / static_cast<double>(input.frames.size());
-    std::vector<NarrowSet> sets;
-    if (has_pairs) sets = narrow_sets(input, "", true_pairs(input), group.tasks);
+    std::vector<measure::NarrowSet> sets;
+    if (has_pairs) sets = measure::narrow_sets(input, "", true_pairs(input), group.tasks);
     planned.check_seconds += price_of_check(context, input, frames, sets);
     if (!has_pairs) continue;
     if (!finds_pairs(context)) broad.assign(1, "");
     for (const std::string& source : broad) {
-      for (const NarrowSet& set : sets) {
+      for (const measure::NarrowSet& set : sets) {
         std::vector<std::string> narrow;
-        for (const NarrowChoice& choice : group.narrow) {
+        for (const measure::NarrowChoice& choice : group.narrow) {
           if (offers(*choice.entry, set.kind_a, set.kind_b, set.task) &&
               context.admits(choice, source, set.task, set.kind_name())) {
             narrow.push_back(Candidate{.broad = nullptr, .narrow = &choice}.label());
@@ -336,4 +338,4 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
   return plan;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

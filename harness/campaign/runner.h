@@ -10,10 +10,10 @@
 #include "harness/record/findings.h"
 #include "harness/record/result_folder.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 struct RunResult {
-  Findings findings;
+  record::Findings findings;
   bool interrupted = false;
 };
 
@@ -24,10 +24,10 @@ struct RunResult {
 // kept, to be resumed. The caller is the only thread of its process (std::logic_error): workers are
 // forked from it, so that no Executor of more than one thread has been used in it.
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                       FolderStart start = FolderStart::fresh);
+                       record::FolderStart start = record::FolderStart::fresh);
 
 // The check pass of every block alone: the campaign's answers, without samples and files.
-Findings check_campaign(const Campaign& campaign);
+record::Findings check_campaign(const Campaign& campaign);
 
 // What run_campaign would do, and for how long, by trials of a few frames and pairs.
 struct PlannedBlock {
@@ -42,4 +42,4 @@ struct PlannedBlock {
 };
 std::vector<PlannedBlock> plan_campaign(const Campaign& campaign);
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -5,7 +5,7 @@
 
 #include "harness/stats/statistics.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr std::size_t group_size = 4;
@@ -37,7 +37,7 @@ std::size_t baseline(std::span<const Candidate> candidates) {
 }
 
 // Adds the set of these candidates, which are not empty.
-void add_set(Schedule& schedule, MeasuredSet set, const NarrowSet* pairs,
+void add_set(Schedule& schedule, measure::MeasuredSet set, const measure::NarrowSet* pairs,
              std::vector<Candidate> candidates) {
   const std::size_t first = baseline(candidates);
   std::swap(candidates[0], candidates[first]);
@@ -61,8 +61,8 @@ void add_set(Schedule& schedule, MeasuredSet set, const NarrowSet* pairs,
 }
 
 // The starts are added by the caller.
-MeasuredSet empty_set(const CampaignGroup& group, std::size_t frames) {
-  MeasuredSet set;
+measure::MeasuredSet empty_set(const CampaignGroup& group, std::size_t frames) {
+  measure::MeasuredSet set;
   if (group.rounds) set.most_rounds = static_cast<std::size_t>(*group.rounds);
   set.frames = frames;
   set.starts.clear();
@@ -75,12 +75,12 @@ std::string Candidate::label() const {
   return broad != nullptr ? broad->info.name : narrow->label();
 }
 
-Schedule make_schedule(const RunContext& context, const BlockInput& input,
-                       std::span<const NarrowSet> narrow, const CheckTable& checks) {
+Schedule make_schedule(const RunContext& context, const measure::BlockInput& input,
+                       std::span<const measure::NarrowSet> narrow, const CheckTable& checks) {
   const CampaignGroup& group = *context.block->group;
   const std::size_t frames = input.frames.size();
   Schedule schedule;
-  const auto is_in = [&](const Candidate& candidate, const NarrowSet* set) {
+  const auto is_in = [&](const Candidate& candidate, const measure::NarrowSet* set) {
     const Checked* checked = checks.find(candidate.label(), set);
     return checked != nullptr && !checked->out;
   };
@@ -90,15 +90,15 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
     if (is_in(candidate, nullptr)) candidates.push_back(candidate);
   }
   if (!candidates.empty()) {
-    MeasuredSet set = empty_set(group, frames);
+    measure::MeasuredSet set = empty_set(group, frames);
     const bool updates = !group.rebuild && frames > 1;
     for (std::size_t frame = updates ? 1 : 0; frame < frames; ++frame) set.starts.push_back(frame);
     add_set(schedule, std::move(set), nullptr, std::move(candidates));
   }
   for (std::size_t number = 0; number < narrow.size(); ++number) {
-    const NarrowSet& pairs = narrow[number];
+    const measure::NarrowSet& pairs = narrow[number];
     candidates.clear();
-    for (const NarrowChoice& choice : group.narrow) {
+    for (const measure::NarrowChoice& choice : group.narrow) {
       const Candidate candidate{.narrow = &choice};
       if (offers(*choice.entry, pairs.kind_a, pairs.kind_b, pairs.task) &&
           context.admits(choice, pairs.broad, pairs.task, pairs.kind_name()) &&
@@ -107,7 +107,7 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
       }
     }
     if (candidates.empty()) continue;
-    MeasuredSet set = empty_set(group, frames);
+    measure::MeasuredSet set = empty_set(group, frames);
     set.number = static_cast<std::uint32_t>(number);
     for (std::size_t frame = 0; frame < frames; ++frame) {
       if (pairs.frames[frame].size() > 0) set.starts.push_back(frame);
@@ -123,7 +123,7 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
   }
 
   for (std::size_t s = 0; s < schedule.sets.size(); ++s) {
-    MeasuredSet& set = schedule.sets[s];
+    measure::MeasuredSet& set = schedule.sets[s];
     std::vector<double> means;  // seconds a frame
     for (const std::size_t member : set.members) {
       const Checked& checked = *checks.find(schedule.candidates[member].label(), schedule.pairs[s]);
@@ -135,7 +135,7 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
     }
     double samples = 0;  // until the first look
     for (std::size_t g = 0; g < set.groups.size(); ++g) {
-      samples += first_look * static_cast<double>(set.groups[g].size() * set.rounds(g));
+      samples += measure::first_look * static_cast<double>(set.groups[g].size() * set.rounds(g));
     }
     const double share = group.seconds / static_cast<double>(schedule.sets.size());
     const double seconds = std::clamp(share / samples, shortest_sample, longest_sample);
@@ -146,4 +146,4 @@ Schedule make_schedule(const RunContext& context, const BlockInput& input,
   return schedule;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

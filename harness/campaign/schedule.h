@@ -9,13 +9,13 @@
 #include "harness/campaign/check_pass/check_table.h"
 #include "harness/measure/measure_plan.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 // One algorithm of a block. The control is a second registration of a baseline (an A/A control): the
 // difference between the two is the error of the measurement.
 struct Candidate {
   const BroadPhaseEntry* broad = nullptr;  // or
-  const NarrowChoice* narrow = nullptr;
+  const measure::NarrowChoice* narrow = nullptr;
   bool control = false;
 
   const AlgorithmInfo& info() const { return broad != nullptr ? broad->info : narrow->entry->info; }
@@ -27,14 +27,14 @@ struct Candidate {
 // member of its set and in each of its groups; the control is the second member.
 struct Schedule {
   std::vector<Candidate> candidates;  // the contestants of the sets
-  std::vector<MeasuredSet> sets;
-  std::vector<const NarrowSet*> pairs;  // of each set; null: the broad phases
+  std::vector<measure::MeasuredSet> sets;
+  std::vector<const measure::NarrowSet*> pairs;  // of each set; null: the broad phases
 
   std::string key(std::size_t set) const {
     return pairs[set] == nullptr ? "" : set_key(*pairs[set]);
   }
 };
-Schedule make_schedule(const RunContext& context, const BlockInput& input,
-                       std::span<const NarrowSet> narrow, const CheckTable& checks);
+Schedule make_schedule(const RunContext& context, const measure::BlockInput& input,
+                       std::span<const measure::NarrowSet> narrow, const CheckTable& checks);
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

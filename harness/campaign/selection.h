@@ -13,7 +13,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 // The names of a list such as "sap,naive".
 inline std::vector<std::string> split_names(std::string_view list) {
@@ -55,10 +55,11 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     if (at == entries.end()) {
       std::string known = "all, ours, peers, oracle, none";
       for (const Entry& entry : entries) known += ", " + entry.info.name;
-      throw InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
+      throw base::InputError(
+          fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
     }
     if (!is_built(at->info)) {
-      throw InputError(
+      throw base::InputError(
           fmt::format("the {} '{}' is not built, because {}", what, name, at->info.reason));
     }
     choose(*at);
@@ -75,4 +76,4 @@ inline std::string names_stopping_by_duality_gap() {
   return names;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

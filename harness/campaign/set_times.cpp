@@ -2,16 +2,16 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 stats::Noise noise(bool noisy) { return noisy ? stats::Noise::kept : stats::Noise::left_out; }
 
 }  // namespace
 
-void SetTimes::add(const RawRow& row) {
-  if (row.kind != RowKind::sample || !(row.seconds >= 0) || row.square < 0) return;
-  std::string label = label_of(row);
+void SetTimes::add(const record::RawRow& row) {
+  if (row.kind != record::RowKind::sample || !(row.seconds >= 0) || row.square < 0) return;
+  std::string label = record::label_of(row);
   if (row.is_twin()) {
     baseline_ = label;
     label = twin_of(label);
@@ -62,4 +62,4 @@ double half_width(const stats::MedianInterval& log_ratio) {
   return (std::exp(log_ratio.high) - std::exp(log_ratio.low)) / 2 / std::exp(log_ratio.median);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -8,12 +8,12 @@
 #include "harness/record/raw_row.h"
 #include "harness/stats/samples.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 class SetTimes {
  public:
   // The rows of one sample come one after the other.
-  void add(const RawRow& row);
+  void add(const record::RawRow& row);
 
   // The name of the baseline's second registration, the A/A control.
   static std::string twin_of(const std::string& label) { return label + " (twin)"; }
@@ -41,4 +41,4 @@ class SetTimes {
 // The half-width of an interval of a ratio, as a part of it; NaN where there is no interval.
 double half_width(const stats::MedianInterval& log_ratio);
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

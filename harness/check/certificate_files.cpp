@@ -12,13 +12,13 @@
 #include "harness/files/certificates.h"
 #include "harness/process/worker_pool.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr std::size_t most_told = 1000;
 
-StoredCertificate prove(const Case& c, oracle::Oracle& oracle) {
-  StoredCertificate stored;
+files::StoredCertificate prove(const files::Case& c, oracle::Oracle& oracle) {
+  files::StoredCertificate stored;
   stored.id = c.id;
   stored.encoding = to_string(Encoding::as_given);
   stored.shape_a = c.shape_a;
@@ -41,16 +41,16 @@ oracle::Body body_of(const oracle::Solid& solid, const Pose& pose,
 std::int64_t save_certificates(const CheckRequest& request, const std::filesystem::path& file) {
   std::ofstream stream(file, std::ios::binary);
   std::int64_t saved = 0;
-  run_jobs<std::string>(
+  process::run_jobs<std::string>(
       0, request.regimes.size(), request.workers,
       [&] {
         const auto oracle = std::make_shared<oracle::Oracle>();
         return [&request, oracle](std::size_t job) {
           std::string lines;
           for (int index = 0; index < request.cases; ++index) {
-            const Case c =
+            const files::Case c =
                 make(*request.regimes[job], request.seed, static_cast<std::uint64_t>(index));
-            lines += to_json(prove(c, *oracle)) + '\n';
+            lines += files::to_json(prove(c, *oracle)) + '\n';
           }
           return lines;
         };
@@ -61,13 +61,13 @@ std::int64_t save_certificates(const CheckRequest& request, const std::filesyste
         return true;
       });
   stream.close();
-  if (!stream) throw InputError(file.string(), 0, "cannot be written");
+  if (!stream) throw base::InputError(file.string(), 0, "cannot be written");
   return saved;
 }
 
 CertificateVerdicts verify_certificates(const std::filesystem::path& file) {
   CertificateVerdicts verdicts;
-  read_certificates(file, [&](const StoredCertificate& stored, std::int64_t line) {
+  files::read_certificates(file, [&](const files::StoredCertificate& stored, std::int64_t line) {
     const oracle::Solid a(stored.shape_a), b(stored.shape_b);
     const std::string why =
         oracle::fault(stored.certificate, body_of(a, stored.pose_a, stored.quaternion_a),
@@ -84,4 +84,4 @@ CertificateVerdicts verify_certificates(const std::filesystem::path& file) {
   return verdicts;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -8,7 +8,7 @@
 
 #include "harness/check/check_request.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // Proves the exact answers of the first round's cases, as they are given, and writes a certificate
 // a line. How many.
@@ -23,4 +23,4 @@ struct CertificateVerdicts {
 // Verifies every certificate of a file. InputError where the file cannot be read.
 CertificateVerdicts verify_certificates(const std::filesystem::path& file);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

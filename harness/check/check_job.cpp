@@ -12,7 +12,7 @@
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // One query: a case, or one of its other forms.
@@ -47,7 +47,7 @@ class Job {
   }
 
   JobResult run() {
-    for (TrueCase& c : cases_) check_case(c);
+    for (grade::TrueCase& c : cases_) check_case(c);
     for (std::uint32_t entry = 0; entry < request_.narrow.size(); ++entry) {
       for (const Precision scalar : request_.scalars) {
         if (offers(*request_.narrow[entry], scalar)) ask(entry, scalar);
@@ -61,9 +61,9 @@ class Job {
   const Regime& regime() const { return *request_.regimes[result_.summary.regime]; }
 
   // What has to be true whatever the algorithms say.
-  void check_case(TrueCase& c) {
+  void check_case(grade::TrueCase& c) {
     JobSummary& summary = result_.summary;
-    const TrueCase::Truth& truth = c.truth(Encoding::as_given);
+    const grade::TrueCase::Truth& truth = c.truth(Encoding::as_given);
     if (truth.measure.answer == Answer::unknown) ++summary.unresolved;
     const auto is_first = [&] { return summary.refused + summary.boxes_broken == 1; };
     if (is_sampled(c.index())) {
@@ -91,7 +91,7 @@ class Job {
     const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
     std::vector<Item> items;
     for (std::size_t place = 0; place < cases_.size(); ++place) {
-      const Case& c = cases_[place].pair();
+      const files::Case& c = cases_[place].pair();
       for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
         if (!offers(algorithm, c.shape_a.kind, c.shape_b.kind, task)) continue;
         items.push_back({place, nullptr, task});
@@ -99,23 +99,24 @@ class Job {
       }
     }
     const NarrowPhaseSettings settings = {.scalar = scalar};
-    const IsolationLimits limits = {.item_seconds = request_.time_limit, .failures = most_failures};
-    const auto solved = isolated_answers<Outcome>(items.size(), limits, [&] {
+    const process::IsolationLimits limits = {.item_seconds = request_.time_limit,
+                                             .failures = most_failures};
+    const auto solved = process::isolated_answers<Outcome>(items.size(), limits, [&] {
       return [&](std::size_t i) {
         const Item& item = items[i];
-        const Case& c =
+        const files::Case& c =
             item.variant != nullptr ? item.variant->transformed : cases_[item.place].pair();
-        return solve_case(algorithm, settings, c, item.task);
+        return process::solve_case(algorithm, settings, c, item.task);
       };
     });
-    GradedAnswer* original = nullptr;
+    grade::GradedAnswer* original = nullptr;
     const Outcome* original_outcome = nullptr;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const Outcome& outcome = solved.answers[i];
       if (items[i].variant == nullptr) {
-        const Query query = {result_.summary.regime, entry, scalar, items[i].task};
-        result_.answers.push_back(
-            grade_answer(algorithm, regime().extreme, query, cases_[items[i].place], outcome));
+        const grade::Query query = {result_.summary.regime, entry, scalar, items[i].task};
+        result_.answers.push_back(grade::grade_answer(algorithm, regime().extreme, query,
+                                                      cases_[items[i].place], outcome));
         original = &result_.answers.back();
         original_outcome = &outcome;
       } else {
@@ -124,7 +125,7 @@ class Job {
     }
   }
 
-  void compare(const GradedAnswer& original, const Outcome& outcome, const Variant& variant,
+  void compare(const grade::GradedAnswer& original, const Outcome& outcome, const Variant& variant,
                const Outcome& of_variant) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[original.entry];
     const std::string kind = kind_of(variant);
@@ -135,18 +136,18 @@ class Job {
     count.scalar = original.scalar;
     count.task = original.task;
     count.kind = kind;
-    const Margins margins = documented_margins(original.scalar, regime().extreme);
+    const grade::Margins margins = grade::documented_margins(original.scalar, regime().extreme);
     bool beyond = false;
     bool worse = false;
-    if (is_lost(of_variant.status) && !is_lost(outcome.status)) {
+    if (process::is_lost(of_variant.status) && !process::is_lost(outcome.status)) {
       ++count.lost;
       beyond = true;
     }
-    if (stands_by(outcome) && stands_by(of_variant)) {
+    if (grade::stands_by(outcome) && grade::stands_by(of_variant)) {
       ++count.compared;
       const Outcome turned_back = to_original(variant, of_variant);
       const double scale = original.scale;
-      if (is_contact(outcome.answer) != is_contact(of_variant.answer)) {
+      if (grade::is_contact(outcome.answer) != grade::is_contact(of_variant.answer)) {
         if (original.exact == Answer::separated || original.exact == Answer::overlapping) {
           const double gap = original.exact == Answer::separated ? original.lower : -original.upper;
           ++count.flips;
@@ -154,7 +155,7 @@ class Job {
           count.worst_flip = std::max(count.worst_flip, gap / scale);
           beyond = beyond || (gap / scale >= margins.verdict && !algorithm.traits.approximate);
         }
-      } else if (asks_for_distance(original.task, outcome.answer) &&
+      } else if (grade::asks_for_distance(original.task, outcome.answer) &&
                  std::isfinite(outcome.distance) && std::isfinite(turned_back.distance)) {
         const double difference = std::abs(outcome.distance - turned_back.distance) / scale;
         count.worst_difference = std::max(count.worst_difference, difference);
@@ -170,7 +171,7 @@ class Job {
 
   const CheckRequest& request_;
   oracle::Oracle& oracle_;
-  std::vector<TrueCase> cases_;
+  std::vector<grade::TrueCase> cases_;
   std::vector<std::vector<Variant>> variants_;  // of each case
   std::map<std::tuple<std::uint32_t, Precision, Task, std::string>, VariantCount> counts_;
   JobResult result_;
@@ -182,9 +183,10 @@ JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& o
   return Job(request, job, oracle).run();
 }
 
-std::vector<Variant> sampled_variants(const Case& c, std::uint64_t seed, std::uint64_t index) {
+std::vector<Variant> sampled_variants(const files::Case& c, std::uint64_t seed,
+                                      std::uint64_t index) {
   if (!is_sampled(index)) return {};
-  Random random(seed, index);
+  base::Random random(seed, index);
   return variants(c, random);
 }
 
@@ -192,4 +194,4 @@ std::string kind_of(const Variant& variant) {
   return variant.name.substr(0, variant.name.find_first_of("+-"));
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

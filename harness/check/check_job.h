@@ -10,7 +10,7 @@
 #include "harness/check/metamorphic.h"
 #include "harness/grade/graded_answer.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // An algorithm's answers about cases in one other form (harness/check/metamorphic.h), against its
 // own about the cases themselves.
@@ -58,7 +58,7 @@ struct JobSummary {
 
 struct JobResult {
   JobSummary summary;
-  std::vector<GradedAnswer> answers;
+  std::vector<grade::GradedAnswer> answers;
   std::vector<VariantCount> variants;
 
   template <class Visit>
@@ -73,8 +73,9 @@ struct JobResult {
 JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle);
 
 // The other forms that a sampled case is asked about in.
-std::vector<Variant> sampled_variants(const Case& c, std::uint64_t seed, std::uint64_t index);
+std::vector<Variant> sampled_variants(const files::Case& c, std::uint64_t seed,
+                                      std::uint64_t index);
 // "rotation" of "rotation+y+z+x".
 std::string kind_of(const Variant& variant);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -10,7 +10,7 @@
 #include "harness/grade/wrong.h"
 #include "harness/record/machine.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -20,8 +20,8 @@ std::string count(std::int64_t n) { return std::to_string(n); }
 // The first column is to the left, the others to the right, or all to the left where they are
 // texts.
 std::string markdown(const Rows& rows, bool are_texts = false) {
-  std::string text = stats::markdown_header(rows.front(), are_texts ? rows.front().size() : 1);
-  for (std::size_t i = 1; i < rows.size(); ++i) text += stats::markdown_row(rows[i]);
+  std::string text = base::markdown_header(rows.front(), are_texts ? rows.front().size() : 1);
+  for (std::size_t i = 1; i < rows.size(); ++i) text += base::markdown_row(rows[i]);
   return text;
 }
 
@@ -33,7 +33,7 @@ std::string introduction(const CheckReport& report, const std::string& command) 
       "against exact arithmetic. Lengths are parts of the pair's size, or of its distance where "
       "that is greater; each number is the greatest that was seen.\n\n",
       command, request.seed, request.cases, request.regimes.size());
-  for (const auto& [name, value] : machine_facts()) {
+  for (const auto& [name, value] : record::machine_facts()) {
     for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "mujoco", "embree",
                                "cgal", "boost_geometry", "commit"}) {
       if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
@@ -56,7 +56,7 @@ std::string sides_of_contact(const GroupedCounts& grouped) {
                 "honest failures", "up to", "status says nothing", "crashed", "hung",
                 "touching: contact"}};
   for (const auto& [label, totals] : grouped.totals()) {
-    const AnswerCount& a = totals.answers;
+    const grade::AnswerCount& a = totals.answers;
     rows.push_back({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
                     count(a.silent_end), digits(a.margin_end), count(a.honest),
                     digits(a.honest_margin), count(a.not_reported), count(a.crashed),
@@ -75,7 +75,7 @@ std::string lengths(const CheckReport& report, const GroupedCounts& grouped) {
   Rows rows = {{"algorithm", "distance", "end to end", "too deep", "too shallow", "end to end",
                 "stuck", "excess", "off body", "bounds", "NaN"}};
   for (const auto& [label, totals] : grouped.totals()) {
-    const AnswerCount& a = totals.answers;
+    const grade::AnswerCount& a = totals.answers;
     const bool is_bound = report.request->narrow[label.entry]->traits.depth_is_bound;
     rows.push_back({grouped.name(label), digits(a.distance), digits(a.distance_end),
                     (is_bound ? "<= " : "") + digits(a.too_deep), digits(a.too_shallow),
@@ -95,7 +95,7 @@ std::string silent_errors_by_group(const GroupedCounts& grouped) {
     std::vector<std::string>& row = rows.emplace_back();
     row.push_back(grouped.name(label));
     for (const std::string& group : grouped.groups()) {
-      const AnswerCount* a = grouped.of(label, group);
+      const grade::AnswerCount* a = grouped.of(label, group);
       row.push_back(a == nullptr     ? ""
                     : a->silent == 0 ? "0"
                                      : fmt::format("{} ({})", a->silent, digits(a->margin)));
@@ -114,8 +114,8 @@ std::string depths_by_group(const GroupedCounts& grouped) {
     std::vector<std::string>& row = rows.emplace_back();
     row.push_back(grouped.name(label));
     for (const std::string& group : grouped.groups()) {
-      const AnswerCount* a = grouped.of(label, group);
-      double worst = Grade::none;
+      const grade::AnswerCount* a = grouped.of(label, group);
+      double worst = grade::Grade::none;
       if (a != nullptr) worst = std::fmax(a->too_deep, a->too_shallow);
       if (a != nullptr && std::isnan(worst)) worst = a->distance;
       row.push_back(a == nullptr ? "" : digits(worst));
@@ -188,4 +188,4 @@ std::string page_text(const CheckReport& report, const std::string& command) {
          one_failure_of_each(report, grouped);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -9,7 +9,7 @@
 #include "harness/check/grouped_counts.h"
 #include "harness/files/csv.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -20,7 +20,7 @@ Rows summary_rows(const GroupedCounts& grouped) {
   Rows rows = {{"", "answers", "silent", "margin", "honest", "unsaid", "lost", "gap", "deep",
                 "shallow", "stuck", "bounds", "flips", "beyond"}};
   for (const auto& [label, totals] : grouped.totals()) {
-    const AnswerCount& a = totals.answers;
+    const grade::AnswerCount& a = totals.answers;
     rows.push_back({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
                     count(a.honest), count(a.not_reported), count(a.crashed + a.timed_out),
                     digits(a.distance), digits(a.too_deep), digits(a.too_shallow),
@@ -77,7 +77,7 @@ std::vector<std::string> CheckReport::ours_wrong() const {
 
 std::string summary_text(const CheckReport& report, std::size_t page_width) {
   const Rows rows = summary_rows(GroupedCounts(report));
-  TextTable table(rows.front());
+  base::TextTable table(rows.front());
   for (std::size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
   std::string text = table.text(page_width) + '\n' + std::string(summary_key) + '\n';
   text += checked_text(report);
@@ -111,7 +111,7 @@ std::string summary_text(const CheckReport& report, std::size_t page_width) {
 }
 
 void write_summary(const CheckReport& report, const std::filesystem::path& file) {
-  CsvWriter csv(
+  files::CsvWriter csv(
       file,
       {"algorithm",     "scalar",        "regime",           "group",           "answers",
        "silent",        "silent_end",    "honest",           "not_reported",    "crashed",
@@ -143,4 +143,4 @@ void write_summary(const CheckReport& report, const std::filesystem::path& file)
   csv.close();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

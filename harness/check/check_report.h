@@ -10,7 +10,7 @@
 #include "harness/check/failures.h"
 #include "harness/check/tally.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct CheckReport {
   const CheckRequest* request = nullptr;
@@ -33,4 +33,4 @@ void write_summary(const CheckReport& report, const std::filesystem::path& file)
 // The Markdown page of who is wrong where. `command` is what made it.
 std::string page_text(const CheckReport& report, const std::string& command);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

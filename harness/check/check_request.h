@@ -10,7 +10,7 @@
 #include "algorithms/registry.h"
 #include "harness/check/regimes/regimes.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // The lists in which rows have their regimes and algorithms as places.
 struct CheckSubjects {
@@ -44,4 +44,4 @@ struct CheckRequest {
 // Every fifth case is also asked about in other forms, and its exact answer is proven.
 inline bool is_sampled(std::uint64_t index) { return index % 5 == 0; }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -6,16 +6,16 @@
 #include "harness/check/check_job.h"
 #include "harness/record/row.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
-template <row_of<GradedAnswer> Row, class Visit>
+template <record::row_of<grade::GradedAnswer> Row, class Visit>
 void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
-  visit("regime", place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
+  visit("regime", record::place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
         "Regime of the case.");
   visit("index", row.index, "Number of the case in its regime.");
   visit("kind_a", row.kind_a, "Kind of the first shape.");
   visit("kind_b", row.kind_b, "Kind of the second shape.");
-  visit("algorithm", place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
+  visit("algorithm", record::place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
         "The narrow phase.");
   visit("scalar", row.scalar, "Precision that it computes in.");
   visit("task", row.task, "What it was asked.");
@@ -28,7 +28,7 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("not_a_number", row.witnesses.not_a_number, "1 if a reported number is NaN or infinite.");
   visit("beyond_margin", row.beyond, "1 if one of ours is beyond its documented margins.");
   visit("iterations", row.iterations, "Iterations, where they are counted.");
-  visit("group", derived([&] { return subjects.regimes[row.regime]->group; }),
+  visit("group", record::derived([&] { return subjects.regimes[row.regime]->group; }),
         "Group of the regime.");
   visit("size", row.size, "Size of the pair, metres.");
   visit("scale", row.scale, "Length that errors are parts of, metres.");
@@ -59,14 +59,14 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("normal_error", row.witnesses.normal_error, "Length of the normal less 1, absolute.");
 }
 
-template <row_of<VariantCount> Row, class Visit>
+template <record::row_of<VariantCount> Row, class Visit>
 void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
-  visit("regime", place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
+  visit("regime", record::place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
         "Regime of the cases.");
-  visit("group", derived([&] { return subjects.regimes[row.regime]->group; }),
+  visit("group", record::derived([&] { return subjects.regimes[row.regime]->group; }),
         "Group of the regime.");
   visit("round", row.round, "Round of the check.");
-  visit("algorithm", place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
+  visit("algorithm", record::place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
         "The narrow phase.");
   visit("scalar", row.scalar, "Precision that it computes in.");
   visit("task", row.task, "What it was asked.");
@@ -81,11 +81,11 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("worst_index", row.worst_index, "Case of the first beyond, or else of the worst flip.");
 }
 
-template <row_of<JobSummary> Row, class Visit>
+template <record::row_of<JobSummary> Row, class Visit>
 void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
-  visit("regime", place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
+  visit("regime", record::place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
         "Regime of the cases.");
-  visit("group", derived([&] { return subjects.regimes[row.regime]->group; }),
+  visit("group", record::derived([&] { return subjects.regimes[row.regime]->group; }),
         "Group of the regime.");
   visit("round", row.round, "Round of the check.");
   visit("cases", row.cases, "Cases of the job.");
@@ -97,4 +97,4 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("worst_index", row.worst_index, "Case of the first refusal or broken box.");
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

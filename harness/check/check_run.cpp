@@ -11,42 +11,42 @@
 #include "harness/check/check_rows.h"
 #include "harness/check/job_folder.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr double broad_seconds = 20;  // that a broad phase may take over a scene
 
 enum : std::size_t { grades_file, variants_file, jobs_file };
 
-ResultFolderPlan plan_of(const CheckRequest& request) {
+record::ResultFolderPlan plan_of(const CheckRequest& request) {
   std::vector<std::string> regimes;
   for (const Regime* regime : request.regimes) regimes.push_back(regime->name);
   const CheckSubjects subjects = request.subjects();
   return job_folder(request, "check", {"regimes", fmt::format("{}", fmt::join(regimes, " "))},
-                    {{"grades.csv", header_of<GradedAnswer>(subjects)},
-                     {"variants.csv", header_of<VariantCount>(subjects)},
-                     {"jobs.csv", header_of<JobSummary>(subjects)}});
+                    {{"grades.csv", record::header_of<grade::GradedAnswer>(subjects)},
+                     {"variants.csv", record::header_of<VariantCount>(subjects)},
+                     {"jobs.csv", record::header_of<JobSummary>(subjects)}});
 }
 
 // Counts the rows that an interrupted check left.
-void take_up(const ResultFolder& folder, const CheckSubjects& subjects, Tally& tally) {
+void take_up(const record::ResultFolder& folder, const CheckSubjects& subjects, Tally& tally) {
   const auto add = [&]<class Row>(std::size_t file) {
     for (const Row& row : folder.rows<Row>(file, subjects)) tally.add(row);
   };
-  add.operator()<GradedAnswer>(grades_file);
+  add.operator()<grade::GradedAnswer>(grades_file);
   add.operator()<VariantCount>(variants_file);
   add.operator()<JobSummary>(jobs_file);
 }
 
-void grade_all(const CheckRequest& request, ResultFolder& folder, Tally& tally) {
+void grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally& tally) {
   const std::size_t regimes = request.regimes.size();
   const bool endless = request.seconds > 0;
   const std::size_t end = endless ? std::numeric_limits<std::size_t>::max() : regimes;
   const auto first = static_cast<std::size_t>(folder.units());
   if (first >= end) return;
   const CheckSubjects subjects = request.subjects();
-  const Stopwatch watch;
-  Progress progress(endless ? 1 : end - first);
+  const base::Stopwatch watch;
+  base::Progress progress(endless ? 1 : end - first);
   if (endless) progress.start(fmt::format("checking for {:g} s", request.seconds));
   const auto keep = [&](std::size_t file, const auto& row) {
     folder.write(file, row, subjects);
@@ -56,7 +56,7 @@ void grade_all(const CheckRequest& request, ResultFolder& folder, Tally& tally) 
       folder, request, end,
       [&](std::size_t job, oracle::Oracle& oracle) { return do_job(request, job, oracle); },
       [&](std::size_t job, const JobResult& result) {
-        for (const GradedAnswer& answer : result.answers) keep(grades_file, answer);
+        for (const grade::GradedAnswer& answer : result.answers) keep(grades_file, answer);
         for (const VariantCount& count : result.variants) keep(variants_file, count);
         keep(jobs_file, result.summary);
         if (!endless) {
@@ -74,7 +74,7 @@ std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   auto result = std::make_unique<CheckResult>();
   result->report.request = &request;
   result->report.tally = &result->tally;
-  ResultFolder folder(plan_of(request));
+  record::ResultFolder folder(plan_of(request));
   if (request.resume) take_up(folder, request.subjects(), result->tally);
   if (!request.narrow.empty()) grade_all(request, folder, result->tally);
   folder.finish();
@@ -87,4 +87,4 @@ std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

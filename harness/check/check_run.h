@@ -7,7 +7,7 @@
 #include "harness/check/check_report.h"
 #include "harness/check/tally.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // Owns what the report refers to but for the request.
 struct CheckResult {
@@ -21,4 +21,4 @@ struct CheckResult {
 // error. InputError where the folder cannot be written, or cannot be gone on with.
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

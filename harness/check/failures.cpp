@@ -9,11 +9,11 @@
 #include "harness/grade/wrong.h"
 #include "harness/process/worker_pool.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // "gjk-double-distance"
-std::string stem(const CheckRequest& request, const Query& query) {
+std::string stem(const CheckRequest& request, const grade::Query& query) {
   return fmt::format("{}-{}-{}", request.narrow[query.entry]->info.name, to_string(query.scalar),
                      to_string(query.task));
 }
@@ -24,7 +24,7 @@ std::filesystem::path failures_folder(const CheckRequest& request) {
 
 }  // namespace
 
-std::string query_command(const CheckRequest& request, const Query& query,
+std::string query_command(const CheckRequest& request, const grade::Query& query,
                           const std::filesystem::path& file) {
   return fmt::format("touchstone query {} --narrow {} --task {} --scalar {} --out answers.csv",
                      file.string(), request.narrow[query.entry]->info.name, to_string(query.task),
@@ -32,35 +32,36 @@ std::string query_command(const CheckRequest& request, const Query& query,
 }
 
 std::string FailureCase::command(const CheckRequest& request) const {
-  return query_command(request, query_of(answer), file);
+  return query_command(request, grade::query_of(answer), file);
 }
 
 std::vector<FailureCase> write_failures(const CheckRequest& request,
-                                        const std::vector<GradedAnswer>& failures) {
-  remove_case_files(failures_folder(request));
-  CaseFiles files(failures_folder(request));
+                                        const std::vector<grade::GradedAnswer>& failures) {
+  grade::remove_case_files(failures_folder(request));
+  grade::CaseFiles files(failures_folder(request));
   std::vector<FailureCase> cases;
-  const auto case_of = [&](const GradedAnswer& failure) {
+  const auto case_of = [&](const grade::GradedAnswer& failure) {
     return make(*request.regimes[failure.regime], request.seed, failure.index);
   };
-  run_jobs<ShrunkFailure>(
+  process::run_jobs<grade::ShrunkFailure>(
       0, failures.size(), request.workers,
       [&] {
         return [&](std::size_t job) {
-          const GradedAnswer& failure = failures[job];
-          return shrunk_failure({.algorithm = request.narrow[failure.entry],
-                                 .extreme = request.regimes[failure.regime]->extreme,
-                                 .time_limit = request.time_limit,
-                                 .original = case_of(failure),
-                                 .answer = failure});
+          const grade::GradedAnswer& failure = failures[job];
+          return grade::shrunk_failure({.algorithm = request.narrow[failure.entry],
+                                        .extreme = request.regimes[failure.regime]->extreme,
+                                        .time_limit = request.time_limit,
+                                        .original = case_of(failure),
+                                        .answer = failure});
         };
       },
-      [&](std::size_t job, const ShrunkFailure& shrunk) {
-        const GradedAnswer& failure = failures[job];
-        const std::filesystem::path file = files.add(stem(request, query_of(failure)), shrunk.line);
+      [&](std::size_t job, const grade::ShrunkFailure& shrunk) {
+        const grade::GradedAnswer& failure = failures[job];
+        const std::filesystem::path file =
+            files.add(stem(request, grade::query_of(failure)), shrunk.line);
         cases.push_back({shrunk.answer, case_of(failure).id,
-                         describe(*request.narrow[failure.entry], shrunk.answer,
-                                  request.regimes[failure.regime]->extreme),
+                         grade::describe(*request.narrow[failure.entry], shrunk.answer,
+                                         request.regimes[failure.regime]->extreme),
                          file});
         return true;
       });
@@ -70,15 +71,16 @@ std::vector<FailureCase> write_failures(const CheckRequest& request,
 
 std::vector<VariantFailure> write_variant_failures(const CheckRequest& request,
                                                    const Tally& tally) {
-  CaseFiles files(failures_folder(request));
+  grade::CaseFiles files(failures_folder(request));
   std::vector<VariantFailure> failures;
   for (const VariantCount& count : tally.variants_beyond()) {
-    const Query query = {count.regime, count.entry, count.scalar, count.task};
-    const Case original = make(*request.regimes[count.regime], request.seed, count.worst_index);
+    const grade::Query query = {count.regime, count.entry, count.scalar, count.task};
+    const files::Case original =
+        make(*request.regimes[count.regime], request.seed, count.worst_index);
     const std::string name = stem(request, query) + "-variants";
-    std::filesystem::path file = files.add(name, to_json(original));
+    std::filesystem::path file = files.add(name, files::to_json(original));
     for (const Variant& variant : sampled_variants(original, request.seed, count.worst_index)) {
-      if (kind_of(variant) == count.kind) files.add(name, to_json(variant.transformed));
+      if (kind_of(variant) == count.kind) files.add(name, files::to_json(variant.transformed));
     }
     failures.push_back({query, original.id, count, std::move(file)});
   }
@@ -87,15 +89,15 @@ std::vector<VariantFailure> write_variant_failures(const CheckRequest& request,
 }
 
 std::vector<TruthFailure> write_truth_failures(const CheckRequest& request, const Tally& tally) {
-  CaseFiles files(failures_folder(request));
+  grade::CaseFiles files(failures_folder(request));
   std::vector<TruthFailure> failures;
   for (const JobSummary& job : tally.jobs()) {
     if (job.refused + job.boxes_broken == 0) continue;
-    const Case c = make(*request.regimes[job.regime], request.seed, job.worst_index);
-    failures.push_back({job, c.id, files.add("truth", to_json(c))});
+    const files::Case c = make(*request.regimes[job.regime], request.seed, job.worst_index);
+    failures.push_back({job, c.id, files.add("truth", files::to_json(c))});
   }
   files.close();
   return failures;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 struct Checked {
@@ -47,7 +47,7 @@ GroupedCounts::GroupedCounts(const CheckReport& report) : request_(*report.reque
   }
 }
 
-const AnswerCount* GroupedCounts::of(const Label& label, const std::string& group) const {
+const grade::AnswerCount* GroupedCounts::of(const Label& label, const std::string& group) const {
   const auto at = by_group_.find({label, group});
   return at == by_group_.end() ? nullptr : &at->second;
 }
@@ -89,4 +89,4 @@ std::string checked_text(const CheckReport& report) {
   return text;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

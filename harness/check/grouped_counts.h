@@ -8,7 +8,7 @@
 
 #include "harness/check/check_report.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // An algorithm with its scalar.
 struct Label {
@@ -19,7 +19,7 @@ struct Label {
 };
 
 struct Totals {
-  AnswerCount answers;
+  grade::AnswerCount answers;
   FlipCount flips;
 };
 
@@ -30,14 +30,14 @@ class GroupedCounts {
   const std::map<Label, Totals>& totals() const { return totals_; }
   const std::vector<std::string>& groups() const { return groups_; }
   // Null where there is none.
-  const AnswerCount* of(const Label& label, const std::string& group) const;
+  const grade::AnswerCount* of(const Label& label, const std::string& group) const;
   std::string name(const Label& label) const;  // "gjk double"
   bool is_ours(const Label& label) const;
 
  private:
   const CheckRequest& request_;
   std::map<Label, Totals> totals_;
-  std::map<std::pair<Label, std::string>, AnswerCount> by_group_;
+  std::map<std::pair<Label, std::string>, grade::AnswerCount> by_group_;
   std::vector<std::string> groups_;
 };
 
@@ -47,4 +47,4 @@ std::string digits(double x);
 // What was checked beside the algorithms: cases, certificates, boxes, broad phases.
 std::string checked_text(const CheckReport& report);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

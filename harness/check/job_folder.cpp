@@ -7,16 +7,16 @@
 
 #include "harness/record/machine.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
-ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
-                            std::pair<std::string, std::string> subject,
-                            std::vector<RowFile> files) {
+record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
+                                    std::pair<std::string, std::string> subject,
+                                    std::vector<record::RowFile> files) {
   std::vector<std::string_view> narrow, scalars;
   for (const NarrowPhaseEntry* entry : request.narrow) narrow.push_back(entry->info.name);
   for (const Precision scalar : request.scalars) scalars.push_back(to_string(scalar));
-  Facts notes = {{std::string(work), request.resume ? "resumed" : "whole"}};
-  for (auto& fact : machine_facts()) notes.push_back(std::move(fact));
+  record::Facts notes = {{std::string(work), request.resume ? "resumed" : "whole"}};
+  for (auto& fact : record::machine_facts()) notes.push_back(std::move(fact));
   return {.folder = request.out,
           .files = std::move(files),
           .identity = {{"seed", std::to_string(request.seed)},
@@ -25,10 +25,10 @@ ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
                        {"scalars", fmt::format("{}", fmt::join(scalars, " "))},
                        std::move(subject),
                        {"time_limit", fmt::format("{}", request.time_limit)},
-                       {"program", hash_of_program()}},
+                       {"program", record::hash_of_program()}},
           .notes = std::move(notes),
-          .start = resume_or_overwrite(request.resume),
+          .start = record::resume_or_overwrite(request.resume),
           .work = std::move(work)};
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

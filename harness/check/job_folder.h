@@ -12,21 +12,21 @@
 #include "harness/process/worker_pool.h"
 #include "harness/record/result_folder.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // The folder of a request. `work` is "check" or "sweep"; `subject` names what it goes over, which
 // must be the same to resume, as all of the request but its folder, time and processes must.
-ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
-                            std::pair<std::string, std::string> subject,
-                            std::vector<RowFile> files);
+record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
+                                    std::pair<std::string, std::string> subject,
+                                    std::vector<record::RowFile> files);
 
 // Does the jobs that the folder does not hold yet, below `end`: work(job, oracle) in a worker, then
 // take(job, result) here, in order, which returns false to end the run. Each is a unit of the
 // folder.
 template <class Result, class Work, class Take>
-void do_jobs(ResultFolder& folder, const CheckRequest& request, std::size_t end, const Work& work,
-             const Take& take) {
-  run_jobs<Result>(
+void do_jobs(record::ResultFolder& folder, const CheckRequest& request, std::size_t end,
+             const Work& work, const Take& take) {
+  process::run_jobs<Result>(
       static_cast<std::size_t>(folder.units()), end, request.workers,
       [&] {
         // One oracle for each process: it keeps its memory from query to query.
@@ -40,4 +40,4 @@ void do_jobs(ResultFolder& folder, const CheckRequest& request, std::size_t end,
       });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -9,10 +9,10 @@
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/process/queries/ordered_pair.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
-Variant named(const Case& c, std::string name) {
+Variant named(const files::Case& c, std::string name) {
   Variant variant;
   variant.transformed = c;
   variant.transformed.id = c.id + "/" + name;
@@ -58,7 +58,7 @@ class Scaling {
   bool exact_ = true;
 };
 
-void shuffle_vertices(Shape& shape, Random& random) {
+void shuffle_vertices(Shape& shape, base::Random& random) {
   if (shape.kind != ShapeKind::hull) return;
   std::vector<Vec3d> vertices = shape.hull->vertices;
   for (std::size_t i = vertices.size(); i > 1; --i) {
@@ -74,7 +74,7 @@ void append(std::vector<T>& list, std::vector<T> more) {
 
 }  // namespace
 
-Variant swap_variant(const Case& c) {
+Variant swap_variant(const files::Case& c) {
   Variant variant = named(c, "swap");
   std::swap(variant.transformed.shape_a, variant.transformed.shape_b);
   std::swap(variant.transformed.pose_a, variant.transformed.pose_b);
@@ -82,7 +82,7 @@ Variant swap_variant(const Case& c) {
   return variant;
 }
 
-Variant rotation_variant(const Case& c, const SignedPermutation& rotation) {
+Variant rotation_variant(const files::Case& c, const geometry::SignedPermutation& rotation) {
   Variant variant = named(c, "rotation" + rotation.name());
   variant.rotation = rotation;
   for (Pose* pose : {&variant.transformed.pose_a, &variant.transformed.pose_b}) {
@@ -92,7 +92,7 @@ Variant rotation_variant(const Case& c, const SignedPermutation& rotation) {
   return variant;
 }
 
-std::vector<Variant> translation_variants(const Case& c, Random& random) {
+std::vector<Variant> translation_variants(const files::Case& c, base::Random& random) {
   Variant variant = named(c, "translation");
   Vec3d& a = variant.transformed.pose_a.translation;
   Vec3d& b = variant.transformed.pose_b.translation;
@@ -115,7 +115,7 @@ std::vector<Variant> translation_variants(const Case& c, Random& random) {
   return {std::move(variant)};
 }
 
-std::vector<Variant> scale_variants(const Case& c, int exponent) {
+std::vector<Variant> scale_variants(const files::Case& c, int exponent) {
   Variant variant = named(c, "scale-2^" + std::to_string(exponent));
   variant.exponent = exponent;
   Scaling scale(exponent);
@@ -127,7 +127,7 @@ std::vector<Variant> scale_variants(const Case& c, int exponent) {
   return {std::move(variant)};
 }
 
-std::vector<Variant> vertex_variants(const Case& c, Random& random) {
+std::vector<Variant> vertex_variants(const files::Case& c, base::Random& random) {
   if (c.shape_a.kind != ShapeKind::hull && c.shape_b.kind != ShapeKind::hull) return {};
   Variant variant = named(c, "vertices");
   shuffle_vertices(variant.transformed.shape_a, random);
@@ -135,10 +135,10 @@ std::vector<Variant> vertex_variants(const Case& c, Random& random) {
   return {std::move(variant)};
 }
 
-std::vector<Variant> variants(const Case& c, Random& random) {
+std::vector<Variant> variants(const files::Case& c, base::Random& random) {
   std::vector<Variant> list;
   list.push_back(swap_variant(c));
-  const auto turns = signed_permutations();
+  const auto turns = geometry::signed_permutations();
   list.push_back(rotation_variant(c, turns[1 + random.below(turns.size() - 1)]));
   append(list, translation_variants(c, random));
   append(list, scale_variants(c, 1 + static_cast<int>(random.below(40))));
@@ -148,8 +148,8 @@ std::vector<Variant> variants(const Case& c, Random& random) {
 }
 
 Outcome to_original(const Variant& variant, const Outcome& outcome) {
-  Outcome original = variant.swapped ? swapped(outcome) : outcome;
-  const SignedPermutation back = variant.rotation.inverse();
+  Outcome original = variant.swapped ? process::swapped(outcome) : outcome;
+  const geometry::SignedPermutation back = variant.rotation.inverse();
   for (double* length : {&original.distance, &original.lower, &original.upper}) {
     *length = std::ldexp(*length, -variant.exponent);
   }
@@ -161,4 +161,4 @@ Outcome to_original(const Variant& variant, const Outcome& outcome) {
   return original;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

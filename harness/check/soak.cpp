@@ -21,7 +21,7 @@
 #include "harness/record/machine.h"
 #include "harness/record/row.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr std::int64_t cases_a_job = 1000;
@@ -37,12 +37,12 @@ struct SoakRow {
   std::string program;
 };
 
-template <row_of<SoakRow> Row, class Visit>
+template <record::row_of<SoakRow> Row, class Visit>
 void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
-  visit("algorithm", place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
+  visit("algorithm", record::place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
         "The narrow phase.");
   visit("scalar", row.scalar, "Precision that it computes in.");
-  visit("regime", place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
+  visit("regime", record::place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
         "Regime of the pairs.");
   visit("seed", row.seed, "Seed of the cases.");
   visit("drawn", row.drawn, "Pairs drawn in all regimes, whether an algorithm takes them or not.");
@@ -55,7 +55,7 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("silent", count.silent, "Answers on the wrong side of contact that nothing tells.");
   visit("honest", count.honest, "Answers that it does not stand by.");
   visit("lost", count.lost, "Queries that crashed, or gave no answer in time.");
-  visit("first_wrong", with_sign(count.first_wrong),
+  visit("first_wrong", record::with_sign(count.first_wrong),
         "First case that was silently wrong or lost; -1 where there is none.");
   visit("program", row.program, "Hash of the program.");
 }
@@ -85,8 +85,9 @@ class Cases {
   Cases(const Regime& regime, std::uint64_t seed, std::int64_t first, oracle::Oracle& oracle)
       : first_(first), oracle_(&oracle) {
     for (std::int64_t i = 0; i < cases_a_job; ++i) {
-      Case& c = cases_.emplace_back(make(regime, seed, static_cast<std::uint64_t>(first + i)));
-      if (needs_swap(c.shape_a.kind, c.shape_b.kind)) {
+      files::Case& c =
+          cases_.emplace_back(make(regime, seed, static_cast<std::uint64_t>(first + i)));
+      if (process::needs_swap(c.shape_a.kind, c.shape_b.kind)) {
         std::swap(c.shape_a, c.shape_b);
         std::swap(c.pose_a, c.pose_b);
       }
@@ -103,8 +104,8 @@ class Cases {
       if (offers(entry, cases_[i].shape_a.kind, cases_[i].shape_b.kind, Task::intersect))
         asked.push_back(i);
     }
-    const IsolationLimits limits = {.item_seconds = time_limit, .failures = most_failures};
-    const auto solved = isolated_answers<Outcome>(asked.size(), limits, [&] {
+    const process::IsolationLimits limits = {.item_seconds = time_limit, .failures = most_failures};
+    const auto solved = process::isolated_answers<Outcome>(asked.size(), limits, [&] {
       const std::shared_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
       algorithm->bind(shapes_);
       return [&, algorithm](std::size_t item) {
@@ -116,7 +117,7 @@ class Cases {
     SoakCount count;
     for (std::size_t item = 0; item < asked.size(); ++item) {
       const std::size_t i = asked[item];
-      const Case& c = cases_[i];
+      const files::Case& c = cases_[i];
       const Encoding encoding =
           encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::intersect, scalar);
       count_one(solved.answers[item], truth(i, encoding), first_ + static_cast<std::int64_t>(i),
@@ -140,7 +141,7 @@ class Cases {
     std::vector<std::optional<Answer>>& known = truths_[static_cast<std::size_t>(encoding)];
     known.resize(cases_.size());
     if (!known[i]) {
-      const EncodedPair pair(cases_[i], encoding);
+      const grade::EncodedPair pair(cases_[i], encoding);
       known[i] = pair.is_finite() ? oracle_->verdict(pair.a(), pair.b()) : Answer::unknown;
     }
     return *known[i];
@@ -155,21 +156,21 @@ class Cases {
       case Answer::overlapping: ++count.overlapping; break;
       case Answer::unknown: ++count.unresolved; break;
     }
-    switch (judge(outcome, exact, Touching::contact)) {
-      case Verdict::right:
-      case Verdict::unscored: return;
-      case Verdict::unsupported:
-      case Verdict::honest_failure: ++count.honest; return;
-      case Verdict::silent_error: ++count.silent; break;
-      case Verdict::crashed:
-      case Verdict::timed_out: ++count.lost; break;
+    switch (grade::judge(outcome, exact, grade::Touching::contact)) {
+      case grade::Verdict::right:
+      case grade::Verdict::unscored: return;
+      case grade::Verdict::unsupported:
+      case grade::Verdict::honest_failure: ++count.honest; return;
+      case grade::Verdict::silent_error: ++count.silent; break;
+      case grade::Verdict::crashed:
+      case grade::Verdict::timed_out: ++count.lost; break;
     }
     if (count.first_wrong < 0) count.first_wrong = index;
   }
 
   std::int64_t first_;
   oracle::Oracle* oracle_;
-  std::vector<Case> cases_;
+  std::vector<files::Case> cases_;
   std::vector<Shape> shapes_;
   std::vector<Pose> poses_;
   std::vector<std::uint32_t> bodies_;
@@ -181,11 +182,12 @@ class Soak {
   explicit Soak(const SoakRequest& request)
       : request_(request),
         subjects_(subjects_of(request)),
-        program_(hash_of_program()),
+        program_(record::hash_of_program()),
         file_(request.out / "soak.csv") {
     std::error_code error;
     if (!request.resume) std::filesystem::create_directories(request.out, error);
-    if (error) throw InputError(request.out.string(), 0, "cannot be made: " + error.message());
+    if (error)
+      throw base::InputError(request.out.string(), 0, "cannot be made: " + error.message());
     if (request.resume) resume();
     write();
   }
@@ -194,10 +196,10 @@ class Soak {
     const auto first = static_cast<std::size_t>(result_.drawn / cases_a_job);
     const auto end = static_cast<std::size_t>((request_.pairs + cases_a_job - 1) / cases_a_job);
     if (first < end) {
-      Progress progress(1);
+      base::Progress progress(1);
       progress.start(fmt::format("{} verdicts", request_.pairs));
-      Stopwatch since_written;
-      run_jobs<JobCounts>(
+      base::Stopwatch since_written;
+      process::run_jobs<JobCounts>(
           first, end, request_.workers, [&] { return work(); },
           [&](std::size_t job, const JobCounts& counts) {
             take(job, counts);
@@ -244,29 +246,29 @@ class Soak {
 
   void write() const {
     const CheckSubjects subjects = request_.subjects();
-    CsvWriter csv(file_, header_of<SoakRow>(subjects));
+    files::CsvWriter csv(file_, record::header_of<SoakRow>(subjects));
     for (const auto& [key, count] : result_.counts) {
       const auto& [entry, scalar, regime] = key;
-      write_row(csv,
-                SoakRow{.entry = static_cast<std::uint32_t>(entry),
-                        .regime = static_cast<std::uint32_t>(regime),
-                        .scalar = scalar,
-                        .seed = request_.seed,
-                        .drawn = result_.drawn,
-                        .count = count,
-                        .program = program_},
-                subjects);
+      record::write_row(csv,
+                        SoakRow{.entry = static_cast<std::uint32_t>(entry),
+                                .regime = static_cast<std::uint32_t>(regime),
+                                .scalar = scalar,
+                                .seed = request_.seed,
+                                .drawn = result_.drawn,
+                                .count = count,
+                                .program = program_},
+                        subjects);
     }
     csv.close();
   }
 
   void resume() {
     if (!std::filesystem::exists(file_)) {
-      throw InputError(file_.string(), 0, "no such file; expected the folder of a soak");
+      throw base::InputError(file_.string(), 0, "no such file; expected the folder of a soak");
     }
     const CheckSubjects subjects = request_.subjects();
-    reader_of<SoakRow>(file_, subjects).read([&](const CsvReader::Row& fields) {
-      const auto row = read_row<SoakRow>(fields, subjects);
+    record::reader_of<SoakRow>(file_, subjects).read([&](const files::CsvReader::Row& fields) {
+      const auto row = record::read_row<SoakRow>(fields, subjects);
       if (row.seed != request_.seed) {
         fields.fail(fmt::format("seed {}; this request has {}", row.seed, request_.seed));
       }
@@ -280,8 +282,8 @@ class Soak {
     const std::size_t rounds =
         std::min(static_cast<std::size_t>(result_.drawn / cases_a_job), request_.regimes.size());
     if (result_.counts.size() != rounds * subjects_.size()) {
-      throw InputError(file_.string(), 0,
-                       "counts of other algorithms or regimes; expected the same request");
+      throw base::InputError(file_.string(), 0,
+                             "counts of other algorithms or regimes; expected the same request");
     }
   }
 
@@ -289,15 +291,15 @@ class Soak {
     for (const auto& [key, count] : result_.counts) {
       const auto& [entry, scalar, regime] = key;
       if (count.first_wrong < 0) continue;
-      const Case c = make(*request_.regimes[regime], request_.seed,
-                          static_cast<std::uint64_t>(count.first_wrong));
+      const files::Case c = make(*request_.regimes[regime], request_.seed,
+                                 static_cast<std::uint64_t>(count.first_wrong));
       const std::filesystem::path file =
           request_.out / fmt::format("{}-{}-{}.jsonl", request_.narrow[entry]->info.name,
                                      to_string(scalar), request_.regimes[regime]->name);
       std::ofstream stream(file);
-      stream << to_json(c) << '\n';
+      stream << files::to_json(c) << '\n';
       stream.flush();
-      if (!stream) throw InputError(file.string(), 0, "cannot be written");
+      if (!stream) throw base::InputError(file.string(), 0, "cannot be written");
     }
   }
 
@@ -332,4 +334,4 @@ bool SoakResult::ours_are_wrong(const SoakRequest& request) const {
 
 SoakResult run_soak(const SoakRequest& request) { return Soak(request).run(); }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

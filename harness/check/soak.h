@@ -7,7 +7,7 @@
 
 #include "harness/check/check_request.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // `broad`, `cases` and `seconds` are not read.
 struct SoakRequest : CheckRequest {
@@ -42,4 +42,4 @@ struct SoakResult {
 // written, or where there is nothing to go on with or it comes from another request or program.
 SoakResult run_soak(const SoakRequest& request);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -4,7 +4,7 @@
 
 #include "harness/grade/wrong.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 void FlipCount::add(const VariantCount& count) {
   compared += count.compared;
@@ -15,7 +15,7 @@ void FlipCount::add(const VariantCount& count) {
   worst_difference = std::max(worst_difference, count.worst_difference);
 }
 
-void Tally::add(const GradedAnswer& answer) {
+void Tally::add(const grade::GradedAnswer& answer) {
   const Key key = {answer.entry, answer.scalar, answer.regime};
   answers_[key].add(answer);
   // Ours beyond the margins come before all that is within them.
@@ -34,8 +34,8 @@ void Tally::add(const VariantCount& count) {
 
 void Tally::add(const JobSummary& summary) { jobs_.push_back(summary); }
 
-std::vector<GradedAnswer> Tally::failures(const CheckRequest& request) const {
-  std::vector<GradedAnswer> all;
+std::vector<grade::GradedAnswer> Tally::failures(const CheckRequest& request) const {
+  std::vector<grade::GradedAnswer> all;
   for (const auto& [key, worst] : failures_) {
     const bool ours = request.narrow[key.entry]->info.origin == Origin::ours;
     for (const Failure& failure : worst) {
@@ -57,4 +57,4 @@ bool Tally::ours_are_wrong() const {
          });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -9,7 +9,7 @@
 #include "harness/check/check_job.h"
 #include "harness/grade/answer_count.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // Variants of one algorithm in one scalar.
 struct FlipCount {
@@ -29,11 +29,11 @@ class Tally {
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 
-  void add(const GradedAnswer& answer);
+  void add(const grade::GradedAnswer& answer);
   void add(const VariantCount& count);
   void add(const JobSummary& summary);
 
-  const std::map<Key, AnswerCount>& answers() const { return answers_; }
+  const std::map<Key, grade::AnswerCount>& answers() const { return answers_; }
   const std::map<Key, FlipCount>& flips() const { return flips_; }
   const std::vector<JobSummary>& jobs() const { return jobs_; }
 
@@ -42,22 +42,22 @@ class Tally {
 
   // Answers that are worth a case file, the worst first: of ours what is beyond the margins, of
   // others crashes, silent errors, and numbers off by more than our margins would allow.
-  std::vector<GradedAnswer> failures(const CheckRequest& request) const;
+  std::vector<grade::GradedAnswer> failures(const CheckRequest& request) const;
 
   bool ours_are_wrong() const;
 
  private:
   struct Failure {
     double badness;
-    GradedAnswer answer;
+    grade::GradedAnswer answer;
   };
   static constexpr std::size_t kept = 3;  // failures of a key
 
-  std::map<Key, AnswerCount> answers_;
+  std::map<Key, grade::AnswerCount> answers_;
   std::map<Key, FlipCount> flips_;
   std::vector<JobSummary> jobs_;
   std::vector<VariantCount> variants_beyond_;
   std::map<Key, std::vector<Failure>> failures_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -14,12 +14,12 @@
 #include "harness/trade/advice/advice_files.h"
 #include "harness/trade/advice/advice_list.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
-  TradeRequest request;
-  ErrorBudget budget;
+  trade::TradeRequest request;
+  trade::ErrorBudget budget;
   std::string scene, list, out, error;
   bool verify = false;
   int draws = 3;
@@ -28,36 +28,36 @@ struct Options {
 void say(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
 // Advises on one scene. Returns the exit status.
-int advise(const AdviceTask& task, const std::filesystem::path& folder, int draws,
-           VerificationRows* rows) {
-  const Representing ours = representing();
-  TradeScene scene(task.request, ours);
+int advise(const trade::AdviceTask& task, const std::filesystem::path& folder, int draws,
+           trade::VerificationRows* rows) {
+  const trade::Representing ours = representing();
+  trade::TradeScene scene(task.request, ours);
   std::filesystem::create_directories(folder);
-  const AdviceProblem problem{task.request, scene, ours, task.budget, say};
-  const Advice advice = touchstone::advise(problem);
-  write_advice(advice, problem, folder);
-  fmt::print("{}", advice_text(advice, problem));
+  const trade::AdviceProblem problem{task.request, scene, ours, task.budget, say};
+  const trade::Advice advice = trade::advise(problem);
+  trade::write_advice(advice, problem, folder);
+  fmt::print("{}", trade::advice_text(advice, problem));
   if (!advice.best) {
     if (rows != nullptr) rows->write(problem, nullptr);
     return exit_measured_wrong;
   }
   fmt::print("\n{}: `touchstone run` measures it again\n", (folder / "advice.toml").string());
   if (rows == nullptr) return exit_done;
-  const Verification verification =
-      verify(problem, advice.best->point.configuration, advice_draws + 1, draws, folder / "grid");
+  const trade::Verification verification = trade::verify(
+      problem, advice.best->point.configuration, trade::advice_draws + 1, draws, folder / "grid");
   rows->write(problem, &verification);
-  fmt::print("\n{}", verification_text(verification));
+  fmt::print("\n{}", trade::verification_text(verification));
   return verification.holds() ? exit_done : exit_measured_wrong;
 }
 
 int advise(Options& options) {
-  std::vector<AdviceTask> tasks;
+  std::vector<trade::AdviceTask> tasks;
   std::filesystem::path folder;
   if (!options.list.empty()) {
-    tasks = read_advice_list(options.list, options.request);
+    tasks = trade::read_advice_list(options.list, options.request);
     folder = results_folder(options.out, "advice");
   } else {
-    AdviceTask& task = tasks.emplace_back();
+    trade::AdviceTask& task = tasks.emplace_back();
     task.request = options.request;
     task.request.scene = options.scene;
     task.name = task.request.scene.stem().string();
@@ -67,12 +67,12 @@ int advise(Options& options) {
     folder = trade_folder(options.out, task.request.name);
   }
   // A file that is no scene is reported before hours of work.
-  for (const AdviceTask& task : tasks) TradeScene(task.request, representing());
+  for (const trade::AdviceTask& task : tasks) trade::TradeScene(task.request, representing());
   std::filesystem::create_directories(folder);
-  std::optional<VerificationRows> rows;
+  std::optional<trade::VerificationRows> rows;
   if (options.verify) rows.emplace(folder, options.draws);
   int status = exit_done;
-  for (const AdviceTask& task : tasks) {
+  for (const trade::AdviceTask& task : tasks) {
     const int found = advise(task, options.list.empty() ? folder : folder / task.name,
                              options.draws, rows ? &*rows : nullptr);
     if (found != exit_done) status = found;
@@ -116,10 +116,10 @@ void add_advise(Arguments command) {
   }
   command.job([options, scene, list] {
     if (!scene.given() && !list.given()) {
-      throw InputError("advise: no scene; expected a scene file, or --list FILE");
+      throw base::InputError("advise: no scene; expected a scene file, or --list FILE");
     }
     return advise(*options);
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

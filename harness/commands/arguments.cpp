@@ -12,7 +12,7 @@
 
 #include "harness/commands/commands.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 using Words = CLI::results_t;
@@ -311,4 +311,4 @@ int CommandLine::run(const std::vector<std::string>& words) {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -17,7 +17,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace touchstone {
+namespace touchstone::commands {
 
 // An option, or an argument without a name. Each rule returns the option, so that rules can be
 // chained.
@@ -142,4 +142,4 @@ class CommandLine {
   int status_ = 0;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -15,39 +15,40 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
   std::string narrow = "all", broad = "all", regimes, groups, out, page, certificates, saved;
-  CheckRequest request;
+  check::CheckRequest request;
 };
 
 // Returns the regimes of these names and of these groups, or all where both are empty.
-std::vector<const Regime*> chosen_regimes(const std::string& names, const std::string& groups) {
+std::vector<const check::Regime*> chosen_regimes(const std::string& names,
+                                                 const std::string& groups) {
   std::vector<std::string> wanted, wanted_groups;
-  if (!names.empty()) wanted = split_names(names);
-  if (!groups.empty()) wanted_groups = split_names(groups);
+  if (!names.empty()) wanted = campaign::split_names(names);
+  if (!groups.empty()) wanted_groups = campaign::split_names(groups);
   const auto expect = [](std::string_view what, const std::vector<std::string>& asked,
-                         std::string Regime::*field) {
+                         std::string check::Regime::*field) {
     for (const std::string& name : asked) {
       std::string known;
       bool found = false;
-      for (const Regime& regime : regimes()) {
+      for (const check::Regime& regime : check::regimes()) {
         const std::string& own = regime.*field;
         found = found || own == name;
         if (known.find(own + ",") == std::string::npos) known += own + ", ";
       }
       if (found) continue;
-      throw InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name,
-                                   known.substr(0, known.size() - 2)));
+      throw base::InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name,
+                                         known.substr(0, known.size() - 2)));
     }
   };
-  expect("regime", wanted, &Regime::name);
-  expect("group of regimes", wanted_groups, &Regime::group);
-  std::vector<const Regime*> chosen;
+  expect("regime", wanted, &check::Regime::name);
+  expect("group of regimes", wanted_groups, &check::Regime::group);
+  std::vector<const check::Regime*> chosen;
   const bool all = wanted.empty() && wanted_groups.empty();
-  for (const Regime& regime : regimes()) {
+  for (const check::Regime& regime : check::regimes()) {
     if (all || std::ranges::find(wanted, regime.name) != wanted.end() ||
         std::ranges::find(wanted_groups, regime.group) != wanted_groups.end()) {
       chosen.push_back(&regime);
@@ -56,15 +57,16 @@ std::vector<const Regime*> chosen_regimes(const std::string& names, const std::s
   return chosen;
 }
 
-void write_page(const CheckReport& report, const std::string& command, const std::string& file) {
+void write_page(const check::CheckReport& report, const std::string& command,
+                const std::string& file) {
   std::ofstream stream(file, std::ios::binary);
-  stream << page_text(report, command);
+  stream << check::page_text(report, command);
   stream.close();
-  if (!stream) throw InputError(file, 0, "cannot be written");
+  if (!stream) throw base::InputError(file, 0, "cannot be written");
 }
 
 int verify(const std::string& file) {
-  const CertificateVerdicts verdicts = verify_certificates(file);
+  const check::CertificateVerdicts verdicts = check::verify_certificates(file);
   for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
   fmt::print("{} certificates verified, {} refused\n", verdicts.verified, verdicts.refused_count);
   return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
@@ -72,19 +74,21 @@ int verify(const std::string& file) {
 
 int check(Options& options, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
-  CheckRequest& request = options.request;
+  check::CheckRequest& request = options.request;
   request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
-  request.broad = select(broad_phases(), split_names(options.broad), "broad phase");
+  request.broad =
+      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
   request.regimes = chosen_regimes(options.regimes, options.groups);
   request.out = results_folder(options.out, "check");
-  if (!options.page.empty()) check_output(options.page);
+  if (!options.page.empty()) files::check_output(options.page);
   if (!options.saved.empty()) {
-    check_output(options.saved);
-    fmt::print("{} certificates in {}\n", save_certificates(request, options.saved), options.saved);
+    files::check_output(options.saved);
+    fmt::print("{} certificates in {}\n", check::save_certificates(request, options.saved),
+               options.saved);
     return exit_done;
   }
-  const std::unique_ptr<CheckResult> result = run_check(request);
-  fmt::print("{}", summary_text(result->report, page_width()));
+  const std::unique_ptr<check::CheckResult> result = check::run_check(request);
+  fmt::print("{}", check::summary_text(result->report, base::page_width()));
   fmt::print("\nRows in {}; case files of what is wrong in {}\n",
              (request.out / "grades.csv").string(), (request.out / "failures").string());
   if (!options.page.empty()) write_page(result->report, command, options.page);
@@ -95,7 +99,7 @@ int check(Options& options, const std::string& command) {
 
 void add_check(Arguments command) {
   const auto options = std::make_shared<Options>();
-  CheckRequest& request = options->request;
+  check::CheckRequest& request = options->request;
   add_case_options(command, request, options->narrow, options->out, "check", "check");
   command.text("--broad", options->broad, "Broad phases: names, all, ours, peers, none")
       .show_default();
@@ -120,4 +124,4 @@ void add_check(Arguments command) {
   command.job([options, command] { return check(*options, command.shell_line("--out")); });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

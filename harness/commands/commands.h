@@ -1,7 +1,7 @@
 // The commands of the program. Each adds its options and its job.
 #pragma once
 
-namespace touchstone {
+namespace touchstone::commands {
 
 class Arguments;
 
@@ -33,4 +33,4 @@ void add_advise(Arguments command);
 void add_represent(Arguments command);
 void add_run_trade(Arguments command);  // `run` for a file with a table [trade]
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -18,7 +18,7 @@
 #include "harness/record/result_folder.h"
 #include "harness/stats/comparison.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 using namespace stats;
@@ -30,7 +30,7 @@ struct Options {
   int runs = 8;
   bool any_machine = false, noisy = false;
 
-  Noise noise() const { return noisy ? Noise::kept : Noise::left_out; }
+  stats::Noise noise() const { return noisy ? stats::Noise::kept : stats::Noise::left_out; }
 };
 
 void print(const std::string& title, const std::vector<std::string>& lines) {
@@ -44,55 +44,57 @@ void print(const std::string& title, const std::vector<std::string>& lines) {
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4f}", value); }
 
-void print(const std::vector<ComparedCell>& cells, double threshold) {
+void print(const std::vector<stats::ComparedCell>& cells, double threshold) {
   for (std::size_t i = 0; i < cells.size();) {
-    const SetKey& key = cells[i].key;
-    TextTable table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
+    const stats::SetKey& key = cells[i].key;
+    base::TextTable table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
     for (; i < cells.size() && cells[i].key == key; ++i) {
-      const ComparedCell& cell = cells[i];
+      const stats::ComparedCell& cell = cells[i];
       table.add({cell.label, number(cell.ratio.median), number(cell.ratio.low),
                  number(cell.ratio.high), fmt::format("{:.2g}", cell.p_corrected),
                  fmt::format("{} + {}", cell.squares_a, cell.squares_b),
-                 std::string(to_string(verdict(cell, threshold)))});
+                 std::string(to_string(stats::verdict(cell, threshold)))});
     }
-    fmt::print("{}\n\n{}\n", key.words(), table.text(page_width()));
+    fmt::print("{}\n\n{}\n", key.words(), table.text(base::page_width()));
   }
 }
 
-void write(const std::vector<ComparedCell>& cells, double threshold, const std::string& file) {
-  CsvWriter csv(file, {"scene",     "scene_hash",  "bodies",    "seed",      "boxes",
-                       "threads",   "task",        "pair_kind", "pairs_of",  "rebuild",
-                       "isa_limit", "algorithm",   "ratio",     "ratio_low", "ratio_high",
-                       "p",         "p_corrected", "n_a",       "n_b",       "verdict"});
-  for (const ComparedCell& cell : cells) {
-    const SetKey& key = cell.key;
+void write(const std::vector<stats::ComparedCell>& cells, double threshold,
+           const std::string& file) {
+  files::CsvWriter csv(file, {"scene",     "scene_hash",  "bodies",    "seed",      "boxes",
+                              "threads",   "task",        "pair_kind", "pairs_of",  "rebuild",
+                              "isa_limit", "algorithm",   "ratio",     "ratio_low", "ratio_high",
+                              "p",         "p_corrected", "n_a",       "n_b",       "verdict"});
+  for (const stats::ComparedCell& cell : cells) {
+    const stats::SetKey& key = cell.key;
     csv.field(key.scene).field(key.scene_hash).field(key.bodies).field(key.seed).field(key.boxes);
     csv.field(key.threads).field(key.task).field(key.pair_kind).field(key.pairs_of);
     csv.field(int{key.rebuild}).field(key.isa_limit);
     csv.field(cell.label).field(cell.ratio.median).field(cell.ratio.low).field(cell.ratio.high);
     csv.field(cell.p).field(cell.p_corrected).field(cell.squares_a).field(cell.squares_b);
-    csv.field(to_string(verdict(cell, threshold))).end_row();
+    csv.field(to_string(stats::verdict(cell, threshold))).end_row();
   }
   csv.close();
 }
 
 // Prints the judgement of A and B. Returns the exit status.
-int judge(const Options& options, const Results& a, const Results& b,
-          const std::vector<ComparedCell>& cells) {
-  print("A and B differ in", remarks(a, b));
+int judge(const Options& options, const stats::Results& a, const stats::Results& b,
+          const std::vector<stats::ComparedCell>& cells) {
+  print("A and B differ in", stats::remarks(a, b));
   print(cells, options.threshold);
   if (!options.csv.empty()) write(cells, options.threshold, options.csv);
-  const std::vector<std::string> changed = changed_answers(a, b, Compared::answers);
+  const std::vector<std::string> changed = stats::changed_answers(a, b, stats::Compared::answers);
   print("The answers changed", changed);
-  const auto count = [&](Verdict wanted) {
-    return std::ranges::count_if(
-        cells, [&](const ComparedCell& c) { return verdict(c, options.threshold) == wanted; });
+  const auto count = [&](stats::Verdict wanted) {
+    return std::ranges::count_if(cells, [&](const stats::ComparedCell& c) {
+      return stats::verdict(c, options.threshold) == wanted;
+    });
   };
-  const auto slower = count(Verdict::slower);
-  const auto undecided = count(Verdict::undecided);
+  const auto slower = count(stats::Verdict::slower);
+  const auto undecided = count(stats::Verdict::undecided);
   fmt::print("{} cells: {} slower, {} undecided, {} same, {} faster, {} not slower\n", cells.size(),
-             slower, undecided, count(Verdict::same), count(Verdict::faster),
-             count(Verdict::not_slower));
+             slower, undecided, count(stats::Verdict::same), count(stats::Verdict::faster),
+             count(stats::Verdict::not_slower));
   if (slower > 0 || !changed.empty()) return exit_measured_wrong;
   return undecided > 0 || cells.empty() ? exit_undecided : exit_done;
 }
@@ -104,48 +106,50 @@ int not_comparable(const std::vector<std::string>& reasons) {
 
 int compare_files(const Options& options) {
   if (options.files.size() != 2) {
-    throw InputError(fmt::format("found {} results; expected two, A and B", options.files.size()));
+    throw base::InputError(
+        fmt::format("found {} results; expected two, A and B", options.files.size()));
   }
-  const Results a = read_results(options.files[0]);
-  const Results b = read_results(options.files[1]);
-  const std::vector<std::string> reasons = obstacles(a, b, !options.any_machine);
+  const stats::Results a = stats::read_results(options.files[0]);
+  const stats::Results b = stats::read_results(options.files[1]);
+  const std::vector<std::string> reasons = stats::obstacles(a, b, !options.any_machine);
   if (!reasons.empty()) return not_comparable(reasons);
   return judge(options, a, b, stats::compare(a, b, options.noise()));
 }
 
-Results run(const std::string& program, const std::string& campaign,
-            const std::filesystem::path& folder) {
+stats::Results run(const std::string& program, const std::string& campaign,
+                   const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::filesystem::remove(folder / "raw.csv");  // a rest of an earlier comparison
   const std::filesystem::path log = folder / "output.txt";
-  const int status = run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
+  const int status =
+      process::run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
   if (status != exit_done && status != exit_measured_wrong) {
-    throw InputError(fmt::format("'{} run {}' ended with status {}; its output is in {}", program,
-                                 campaign, status, log.string()));
+    throw base::InputError(fmt::format("'{} run {}' ended with status {}; its output is in {}",
+                                       program, campaign, status, log.string()));
   }
-  return read_results(folder);
+  return stats::read_results(folder);
 }
 
 int compare_programs(const Options& options) {
   if (options.programs.size() != 2) {
-    throw InputError(
+    throw base::InputError(
         fmt::format("found {} times --exe; expected it twice, A and B", options.programs.size()));
   }
   if (options.files.size() > 1) {
-    throw InputError("with --exe, found more than one campaign; expected one or none");
+    throw base::InputError("with --exe, found more than one campaign; expected one or none");
   }
-  const std::filesystem::path source(source_folder);
+  const std::filesystem::path source(record::source_folder);
   const std::string campaign = options.files.empty()
                                    ? (source / "datasets/campaigns/compare.toml").string()
                                    : options.files[0];
   const std::filesystem::path out = results_folder(options.out, "compare");
-  if (!std::ifstream(campaign)) throw InputError(campaign, 0, "cannot be read");
-  ResultFolder folder({.folder = out,
-                       .files = {},
-                       .identity = machine_facts(),
-                       .start = FolderStart::overwrite,
-                       .work = "comparison"});
-  std::vector<Results> a, b;
+  if (!std::ifstream(campaign)) throw base::InputError(campaign, 0, "cannot be read");
+  record::ResultFolder folder({.folder = out,
+                               .files = {},
+                               .identity = record::machine_facts(),
+                               .start = record::FolderStart::overwrite,
+                               .work = "comparison"});
+  std::vector<stats::Results> a, b;
   for (int i = 0; i < options.runs; ++i) {
     // A B, B A, A B, ...: a machine that grows slower or faster is fair to both.
     for (const bool is_a : {i % 2 == 0, i % 2 != 0}) {
@@ -159,10 +163,10 @@ int compare_programs(const Options& options) {
   folder.finish();
   for (std::size_t i = 0; i < a.size(); ++i) {
     // Both ran on this machine, but their files must agree on it too.
-    const std::vector<std::string> reasons = obstacles(a[i], b[i], !options.any_machine);
+    const std::vector<std::string> reasons = stats::obstacles(a[i], b[i], !options.any_machine);
     if (!reasons.empty()) return not_comparable(reasons);
   }
-  return judge(options, a[0], b[0], compare_runs(a, b, options.noise()));
+  return judge(options, a[0], b[0], stats::compare_runs(a, b, options.noise()));
 }
 
 }  // namespace
@@ -211,4 +215,4 @@ void add_compare(Arguments command) {
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -14,12 +14,12 @@
 #include "harness/grade/pair_groups.h"
 #include "harness/scene/player.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
   std::string scene, out, view = "corner";
-  SceneOverrides overrides;
+  scene::SceneOverrides overrides;
   int frame = 0, width = 1280, height = 960;
 };
 
@@ -30,59 +30,61 @@ Vec3d direction(const std::string& view) {
   return {-1, 1.6, -1.7};
 }
 
-std::vector<BodyState> states_of(const Scene& scene, const ScenePlayer& player) {
-  std::vector<BodyState> states(player.boxes().size(), BodyState::apart);
+std::vector<draw::BodyState> states_of(const scene::Scene& scene,
+                                       const scene::ScenePlayer& player) {
+  std::vector<draw::BodyState> states(player.boxes().size(), draw::BodyState::apart);
   Executor executor(1);
   const std::unique_ptr<BroadPhase> broad = find_broad_phase("sweep-and-prune")->make(executor);
   PairSink sink;
   broad->build(player.boxes());
   broad->find_pairs(sink);
   const std::vector<IndexPair> pairs = sink.gather();
-  const auto mark = [&](std::uint32_t body, BodyState state) {
+  const auto mark = [&](std::uint32_t body, draw::BodyState state) {
     states[body] = std::max(states[body], state);
   };
   for (const IndexPair& pair : pairs) {
-    mark(pair.a, BodyState::possible);
-    mark(pair.b, BodyState::possible);
+    mark(pair.a, draw::BodyState::possible);
+    mark(pair.b, draw::BodyState::possible);
   }
   if (!scene.recording.empty()) return states;
 
   std::vector<std::uint32_t> shape_of;
-  for (const Body& body : scene.bodies) shape_of.push_back(body.shape);
+  for (const scene::Body& body : scene.bodies) shape_of.push_back(body.shape);
   const std::unique_ptr<NarrowPhase> narrow = find_narrow_phase("gjk")->make({});
   narrow->bind(scene.shapes);
-  for (const PairGroup& group : group_by_kind(pairs, scene.shapes, shape_of)) {
+  for (const grade::PairGroup& group : grade::group_by_kind(pairs, scene.shapes, shape_of)) {
     std::vector<Outcome> outcomes(group.size());
     narrow->solve(Task::intersect, group.batch(shape_of, player.poses(), 0, group.size()),
                   outcomes);
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (outcomes[i].answer != Answer::overlapping && outcomes[i].answer != Answer::touching)
         continue;
-      mark(group.first[i], BodyState::overlapping);
-      mark(group.second[i], BodyState::overlapping);
+      mark(group.first[i], draw::BodyState::overlapping);
+      mark(group.second[i], draw::BodyState::overlapping);
     }
   }
   return states;
 }
 
 void draw(const Options& options) {
-  const Scene scene = load_scene(options.scene, options.overrides);
+  const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
   if (options.frame < 0 || options.frame >= scene.frames) {
-    throw InputError(fmt::format("--frame {}: {} has frames 0 to {}", options.frame, options.scene,
-                                 scene.frames - 1));
+    throw base::InputError(fmt::format("--frame {}: {} has frames 0 to {}", options.frame,
+                                       options.scene, scene.frames - 1));
   }
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.frame() < options.frame) player.next();
-  const std::vector<BodyState> states = states_of(scene, player);
-  Canvas canvas(options.width, options.height, View(direction(options.view)));
-  draw_scene(canvas, scene, player.poses(), player.boxes(), states);
+  const std::vector<draw::BodyState> states = states_of(scene, player);
+  draw::Canvas canvas(options.width, options.height, draw::View(direction(options.view)));
+  draw::draw_scene(canvas, scene, player.poses(), player.boxes(), states);
   canvas.write_png(options.out);
   fmt::print(
       "{}: frame {} of {}, {} bodies: {} certainly apart (red), {} possibly in contact (green), "
       "{} {} (blue)\n",
       options.out, options.frame, scene.name, scene.size(),
-      std::ranges::count(states, BodyState::apart), std::ranges::count(states, BodyState::possible),
-      std::ranges::count(states, BodyState::overlapping),
+      std::ranges::count(states, draw::BodyState::apart),
+      std::ranges::count(states, draw::BodyState::possible),
+      std::ranges::count(states, draw::BodyState::overlapping),
       scene.recording.empty() ? "overlapping" : "overlapping: a recording has no bodies to tell");
 }
 
@@ -110,4 +112,4 @@ void add_draw(Arguments command) {
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

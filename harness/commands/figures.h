@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::commands {
 
 enum class Drawing { drawn, no_matplotlib, failed };
 
@@ -14,4 +14,4 @@ enum class Drawing { drawn, no_matplotlib, failed };
 Drawing draw_figures(const std::string& script, const std::vector<std::string>& arguments,
                      const std::filesystem::path& log);
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

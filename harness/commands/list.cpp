@@ -17,7 +17,7 @@
 #include "harness/commands/commands.h"
 #include "harness/files/csv.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Listed {
@@ -64,7 +64,7 @@ std::string as_csv(const std::vector<Listed>& all) {
         row.info->citation};
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (i > 0) text += ',';
-      append_csv_field(text, fields[i]);
+      files::append_csv_field(text, fields[i]);
     }
     text += '\n';
   }
@@ -107,11 +107,11 @@ void add_list(Arguments command) {
     const std::string text = *format == "csv" ? as_csv(all) : as_table(all);
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
         std::fflush(stdout) != 0) {
-      throw InputError("standard output", 0,
-                       fmt::format("cannot be written: {}", std::strerror(errno)));
+      throw base::InputError("standard output", 0,
+                             fmt::format("cannot be written: {}", std::strerror(errno)));
     }
     return exit_done;
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -22,7 +22,7 @@
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_manifold.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct ManifoldOptions {
@@ -36,7 +36,7 @@ struct ManifoldOptions {
 
 // A case, with the family that it is counted in.
 struct Asked {
-  Case pair;
+  files::Case pair;
   std::string family;
 };
 
@@ -51,16 +51,17 @@ struct Contestant {
 
 std::vector<Asked> read_or_make_cases(const ManifoldOptions& options) {
   if (options.cases.empty() == !options.settled) {
-    throw InputError("found neither or both; expected either CASES or --settled COUNT");
+    throw base::InputError("found neither or both; expected either CASES or --settled COUNT");
   }
   std::vector<Asked> asked;
   if (!options.settled) {
-    for (Case& c : read_cases(options.cases)) asked.push_back({std::move(c), "cases"});
+    for (files::Case& c : files::read_cases(options.cases))
+      asked.push_back({std::move(c), "cases"});
     return asked;
   }
-  for (const SettledFamily& family : settled_families()) {
+  for (const check::SettledFamily& family : check::settled_families()) {
     for (std::uint64_t i = 0; i < *options.settled; ++i) {
-      asked.push_back({settled_pair(family, options.seed, i), std::string(family.name)});
+      asked.push_back({check::settled_pair(family, options.seed, i), std::string(family.name)});
     }
   }
   return asked;
@@ -72,14 +73,16 @@ void ask(Contestant& contestant, const std::vector<Asked>& asked, double time_li
   contestant.manifolds.resize(asked.size());
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const Case& c = asked[i].pair;
+    const files::Case& c = asked[i].pair;
     if (offers(entry, c.shape_a.kind, c.shape_b.kind)) taken.push_back(i);
   }
-  const auto solved = isolated_answers<Manifold>(taken.size(), {.item_seconds = time_limit}, [&] {
-    return [&](std::size_t item) {
-      return solve_manifold(entry, {.scalar = contestant.scalar}, asked[taken[item]].pair);
-    };
-  });
+  const auto solved =
+      process::isolated_answers<Manifold>(taken.size(), {.item_seconds = time_limit}, [&] {
+        return [&](std::size_t item) {
+          return process::solve_manifold(entry, {.scalar = contestant.scalar},
+                                         asked[taken[item]].pair);
+        };
+      });
   for (std::size_t item = 0; item < taken.size(); ++item) {
     contestant.manifolds[taken[item]] = solved.answers[item];
   }
@@ -90,7 +93,7 @@ void ask(Contestant& contestant, const std::vector<Asked>& asked, double time_li
 
 void write_points(const std::string& file, const std::vector<Asked>& asked,
                   const std::vector<Contestant>& contestants) {
-  CsvWriter csv(
+  files::CsvWriter csv(
       file, {"id", "algorithm", "scalar", "answer", "status", "normal_x", "normal_y", "normal_z",
              "count", "point", "depth", "a_x", "a_y", "a_z", "b_x", "b_y", "b_z", "feature"});
   for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -122,7 +125,7 @@ void write_points(const std::string& file, const std::vector<Asked>& asked,
 }
 
 void print_counts(const std::vector<Contestant>& contestants) {
-  TextTable table({"algorithm", "0 points", "1", "2", "3", "4", "not asked"});
+  base::TextTable table({"algorithm", "0 points", "1", "2", "3", "4", "not asked"});
   for (const Contestant& contestant : contestants) {
     std::array<std::size_t, 6> counts{};
     for (const Manifold& manifold : contestant.manifolds) {
@@ -133,14 +136,14 @@ void print_counts(const std::vector<Contestant>& contestants) {
     for (const std::size_t count : counts) row.push_back(fmt::format("{}", count));
     table.add(std::move(row));
   }
-  fmt::print("{}", table.text(page_width()));
+  fmt::print("{}", table.text(base::page_width()));
 }
 
-ManifoldTally grade_all(const std::vector<Asked>& asked,
-                        const std::vector<Contestant>& contestants) {
-  ManifoldTally tally;
+grade::ManifoldTally grade_all(const std::vector<Asked>& asked,
+                               const std::vector<Contestant>& contestants) {
+  grade::ManifoldTally tally;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const ManifoldTruth truth = manifold_truth(asked[i].pair);
+    const grade::ManifoldTruth truth = grade::manifold_truth(asked[i].pair);
     for (const Contestant& contestant : contestants) {
       const Manifold& manifold = contestant.manifolds[i];
       if (manifold.status == Status::unsupported) continue;
@@ -151,7 +154,7 @@ ManifoldTally grade_all(const std::vector<Asked>& asked,
   return tally;
 }
 
-std::string page_text(const ManifoldOptions& options, const ManifoldTally& tally) {
+std::string page_text(const ManifoldOptions& options, const grade::ManifoldTally& tally) {
   std::string text = "# Contact manifolds\n\n";
   std::string command = "touchstone manifold ";
   command += options.settled ? fmt::format("--settled {} --seed {}", *options.settled, options.seed)
@@ -173,7 +176,7 @@ std::string page_text(const ManifoldOptions& options, const ManifoldTally& tally
       "`algorithms/peers` say.\n\n",
       command, options.algorithms);
   if (options.settled) {
-    for (const SettledFamily& family : settled_families()) {
+    for (const check::SettledFamily& family : check::settled_families()) {
       text += fmt::format("- `{}`: {}\n", family.name, family.what);
     }
     text += '\n';
@@ -182,17 +185,17 @@ std::string page_text(const ManifoldOptions& options, const ManifoldTally& tally
 }
 
 int manifold(const ManifoldOptions& options) {
-  const auto entries =
-      select(contact_manifolds(), split_names(options.algorithms), "contact manifold");
+  const auto entries = campaign::select(
+      contact_manifolds(), campaign::split_names(options.algorithms), "contact manifold");
   if (options.out.empty() && !options.grade) {
-    throw InputError("nothing is asked for; expected --out FILE or --grade, or both");
+    throw base::InputError("nothing is asked for; expected --out FILE or --grade, or both");
   }
   if (!options.page.empty() && !options.grade) {
-    throw InputError("--page was given without --grade; expected both");
+    throw base::InputError("--page was given without --grade; expected both");
   }
   const std::vector<Asked> asked = read_or_make_cases(options);
-  if (!options.out.empty()) check_output(options.out);
-  if (!options.page.empty()) check_output(options.page);
+  if (!options.out.empty()) files::check_output(options.out);
+  if (!options.page.empty()) files::check_output(options.page);
   std::vector<Contestant> contestants;
   for (const ManifoldEntry* entry : entries) {
     for (const Precision scalar : {Precision::float64, Precision::float32}) {
@@ -204,9 +207,9 @@ int manifold(const ManifoldOptions& options) {
   if (!options.out.empty()) write_points(options.out, asked, contestants);
   print_counts(contestants);
   if (!options.grade) return exit_done;
-  const ManifoldTally tally = grade_all(asked, contestants);
-  fmt::print("\n{}", tally.text(page_width()));
-  if (!options.page.empty()) stats::write_text(options.page, page_text(options, tally));
+  const grade::ManifoldTally tally = grade_all(asked, contestants);
+  fmt::print("\n{}", tally.text(base::page_width()));
+  if (!options.page.empty()) base::write_text(options.page, page_text(options, tally));
   for (const std::string& line : tally.ours_wrong()) fmt::print("wrong: {}\n", line);
   return tally.ours_wrong().empty() ? exit_done : exit_measured_wrong;
 }
@@ -236,4 +239,4 @@ void add_manifold(Arguments command) {
   command.job([options] { return manifold(*options); });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

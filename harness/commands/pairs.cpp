@@ -25,7 +25,7 @@
 #include "harness/process/isolate.h"
 #include "harness/scene/box_frames.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct PairsOptions {
@@ -49,7 +49,7 @@ struct Result {
 // One algorithm, which goes through the frames in a child process.
 class Contender {
  public:
-  Contender(const BroadPhaseEntry& entry, const std::vector<BoxFrame>& frames,
+  Contender(const BroadPhaseEntry& entry, const std::vector<scene::BoxFrame>& frames,
             const PairsOptions& options)
       : entry_(entry), frames_(frames), options_(options), results_(frames.size()) {
     if (options.pairs.empty()) return;
@@ -62,15 +62,16 @@ class Contender {
 
   // A frame that crashes the algorithm or takes too long is lost; the next one is built anew.
   void run() {
-    const IsolationLimits limits = {.item_seconds = options_.time_limit,
-                                    .memory = IsolationLimits::no_limit};
-    const IsolationReport report = isolate(frames_.size(), limits, [this] {
+    const process::IsolationLimits limits = {.item_seconds = options_.time_limit,
+                                             .memory = process::IsolationLimits::no_limit};
+    const process::IsolationReport report = process::isolate(frames_.size(), limits, [this] {
       const auto worker = std::make_shared<Worker>(entry_, options_.threads);
       return [this, worker](std::size_t i) { find_pairs(*worker, frames_[i], results_[i]); };
     });
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       Result& result = results_[i];
-      if (report.states[i] != ItemState::done) result = {.status = status_of(report.states[i])};
+      if (report.states[i] != process::ItemState::done)
+        result = {.status = process::status_of(report.states[i])};
       if (result.error != 0) keeping_failed(result.error);
     }
     print_failures(name(), report.failures, [this](std::size_t item) {
@@ -106,8 +107,8 @@ class Contender {
         : executor(threads, Pinning::one_a_thread), broad_phase(entry.make(executor)) {}
   };
 
-  void find_pairs(Worker& worker, const BoxFrame& frame, Result& result) {
-    const Stopwatch stopwatch;
+  void find_pairs(Worker& worker, const scene::BoxFrame& frame, Result& result) {
+    const base::Stopwatch stopwatch;
     if (worker.built && !options_.rebuild) {
       worker.broad_phase->update(frame.change());
     } else {
@@ -117,7 +118,8 @@ class Contender {
     result.seconds = stopwatch.seconds();
     worker.built = true;
     result.pairs = worker.sink.size();
-    for (const PairBuffer& chunk : worker.sink.chunks()) result.hash += pair_hash(chunk.pairs());
+    for (const PairBuffer& chunk : worker.sink.chunks())
+      result.hash += base::pair_hash(chunk.pairs());
     if (kept_) keep(worker.sink, result);
     result.known = true;
   }
@@ -134,22 +136,22 @@ class Contender {
     if (!good || std::fflush(kept_.get()) != 0) result.error = errno;
   }
   [[noreturn]] static void keeping_failed(int error) {
-    throw InputError(
+    throw base::InputError(
         fmt::format("the pairs cannot be kept in a temporary file: {}", std::strerror(error)));
   }
 
   const BroadPhaseEntry& entry_;
-  const std::vector<BoxFrame>& frames_;
+  const std::vector<scene::BoxFrame>& frames_;
   const PairsOptions& options_;
-  SharedArray<Result> results_;
+  process::SharedArray<Result> results_;
   std::unique_ptr<std::FILE, CloseFile> kept_;  // the pairs of all frames that are done
 };
 
-void write_row(CsvWriter& csv, const BoxFrame& frame, const Contender& contender,
+void write_row(files::CsvWriter& csv, const scene::BoxFrame& frame, const Contender& contender,
                const Result& result, int threads) {
   csv.field(frame.number).field(contender.name()).field(threads).field(to_string(result.status));
   if (result.known) {
-    csv.field(result.pairs).field(to_hex(result.hash)).field(result.seconds);
+    csv.field(result.pairs).field(base::to_hex(result.hash)).field(result.seconds);
   } else {
     csv.field("").field("").field("");
   }
@@ -176,14 +178,15 @@ void print_summary(std::span<const std::unique_ptr<Contender>> contenders, std::
 }
 
 void pairs(const PairsOptions& options) {
-  const auto entries = select(broad_phases(), split_names(options.broad), "broad phase");
-  const std::vector<BoxFrame> frames = read_box_frames(options.file);
-  check_output(options.out);
+  const auto entries =
+      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+  const std::vector<scene::BoxFrame> frames = scene::read_box_frames(options.file);
+  files::check_output(options.out);
   if (!options.pairs.empty()) {
-    check_output(options.pairs);
+    files::check_output(options.pairs);
     if (std::filesystem::weakly_canonical(options.pairs) ==
         std::filesystem::weakly_canonical(options.out)) {
-      throw InputError("--out and --pairs name the same file; expected two");
+      throw base::InputError("--out and --pairs name the same file; expected two");
     }
   }
   std::vector<std::unique_ptr<Contender>> contenders;
@@ -192,8 +195,8 @@ void pairs(const PairsOptions& options) {
     contenders.push_back(std::make_unique<Contender>(*entry, frames, options));
     contenders.back()->run();
   }
-  CsvWriter csv(options.out,
-                {"frame", "algorithm", "threads", "status", "pair_count", "pair_hash", "seconds"});
+  files::CsvWriter csv(options.out, {"frame", "algorithm", "threads", "status", "pair_count",
+                                     "pair_hash", "seconds"});
   for (std::size_t i = 0; i < frames.size(); ++i) {
     for (const auto& contender : contenders) {
       write_row(csv, frames[i], *contender, contender->result(i), options.threads);
@@ -201,7 +204,7 @@ void pairs(const PairsOptions& options) {
   }
   csv.flush();  // finds a full disk before either file is there
   if (!options.pairs.empty()) {
-    CsvWriter pairs_csv(options.pairs, {"frame", "algorithm", "a", "b"});
+    files::CsvWriter pairs_csv(options.pairs, {"frame", "algorithm", "a", "b"});
     for (std::size_t i = 0; i < frames.size(); ++i) {
       for (const auto& contender : contenders) {
         for (const IndexPair& pair : contender->kept_pairs(i)) {
@@ -239,4 +242,4 @@ void add_pairs(Arguments command) {
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -20,7 +20,7 @@
 #include "harness/base/error.h"
 #include "harness/commands/commands.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct CommandName {
@@ -88,19 +88,20 @@ void hand_over() {
   words.push_back(nullptr);
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
   const std::filesystem::path program = self.parent_path() / "touchstone_more";
-  if (self == program) throw InputError("found a command of `touchstone`; expected another");
+  if (self == program) throw base::InputError("found a command of `touchstone`; expected another");
   std::fflush(stdout);
   execv(program.c_str(), words.data());
-  throw InputError(program.string(), 0,
-                   fmt::format("cannot be run ({}); expected the executable of this command, which "
-                               "the launcher builds",
-                               std::strerror(errno)));
+  throw base::InputError(
+      program.string(), 0,
+      fmt::format("cannot be run ({}); expected the executable of this command, which "
+                  "the launcher builds",
+                  std::strerror(errno)));
 }
 
 int run_program(int argc, char** argv, std::initializer_list<OwnCommand> own) {
   try {
     return run_command(std::vector<std::string>(argv + 1, argv + argc), own);
-  } catch (const InputError& error) {
+  } catch (const base::InputError& error) {
     std::fprintf(stderr, "touchstone: %s\n", error.what());  // fmt would throw where it fails
   } catch (const std::bad_alloc&) {
     std::fputs("touchstone: out of memory\n", stderr);
@@ -110,4 +111,4 @@ int run_program(int argc, char** argv, std::initializer_list<OwnCommand> own) {
   return exit_bad_request;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -8,7 +8,7 @@
 
 #include "harness/commands/arguments.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 
 // A command that an executable has, and what adds its options.
 struct OwnCommand {
@@ -22,4 +22,4 @@ int run_program(int argc, char** argv, std::initializer_list<OwnCommand> own);
 // Replaces this process by `touchstone_more` with the same words, or throws InputError.
 [[noreturn]] void hand_over();
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -19,7 +19,7 @@
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct QueryOptions {
@@ -36,7 +36,7 @@ struct Answers {
 };
 
 // Asks about all cases that the algorithm takes, in a child process. Prints the failures.
-Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
+Answers ask(const NarrowPhaseEntry& entry, const std::vector<files::Case>& cases,
             const QueryOptions& options) {
   Answers answers = {&entry, std::vector<Outcome>(cases.size())};
   std::vector<std::size_t> taken;
@@ -45,10 +45,10 @@ Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
       taken.push_back(i);
     }
   }
-  const IsolationLimits limits = {.item_seconds = options.time_limit};
-  const auto solved = isolated_answers<Outcome>(taken.size(), limits, [&] {
+  const process::IsolationLimits limits = {.item_seconds = options.time_limit};
+  const auto solved = process::isolated_answers<Outcome>(taken.size(), limits, [&] {
     return [&](std::size_t item) {
-      return solve_case(entry, options.settings, cases[taken[item]], options.task);
+      return process::solve_case(entry, options.settings, cases[taken[item]], options.task);
     };
   });
   for (std::size_t item = 0; item < taken.size(); ++item) {
@@ -59,8 +59,8 @@ Answers ask(const NarrowPhaseEntry& entry, const std::vector<Case>& cases,
   return answers;
 }
 
-void write_row(CsvWriter& csv, const Case& c, const Answers& answers, const Outcome& outcome,
-               const QueryOptions& options) {
+void write_row(files::CsvWriter& csv, const files::Case& c, const Answers& answers,
+               const Outcome& outcome, const QueryOptions& options) {
   csv.field(c.id).field(answers.entry->info.name);
   csv.field(to_string(options.settings.scalar)).field(to_string(options.task));
   csv.field(to_string(outcome.answer)).field(to_string(outcome.status));
@@ -99,23 +99,25 @@ void print_summary(const std::vector<Answers>& all) {
 }
 
 void query(const QueryOptions& options) {
-  const auto entries = select(narrow_phases(), split_names(options.narrow), "narrow phase");
+  const auto entries =
+      campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
   for (const NarrowPhaseEntry* entry : entries) {
     if (!options.settings.duality_gap || entry->traits.stops_by_duality_gap) continue;
-    throw InputError(
+    throw base::InputError(
         fmt::format("--duality-gap was given for '{}', which does not stop by it; "
                     "expected only {}",
-                    entry->info.name, names_stopping_by_duality_gap()));
+                    entry->info.name, campaign::names_stopping_by_duality_gap()));
   }
-  const std::vector<Case> cases = read_cases(options.cases);
-  check_output(options.out);
+  const std::vector<files::Case> cases = files::read_cases(options.cases);
+  files::check_output(options.out);
   std::vector<Answers> all;
   all.reserve(entries.size());
   for (const NarrowPhaseEntry* entry : entries) all.push_back(ask(*entry, cases, options));
-  CsvWriter csv(options.out, {"id",       "algorithm", "scalar", "task",       "answer",
-                              "status",   "distance",  "lower",  "upper",      "normal_x",
-                              "normal_y", "normal_z",  "a_x",    "a_y",        "a_z",
-                              "b_x",      "b_y",       "b_z",    "iterations", "support_calls"});
+  files::CsvWriter csv(
+      options.out,
+      {"id",    "algorithm", "scalar",   "task",     "answer",     "status",       "distance",
+       "lower", "upper",     "normal_x", "normal_y", "normal_z",   "a_x",          "a_y",
+       "a_z",   "b_x",       "b_y",      "b_z",      "iterations", "support_calls"});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const Answers& answers : all) {
       write_row(csv, cases[i], answers, answers.outcomes[i], options);
@@ -156,4 +158,4 @@ void add_query(Arguments command) {
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

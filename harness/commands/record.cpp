@@ -16,22 +16,22 @@
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct RecordOptions {
   std::string scene, out;
-  BoxKind boxes = BoxKind::tight;
-  SceneOverrides overrides;
+  scene::BoxKind boxes = scene::BoxKind::tight;
+  scene::SceneOverrides overrides;
 };
 
-void record_csv(ScenePlayer& player, const std::filesystem::path& file) {
-  CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
+void record_csv(scene::ScenePlayer& player, const std::filesystem::path& file) {
+  files::CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
   do {
     const auto boxes = player.boxes();
     for (std::size_t id = 0; id < boxes.size(); ++id) {
       csv.field(player.frame()).field(id);
-      append_box(csv, boxes[id]);
+      scene::append_box(csv, boxes[id]);
       csv.end_row();
     }
   } while (player.next());
@@ -39,8 +39,9 @@ void record_csv(ScenePlayer& player, const std::filesystem::path& file) {
 }
 
 // Broadmark's file also has a box of the world. Ours encloses all boxes of all frames.
-void record_aabbs(ScenePlayer& player, const std::string& name, const std::filesystem::path& file) {
-  BoxRecording recording;
+void record_aabbs(scene::ScenePlayer& player, const std::string& name,
+                  const std::filesystem::path& file) {
+  scene::BoxRecording recording;
   recording.scene = name;
   recording.type = "touchstone";
   recording.world = player.boxes().front();
@@ -54,31 +55,32 @@ void record_aabbs(ScenePlayer& player, const std::string& name, const std::files
       }
     }
   } while (player.next());
-  write_aabbs(recording, file);
+  scene::write_aabbs(recording, file);
 }
 
 void record(const RecordOptions& options) {
   const std::filesystem::path out = options.out;
   const bool csv = out.extension() == ".csv";
   if (!csv && out.extension() != ".aabbs") {
-    throw InputError("--out: found " + options.out + "; expected a name ending in .aabbs or .csv");
+    throw base::InputError("--out: found " + options.out +
+                           "; expected a name ending in .aabbs or .csv");
   }
-  const Scene scene = load_scene(options.scene, options.overrides);
+  const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
   if (!csv && scene.motion.churn > 0) {
-    throw InputError(
+    throw base::InputError(
         options.scene, 0,
         "bodies come and go in this scene, and Broadmark's format has the same ones in "
         "every frame; expected --out with a name ending in .csv");
   }
-  ScenePlayer player(scene, options.boxes);
+  scene::ScenePlayer player(scene, options.boxes);
   const std::size_t count = player.boxes().size();
   if (csv) {
     record_csv(player, out);
   } else {
     record_aabbs(player, scene.name, out);
   }
-  fmt::print("{}: scene {} ({}), {} boxes, {} frames\n", options.out, scene.name, scene_hash(scene),
-             count, player.frame() + 1);
+  fmt::print("{}: scene {} ({}), {} boxes, {} frames\n", options.out, scene.name,
+             scene::scene_hash(scene), count, player.frame() + 1);
 }
 
 }  // namespace
@@ -104,4 +106,4 @@ void add_record(Arguments command) {
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

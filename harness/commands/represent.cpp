@@ -17,7 +17,7 @@
 #include "harness/proxies/representation.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
@@ -26,23 +26,23 @@ struct Options {
                                     "dop-18",  "dop-26",  "capsule",      "hull-8",
                                     "hull-16", "hull-32", "hull",         "parts"};
   std::string side = "outer";
-  SceneOverrides overrides;
+  scene::SceneOverrides overrides;
 };
 
-std::vector<Representation> representations(const Options& options) {
-  std::vector<Representation> list;
+std::vector<proxies::Representation> representations(const Options& options) {
+  std::vector<proxies::Representation> list;
   for (const std::string& form : options.forms) {
-    Representation r = parse_representation(form);
-    if (r.side != Side::outer) {
-      throw InputError(
+    proxies::Representation r = proxies::parse_representation(form);
+    if (r.side != proxies::Side::outer) {
+      throw base::InputError(
           fmt::format("--forms {}: expected forms without a side; --side inner or "
                       "--side nearest is for all of them",
                       form));
     }
-    if (r.form != Form::as_given && r.form != Form::mesh) {
-      r.side = options.side == "inner"     ? Side::inner
-               : options.side == "nearest" ? Side::nearest
-                                           : Side::outer;
+    if (r.form != proxies::Form::as_given && r.form != proxies::Form::mesh) {
+      r.side = options.side == "inner"     ? proxies::Side::inner
+               : options.side == "nearest" ? proxies::Side::nearest
+                                           : proxies::Side::outer;
     }
     list.push_back(r);
   }
@@ -50,26 +50,26 @@ std::vector<Representation> representations(const Options& options) {
 }
 
 struct Measured {
-  RepresentationError error;
+  proxies::RepresentationError error;
   std::size_t parts = 0, vertices = 0;
   double seconds = 0;
   std::string words;  // the reason why there is none
 };
 
-Measured measure(const Shape& shape, const Mesh* mesh, const Representation& r) {
+Measured measure(const Shape& shape, const geometry::Mesh* mesh, const proxies::Representation& r) {
   Measured m;
   try {
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<Part> parts = represent(shape, mesh, r);
+    const std::vector<proxies::Part> parts = proxies::represent(shape, mesh, r);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     m.seconds = time.count();
     m.parts = parts.size();
-    for (const Part& part : parts) {
+    for (const proxies::Part& part : parts) {
       if (part.shape.kind == ShapeKind::box) m.vertices += 8;
       if (part.shape.hull != nullptr) m.vertices += part.shape.hull->vertices.size();
     }
-    m.error = representation_error(shape, mesh, parts);
-  } catch (const InputError& none) {
+    m.error = proxies::representation_error(shape, mesh, parts);
+  } catch (const base::InputError& none) {
     m.words = none.what();
   }
   return m;
@@ -98,10 +98,10 @@ void add_cells(std::vector<double> values, std::vector<std::string>& row) {
   for (double v : {sum / count, values[rank], values.back()}) row.push_back(shown(v));
 }
 
-void print(const Scene& scene, const std::vector<Representation>& list,
+void print(const scene::Scene& scene, const std::vector<proxies::Representation>& list,
            const std::vector<Summary>& summaries) {
-  TextTable table({"representation", "shapes", "none", "flat", "parts", "volume mean", "p99",
-                   "greatest", "hausdorff mean", "p99", "greatest", "ms each"});
+  base::TextTable table({"representation", "shapes", "none", "flat", "parts", "volume mean", "p99",
+                         "greatest", "hausdorff mean", "p99", "greatest", "ms each"});
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Summary& s = summaries[i];
     const std::size_t made = s.hausdorff.size();
@@ -117,24 +117,25 @@ void print(const Scene& scene, const std::vector<Representation>& list,
       "{}: volume (added and lost, as parts of the body's) and Hausdorff distance (as a part of "
       "the "
       "diameter of its bounding ball) of each shape\n\n{}",
-      scene.name, table.text(page_width()));
+      scene.name, table.text(base::page_width()));
 }
 
 void run(const Options& options) {
-  const std::vector<Representation> list = representations(options);
-  check_output(options.out);
-  const Scene scene = load_scene(options.scene, options.overrides);
+  const std::vector<proxies::Representation> list = representations(options);
+  files::check_output(options.out);
+  const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
   std::map<std::uint32_t, std::size_t> bodies;
-  for (const Body& body : scene.bodies) ++bodies[body.shape];
+  for (const scene::Body& body : scene.bodies) ++bodies[body.shape];
   if (bodies.empty()) {
-    throw InputError(options.scene, 0, "a recording of boxes; expected a scene with bodies");
+    throw base::InputError(options.scene, 0, "a recording of boxes; expected a scene with bodies");
   }
-  CsvWriter csv(options.out, {"scene", "shape", "kind", "bodies", "triangles", "form", "status",
-                              "added", "lost", "volume_deviation", "hausdorff", "hausdorff_of_size",
-                              "hausdorff_deviation", "size", "parts", "vertices", "seconds"});
+  files::CsvWriter csv(options.out,
+                       {"scene", "shape", "kind", "bodies", "triangles", "form", "status", "added",
+                        "lost", "volume_deviation", "hausdorff", "hausdorff_of_size",
+                        "hausdorff_deviation", "size", "parts", "vertices", "seconds"});
   std::vector<Summary> summaries(list.size());
   for (const auto& [shape, users] : bodies) {
-    const Mesh* mesh = scene.mesh_of(shape);
+    const geometry::Mesh* mesh = scene.mesh_of(shape);
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Shape& given = scene.shapes[shape];
       if (given.kind == ShapeKind::halfspace) continue;
@@ -196,4 +197,4 @@ void add_represent(Arguments command) {
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

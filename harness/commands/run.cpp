@@ -17,7 +17,7 @@
 #include "harness/stats/published_check.h"
 #include "harness/stats/summary.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
@@ -27,7 +27,7 @@ struct Options {
   std::string broad = "ours,peers", narrow = "ours,peers";
   std::vector<Task> tasks = {Task::intersect};
   std::vector<Precision> scalars = {Precision::float32, Precision::float64};
-  std::vector<BoxKind> boxes = {BoxKind::tight};
+  std::vector<scene::BoxKind> boxes = {scene::BoxKind::tight};
   std::vector<int> threads = {2};
   std::vector<std::int64_t> counts = {-1};
   std::vector<std::int64_t> seeds = {-1};
@@ -40,15 +40,16 @@ struct Options {
   double depth_error = stats::usual_depth_error;
 };
 
-Campaign campaign_of(const Options& options) {
+campaign::Campaign campaign_of(const Options& options) {
   if (options.scenes.empty()) {
-    return read_campaign(options.campaign.empty() ? std::filesystem::path(source_folder) /
-                                                        "datasets/campaigns/standard.toml"
-                                                  : std::filesystem::path(options.campaign));
+    return campaign::read_campaign(options.campaign.empty()
+                                       ? std::filesystem::path(record::source_folder) /
+                                             "datasets/campaigns/standard.toml"
+                                       : std::filesystem::path(options.campaign));
   }
-  Campaign campaign;
+  campaign::Campaign campaign;
   campaign.name = "command-line";
-  CampaignGroup group;
+  campaign::CampaignGroup group;
   group.scenes.assign(options.scenes.begin(), options.scenes.end());
   group.counts = options.counts;
   group.seeds = options.seeds;
@@ -56,9 +57,10 @@ Campaign campaign_of(const Options& options) {
   group.boxes = options.boxes;
   group.threads = options.threads;
   group.rebuild = options.rebuild;
-  group.broad = select(broad_phases(), split_names(options.broad), "broad phase");
+  group.broad =
+      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
   for (const NarrowPhaseEntry* entry :
-       select(narrow_phases(), split_names(options.narrow), "narrow phase")) {
+       campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase")) {
     for (const Precision scalar : options.scalars) {
       if (!offers(*entry, scalar)) continue;
       NarrowPhaseSettings settings{.scalar = scalar};
@@ -69,21 +71,21 @@ Campaign campaign_of(const Options& options) {
     }
   }
   group.tasks = options.tasks;
-  group.pairing = options.product ? Pairing::product : Pairing::separate;
+  group.pairing = options.product ? campaign::Pairing::product : campaign::Pairing::separate;
   group.time_limit = options.time_limit;
   campaign.groups.push_back(std::move(group));
   return campaign;
 }
 
 // Prints what a run would measure, without measuring it.
-void print_plan(const Campaign& campaign) {
+void print_plan(const campaign::Campaign& campaign) {
   double seconds = 0;
   double check_seconds = 0;
   std::size_t cells = 0;
-  const std::vector<PlannedBlock> blocks = plan_campaign(campaign);
+  const std::vector<campaign::PlannedBlock> blocks = campaign::plan_campaign(campaign);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     fmt::print("block {}: {}\n", i, blocks[i].label);
-    for (const PlannedBlock::Set& set : blocks[i].sets) {
+    for (const campaign::PlannedBlock::Set& set : blocks[i].sets) {
       fmt::print("  {}: {}\n", set.name, fmt::join(set.contestants, ", "));
       cells += set.contestants.size();
     }
@@ -98,29 +100,29 @@ void print_plan(const Campaign& campaign) {
       blocks.size(), cells, check_seconds, seconds);
 }
 
-FolderStart start_of(const Options& options) {
-  if (options.resume) return FolderStart::resume;
-  return options.overwrite ? FolderStart::overwrite : FolderStart::fresh;
+record::FolderStart start_of(const Options& options) {
+  if (options.resume) return record::FolderStart::resume;
+  return options.overwrite ? record::FolderStart::overwrite : record::FolderStart::fresh;
 }
 
 // The file is one of a trade instead of a campaign, which has no option but --out.
 int run_trade_file(const Options& options) {
   if (options.resume || options.overwrite || options.strict || options.noisy || options.dry_run) {
-    throw InputError(options.campaign +
-                     " has a table [trade]; expected no option but --out with such a file");
+    throw base::InputError(options.campaign +
+                           " has a table [trade]; expected no option but --out with such a file");
   }
   hand_over();
 }
 
 // Writes tables.md and prints the summary, or all tables where they are asked for.
-void report(const Campaign& campaign, const RunResult& result, const std::filesystem::path& folder,
-            const Options& options) {
+void report(const campaign::Campaign& campaign, const campaign::RunResult& result,
+            const std::filesystem::path& folder, const Options& options) {
   const stats::Noise noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out;
   const stats::Results results = stats::read_results(folder);
   const stats::Tables tables = stats::make_tables(results, noise, options.depth_error);
   const std::string text = stats::tables_markdown(tables);
-  stats::write_text(folder / "tables.md", text);
-  if (options.tables) fmt::print("{}\n{}\n", text, departures_text(result.findings));
+  base::write_text(folder / "tables.md", text);
+  if (options.tables) fmt::print("{}\n{}\n", text, record::departures_text(result.findings));
   if (!campaign.published.source.empty() && !result.interrupted) {
     const auto rows = stats::check_published(campaign.published, results, noise);
     stats::write_published(campaign.published, rows, folder);
@@ -130,21 +132,21 @@ void report(const Campaign& campaign, const RunResult& result, const std::filesy
 }
 
 int run(const Options& options) {
-  if (!options.campaign.empty() && has_key(options.campaign, "trade"))
+  if (!options.campaign.empty() && files::has_key(options.campaign, "trade"))
     return run_trade_file(options);
-  const Campaign campaign = campaign_of(options);
+  const campaign::Campaign campaign = campaign_of(options);
   const std::filesystem::path folder = results_folder(options.out, campaign.name);
   if (options.dry_run) {
     print_plan(campaign);
     return exit_done;
   }
   if (options.strict) {
-    const std::string objection = MachineLoad::now().objection();
+    const std::string objection = measure::MachineLoad::now().objection();
     if (!objection.empty()) {
-      throw InputError("the machine is not quiet, and --strict was given: " + objection);
+      throw base::InputError("the machine is not quiet, and --strict was given: " + objection);
     }
   }
-  const RunResult result = run_campaign(campaign, folder, start_of(options));
+  const campaign::RunResult result = campaign::run_campaign(campaign, folder, start_of(options));
   report(campaign, result, folder, options);
   if (result.interrupted) {
     fmt::print(stderr,
@@ -212,4 +214,4 @@ void add_run(Arguments command) {
   command.job([options] { return run(*options); });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -9,7 +9,7 @@
 #include "harness/campaign/selection.h"
 #include "harness/record/build_info.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 
 const Arguments::Choices<Task>& task_choices() {
   static const Arguments::Choices<Task> choices = {{"intersect", Task::intersect},
@@ -24,13 +24,13 @@ const Arguments::Choices<Precision>& scalar_choices() {
   return choices;
 }
 
-const Arguments::Choices<BoxKind>& box_choices() {
-  static const Arguments::Choices<BoxKind> choices = {{"tight", BoxKind::tight},
-                                                      {"loose", BoxKind::loose}};
+const Arguments::Choices<scene::BoxKind>& box_choices() {
+  static const Arguments::Choices<scene::BoxKind> choices = {{"tight", scene::BoxKind::tight},
+                                                             {"loose", scene::BoxKind::loose}};
   return choices;
 }
 
-void add_scene_overrides(Arguments& command, SceneOverrides& overrides) {
+void add_scene_overrides(Arguments& command, scene::SceneOverrides& overrides) {
   command.number("--count", overrides.count, "Bodies of a generated scene").positive();
   command.number("--seed", overrides.seed, "Seed of a generated scene").not_negative();
 }
@@ -53,16 +53,16 @@ Option add_threads(Arguments& command, int& threads, const std::string& help) {
 
 std::filesystem::path results_folder(const std::string& out, const std::string& name) {
   if (!out.empty()) return out;
-  return std::filesystem::path(source_folder) / "results/local" / name;
+  return std::filesystem::path(record::source_folder) / "results/local" / name;
 }
 
 std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
                                                             std::span<const Precision> scalars) {
-  const std::vector<std::string> list = split_names(names);
+  const std::vector<std::string> list = campaign::split_names(names);
   const auto is_named = [&](const NarrowPhaseEntry* entry) {
     return std::ranges::find(list, entry->info.name) != list.end();
   };
-  auto chosen = select(narrow_phases(), list, "narrow phase");
+  auto chosen = campaign::select(narrow_phases(), list, "narrow phase");
   std::erase_if(chosen, [&](const NarrowPhaseEntry* entry) {
     return entry->info.origin == Origin::oracle && !is_named(entry);
   });
@@ -71,16 +71,17 @@ std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& n
     const bool offered =
         std::ranges::any_of(scalars, [&](Precision scalar) { return offers(*entry, scalar); });
     if (!is_named(entry) || offered) continue;
-    throw InputError(fmt::format("'{}' does not compute in {}; expected another --scalar",
-                                 entry->info.name, to_string(scalars.front())));
+    throw base::InputError(fmt::format("'{}' does not compute in {}; expected another --scalar",
+                                       entry->info.name, to_string(scalars.front())));
   }
   return chosen;
 }
 
-void print_failures(std::string_view algorithm, std::span<const IsolationFailure> failures,
+void print_failures(std::string_view algorithm, std::span<const process::IsolationFailure> failures,
                     const std::function<std::string(std::size_t)>& name_of) {
   constexpr std::size_t shown = 5;
-  for (const IsolationFailure& failure : failures.first(std::min(shown, failures.size()))) {
+  for (const process::IsolationFailure& failure :
+       failures.first(std::min(shown, failures.size()))) {
     fmt::print(stderr, "{}, {}: {}\n", algorithm, name_of(failure.item), failure.reason());
   }
   if (failures.size() > shown) {
@@ -88,4 +89,4 @@ void print_failures(std::string_view algorithm, std::span<const IsolationFailure
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -14,14 +14,14 @@
 #include "harness/process/isolate.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 
 const Arguments::Choices<Task>& task_choices();
 const Arguments::Choices<Precision>& scalar_choices();
-const Arguments::Choices<BoxKind>& box_choices();
+const Arguments::Choices<scene::BoxKind>& box_choices();
 
 // --count and --seed of a generated scene.
-void add_scene_overrides(Arguments& command, SceneOverrides& overrides);
+void add_scene_overrides(Arguments& command, scene::SceneOverrides& overrides);
 // --time-limit in seconds.
 Option add_time_limit(Arguments& command, double& seconds,
                       const std::string& help = "Seconds that a query may take");
@@ -59,7 +59,7 @@ std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& n
 
 // Prints a line for each of the first failures of an algorithm, and the number of the others;
 // `name_of` names an item.
-void print_failures(std::string_view algorithm, std::span<const IsolationFailure> failures,
+void print_failures(std::string_view algorithm, std::span<const process::IsolationFailure> failures,
                     const std::function<std::string(std::size_t)>& name_of);
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

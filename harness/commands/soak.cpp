@@ -12,21 +12,21 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
   std::string narrow = "certified", out;
-  SoakRequest request;
+  check::SoakRequest request;
 };
 
-void print(const SoakRequest& request, const SoakResult& result) {
-  std::map<std::pair<std::size_t, Precision>, SoakCount> totals;
+void print(const check::SoakRequest& request, const check::SoakResult& result) {
+  std::map<std::pair<std::size_t, Precision>, check::SoakCount> totals;
   for (const auto& [key, count] : result.counts) {
     totals[{std::get<0>(key), std::get<1>(key)}].add(count);
   }
-  TextTable table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
-                   "silent errors", "honest failures", "lost"});
+  base::TextTable table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
+                         "silent errors", "honest failures", "lost"});
   for (const auto& [key, count] : totals) {
     std::vector<std::string> row = {
         fmt::format("{} {}", request.narrow[key.first]->info.name, to_string(key.second))};
@@ -37,15 +37,16 @@ void print(const SoakRequest& request, const SoakResult& result) {
     }
     table.add(row);
   }
-  fmt::print("{}", table.text(page_width()));
+  fmt::print("{}", table.text(base::page_width()));
 }
 
 int soak(Options& options) {
-  SoakRequest& request = options.request;
-  request.narrow = select(narrow_phases(), split_names(options.narrow), "narrow phase");
+  check::SoakRequest& request = options.request;
+  request.narrow =
+      campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
   request.out = results_folder(options.out, "soak");
-  for (const Regime& regime : regimes()) request.regimes.push_back(&regime);
-  const SoakResult result = run_soak(request);
+  for (const check::Regime& regime : check::regimes()) request.regimes.push_back(&regime);
+  const check::SoakResult result = check::run_soak(request);
   print(request, result);
   fmt::print("\nBy regime: {}\n", (request.out / "soak.csv").string());
   return result.ours_are_wrong(request) ? exit_measured_wrong : exit_done;
@@ -55,7 +56,7 @@ int soak(Options& options) {
 
 void add_soak(Arguments command) {
   const auto options = std::make_shared<Options>();
-  SoakRequest& request = options->request;
+  check::SoakRequest& request = options->request;
   add_case_options(command, request, options->narrow, options->out, "soak", "soak");
   command.number("--pairs", request.pairs, "Pairs in all, spread over the regimes")
       .within(1, 1'000'000'000'000)
@@ -63,4 +64,4 @@ void add_soak(Arguments command) {
   command.job([options] { return soak(*options); });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -15,29 +15,29 @@
 #include "harness/commands/figures.h"
 #include "harness/commands/shared_options.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
   std::string narrow = "all", axes, out, page;
   bool quick = false;
-  StressRequest request;
+  check::StressRequest request;
 };
 
 constexpr int quick_cases = 4;
 
-std::vector<const StressAxis*> chosen_axes(const std::string& names) {
-  std::vector<const StressAxis*> chosen;
+std::vector<const check::StressAxis*> chosen_axes(const std::string& names) {
+  std::vector<const check::StressAxis*> chosen;
   if (names.empty()) {
-    for (const StressAxis& axis : axes()) chosen.push_back(&axis);
+    for (const check::StressAxis& axis : check::axes()) chosen.push_back(&axis);
     return chosen;
   }
-  for (const std::string& name : split_names(names)) {
-    const auto at = std::ranges::find(axes(), name, &StressAxis::name);
-    if (at == axes().end()) {
+  for (const std::string& name : campaign::split_names(names)) {
+    const auto at = std::ranges::find(check::axes(), name, &check::StressAxis::name);
+    if (at == check::axes().end()) {
       std::vector<std::string_view> known;
-      for (const StressAxis& axis : axes()) known.push_back(axis.name);
-      throw InputError(
+      for (const check::StressAxis& axis : check::axes()) known.push_back(axis.name);
+      throw base::InputError(
           fmt::format("no axis is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
     }
     if (std::ranges::find(chosen, &*at) == chosen.end()) chosen.push_back(&*at);
@@ -45,35 +45,35 @@ std::vector<const StressAxis*> chosen_axes(const std::string& names) {
   return chosen;
 }
 
-void write_page(const Options& options, const StressResult& result, const std::string& command,
-                bool drawn) {
+void write_page(const Options& options, const check::StressResult& result,
+                const std::string& command, bool drawn) {
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
   const std::string pictures = std::filesystem::absolute(options.request.out / "figures")
                                    .lexically_relative(folder)
                                    .string();
   std::ofstream stream(options.page, std::ios::binary);
-  stream << stress_page(options.request, result, command, drawn ? pictures : "");
+  stream << check::stress_page(options.request, result, command, drawn ? pictures : "");
   stream.close();
-  if (!stream) throw InputError(options.page, 0, "cannot be written");
+  if (!stream) throw base::InputError(options.page, 0, "cannot be written");
 }
 
 int stress(Options& options, const std::string& command) {
-  StressRequest& request = options.request;
+  check::StressRequest& request = options.request;
   request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
   if (request.narrow.empty()) {
-    throw InputError("--narrow names no algorithm; expected at least one");
+    throw base::InputError("--narrow names no algorithm; expected at least one");
   }
-  request.cells = cells_of(chosen_axes(options.axes));
+  request.cells = check::cells_of(chosen_axes(options.axes));
   if (options.quick) request.cases = quick_cases;
   request.out = results_folder(options.out, "stress");
   if (!options.page.empty()) {
     // The page may lie in the folder that the sweep is about to make.
     std::error_code ignored;
     std::filesystem::create_directories(request.out, ignored);
-    check_output(options.page);
+    files::check_output(options.page);
   }
-  const StressResult result = run_stress(request);
-  fmt::print("{}", stress_text(request, result, page_width()));
+  const check::StressResult result = check::run_stress(request);
+  fmt::print("{}", check::stress_text(request, result, base::page_width()));
   fmt::print("\nRows in {}; case files of what is wrong in {}\n",
              (request.out / "stress.csv").string(), (request.out / "failures").string());
   const std::filesystem::path log = request.out / "figures.txt";
@@ -93,7 +93,7 @@ int stress(Options& options, const std::string& command) {
 
 void add_stress(Arguments command) {
   const auto options = std::make_shared<Options>();
-  StressRequest& request = options->request;
+  check::StressRequest& request = options->request;
   add_case_options(command, request, options->narrow, options->out, "stress", "sweep");
   command.text("--axes", options->axes, "Axes: names joined by commas (default: all)");
   const Option cases =
@@ -108,4 +108,4 @@ void add_stress(Arguments command) {
   command.job([options, command] { return stress(*options, command.shell_line("--resume")); });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

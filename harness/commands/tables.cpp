@@ -20,38 +20,40 @@
 #include "harness/stats/table_check.h"
 #include "harness/stats/tables.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 using namespace stats;
 
 struct Options {
   std::string results, reference, out, campaign;
-  double band = 1.5, depth_error = usual_depth_error;
+  double band = 1.5, depth_error = stats::usual_depth_error;
   bool check = false, noisy = false;
 };
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
 
 template <class Entry>
-std::optional<RowOrigin> origin_among(std::span<const Entry> entries, const std::string& name) {
+std::optional<record::RowOrigin> origin_among(std::span<const Entry> entries,
+                                              const std::string& name) {
   const auto at =
       std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
   if (at == entries.end()) return std::nullopt;
-  return row_origin(at->info.origin);
+  return record::row_origin(at->info.origin);
 }
 
 // For results of before the column `origin`.
-std::optional<RowOrigin> origin_of(bool narrow, const std::string& name) {
-  if (!narrow && name == limit_label) return RowOrigin::limit;
+std::optional<record::RowOrigin> origin_of(bool narrow, const std::string& name) {
+  if (!narrow && name == stats::limit_label) return record::RowOrigin::limit;
   return narrow ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
 }
 
-int write(const Results& results, const std::filesystem::path& folder, const Options& options) {
-  const Tables tables =
-      make_tables(results, options.noisy ? Noise::kept : Noise::left_out, options.depth_error);
+int write(const stats::Results& results, const std::filesystem::path& folder,
+          const Options& options) {
+  const stats::Tables tables = stats::make_tables(
+      results, options.noisy ? stats::Noise::kept : stats::Noise::left_out, options.depth_error);
   std::filesystem::create_directories(folder);
-  write_tables(tables, options.band, folder);
+  stats::write_tables(tables, options.band, folder);
   fmt::print("{} times, {} ratios, {} winners, {} exponents in {}\n", tables.times.size(),
              tables.ratios.size(), tables.winners.size(), tables.exponents.size(),
              (folder / "tables.md").string());
@@ -60,13 +62,13 @@ int write(const Results& results, const std::filesystem::path& folder, const Opt
 
 // Runs the reference's campaign with this program in a process of its own. Returns the folder.
 std::filesystem::path run_again(const std::filesystem::path& reference, const Options& options) {
-  const std::filesystem::path source(source_folder);
+  const std::filesystem::path source(record::source_folder);
   std::filesystem::path campaign = options.campaign;
   if (campaign.empty()) {
-    campaign = source / "datasets/campaigns" / (read_results(reference).campaign + ".toml");
+    campaign = source / "datasets/campaigns" / (stats::read_results(reference).campaign + ".toml");
   }
   if (!std::ifstream(campaign)) {
-    throw InputError(
+    throw base::InputError(
         campaign.string(), 0,
         "cannot be read; expected the reference's campaign (--campaign names another)");
   }
@@ -75,13 +77,13 @@ std::filesystem::path run_again(const std::filesystem::path& reference, const Op
   std::filesystem::remove(out / "raw.csv");  // a rest of an earlier check
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
              (out / "output.txt").string());
-  const int status = run_and_wait(
+  const int status = process::run_and_wait(
       "/proc/self/exe",
       {"--isa", std::string(to_string(isa())), "run", campaign.string(), "--out", out.string()},
       out / "output.txt");
   if (status != exit_done && status != exit_measured_wrong) {
-    throw InputError(fmt::format("the campaign ended with status {}; its output is in {}", status,
-                                 (out / "output.txt").string()));
+    throw base::InputError(fmt::format("the campaign ended with status {}; its output is in {}",
+                                       status, (out / "output.txt").string()));
   }
   return out;
 }
@@ -95,36 +97,38 @@ void print(const std::string& title, const std::vector<std::string>& lines) {
 
 int check(const std::filesystem::path& reference, const std::filesystem::path& results,
           const Options& options) {
-  const TableCheck found =
-      check_tables(reference, read_results(results), options.noisy ? Noise::kept : Noise::left_out);
+  const stats::TableCheck found =
+      stats::check_tables(reference, stats::read_results(results),
+                          options.noisy ? stats::Noise::kept : stats::Noise::left_out);
   print("FAIL: not the same to the digit", found.changed);
   print("Not looked at", found.left_out);
   for (std::size_t i = 0; i < found.cells.size();) {
-    const CheckedCell& first = found.cells[i];
-    TextTable table({"over " + first.baseline, "stated", "band", "here", "interval", ""});
+    const stats::CheckedCell& first = found.cells[i];
+    base::TextTable table({"over " + first.baseline, "stated", "band", "here", "interval", ""});
     for (; i < found.cells.size() && found.cells[i].key == first.key; ++i) {
-      const CheckedCell& cell = found.cells[i];
+      const stats::CheckedCell& cell = found.cells[i];
       table.add({cell.label, number(cell.stated),
                  number(cell.band_low) + " to " + number(cell.band_high), number(cell.ratio.median),
                  number(cell.ratio.low) + " to " + number(cell.ratio.high),
                  std::string(to_string(cell.state))});
     }
-    fmt::print("{}\n\n{}\n", first.key.words(), table.text(page_width()));
+    fmt::print("{}\n\n{}\n", first.key.words(), table.text(base::page_width()));
   }
-  const auto count = [&](Holds state) {
-    return std::ranges::count(found.cells, state, &CheckedCell::state);
+  const auto count = [&](stats::Holds state) {
+    return std::ranges::count(found.cells, state, &stats::CheckedCell::state);
   };
   fmt::print(
       "{} cells: {} pass, {} fail, {} undecided; {} answers changed, {} not looked at, {} faster "
       "than stated\n",
-      found.cells.size(), count(Holds::pass), count(Holds::fail), count(Holds::undecided),
-      found.changed.size(), found.left_out.size(), count(Holds::faster));
-  return count(Holds::fail) > 0 || !found.changed.empty() ? exit_measured_wrong : exit_done;
+      found.cells.size(), count(stats::Holds::pass), count(stats::Holds::fail),
+      count(stats::Holds::undecided), found.changed.size(), found.left_out.size(),
+      count(stats::Holds::faster));
+  return count(stats::Holds::fail) > 0 || !found.changed.empty() ? exit_measured_wrong : exit_done;
 }
 
 int tables(const Options& options) {
   if (!options.check && options.reference.empty() && !options.results.empty()) {
-    return write(read_results(options.results, origin_of),
+    return write(stats::read_results(options.results, origin_of),
                  options.out.empty() ? std::filesystem::is_directory(options.results)
                                            ? std::filesystem::path(options.results)
                                            : std::filesystem::path(options.results).parent_path()
@@ -132,12 +136,12 @@ int tables(const Options& options) {
                  options);
   }
   const std::filesystem::path reference =
-      options.reference.empty() ? std::filesystem::path(source_folder) / "results/reference"
+      options.reference.empty() ? std::filesystem::path(record::source_folder) / "results/reference"
                                 : std::filesystem::path(options.reference);
   if (!std::ifstream(reference / "ratios.csv")) {
-    throw InputError((reference / "ratios.csv").string(), 0,
-                     "cannot be read; expected a reference with tables (`touchstone tables "
-                     "REFERENCE` writes them)");
+    throw base::InputError((reference / "ratios.csv").string(), 0,
+                           "cannot be read; expected a reference with tables (`touchstone tables "
+                           "REFERENCE` writes them)");
   }
   const std::filesystem::path results = options.results.empty()
                                             ? run_again(reference, options)
@@ -187,4 +191,4 @@ void add_tables(Arguments command) {
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

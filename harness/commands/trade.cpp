@@ -14,11 +14,11 @@
 #include "harness/commands/commands.h"
 #include "harness/trade/trade_files.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 namespace {
 
 struct Options {
-  TradeRequest request;
+  trade::TradeRequest request;
   std::string scene, out, error;
   bool plain = false;
 };
@@ -28,7 +28,8 @@ void draw(const std::filesystem::path& folder) {
   switch (draw_figures("trade.py", {folder.string(), "--out", folder.string()}, log)) {
     case Drawing::drawn: fmt::print("{} and .svg, .pdf\n", (folder / "trade.png").string()); return;
     case Drawing::failed:
-      throw InputError(fmt::format("the figure could not be drawn; {} says why", log.string()));
+      throw base::InputError(
+          fmt::format("the figure could not be drawn; {} says why", log.string()));
     case Drawing::no_matplotlib:
       fmt::print(stderr,
                  "touchstone: without matplotlib (Debian: python3-matplotlib) there is no figure; "
@@ -43,19 +44,19 @@ std::filesystem::path trade_folder(const std::string& out, const std::string& na
   return results_folder(out, "trade-" + name);
 }
 
-int run_trade(TradeRequest request, const std::filesystem::path& folder, bool with_figure) {
-  TradeScene scene(request, representing());
+int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, bool with_figure) {
+  trade::TradeScene scene(request, representing());
   if (request.name.empty()) request.name = scene.scene.name;
-  const TradeResult result = measure_trade(
+  const trade::TradeResult result = trade::measure_trade(
       request, scene, folder, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
-  fmt::print("{}\n", front_text(result, request, page_width()));
+  fmt::print("{}\n", trade::front_text(result, request, base::page_width()));
   fmt::print("{}: points.csv, bins.csv, front.md, samples.csv; trade.toml measures it again\n",
              folder.string());
   if (with_figure) draw(folder);
   return exit_done;
 }
 
-void add_trade_axes(Arguments& command, TradeRequest& request) {
+void add_trade_axes(Arguments& command, trade::TradeRequest& request) {
   command.one_of("--task", request.task, task_choices(), "What is asked");
   add_threads(command, request.threads);
   command.number("--frames", request.overrides.frames, "Frames").positive();
@@ -65,14 +66,14 @@ void add_trade_axes(Arguments& command, TradeRequest& request) {
 
 void add_error_measure(Arguments& command, std::string& name) {
   command.text("--error", name, "What counts as the error of a configuration")
-      .among({error_measure_names.begin(), error_measure_names.end()});
+      .among({trade::error_measure_names.begin(), trade::error_measure_names.end()});
 }
 
-void take_measure(const std::string& name, TradeRequest& request) {
-  request.measure = default_measure(request.task);
-  const auto at = std::ranges::find(error_measure_names, name);
-  if (at != error_measure_names.end()) {
-    request.measure = static_cast<ErrorMeasure>(at - error_measure_names.begin());
+void take_measure(const std::string& name, trade::TradeRequest& request) {
+  request.measure = trade::default_measure(request.task);
+  const auto at = std::ranges::find(trade::error_measure_names, name);
+  if (at != trade::error_measure_names.end()) {
+    request.measure = static_cast<trade::ErrorMeasure>(at - trade::error_measure_names.begin());
   }
 }
 
@@ -86,7 +87,7 @@ void add_trade(Arguments command) {
   command.flag("--no-figure", options->plain, "Leave the figure out");
   add_trade_axes(command, options->request);
   command.job([options] {
-    TradeRequest& request = options->request;
+    trade::TradeRequest& request = options->request;
     request.scene = options->scene;
     request.name = request.scene.stem().string();
     take_measure(options->error, request);
@@ -99,9 +100,9 @@ void add_run_trade(Arguments command) {
   command.text("campaign", options->scene, "A file with a table [trade]").required();
   command.text("--out", options->out, "Folder (default: results/local/trade-NAME in the project)");
   command.job([options] {
-    const TradeRequest request = read_trade(options->scene);
+    const trade::TradeRequest request = trade::read_trade(options->scene);
     return run_trade(request, trade_folder(options->out, request.name), true);
   });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

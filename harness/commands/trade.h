@@ -8,22 +8,24 @@
 #include "harness/proxies/representation.h"
 #include "harness/trade/trade_request.h"
 
-namespace touchstone {
+namespace touchstone::commands {
 
 // The library's own representations.
-inline Representing representing() { return {represent, representation_error}; }
+inline trade::Representing representing() {
+  return {proxies::represent, proxies::representation_error};
+}
 
 // Returns `out`, or results/local/trade-NAME where it is empty.
 std::filesystem::path trade_folder(const std::string& out, const std::string& name);
 
 // Measures, writes, prints and draws. Returns the exit status.
-int run_trade(TradeRequest request, const std::filesystem::path& folder, bool with_figure);
+int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, bool with_figure);
 
 // Adds the options for the question, the scene and the time.
-void add_trade_axes(Arguments& command, TradeRequest& request);
+void add_trade_axes(Arguments& command, trade::TradeRequest& request);
 // Adds --error, whose value take_measure reads.
 void add_error_measure(Arguments& command, std::string& name);
 // Sets the measure of this name, or the task's own where it is empty.
-void take_measure(const std::string& name, TradeRequest& request);
+void take_measure(const std::string& name, trade::TradeRequest& request);
 
-}  // namespace touchstone
+}  // namespace touchstone::commands

@@ -12,7 +12,7 @@
 
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::draw {
 namespace {
 
 constexpr int samples = 2;  // per pixel and direction
@@ -165,13 +165,13 @@ void Canvas::write_png(const std::filesystem::path& file) const {
   std::error_code error;
   if (png_image_write_to_file(&image, temporary.c_str(), 0, pixels.data(), 0, nullptr) == 0) {
     std::filesystem::remove(temporary, error);
-    throw InputError(file.string(), 0, std::string("cannot be written: ") + image.message);
+    throw base::InputError(file.string(), 0, std::string("cannot be written: ") + image.message);
   }
   std::filesystem::rename(temporary, file, error);
   if (error) {
     std::filesystem::remove(temporary);
-    throw InputError(file.string(), 0, "cannot be written: " + error.message());
+    throw base::InputError(file.string(), 0, "cannot be written: " + error.message());
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::draw

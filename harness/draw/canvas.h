@@ -9,7 +9,7 @@
 
 #include "algorithms/core/vec.h"
 
-namespace touchstone {
+namespace touchstone::draw {
 
 struct Colour {
   std::uint8_t red, green, blue;
@@ -56,4 +56,4 @@ class Canvas {
   std::uint32_t body_ = 0;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::draw

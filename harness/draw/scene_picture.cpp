@@ -7,7 +7,7 @@
 
 #include "harness/geometry/tessellation.h"
 
-namespace touchstone {
+namespace touchstone::draw {
 namespace {
 
 constexpr int polytope_level = 2;
@@ -74,7 +74,7 @@ void draw_halfspace(Canvas& canvas, const Shape& shape, const Pose& pose, const 
 
 }  // namespace
 
-void draw_scene(Canvas& canvas, const Scene& scene, std::span<const Pose> poses,
+void draw_scene(Canvas& canvas, const scene::Scene& scene, std::span<const Pose> poses,
                 std::span<const Aabb> boxes, std::span<const BodyState> states) {
   const auto bounded = [&](std::size_t i) {
     return poses.empty() || scene.shapes[scene.bodies[i].shape].kind != ShapeKind::halfspace;
@@ -95,7 +95,7 @@ void draw_scene(Canvas& canvas, const Scene& scene, std::span<const Pose> poses,
 
   std::vector<Shape> drawn = scene.shapes;
   for (Shape& shape : drawn) {
-    if (shape.kind != ShapeKind::halfspace) shape = as_polytope(shape, polytope_level);
+    if (shape.kind != ShapeKind::halfspace) shape = geometry::as_polytope(shape, polytope_level);
   }
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Colour colour = colour_of(states[i]);
@@ -114,4 +114,4 @@ void draw_scene(Canvas& canvas, const Scene& scene, std::span<const Pose> poses,
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::draw

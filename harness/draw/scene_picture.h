@@ -9,7 +9,7 @@
 #include "harness/draw/canvas.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::draw {
 
 // The state of a body after both phases.
 enum class BodyState : std::uint8_t {
@@ -21,7 +21,7 @@ enum class BodyState : std::uint8_t {
 // Colours bodies by their state: apart red, possible green, overlapping blue. Curved shapes are
 // drawn as polytopes, a half-space as its face near the other bodies. A recording has no bodies:
 // `poses` is empty and the boxes are drawn.
-void draw_scene(Canvas& canvas, const Scene& scene, std::span<const Pose> poses,
+void draw_scene(Canvas& canvas, const scene::Scene& scene, std::span<const Pose> poses,
                 std::span<const Aabb> boxes, std::span<const BodyState> states);
 
-}  // namespace touchstone
+}  // namespace touchstone::draw

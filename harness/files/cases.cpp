@@ -3,7 +3,7 @@
 
 #include "harness/files/shape_json.h"
 
-namespace touchstone {
+namespace touchstone::files {
 namespace {
 
 Case read_case(const JsonNode& node) {
@@ -31,4 +31,4 @@ std::string to_json(const Case& c) {
   return out.dump();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::files

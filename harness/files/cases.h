@@ -8,7 +8,7 @@
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 
-namespace touchstone {
+namespace touchstone::files {
 
 struct Case {
   std::string id;
@@ -27,4 +27,4 @@ std::vector<Case> read_cases(const std::filesystem::path& file);
 // as matrices.
 std::string to_json(const Case& c);
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -12,7 +12,7 @@
 
 #include "harness/files/shape_json.h"
 
-namespace touchstone {
+namespace touchstone::files {
 namespace {
 
 using oracle::Certificate;
@@ -244,4 +244,4 @@ void read_certificates(
                      [&](const JsonNode& line) { each(read_certificate(line), line.line()); });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -20,7 +20,7 @@
 #include "algorithms/core/shape.h"
 #include "algorithms/oracle/certificates/certificate.h"
 
-namespace touchstone {
+namespace touchstone::files {
 
 struct StoredCertificate {
   std::string id;
@@ -44,4 +44,4 @@ void read_certificates(
     const std::filesystem::path& file,
     const std::function<void(const StoredCertificate& certificate, std::int64_t line)>& each);
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -22,7 +22,7 @@
 
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::files {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
@@ -83,7 +83,7 @@ struct Parser {
 void for_each_row(const std::string& file,
                   const std::function<void(std::int64_t, std::span<const std::string>)>& row) {
   const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rbe"));
-  if (!stream) throw InputError(file, 0, std::strerror(errno));
+  if (!stream) throw base::InputError(file, 0, std::strerror(errno));
   Parser parser;
   Fields fields;
   Line line;
@@ -91,7 +91,8 @@ void for_each_row(const std::string& file,
   std::int64_t start = 0;  // first line of the open row; 0: no row is open
   const auto end_of_row = [&] {
     if (fields.rows > 1) {
-      throw InputError(file, number, "a carriage return inside the line; expected LF or CRLF ends");
+      throw base::InputError(file, number,
+                             "a carriage return inside the line; expected LF or CRLF ends");
     }
     row(start, {fields.text.data(), fields.count});
     fields.count = 0;
@@ -104,7 +105,7 @@ void for_each_row(const std::string& file,
     std::string_view text(line.data, static_cast<std::size_t>(got));
     if (number == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(3);
     if (text.find('\0') != std::string_view::npos) {
-      throw InputError(file, number, "a NUL byte; expected text");
+      throw base::InputError(file, number, "a NUL byte; expected text");
     }
     if (start == 0) {
       if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) continue;
@@ -113,23 +114,24 @@ void for_each_row(const std::string& file,
     if (csv_parse(&parser.state, text.data(), text.size(), &Fields::on_field, &Fields::on_row,
                   &fields) != text.size()) {
       if (csv_error(&parser.state) == CSV_ENOMEM) throw std::bad_alloc();
-      throw InputError(file, number,
-                       "a quotation mark out of place; expected it around a whole field, and "
-                       "doubled inside one");
+      throw base::InputError(file, number,
+                             "a quotation mark out of place; expected it around a whole field, and "
+                             "doubled inside one");
     }
     if (fields.rows > 0) end_of_row();
   }
-  if (std::ferror(stream.get()) != 0) throw InputError(file, 0, std::strerror(errno));
+  if (std::ferror(stream.get()) != 0) throw base::InputError(file, 0, std::strerror(errno));
   if (start != 0) {
     if (csv_fini(&parser.state, &Fields::on_field, &Fields::on_row, &fields) != 0) {
-      throw InputError(file, start, "a quoted field that does not end");
+      throw base::InputError(file, start, "a quoted field that does not end");
     }
     end_of_row();
   }
 }
 
 [[noreturn]] void write_failed(const std::filesystem::path& file, int error) {
-  throw InputError(file.string(), 0, fmt::format("cannot be written: {}", std::strerror(error)));
+  throw base::InputError(file.string(), 0,
+                         fmt::format("cannot be written: {}", std::strerror(error)));
 }
 
 bool is_device(const std::filesystem::path& file) {
@@ -150,7 +152,7 @@ std::int64_t CsvReader::Row::integer(std::size_t column) const {
 }
 
 void CsvReader::Row::fail(const std::string& message) const {
-  throw InputError(reader_->file_.string(), line_, message);
+  throw base::InputError(reader_->file_.string(), line_, message);
 }
 
 CsvReader::CsvReader(std::filesystem::path file, std::vector<std::string> columns,
@@ -190,12 +192,13 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
           place.push_back(nowhere);
           continue;
         }
-        throw InputError(file, line,
-                         fmt::format("no column '{}'; expected a header line with the columns {}",
-                                     column, fmt::join(required(), ",")));
+        throw base::InputError(
+            file, line,
+            fmt::format("no column '{}'; expected a header line with the columns {}", column,
+                        fmt::join(required(), ",")));
       }
       if (std::find(at + 1, header.end(), column) != header.end()) {
-        throw InputError(file, line, fmt::format("column '{}' comes twice", column));
+        throw base::InputError(file, line, fmt::format("column '{}' comes twice", column));
       }
       place.push_back(static_cast<std::size_t>(at - header.begin()));
     }
@@ -203,7 +206,7 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
   for_each_row(file, [&](std::int64_t line, std::span<const std::string> fields) {
     if (width == 0) return read_header(line, fields);
     if (fields.size() != width) {
-      throw InputError(
+      throw base::InputError(
           file, line,
           fmt::format("{} fields; expected {}, as in the header", fields.size(), width));
     }
@@ -214,9 +217,9 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
     row(current);
   });
   if (width == 0) {
-    throw InputError(file, 1,
-                     fmt::format("an empty file; expected a header line with the columns {}",
-                                 fmt::join(required(), ",")));
+    throw base::InputError(file, 1,
+                           fmt::format("an empty file; expected a header line with the columns {}",
+                                       fmt::join(required(), ",")));
   }
 }
 
@@ -242,7 +245,7 @@ void check_output(const std::filesystem::path& file) {
 
 CsvWriter::CsvWriter(std::filesystem::path file, const std::vector<std::string>& header, Keep keep)
     : file_(std::move(file)), columns_(header.size()) {
-  if (file_.empty()) throw InputError("the output's name is empty; expected a file");
+  if (file_.empty()) throw base::InputError("the output's name is empty; expected a file");
   std::error_code ignored;
   if (std::filesystem::is_directory(file_, ignored)) write_failed(file_, EISDIR);
   int descriptor = -1;
@@ -350,4 +353,4 @@ void CsvWriter::close(Durable durable) {
   temporary_.clear();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::files

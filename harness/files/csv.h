@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::files {
 
 // Reads a CSV file (RFC 4180) with a header line, through libcsv. Throws InputError with file and
 // line.
@@ -106,4 +106,4 @@ class CsvWriter {
   off_t flushed_ = -1;  // bytes that a failure leaves; -1: no file
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace touchstone {
+namespace touchstone::files {
 namespace {
 
 Json parse_line(const std::string& file, std::int64_t number, std::string_view text) {
@@ -17,7 +17,7 @@ Json parse_line(const std::string& file, std::int64_t number, std::string_view t
     std::string message = error.what();
     if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
     if (message.starts_with("parse error at line 1, ")) message.erase(0, 23);
-    throw InputError(file, number, "malformed JSON: " + message);
+    throw base::InputError(file, number, "malformed JSON: " + message);
   }
 }
 
@@ -28,12 +28,12 @@ void for_each_json_line(const std::filesystem::path& path, std::string_view what
   const std::string file = path.string();
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(
+    throw base::InputError(
         file, 0, fmt::format("a directory; expected a file of {}s, one JSON object a line", what));
   }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(file, 0, std::strerror(errno));
+  if (!stream) throw base::InputError(file, 0, std::strerror(errno));
   bool any = false;
   std::string line;
   for (std::int64_t number = 1; std::getline(stream, line); ++number) {
@@ -44,10 +44,10 @@ void for_each_json_line(const std::filesystem::path& path, std::string_view what
     any = true;
     each(JsonNode(file, number, value));
   }
-  if (stream.bad()) throw InputError(file, 0, std::strerror(errno));
+  if (stream.bad()) throw base::InputError(file, 0, std::strerror(errno));
   if (!any) {
-    throw InputError(file, 1, fmt::format("no {}; expected one JSON object a line", what));
+    throw base::InputError(file, 1, fmt::format("no {}; expected one JSON object a line", what));
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::files

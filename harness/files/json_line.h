@@ -14,7 +14,7 @@
 #include "algorithms/core/vec.h"
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::files {
 
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
@@ -29,7 +29,7 @@ class JsonNode {
 
   [[noreturn]] void fail(const std::string& message) const {
     const std::string way = path();
-    throw InputError(file_, line_, way.empty() ? message : way + ": " + message);
+    throw base::InputError(file_, line_, way.empty() ? message : way + ": " + message);
   }
 
   std::int64_t line() const { return line_; }
@@ -118,4 +118,4 @@ class JsonNode {
 void for_each_json_line(const std::filesystem::path& file, std::string_view what,
                         const std::function<void(const JsonNode&)>& each);
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -7,7 +7,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 
-namespace touchstone {
+namespace touchstone::files {
 namespace {
 
 constexpr std::string_view axis_names[] = {"x", "y", "z"};
@@ -158,4 +158,4 @@ OrderedJson body_to_json(const Shape& shape, const Pose& pose) {
   return body;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::files

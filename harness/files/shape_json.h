@@ -5,7 +5,7 @@
 #include "algorithms/core/shape.h"
 #include "harness/files/json_line.h"
 
-namespace touchstone {
+namespace touchstone::files {
 
 // Throws InputError as described at read_cases. An axis other than z becomes z by a permutation of
 // the rotation's columns.
@@ -16,4 +16,4 @@ int read_axis(const JsonNode& shape);
 
 OrderedJson body_to_json(const Shape& shape, const Pose& pose);
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <sstream>
 
-namespace touchstone {
+namespace touchstone::files {
 namespace {
 
 std::int64_t line_of(const toml::node& node) {
@@ -40,13 +40,13 @@ toml::table parse_toml(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream content;
   if (!std::filesystem::is_regular_file(path) || !(content << stream.rdbuf())) {
-    throw InputError(file, 0, "cannot be read; expected a TOML file");
+    throw base::InputError(file, 0, "cannot be read; expected a TOML file");
   }
   try {
     return toml::parse(content.str(), file);
   } catch (const toml::parse_error& error) {
-    throw InputError(file, static_cast<std::int64_t>(error.source().begin.line),
-                     std::string(error.description()) + "; expected TOML");
+    throw base::InputError(file, static_cast<std::int64_t>(error.source().begin.line),
+                           std::string(error.description()) + "; expected TOML");
   }
 }
 
@@ -57,7 +57,7 @@ bool has_key(const std::filesystem::path& file, std::string_view key) {
 void TomlTable::fail_at(const toml::node& node, std::string_view key,
                         const std::string& message) const {
   const std::string place = where_.empty() ? std::string(key) : fmt::format("{}: {}", where_, key);
-  throw InputError(file_, line_of(node), place + ": " + message);
+  throw base::InputError(file_, line_of(node), place + ": " + message);
 }
 
 std::int64_t TomlTable::line() const { return line_of(*table_); }
@@ -241,9 +241,9 @@ void TomlTable::finish() const {
   }
   if (unknown == nullptr) return;
   const std::string place = where_.empty() ? "" : where_ + ": ";
-  throw InputError(file_, static_cast<std::int64_t>(unknown->source().begin.line),
-                   fmt::format("{}unknown key {}; expected one of {}", place, unknown->str(),
-                               fmt::join(known_, ", ")));
+  throw base::InputError(file_, static_cast<std::int64_t>(unknown->source().begin.line),
+                         fmt::format("{}unknown key {}; expected one of {}", place, unknown->str(),
+                                     fmt::join(known_, ", ")));
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -16,7 +16,7 @@
 #include "algorithms/core/vec.h"
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::files {
 
 // The range of a number, both ends included; NaN and infinity are never allowed.
 struct Limits {
@@ -93,4 +93,4 @@ class TomlTable {
   std::set<std::string, std::less<>> known_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::files

@@ -5,7 +5,7 @@
 #include <bit>
 #include <optional>
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 // The least ball with all of the points on its surface; empty if they are affinely dependent.
@@ -64,4 +64,4 @@ Ball least_ball(std::span<const Vec3d> points) {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -6,7 +6,7 @@
 
 #include "algorithms/core/vec.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 struct Ball {
   Vec3d centre = Vec3d::Zero();
@@ -18,4 +18,4 @@ struct Ball {
 // and robust smallest enclosing balls", ESA 1999). The small problem is solved over all subsets.
 Ball least_ball(std::span<const Vec3d> points);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

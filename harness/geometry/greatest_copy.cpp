@@ -7,7 +7,7 @@
 
 #include "harness/base/random.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 // The constraint a . x <= b.
@@ -84,7 +84,7 @@ bool maximise(std::span<const Row<D>> rows, const std::array<double, D>& c, doub
 
 template <class T>
 void shuffle(std::vector<T>& rows) {
-  Random random(1);
+  base::Random random(1);
   for (std::size_t i = rows.size(); i > 1; --i) std::swap(rows[i - 1], rows[random.below(i)]);
 }
 
@@ -117,4 +117,4 @@ double least_maximum(std::span<const Vec3d> a) {
   return x[2] * greatest;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -7,7 +7,7 @@
 
 #include "harness/geometry/polyhedron.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 struct Copy {
   Vec3d centre = Vec3d::Zero();
@@ -27,4 +27,4 @@ Copy greatest_copy(std::span<const Plane> planes,
 // i.
 double least_maximum(std::span<const Vec3d> a);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

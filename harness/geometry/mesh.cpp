@@ -10,7 +10,7 @@
 
 #include "harness/geometry/mesh_format.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
@@ -112,18 +112,19 @@ Mesh read_mesh(const std::filesystem::path& file) {
                       : ending == ".ply" ? read_ply
                                          : nullptr;
   if (reader == nullptr) {
-    throw InputError(file.string(), 0, "unknown mesh format; expected .obj, .off, .stl or .ply");
+    throw base::InputError(file.string(), 0,
+                           "unknown mesh format; expected .obj, .off, .stl or .ply");
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file)) {
-    throw InputError(file.string(), 0, "cannot be read; expected a mesh file");
+    throw base::InputError(file.string(), 0, "cannot be read; expected a mesh file");
   }
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   Mesh mesh = reader(file.string(), text);
   if (mesh.vertices.empty()) {
-    throw InputError(file.string(), 0, "the mesh has no vertices; expected at least one");
+    throw base::InputError(file.string(), 0, "the mesh has no vertices; expected at least one");
   }
   return mesh;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

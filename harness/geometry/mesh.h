@@ -8,7 +8,7 @@
 
 #include "algorithms/core/vec.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 struct Mesh {
   std::vector<Vec3d> vertices;                          // in the file's units
@@ -21,4 +21,4 @@ struct Mesh {
 // that ends early, and a mesh without vertices. Normals, colours, texture and material are ignored.
 Mesh read_mesh(const std::filesystem::path& file);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

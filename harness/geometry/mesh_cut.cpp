@@ -10,7 +10,7 @@
 
 #include "harness/geometry/mesh_mass.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 // One side of a cut, which is closed at the end.
@@ -108,4 +108,4 @@ std::vector<Mesh> cut(const Mesh& mesh, Plane plane) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -6,7 +6,7 @@
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/polyhedron.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 // Returns the connected pieces on both sides of the plane, or none if the plane does not cut the
 // mesh. The plane is moved by a few millionths of the mesh's size if it would touch a vertex.
@@ -18,4 +18,4 @@ namespace touchstone {
 // convex may extend over it, and cancel; volumes are exact.
 std::vector<Mesh> cut(const Mesh& mesh, Plane plane);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -9,7 +9,7 @@
 #include "harness/base/error.h"
 #include "harness/geometry/mesh.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 // The readers, one per format. `text` is the whole file, `file` its name for errors. The result has
 // finite vertices and indices in range; read_mesh rejects it if it has no vertex.
@@ -43,7 +43,7 @@ class TextCursor {
 
   std::int64_t line() const { return line_number_; }
   [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(file_, line_number_, message);
+    throw base::InputError(file_, line_number_, message);
   }
 
  private:
@@ -55,4 +55,4 @@ class TextCursor {
 // Splits a polygon into triangles around its first corner.
 void add_fan(Mesh& mesh, std::span<const std::uint32_t> polygon);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -8,7 +8,7 @@
 
 #include "harness/base/reproducible_math.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 Vec3d cross(const Vec3d& a, const Vec3d& b) {
@@ -35,7 +35,7 @@ Vec3d centre_of_mass(const Mesh& mesh) {
   for (const auto& [i, j, k] : mesh.triangles) {
     const Vec3d a = v[i] - v.front(), b = v[j] - v.front(), c = v[k] - v.front();
     const double six_volumes = dot(a, cross(b, c));
-    const double two_areas = length(cross(b - a, c - a));
+    const double two_areas = base::length(cross(b - a, c - a));
     volume += six_volumes;
     size += std::abs(six_volumes);
     volume_moment += six_volumes / 4 * (a + b + c);
@@ -88,4 +88,4 @@ std::vector<Mesh> connected_parts(const Mesh& mesh) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -5,7 +5,7 @@
 
 #include "harness/geometry/mesh.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 // The centre of mass (in the mesh's units) of the solid that a closed mesh bounds. If the mesh is
 // open or encloses no volume, so that the centre would be outside the mesh's box, it is that of its
@@ -16,4 +16,4 @@ Vec3d centre_of_mass(const Mesh& mesh);
 // each with the vertices that it uses. Vertices without triangles are dropped.
 std::vector<Mesh> connected_parts(const Mesh& mesh);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

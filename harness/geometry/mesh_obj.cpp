@@ -1,7 +1,7 @@
 // Reads Wavefront OBJ: the v and f lines; other lines are ignored.
 #include "harness/geometry/mesh_format.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 Mesh read_obj(const std::string& file, std::string_view text) {
   Mesh mesh;
@@ -37,11 +37,11 @@ Mesh read_obj(const std::string& file, std::string_view text) {
     }
   }
   if (highest > static_cast<std::int64_t>(mesh.vertices.size())) {
-    throw InputError(file, highest_line,
-                     "vertex index " + std::to_string(highest) + " out of range; there are " +
-                         std::to_string(mesh.vertices.size()) + " vertices");
+    throw base::InputError(file, highest_line,
+                           "vertex index " + std::to_string(highest) + " out of range; there are " +
+                               std::to_string(mesh.vertices.size()) + " vertices");
   }
   return mesh;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

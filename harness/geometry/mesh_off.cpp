@@ -2,7 +2,7 @@
 // colours or texture coordinates are accepted, and their data ignored.
 #include "harness/geometry/mesh_format.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 bool is_header(std::string_view token) {
@@ -62,4 +62,4 @@ Mesh read_off(const std::string& file, std::string_view text) {
   return mesh;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -8,7 +8,7 @@
 
 #include "harness/geometry/mesh_format.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 enum class Encoding { text, little_endian, big_endian };
@@ -135,7 +135,7 @@ class Body {
   }
   [[noreturn]] void fail(const std::string& message) const {
     if (encoding_ == Encoding::text) cursor_.fail(message);
-    throw InputError(file_, 0, message + ", before byte " + std::to_string(at_));
+    throw base::InputError(file_, 0, message + ", before byte " + std::to_string(at_));
   }
 
  private:
@@ -226,4 +226,4 @@ Mesh read_ply(const std::string& file, std::string_view text) {
   return mesh;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

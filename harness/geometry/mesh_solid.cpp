@@ -10,7 +10,7 @@
 
 #include "harness/geometry/mesh_mass.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 Mesh welded(const Mesh& mesh) {
@@ -155,4 +155,4 @@ std::vector<SurfacePoint> spread_points(const std::vector<Triangle>& surface, st
   return points;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

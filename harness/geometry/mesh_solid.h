@@ -6,7 +6,7 @@
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/polyhedron.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 // A part is a set of triangles connected by edges. It is closed if every edge is used as often in
 // one direction as in the other; its solid is the set of points with a nonzero winding number. In
@@ -51,4 +51,4 @@ struct SurfacePoint {
 // deterministic.
 std::vector<SurfacePoint> spread_points(const std::vector<Triangle>& surface, std::size_t count);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

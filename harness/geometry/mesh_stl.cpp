@@ -6,7 +6,7 @@
 
 #include "harness/geometry/mesh_format.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 class Welder {
@@ -39,7 +39,7 @@ std::size_t size_in_header(std::string_view bytes) {
 
 Mesh read_binary(const std::string& file, std::string_view bytes) {
   if (bytes.size() < header_size || bytes.size() < size_in_header(bytes)) {
-    throw InputError(
+    throw base::InputError(
         file, 0,
         "the file ends early at byte " + std::to_string(bytes.size()) +
             "; expected a text STL ('solid ...') or a binary one of " +
@@ -56,7 +56,7 @@ Mesh read_binary(const std::string& file, std::string_view bytes) {
       for (int k = 0; k < 3; ++k) {
         p[k] = std::bit_cast<float>(little_endian(bytes, at + 4 * static_cast<std::size_t>(k)));
         if (!std::isfinite(p[k])) {
-          throw InputError(
+          throw base::InputError(
               file, 0, "expected finite coordinates in the vertex at byte " + std::to_string(at));
         }
       }
@@ -113,4 +113,4 @@ Mesh read_stl(const std::string& file, std::string_view text) {
   return is_text ? read_text(file, text) : read_binary(file, text);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

@@ -9,7 +9,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 // Sorts points by their angle around their mean, seen from the normal's tip.
@@ -184,4 +184,4 @@ double volume_of(std::span<const Triangle> triangles) {
   return six / 6;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

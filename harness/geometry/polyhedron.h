@@ -6,7 +6,7 @@
 
 #include "algorithms/core/shape.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 struct Plane {
   Vec3d normal = Vec3d::UnitX();  // any nonzero length
@@ -44,4 +44,4 @@ struct Triangle {
 std::vector<Triangle> triangles_of(const Hull& hull);
 double volume_of(std::span<const Triangle> triangles);  // metres cubed, for a closed surface
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

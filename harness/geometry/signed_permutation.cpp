@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 Mat3d SignedPermutation::operator()(const Mat3d& m) const {
   Mat3d result;
@@ -48,4 +48,4 @@ std::span<const SignedPermutation> signed_permutations() {
   return all;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

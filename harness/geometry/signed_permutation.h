@@ -8,7 +8,7 @@
 
 #include "algorithms/core/vec.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 struct SignedPermutation {
   std::array<int, 3> from = {0, 1, 2};     // component i of the image is that of axis from[i],
@@ -32,4 +32,4 @@ struct SignedPermutation {
 // All permutations of determinant 1; the identity is first.
 std::span<const SignedPermutation> signed_permutations();
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

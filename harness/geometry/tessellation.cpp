@@ -11,13 +11,13 @@
 #include "harness/base/error.h"
 #include "harness/base/reproducible_math.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 namespace {
 
 // The functions below use only +, *, / and square roots, which round equally everywhere; sines do
 // not.
 
-Vec3d on_unit_sphere(const Vec3d& v) { return v / length(v); }
+Vec3d on_unit_sphere(const Vec3d& v) { return v / base::length(v); }
 
 // Vertices on the unit sphere of an icosahedron whose triangles are split in four `level` times.
 std::vector<Vec3d> icosphere(int level) {
@@ -137,14 +137,14 @@ std::vector<Vec3d> surface_points(const Shape& shape, int level) {
     case ShapeKind::hull: return shape.hull->vertices;
     case ShapeKind::halfspace: break;
   }
-  throw InputError("a half-space has no polytope; expected a bounded shape");
+  throw base::InputError("a half-space has no polytope; expected a bounded shape");
 }
 
 }  // namespace
 
 Shape as_polytope(const Shape& shape, int level) {
   if (level < 0 || level > 5) {
-    throw InputError("polytope level " + std::to_string(level) + "; expected 0 to 5");
+    throw base::InputError("polytope level " + std::to_string(level) + "; expected 0 to 5");
   }
   if (shape.kind == ShapeKind::hull) return shape;
   Shape polytope;
@@ -153,4 +153,4 @@ Shape as_polytope(const Shape& shape, int level) {
   return polytope;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

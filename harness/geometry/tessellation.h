@@ -3,7 +3,7 @@
 
 #include "algorithms/core/shape.h"
 
-namespace touchstone {
+namespace touchstone::geometry {
 
 // Returns a hull that approximates a sphere, capsule, cylinder, cone, ellipsoid or box (metres,
 // same frame). Its vertices lie on the shape's surface, so it is inside the shape. A box has 8
@@ -14,4 +14,4 @@ namespace touchstone {
 // InputError for a level outside 0 to 5 and for a half-space.
 Shape as_polytope(const Shape& shape, int level);
 
-}  // namespace touchstone
+}  // namespace touchstone::geometry

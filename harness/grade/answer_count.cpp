@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::grade {
 
 void keep_greater(double& worst, double value) {
   if (std::isnan(worst) || value > worst) worst = std::isnan(value) ? worst : value;
@@ -86,4 +86,4 @@ void AnswerCount::add(const AnswerCount& other) {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

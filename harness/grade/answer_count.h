@@ -5,7 +5,7 @@
 
 #include "harness/grade/graded_answer.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // Answers of one algorithm in one scalar, over all tasks. Errors are parts of the scale
 // (GradedAnswer::scale), the greatest of each; NaN where there is none.
@@ -41,4 +41,4 @@ struct AnswerCount {
 // Keeps the greater of the two; a number that is not known (NaN) does not count.
 void keep_greater(double& worst, double value);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

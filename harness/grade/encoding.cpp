@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 double rounded(double x) { return static_cast<double>(static_cast<float>(x)); }
@@ -75,7 +75,7 @@ struct EncodedPair::Parts {
   Pose pose_a, pose_b;
   std::optional<std::array<double, 4>> quaternion_a, quaternion_b;
 
-  Parts(const Case& c, Encoding encoding)
+  Parts(const files::Case& c, Encoding encoding)
       : shape_a(c.shape_a), shape_b(c.shape_b), pose_a(c.pose_a), pose_b(c.pose_b) {
     switch (encoding) {
       case Encoding::as_given: break;
@@ -114,13 +114,14 @@ struct EncodedPair::Parts {
   }
 };
 
-EncodedPair::EncodedPair(const Case& c, Encoding encoding) : EncodedPair(Parts(c, encoding)) {}
+EncodedPair::EncodedPair(const files::Case& c, Encoding encoding)
+    : EncodedPair(Parts(c, encoding)) {}
 
 EncodedPair::EncodedPair(const Parts& parts)
     : solid_a_(parts.shape_a),
       solid_b_(parts.shape_b),
       a_(make_body(solid_a_, parts.pose_a, parts.quaternion_a)),
       b_(make_body(solid_b_, parts.pose_b, parts.quaternion_b)),
-      finite_(touchstone::is_finite(a_) && touchstone::is_finite(b_)) {}
+      finite_(touchstone::grade::is_finite(a_) && touchstone::grade::is_finite(b_)) {}
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -5,14 +5,14 @@
 #include "algorithms/oracle/solid.h"
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // The pair's signed distance is that of what an algorithm of this encoding is given; its place in
 // the world is the case's but for the relative ones, which have the first body's centre at the
 // origin.
 class EncodedPair {
  public:
-  EncodedPair(const Case& c, Encoding encoding);
+  EncodedPair(const files::Case& c, Encoding encoding);
   EncodedPair(const EncodedPair&) = delete;  // the bodies know the place of their solids
   EncodedPair& operator=(const EncodedPair&) = delete;
 
@@ -30,4 +30,4 @@ class EncodedPair {
   bool finite_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 constexpr std::array<std::string_view, 7> verdict_names = {
@@ -143,4 +143,4 @@ WitnessGrade grade_witnesses(const Outcome& outcome, Task task, const oracle::Bo
   return grade;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -7,7 +7,7 @@
 #include "algorithms/core/outcome.h"
 #include "algorithms/oracle/oracle.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // What an answer is worth by its side of contact.
 enum class Verdict : std::uint8_t {
@@ -79,4 +79,4 @@ bool asks_for_distance(Task task, Answer answer);
 // Of the end of an enclosure that is nearer to zero; 0 where it holds zero.
 double least_magnitude(double lower, double upper);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

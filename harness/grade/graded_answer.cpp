@@ -6,12 +6,12 @@
 #include "harness/grade/pair_size.h"
 #include "harness/grade/wrong.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 // The greatest of the numbers that a distance is the difference of, in metres: a hull and a
 // half-space may lie away from their own origins, and a half-space has no centre to be near.
-double greatest_coordinate(const Case& c) {
+double greatest_coordinate(const files::Case& c) {
   double greatest = 0;
   for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
     if (shape->kind == ShapeKind::hull) {
@@ -68,4 +68,4 @@ GradedAnswer grade_answer(const NarrowPhaseEntry& algorithm, bool extreme, const
   return answer;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

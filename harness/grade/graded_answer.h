@@ -7,7 +7,7 @@
 #include "harness/grade/grade.h"
 #include "harness/grade/true_case.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // A row of grades.csv. Regime and algorithm are places in the lists of what is checked.
 struct GradedAnswer {
@@ -45,4 +45,4 @@ inline Query query_of(const GradedAnswer& answer) {
 GradedAnswer grade_answer(const NarrowPhaseEntry& algorithm, bool extreme, const Query& query,
                           TrueCase& c, const Outcome& outcome);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace touchstone {
+namespace touchstone::grade {
 
 Margins documented_margins(Precision scalar, bool extreme) {
   if (scalar == Precision::float32) return {.verdict = extreme ? 1e-4 : 1e-5, .length = 1e-4};
@@ -16,4 +16,4 @@ double grazing_band(double size, double reach, Precision scalar) {
   return (single ? 1e-4 : 1e-6) * size + 8 * epsilon * reach;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

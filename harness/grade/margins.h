@@ -25,7 +25,7 @@
 
 #include "algorithms/core/outcome.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 struct Margins {
   double verdict;  // and certified bounds
@@ -37,4 +37,4 @@ Margins documented_margins(Precision scalar, bool extreme);
 // The width of the grazing band, metres, of a pair of this size and greatest coordinate, metres.
 double grazing_band(double size, double reach, Precision scalar);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -7,7 +7,7 @@
 #include "harness/grade/grade.h"
 #include "harness/grade/margins.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 // The greatest extent and coordinate of a body, from its box; a half-space has none of its own.
@@ -113,4 +113,4 @@ std::vector<ReferenceOutcome> Reference::solve(const PairGroup& group,
   return reference;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

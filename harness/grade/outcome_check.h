@@ -13,7 +13,7 @@
 #include "algorithms/oracle/oracle.h"
 #include "harness/grade/pair_groups.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // The exact answer for a pair; unknown where the oracle's enclosure holds zero.
 struct ReferenceOutcome {
@@ -63,4 +63,4 @@ class Reference {
   std::vector<oracle::Oracle> oracles_;  // one a worker
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace touchstone {
+namespace touchstone::grade {
 
 PairFaults check_pairs(std::vector<IndexPair>& found, std::span<const IndexPair> truth,
                        std::span<const Aabb> before) {
@@ -55,4 +55,4 @@ std::string to_string(const PairFaults& faults) {
   return text;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -10,7 +10,7 @@
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/pair_sink.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // How a found set of pairs departs from the true one, each kind counted apart.
 struct PairFaults {
@@ -31,4 +31,4 @@ PairFaults check_pairs(std::vector<IndexPair>& found, std::span<const IndexPair>
 // "3 missing, 1 duplicate (first: 17-203)"
 std::string to_string(const PairFaults& faults);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

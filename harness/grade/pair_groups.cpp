@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::grade {
 
 std::string PairGroup::name() const {
   return fmt::format("{}-{}", to_string(kind_a), to_string(kind_b));
@@ -56,4 +56,4 @@ std::vector<PairGroup> group_by_kind(std::span<const IndexPair> pairs,
   return groups;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

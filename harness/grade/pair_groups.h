@@ -11,7 +11,7 @@
 #include "algorithms/core/shape.h"
 #include "algorithms/narrow_phase.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // Pairs of one kind pair, kind_a <= kind_b. Body first[i] has kind_a; it need not have the smaller
 // index.
@@ -51,4 +51,4 @@ std::vector<PairGroup> group_by_kind(std::span<const IndexPair> pairs,
                                      std::span<const Shape> shapes,
                                      std::span<const std::uint32_t> shape_of);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

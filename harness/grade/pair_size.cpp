@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace touchstone {
+namespace touchstone::grade {
 
 double shape_size(const Shape& shape) {
   switch (shape.kind) {
@@ -25,6 +25,8 @@ double shape_size(const Shape& shape) {
   return 0;
 }
 
-double pair_size(const Case& c) { return std::max(shape_size(c.shape_a), shape_size(c.shape_b)); }
+double pair_size(const files::Case& c) {
+  return std::max(shape_size(c.shape_a), shape_size(c.shape_b));
+}
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

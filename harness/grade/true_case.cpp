@@ -3,9 +3,9 @@
 #include <limits>
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::grade {
 
-TrueCase::Truth::Truth(const Case& c, Encoding encoding, oracle::Oracle& oracle)
+TrueCase::Truth::Truth(const files::Case& c, Encoding encoding, oracle::Oracle& oracle)
     : pair(c, encoding) {
   if (pair.is_finite()) {
     measure = oracle.measure(pair.a(), pair.b());
@@ -15,7 +15,7 @@ TrueCase::Truth::Truth(const Case& c, Encoding encoding, oracle::Oracle& oracle)
   }
 }
 
-TrueCase::TrueCase(Case c, std::uint64_t index, oracle::Oracle& oracle)
+TrueCase::TrueCase(files::Case c, std::uint64_t index, oracle::Oracle& oracle)
     : case_(std::move(c)), index_(index), oracle_(&oracle) {}
 
 const TrueCase::Truth& TrueCase::truth(Encoding encoding) {
@@ -24,4 +24,4 @@ const TrueCase::Truth& TrueCase::truth(Encoding encoding) {
   return *slot;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -9,30 +9,30 @@
 #include "harness/files/cases.h"
 #include "harness/grade/encoding.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 class TrueCase {
  public:
   // The oracle stays alive.
-  TrueCase(Case c, std::uint64_t index, oracle::Oracle& oracle);
+  TrueCase(files::Case c, std::uint64_t index, oracle::Oracle& oracle);
 
   // What is true of the pair in an encoding.
   struct Truth {
     EncodedPair pair;
     oracle::Measure measure;  // of anything between the infinities where the pair is not finite
-    Truth(const Case& c, Encoding encoding, oracle::Oracle& oracle);
+    Truth(const files::Case& c, Encoding encoding, oracle::Oracle& oracle);
   };
   const Truth& truth(Encoding encoding);  // found when it is first asked for
 
-  const Case& pair() const { return case_; }
+  const files::Case& pair() const { return case_; }
   std::uint64_t index() const { return index_; }
   oracle::Oracle& oracle() { return *oracle_; }
 
  private:
-  Case case_;
+  files::Case case_;
   std::uint64_t index_;
   oracle::Oracle* oracle_;
   std::array<std::unique_ptr<Truth>, all_encodings.size()> truths_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

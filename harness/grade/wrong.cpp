@@ -8,7 +8,7 @@
 #include "harness/grade/answer_count.h"
 #include "harness/grade/margins.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 // Whether the answer is on the wrong side of contact, and may not be.
@@ -153,4 +153,4 @@ double badness(const GradedAnswer& answer) {
   return answer.witnesses.not_a_number ? std::max(bad, 1e2) : bad;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -14,7 +14,7 @@
 #include "algorithms/registry.h"
 #include "harness/grade/graded_answer.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // What became of a query. No margin forgives the wrong side of contact here; bodies that touch
 // exactly are on either side.
@@ -50,4 +50,4 @@ std::string describe(const NarrowPhaseEntry& entry, const GradedAnswer& answer, 
 // than a hang, that is worse than a silent error, and that is worse than a wrong number.
 double badness(const GradedAnswer& answer);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

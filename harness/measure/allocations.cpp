@@ -11,7 +11,7 @@
 #define TOUCHSTONE_COUNTS_ALLOCATIONS 0
 #endif
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 std::atomic<bool> counting = false;
@@ -43,7 +43,7 @@ Allocations AllocationCount::so_far() const {
   return {.calls = calls, .bytes = bytes};
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure
 
 #if TOUCHSTONE_COUNTS_ALLOCATIONS
 // The C library's own functions under the names that it keeps for this purpose. (The GNU C Library
@@ -55,34 +55,34 @@ void* __libc_realloc(void* memory, std::size_t size) noexcept;
 void* __libc_memalign(std::size_t alignment, std::size_t size) noexcept;
 
 void* malloc(std::size_t size) noexcept {
-  touchstone::count(size);
+  touchstone::measure::count(size);
   return __libc_malloc(size);
 }
 
 void* calloc(std::size_t items, std::size_t size) noexcept {
-  touchstone::count(items * size);
+  touchstone::measure::count(items * size);
   return __libc_calloc(items, size);
 }
 
 void* realloc(void* memory, std::size_t size) noexcept {
-  touchstone::count(size);
+  touchstone::measure::count(size);
   return __libc_realloc(memory, size);
 }
 
 void* memalign(std::size_t alignment, std::size_t size) noexcept {
-  touchstone::count(size);
+  touchstone::measure::count(size);
   return __libc_memalign(alignment, size);
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  touchstone::count(size);
+  touchstone::measure::count(size);
   return __libc_memalign(alignment, size);
 }
 
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
   const bool power = alignment != 0 && (alignment & (alignment - 1)) == 0;
   if (!power || alignment % sizeof(void*) != 0) return EINVAL;
-  touchstone::count(size);
+  touchstone::measure::count(size);
   void* const got = __libc_memalign(alignment, size);
   if (got == nullptr) return ENOMEM;
   *memory = got;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // -1: not counted.
 struct Allocations {
@@ -31,4 +31,4 @@ class AllocationCount {
   Allocations so_far() const;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

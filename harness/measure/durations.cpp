@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace touchstone {
+namespace touchstone::measure {
 
 void Durations::add(std::string_view name, double seconds) {
   const auto used = durations_.begin() + static_cast<std::ptrdiff_t>(count_);
@@ -33,4 +33,4 @@ double Durations::sum() const {
   return sum;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

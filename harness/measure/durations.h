@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Plain bytes without pointers, so that a worker process can send it.
 class Durations {
@@ -38,4 +38,4 @@ class Durations {
   std::size_t count_ = 0;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

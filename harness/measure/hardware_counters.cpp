@@ -9,7 +9,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace touchstone {
+namespace touchstone::measure {
 
 #if defined(__linux__)
 
@@ -82,4 +82,4 @@ HardwareCounts HardwareCounters::counts() const {
           .cache_misses = cache_misses_.count()};
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

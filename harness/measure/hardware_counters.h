@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Counts one kind of event, in user space, in the thread that opened it and in all threads that it
 // starts afterwards.
@@ -47,4 +47,4 @@ class HardwareCounters {
   EventCounter cycles_, instructions_, branch_misses_, cache_misses_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

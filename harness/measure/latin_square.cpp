@@ -3,10 +3,10 @@
 #include <numeric>
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
-std::vector<std::size_t> shuffled(std::size_t size, Random& random) {
+std::vector<std::size_t> shuffled(std::size_t size, base::Random& random) {
   std::vector<std::size_t> order(size);
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = size; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
@@ -15,7 +15,7 @@ std::vector<std::size_t> shuffled(std::size_t size, Random& random) {
 
 }  // namespace
 
-LatinSquare latin_square(std::size_t size, Random& random) {
+LatinSquare latin_square(std::size_t size, base::Random& random) {
   const std::vector<std::size_t> rounds = shuffled(size, random);
   const std::vector<std::size_t> positions = shuffled(size, random);
   const std::vector<std::size_t> contestants = shuffled(size, random);
@@ -28,4 +28,4 @@ LatinSquare latin_square(std::size_t size, Random& random) {
   return square;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

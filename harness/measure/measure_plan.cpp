@@ -5,7 +5,7 @@
 
 #include "harness/base/hash.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 constexpr std::array<int, 4> looks = {first_look, 12, 24, 48};  // squares of a group
@@ -60,9 +60,10 @@ std::vector<Period> periods(std::optional<int> squares, int processes) {
 
 LatinSquare square_order(const MeasurePlan& plan, std::size_t set, std::int64_t square,
                          std::size_t size) {
-  const std::uint64_t place = mix(mix(mix(plan.number) + set) + static_cast<std::uint64_t>(square));
-  Random random(plan.seed, place);
+  const std::uint64_t place =
+      base::mix(base::mix(base::mix(plan.number) + set) + static_cast<std::uint64_t>(square));
+  base::Random random(plan.seed, place);
   return latin_square(size, random);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -11,7 +11,7 @@
 #include "harness/measure/latin_square.h"
 #include "harness/measure/worker.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Anything that can be timed. Of two contestants of a set that differ by nothing but `control`, the
 // one with it is the A/A control: the difference of their times is the error of the measurement.
@@ -77,4 +77,4 @@ struct MeasurePlan {
 LatinSquare square_order(const MeasurePlan& plan, std::size_t set, std::int64_t square,
                          std::size_t size);
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -8,7 +8,7 @@
 #include "harness/base/hash.h"
 #include "harness/measure/noise.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 std::string_view to_string(Stop stop) {
   constexpr std::array<std::string_view, 5> names = {"", "crashed", "rounds", "width", "budget"};
@@ -117,7 +117,7 @@ std::unique_ptr<Worker> MeasuringLoop::start_worker(std::size_t contestant,
   const std::uint64_t place = (plan_.number << 40) + (number << 20) + contestant;
   auto worker = std::make_unique<Worker>(
       plan_.contestants[contestant].make,
-      WorkerSettings{.memory = plan_.memory, .layout = mix(plan_.seed ^ mix(place))});
+      WorkerSettings{.memory = plan_.memory, .layout = base::mix(plan_.seed ^ base::mix(place))});
   if (const auto failure = worker->wait_until_made(plan_.setup_seconds)) {
     return lose(sets.front(), 0, {.failure = *failure});
   }
@@ -146,7 +146,7 @@ void MeasuringLoop::run_round(const Place& place, Workers& workers) {
   const LatinSquare order = square_order(plan_, place.set, round.square, group.size());
   double waited = 0;
   const NoiseReading before = NoiseReading::now();
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   for (std::size_t position = 0; position < group.size(); ++position) {
     const std::size_t contestant = group[order[place.round][position]];
     if (lost_[contestant] != 0) continue;
@@ -198,4 +198,4 @@ void MeasuringLoop::judge(const Place& place, Round& round) {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

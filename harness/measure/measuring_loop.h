@@ -16,7 +16,7 @@
 #include "harness/measure/measure_plan.h"
 #include "harness/measure/worker.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Why a set has no further rounds.
 enum class Stop : std::uint8_t {
@@ -30,8 +30,8 @@ std::string_view to_string(Stop stop);  // empty for `none`
 
 // The end of a contestant, which takes no further part in the plan.
 struct Loss {
-  bool wrong = false;        // its answer was wrong; its worker had not failed
-  IsolationFailure failure;  // of its worker, unless the answer was wrong
+  bool wrong = false;                 // its answer was wrong; its worker had not failed
+  process::IsolationFailure failure;  // of its worker, unless the answer was wrong
 };
 
 struct Sample {
@@ -131,4 +131,4 @@ class MeasuringLoop {
   std::vector<char> lost_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 constexpr double pressure_share = 0.5;
@@ -99,4 +99,4 @@ std::string MachineLoad::objection() const {
   return "";
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

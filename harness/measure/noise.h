@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Counters of the system, ever growing; empty where the system does not tell.
 struct NoiseReading {
@@ -40,4 +40,4 @@ struct MachineLoad {
   std::string objection() const;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

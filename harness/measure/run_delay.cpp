@@ -8,7 +8,7 @@
 #include <system_error>
 #include <thread>
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 double processor_seconds() {
@@ -42,4 +42,4 @@ void come_to_rest() {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Seconds, summed over the threads that there are (proc(5), /proc/PID/schedstat); empty where the
 // system does not tell. Unlike the number of switches it says how much was lost.
@@ -14,4 +14,4 @@ std::optional<double> run_delay();
 // whoever is measured next.
 void come_to_rest();
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

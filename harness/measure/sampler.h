@@ -9,7 +9,7 @@
 #include "harness/measure/durations.h"
 #include "harness/measure/hardware_counters.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // A window of frames. A sampler with several inputs is asked about one of them.
 struct SampleRequest {
@@ -44,4 +44,4 @@ class Sampler {
   virtual SampleReply sample(const SampleRequest& request) = 0;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -22,7 +22,7 @@
 #include "harness/measure/hardware_counters.h"
 #include "harness/measure/run_delay.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 constexpr int tick_milliseconds = 20;
@@ -34,7 +34,7 @@ constexpr double seconds_to_leave = 2;  // of a worker that hung up
 // wrong!", ASPLOS 2009.)
 class Layout {
  public:
-  explicit Layout(Random& random) {
+  explicit Layout(base::Random& random) {
     for (int i = 0; i < 64; ++i) {
       const std::size_t size = 16 + 16 * random.below(512);
       kept_.emplace_back(size, '\1');
@@ -149,7 +149,7 @@ void serve(int line, const Worker::Make& make, Usage& usage) {
 
 // What the worker's process does, in a layout of its own.
 void be_worker(int line, const Worker::Make& make, const WorkerSettings& settings, Usage& usage) {
-  Random random(settings.layout);
+  base::Random random(settings.layout);
   const Layout layout(random);
   deeper(16 * random.below(1024), [&] { serve(line, make, usage); });
   _exit(EXIT_SUCCESS);
@@ -158,15 +158,17 @@ void be_worker(int line, const Worker::Make& make, const WorkerSettings& setting
 }  // namespace
 
 Worker::Worker(const Make& make, const WorkerSettings& settings) {
-  expect_one_thread();
+  process::expect_one_thread();
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
     throw std::system_error(errno, std::generic_category(), "socketpair");
   }
   line_ = ends[0];
   std::optional<Usage> usage;  // the child's
-  child_ = std::make_unique<ChildProcess>(
-      ChildProcess::Settings{.memory = settings.memory, .before = [&] { usage.emplace(); }}, [&] {
+  child_ = std::make_unique<process::ChildProcess>(
+      process::ChildProcess::Settings{.memory = settings.memory,
+                                      .before = [&] { usage.emplace(); }},
+      [&] {
         ::close(ends[0]);
         be_worker(ends[1], make, settings, *usage);
       });
@@ -175,7 +177,7 @@ Worker::Worker(const Make& make, const WorkerSettings& settings) {
 
 Worker::~Worker() { ::close(line_); }
 
-std::optional<IsolationFailure> Worker::wait_until_made(double seconds) {
+std::optional<process::IsolationFailure> Worker::wait_until_made(double seconds) {
   if (wait(seconds)) return {};
   failure_.in_setup = true;
   return failure_;
@@ -191,7 +193,7 @@ std::optional<SampleReply> Worker::ask(const SampleRequest& request, double seco
 }
 
 std::optional<SampleReply> Worker::wait(double seconds) {
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   while (watch.seconds() <= seconds) {
     std::array<pollfd, 2> sources = {{{.fd = line_, .events = POLLIN, .revents = 0},
                                       {.fd = child_->words(), .events = POLLIN, .revents = 0}}};
@@ -219,4 +221,4 @@ void Worker::end(bool late) {
   failure_ = child_->failure();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -12,7 +12,7 @@
 #include "harness/measure/sampler.h"
 #include "harness/process/child_process.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 struct WorkerSettings {
   std::size_t memory = std::size_t{4} << 30;  // bytes that it may add to what is there
@@ -31,12 +31,12 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   // Waits until `make` has returned; gives its failure, if any.
-  std::optional<IsolationFailure> wait_until_made(double seconds);
+  std::optional<process::IsolationFailure> wait_until_made(double seconds);
 
   // Empty when the worker crashed, left, threw or took longer than so many seconds: it is dead
   // then, and failure() says how.
   std::optional<SampleReply> ask(const SampleRequest& request, double seconds);
-  const IsolationFailure& failure() const { return failure_; }
+  const process::IsolationFailure& failure() const { return failure_; }
   bool alive() const { return child_->alive(); }
 
  private:
@@ -44,8 +44,8 @@ class Worker {
   void end(bool late);
 
   int line_ = -1;  // requests and replies, one a packet
-  std::unique_ptr<ChildProcess> child_;
-  IsolationFailure failure_;
+  std::unique_ptr<process::ChildProcess> child_;
+  process::IsolationFailure failure_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

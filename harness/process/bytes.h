@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::process {
 
 template <class T>
 concept HasFields = requires(T& value) {
@@ -96,4 +96,4 @@ T from_bytes(std::string_view bytes) {
   return value;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

@@ -23,7 +23,7 @@
 
 #include "harness/base/clock.h"
 
-namespace touchstone {
+namespace touchstone::process {
 namespace {
 
 // Lets this process add so many bytes to what it has; beyond, its allocations fail.
@@ -143,7 +143,7 @@ bool ChildProcess::has_ended() {
 }
 
 void ChildProcess::wait(double seconds) {
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   while (!has_ended()) {
     listen(1);
     if (watch.seconds() > seconds) {
@@ -181,4 +181,4 @@ IsolationFailure ChildProcess::failure() {
   return failure;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

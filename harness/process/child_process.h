@@ -14,7 +14,7 @@
 #include "harness/process/ending.h"
 #include "harness/process/shared_array.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 // Throws std::logic_error when this process has more threads than the calling one: a forked child
 // then finds their locks held for ever. An Executor of more than one thread that has been used is
@@ -76,4 +76,4 @@ class ChildProcess {
   SharedArray<Thrown> thrown_{1};
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::process

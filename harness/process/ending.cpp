@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-namespace touchstone {
+namespace touchstone::process {
 
 std::string_view to_string(ItemState state) {
   switch (state) {
@@ -36,4 +36,4 @@ std::string IsolationFailure::reason() const {
   return words.empty() ? text : text + ": " + words;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

@@ -8,7 +8,7 @@
 
 #include "algorithms/core/status.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 enum class ItemState : std::uint8_t {
   not_run,    // never begun: the failures before it were too many
@@ -43,4 +43,4 @@ struct IsolationFailure {
   std::string reason() const;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::process

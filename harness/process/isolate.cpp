@@ -10,7 +10,7 @@
 #include "harness/base/clock.h"
 #include "harness/process/child_process.h"
 
-namespace touchstone {
+namespace touchstone::process {
 namespace {
 
 constexpr int tick_milliseconds = 20;
@@ -47,7 +47,7 @@ void work_through(std::size_t first, Progress& progress, SharedArray<ItemState>&
 // when it stopped the child just after that had gone on to another item, which has no fault.
 bool watch(ChildProcess& child, const IsolationLimits& limits, const Progress& progress) {
   std::uint64_t beats = progress.beats.load();
-  Stopwatch stopwatch;
+  base::Stopwatch stopwatch;
   while (!child.has_ended()) {
     const double allowed = progress.in_setup.load() ? limits.setup_seconds : limits.item_seconds;
     if (const std::uint64_t now = progress.beats.load(); now != beats) {
@@ -97,4 +97,4 @@ IsolationReport isolate(std::size_t items, const IsolationLimits& limits,
   return report;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

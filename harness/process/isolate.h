@@ -8,7 +8,7 @@
 #include "harness/process/ending.h"
 #include "harness/process/shared_array.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 struct IsolationLimits {
   static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
@@ -69,4 +69,4 @@ IsolatedAnswers<Answer> isolated_answers(std::size_t items, const IsolationLimit
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

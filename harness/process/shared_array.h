@@ -9,7 +9,7 @@
 #include <span>
 #include <type_traits>
 
-namespace touchstone {
+namespace touchstone::process {
 
 // `size` elements, value-initialised. Elements hold no pointers to memory of their own.
 template <class T>
@@ -42,4 +42,4 @@ class SharedArray {
   std::size_t size_ = 0;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::process

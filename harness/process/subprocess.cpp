@@ -11,7 +11,7 @@
 
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::process {
 namespace {
 
 struct FileActions {
@@ -39,16 +39,17 @@ int run_and_wait(const std::string& program, const std::vector<std::string>& arg
   const int error =
       posix_spawnp(&child, program.c_str(), &files.actions, nullptr, argv.data(), environ);
   if (error != 0) {
-    throw InputError(
+    throw base::InputError(
         fmt::format("the program '{}' cannot be run: {}", program, std::strerror(error)));
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) {
-      throw InputError(fmt::format("the program '{}' is lost: {}", program, std::strerror(errno)));
+      throw base::InputError(
+          fmt::format("the program '{}' is lost: {}", program, std::strerror(errno)));
     }
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::process {
 
 // Runs a program, found as a shell finds it, with these arguments; what it prints goes into `log`.
 // Its exit status, or 128 and the number of the signal that ended it. InputError where it cannot be
@@ -13,4 +13,4 @@ namespace touchstone {
 int run_and_wait(const std::string& program, const std::vector<std::string>& arguments,
                  const std::filesystem::path& log);
 
-}  // namespace touchstone
+}  // namespace touchstone::process

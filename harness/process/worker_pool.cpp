@@ -18,7 +18,7 @@
 
 #include "harness/process/child_process.h"
 
-namespace touchstone {
+namespace touchstone::process {
 namespace {
 
 constexpr double seconds_to_leave = 10;  // of a worker that hung up
@@ -167,4 +167,4 @@ void run_jobs(std::size_t first, std::size_t end, int workers, const std::functi
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

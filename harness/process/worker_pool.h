@@ -8,7 +8,7 @@
 
 #include "harness/process/bytes.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 // Runs the jobs first, first + 1, ... below `end` in `workers` forked processes, each of which
 // calls `make` once and then its result for each of its jobs. What that returns, any bytes, is
@@ -33,4 +33,4 @@ void run_jobs(std::size_t first, std::size_t end, int workers, const Make& make,
       });
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

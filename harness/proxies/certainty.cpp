@@ -10,20 +10,20 @@
 #include "harness/geometry/greatest_copy.h"
 #include "harness/geometry/tessellation.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The triangle's normal, correct to its last digit however thin the triangle is.
-Vec3d true_normal(const Triangle& t) {
+Vec3d true_normal(const geometry::Triangle& t) {
   return cross(DoubleDouble3::difference(t.b, t.a), DoubleDouble3::difference(t.c, t.a)).value();
 }
 
 // Bounds the rounding of normal . (x - a) for |x - a| = 1: of the normal, of the difference, and of
 // the sum of three products, with a margin.
-double rounding_of(const Triangle& t, const Vec3d& normal) {
+double rounding_of(const geometry::Triangle& t, const Vec3d& normal) {
   return 16 * epsilon * normal.norm() + 0x1p-96 * (t.b - t.a).norm() * (t.c - t.a).norm();
 }
 
@@ -117,7 +117,7 @@ std::optional<Shape> hull_that_holds(const LocalBody& body, const std::vector<Ve
     auto hull = std::make_shared<Hull>(*first);
     for (Vec3d& v : hull->vertices) v = middle + (1 + more) * (v - middle);
     double beyond = -infinity;  // relative to the plane's distance from the middle
-    for (const Triangle& t : triangles_of(*hull)) {
+    for (const geometry::Triangle& t : geometry::triangles_of(*hull)) {
       const Vec3d n = true_normal(t);
       const double error = rounding_of(t, n) * span_from(body, t.a);
       const double height = n.dot(t.a - middle) - error;
@@ -141,10 +141,11 @@ Inside::Inside(const LocalBody& body) : body_(body) {
   const Hull* hull = s.hull.get();
   Shape stand_in;
   if (s.kind != ShapeKind::hull) {
-    stand_in = as_polytope(s, s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone ? 4 : 3);
+    stand_in = geometry::as_polytope(
+        s, s.kind == ShapeKind::cylinder || s.kind == ShapeKind::cone ? 4 : 3);
     hull = stand_in.hull.get();
   }
-  for (const Triangle& t : triangles_of(*hull)) {
+  for (const geometry::Triangle& t : geometry::triangles_of(*hull)) {
     const Vec3d n = true_normal(t);
     const double length = n.norm();
     if (s.kind == ShapeKind::hull) facets_.push_back({n, t.a, length, rounding_of(t, n)});
@@ -152,7 +153,7 @@ Inside::Inside(const LocalBody& body) : body_(body) {
   }
   if (planes_.empty()) return;
   if (s.kind == ShapeKind::hull) {
-    const Copy ball = greatest_copy(
+    const geometry::Copy ball = geometry::greatest_copy(
         planes_, [](const Vec3d& n) { return n.norm(); }, body.middle, 2 * body.size);
     deepest_ = body.snap(ball.centre);
   } else if (s.kind == ShapeKind::cone) {
@@ -179,4 +180,4 @@ double Inside::within_facets(const Vec3d& x) const {
   return least * (1 - (least > 0 ? 8 : -8) * epsilon);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -6,7 +6,7 @@
 
 #include "harness/proxies/local_body.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 // An upper bound on n . (x - a) over the points x of the body (of its hull, for a mesh).
 double reach(const LocalBody& body, const Vec3d& n, const Vec3d& a);
@@ -35,7 +35,7 @@ class Inside {
   double clearance(const Vec3d& x) const;
   // The planes of a polytope's faces with unit normals; for a round body those of a polytope inside
   // it.
-  const std::vector<Plane>& planes() const { return planes_; }
+  const std::vector<geometry::Plane>& planes() const { return planes_; }
 
  private:
   struct Facet {
@@ -46,9 +46,9 @@ class Inside {
 
   const LocalBody& body_;
   std::vector<Facet> facets_;
-  std::vector<Plane> planes_;
+  std::vector<geometry::Plane> planes_;
   Vec3d deepest_ = Vec3d::Zero();
   bool has_interior_ = false;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

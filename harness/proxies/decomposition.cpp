@@ -15,7 +15,7 @@
 #include "harness/proxies/certainty.h"
 #include "harness/proxies/outer_fits.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -26,7 +26,7 @@ constexpr std::size_t concave_edges = 12;
 constexpr std::size_t neighbours = 8;  // number of nearest pieces with which joining is tried
 
 struct Piece {
-  Mesh mesh;                   // empty if joined from several pieces
+  geometry::Mesh mesh;         // empty if joined from several pieces
   std::vector<Vec3d> corners;  // of its hull
   Vec3d middle = Vec3d::Zero();
   double hull_volume = 0, volume = 0;
@@ -39,25 +39,25 @@ struct Piece {
 void measure_hull(const std::vector<Vec3d>& points, Piece& piece) {
   const std::shared_ptr<const Hull> hull = make_reduced_hull(points);
   piece.corners = hull->vertices;
-  piece.hull_volume = hull->faces.empty() ? 0 : volume_of(triangles_of(*hull));
+  piece.hull_volume = hull->faces.empty() ? 0 : geometry::volume_of(geometry::triangles_of(*hull));
   for (const Vec3d& v : piece.corners) {
     piece.middle += v / static_cast<double>(piece.corners.size());
   }
 }
 
-Piece measured(Mesh mesh, int cuts, bool whole) {
+Piece measured(geometry::Mesh mesh, int cuts, bool whole) {
   Piece piece;
   piece.mesh = std::move(mesh);
   piece.cuts = cuts;
   piece.whole = whole;
   measure_hull(piece.mesh.vertices, piece);
-  piece.volume = std::abs(volume_of(triangles_of(piece.mesh)));
+  piece.volume = std::abs(geometry::volume_of(geometry::triangles_of(piece.mesh)));
   return piece;
 }
 
 // The planes of the faces beside the most concave edges, weighted by length.
-std::vector<Plane> concave_planes(const Mesh& mesh) {
-  const std::vector<Triangle> triangles = triangles_of(mesh);
+std::vector<geometry::Plane> concave_planes(const geometry::Mesh& mesh) {
+  const std::vector<geometry::Triangle> triangles = geometry::triangles_of(mesh);
   std::map<std::array<std::uint32_t, 2>, std::size_t> first;
   std::vector<std::pair<double, std::array<std::size_t, 2>>> edges;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -75,12 +75,12 @@ std::vector<Plane> concave_planes(const Mesh& mesh) {
   std::sort(edges.begin(), edges.end(),
             [](const auto& a, const auto& b) { return a.first > b.first; });
   if (edges.size() > concave_edges) edges.resize(concave_edges);
-  std::vector<Plane> planes;
+  std::vector<geometry::Plane> planes;
   for (const auto& [bend, pair] : edges) {
     for (std::size_t t : pair) {
       const Vec3d n = triangles[t].normal().normalized();
-      const Plane plane{n, n.dot(triangles[t].a)};
-      const bool known = std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
+      const geometry::Plane plane{n, n.dot(triangles[t].a)};
+      const bool known = std::any_of(planes.begin(), planes.end(), [&](const geometry::Plane& p) {
         return std::abs(p.normal.dot(n)) > 1 - 1e-9 &&
                std::abs(std::abs(p.offset) - std::abs(plane.offset)) < 1e-9;
       });
@@ -90,8 +90,8 @@ std::vector<Plane> concave_planes(const Mesh& mesh) {
   return planes;
 }
 
-std::vector<Plane> candidates(const Mesh& mesh, const Mat3d& axes) {
-  std::vector<Plane> planes = concave_planes(mesh);
+std::vector<geometry::Plane> candidates(const geometry::Mesh& mesh, const Mat3d& axes) {
+  std::vector<geometry::Plane> planes = concave_planes(mesh);
   for (int k = 0; k < 3; ++k) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Vec3d& v : mesh.vertices) {
@@ -106,10 +106,10 @@ std::vector<Plane> candidates(const Mesh& mesh, const Mat3d& axes) {
 std::vector<Piece> best_cut(const Piece& piece, const Mat3d& axes) {
   std::vector<Piece> best;
   double least = piece.hull_volume;
-  for (const Plane& plane : candidates(piece.mesh, axes)) {
+  for (const geometry::Plane& plane : candidates(piece.mesh, axes)) {
     std::vector<Piece> tried;
     double sum = 0;
-    for (Mesh& part : cut(piece.mesh, plane)) {
+    for (geometry::Mesh& part : geometry::cut(piece.mesh, plane)) {
       tried.push_back(measured(std::move(part), piece.cuts + 1, false));
       sum += tried.back().hull_volume;
     }
@@ -225,11 +225,12 @@ std::vector<Part> decompose(const LocalBody& body, int most) {
   const Mat3d axes = fitting_axes(body);
   std::vector<Piece> pieces;
   double volume = 0;
-  for (MeshPiece& piece : pieces_of(body.mesh)) {
+  for (geometry::MeshPiece& piece : geometry::pieces_of(body.mesh)) {
     pieces.push_back(measured(std::move(piece.mesh), 0, !piece.closed));
     volume += pieces.back().whole ? pieces.back().hull_volume : pieces.back().volume;
   }
-  if (pieces.empty()) throw InputError("the mesh has no triangles, so no parts; expected some");
+  if (pieces.empty())
+    throw base::InputError("the mesh has no triangles, so no parts; expected some");
   // The number of pieces exceeds the limit at first, because joining makes up for cuts that were
   // not the best.
   const std::size_t limit =
@@ -253,4 +254,4 @@ std::vector<Part> decompose(const LocalBody& body, int most) {
   return parts;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -5,7 +5,7 @@
 
 #include "harness/proxies/local_body.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 // Returns convex parts whose union certainly contains the solid of the mesh, in the body's local
 // frame.
@@ -25,4 +25,4 @@ namespace touchstone {
 // pieces.
 std::vector<Part> decompose(const LocalBody& body, int most);
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

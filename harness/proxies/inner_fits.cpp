@@ -12,7 +12,7 @@
 #include "harness/geometry/tessellation.h"
 #include "harness/proxies/outer_fits.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -20,7 +20,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 Inside inside_of(const LocalBody& body) {
   Inside inside(body);
   if (!inside.has_interior()) {
-    throw InputError(
+    throw base::InputError(
         "nothing is certainly inside a body that is flat, or thin to rounding; expected "
         "an outer representation, or a solid body");
   }
@@ -29,13 +29,15 @@ Inside inside_of(const LocalBody& body) {
 
 // The greatest copy of the hull of `corners` (around zero) that is certainly inside. Corner i of
 // the copy is centre + scale * corners[i], up to 4 units in the last place of the body's size.
-Copy copy_inside(const LocalBody& body, const Inside& inside, const std::vector<Vec3d>& corners) {
+geometry::Copy copy_inside(const LocalBody& body, const Inside& inside,
+                           const std::vector<Vec3d>& corners) {
   const auto support = [&](const Vec3d& n) {
     double far = 0;
     for (const Vec3d& c : corners) far = std::max(far, n.dot(c));
     return far;
   };
-  Copy copy = greatest_copy(inside.planes(), support, inside.deepest(), 4 * body.size);
+  geometry::Copy copy =
+      geometry::greatest_copy(inside.planes(), support, inside.deepest(), 4 * body.size);
   const bool round = body.shape.kind != ShapeKind::hull;
   if (round) copy.centre = {0, 0, body.shape.kind == ShapeKind::cone ? copy.centre.z() : 0};
   copy.centre = body.snap(copy.centre);
@@ -53,7 +55,8 @@ Copy copy_inside(const LocalBody& body, const Inside& inside, const std::vector<
   }
   copy.scale = low;
   if (!(low > 0)) {
-    throw InputError("nothing of this form is certainly inside the body; expected a thicker one");
+    throw base::InputError(
+        "nothing of this form is certainly inside the body; expected a thicker one");
   }
   return copy;
 }
@@ -70,7 +73,7 @@ std::vector<Vec3d> box_corners(const Part& box) {
 Part copy_of_box(const LocalBody& body, Part box) {
   const Inside inside = inside_of(body);
   if (body.shape.kind == ShapeKind::box) return box;
-  const Copy copy = copy_inside(body, inside, box_corners(box));
+  const geometry::Copy copy = copy_inside(body, inside, box_corners(box));
   box.shape.half_extents *= copy.scale;
   box.pose.translation = copy.centre;
   return box;
@@ -106,7 +109,7 @@ Part inner_dop(const LocalBody& body, int directions) {
   const Part outer = outer_dop(body, directions);
   std::vector<Vec3d> corners;
   for (const Vec3d& v : outer.shape.hull->vertices) corners.push_back(v - body.middle);
-  const Copy copy = copy_inside(body, inside, corners);
+  const geometry::Copy copy = copy_inside(body, inside, corners);
   for (Vec3d& c : corners) c = copy.centre + copy.scale * c;
   return hull_part(corners);
 }
@@ -125,7 +128,8 @@ Part inner_capsule(const LocalBody& body) {
   const auto consider = [&](int k, double ratio) {
     const Vec3d axis = axes.col(k);
     const auto support = [&](const Vec3d& n) { return n.norm() + ratio * std::abs(n.dot(axis)); };
-    Copy copy = greatest_copy(inside.planes(), support, inside.deepest(), 4 * body.size);
+    geometry::Copy copy =
+        geometry::greatest_copy(inside.planes(), support, inside.deepest(), 4 * body.size);
     if (!(copy.scale > 0)) return -1.0;
     if (s.kind != ShapeKind::hull) {
       copy.centre = {0, 0, s.kind == ShapeKind::cone ? copy.centre.z() : 0};
@@ -165,7 +169,7 @@ Part inner_capsule(const LocalBody& body) {
     }
   }
   if (!(greatest > 0)) {
-    throw InputError("no capsule is certainly inside the body; expected a thicker one");
+    throw base::InputError("no capsule is certainly inside the body; expected a thicker one");
   }
   return best;
 }
@@ -176,15 +180,15 @@ Part inner_reduced_hull(const LocalBody& body, int vertices) {
     return hull_part(farthest_vertices(body.shape.hull->vertices, vertices));
   }
   std::vector<Vec3d> chosen =
-      farthest_vertices(as_polytope(body.shape, 3).hull->vertices, vertices);
-  const Copy copy = copy_inside(body, inside, chosen);
+      farthest_vertices(geometry::as_polytope(body.shape, 3).hull->vertices, vertices);
+  const geometry::Copy copy = copy_inside(body, inside, chosen);
   for (Vec3d& v : chosen) v = copy.centre + copy.scale * v;
   return hull_part(chosen);
 }
 
 Part inner_icosphere(const LocalBody& body, int level) {
   const Inside inside = inside_of(body);
-  std::vector<Vec3d> corners = as_polytope(body.shape, level).hull->vertices;
+  std::vector<Vec3d> corners = geometry::as_polytope(body.shape, level).hull->vertices;
   for (double less = 0x1p-50; less < 0x1p-8; less *= 2) {
     std::vector<Vec3d> drawn_in;
     for (const Vec3d& v : corners) {
@@ -194,7 +198,7 @@ Part inner_icosphere(const LocalBody& body, int level) {
                                   [&](const Vec3d& v) { return inside.clearance(v) >= 0; });
     if (fits) return hull_part(drawn_in);
   }
-  throw InputError("no polytope is certainly inside the body; expected a thicker one");
+  throw base::InputError("no polytope is certainly inside the body; expected a thicker one");
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

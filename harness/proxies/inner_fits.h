@@ -3,7 +3,7 @@
 
 #include "harness/proxies/certainty.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 // All are in the body's local frame and certainly inside the body. The body must be convex (no
 // mesh) and have an interior; otherwise they throw InputError. A "copy" is the greatest scaled copy
@@ -25,4 +25,4 @@ Part inner_reduced_hull(const LocalBody& body, int vertices);
 // (geometry/tessellation.h).
 Part inner_icosphere(const LocalBody& body, int level);
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -7,7 +7,7 @@
 
 #include "algorithms/core/bounds.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -50,7 +50,7 @@ Shape scaled(Shape shape, int exponent) {
   return shape;
 }
 
-LocalBody::LocalBody(const Shape& body, const Mesh* with) : has_mesh(with != nullptr) {
+LocalBody::LocalBody(const Shape& body, const geometry::Mesh* with) : has_mesh(with != nullptr) {
   if (body.kind != ShapeKind::hull) {
     half = half_extents(body);
     exponent_ = exponent_of(half);
@@ -114,4 +114,4 @@ Part LocalBody::localised(Part part) const {
 
 double LocalBody::length_as_given(double length) const { return std::ldexp(length, exponent_); }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -7,17 +7,17 @@
 #include "harness/geometry/polyhedron.h"
 #include "harness/proxies/representation.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 // The body is scaled by a power of two. A hull is also moved by exact differences: by one of its
 // points along each axis on which it is farther from the origin than it is long. So no digit of a
 // distant, tiny or huge body is lost (except for subnormal numbers).
 struct LocalBody {
-  LocalBody(const Shape& body, const Mesh* mesh);
+  LocalBody(const Shape& body, const geometry::Mesh* mesh);
 
   Shape shape;
   std::vector<Vec3d> points;     // of hulls: the vertices, and those of the mesh
-  Mesh mesh;                     // empty if the body has none
+  geometry::Mesh mesh;           // empty if the body has none
   Vec3d middle = Vec3d::Zero();  // centre of the box along the body's axes
   Vec3d half = Vec3d::Zero();    // half extents of that box, rounded up
   double size = 0;               // upper bound on the distance of its points from the middle
@@ -40,4 +40,4 @@ struct LocalBody {
 // The shape times 2^exponent.
 Shape scaled(Shape shape, int exponent);
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

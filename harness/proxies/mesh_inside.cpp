@@ -11,12 +11,12 @@
 #include "harness/geometry/greatest_copy.h"
 #include "harness/proxies/placed_solid.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-Shape hull_of(const Triangle& t) {
+Shape hull_of(const geometry::Triangle& t) {
   Shape shape;
   shape.kind = ShapeKind::hull;
   shape.hull = make_hull({t.a, t.b, t.c});
@@ -33,21 +33,21 @@ std::vector<Vec3d> corners_of(const Part& part) {
 }
 
 // The scale at which the copy around zero meets the triangle.
-double scale_at(const std::vector<Plane>& planes, const Triangle& t) {
+double scale_at(const std::vector<geometry::Plane>& planes, const geometry::Triangle& t) {
   std::vector<Vec3d> rows;
-  for (const Plane& p : planes) {
+  for (const geometry::Plane& p : planes) {
     const Vec3d n = p.normal / p.offset;
     rows.emplace_back(n.dot(t.b - t.a), n.dot(t.c - t.a), n.dot(t.a));
   }
-  return least_maximum(rows);
+  return geometry::least_maximum(rows);
 }
 
-bool certainly_apart(const Part& part, const std::vector<Plane>& planes, double scale,
-                     const Vec3d& centre, const std::vector<Triangle>& triangles) {
+bool certainly_apart(const Part& part, const std::vector<geometry::Plane>& planes, double scale,
+                     const Vec3d& centre, const std::vector<geometry::Triangle>& triangles) {
   oracle::Oracle exact;
   const oracle::Solid solid(part.shape);
-  for (const Triangle& t : triangles) {
-    const bool kept_away = std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
+  for (const geometry::Triangle& t : triangles) {
+    const bool kept_away = std::any_of(planes.begin(), planes.end(), [&](const geometry::Plane& p) {
       const double least = std::min(
           {p.normal.dot(t.a - centre), p.normal.dot(t.b - centre), p.normal.dot(t.c - centre)});
       return least > scale * p.offset * (1 + 1e-9) + 1e-12;
@@ -63,35 +63,36 @@ bool certainly_apart(const Part& part, const std::vector<Plane>& planes, double 
 }  // namespace
 
 MeshInside::MeshInside(const LocalBody& body) : body_(body) {
-  std::vector<Triangle> all;
-  for (MeshPiece& piece : pieces_of(body.mesh)) {
+  std::vector<geometry::Triangle> all;
+  for (geometry::MeshPiece& piece : geometry::pieces_of(body.mesh)) {
     if (!piece.closed) {
-      throw InputError(
+      throw base::InputError(
           "the mesh is not closed, so nothing is inside it for certain; expected a "
           "mesh whose every edge is used once each way");
     }
-    pieces_.push_back(triangles_of(piece.mesh));
+    pieces_.push_back(geometry::triangles_of(piece.mesh));
     all.insert(all.end(), pieces_.back().begin(), pieces_.back().end());
   }
-  surface_ = Surface(std::move(all));
+  surface_ = geometry::Surface(std::move(all));
   const std::optional<Vec3d> found = deepest(body.middle - body.half, body.middle + body.half, 2048,
                                              [&](const Vec3d& x) { return surface_.distance(x); });
-  if (!found) throw InputError("no ball was found inside the mesh; expected a thicker one");
+  if (!found) throw base::InputError("no ball was found inside the mesh; expected a thicker one");
   centre_ = *found;
 }
 
 bool MeshInside::winds_about(const Vec3d& x) const {
-  return std::any_of(pieces_.begin(), pieces_.end(), [&](const std::vector<Triangle>& piece) {
-    return std::abs(winding_number(piece, x)) > 0.5;
-  });
+  return std::any_of(pieces_.begin(), pieces_.end(),
+                     [&](const std::vector<geometry::Triangle>& piece) {
+                       return std::abs(geometry::winding_number(piece, x)) > 0.5;
+                     });
 }
 
 // A plane perpendicular to the direction of the nearest point keeps the whole triangle at the
 // distance of its nearest corner.
 double MeshInside::clearance(const Vec3d& x) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : surface_.triangles()) {
-    const Vec3d to = nearest_point(t, x) - x;
+  for (const geometry::Triangle& t : surface_.triangles()) {
+    const Vec3d to = geometry::nearest_point(t, x) - x;
     const double length = to.norm();
     if (!(length > 0)) return -1;
     const Vec3d n = to / length;
@@ -144,31 +145,32 @@ Part MeshInside::sphere() const {
   part.shape.radius = clearance(centre_);
   part.pose.translation = centre_;
   if (!(part.shape.radius > 0)) {
-    throw InputError("no ball is certainly inside the mesh; expected a thicker one");
+    throw base::InputError("no ball is certainly inside the mesh; expected a thicker one");
   }
   return part;
 }
 
 std::optional<Part> MeshInside::copy_about(const Part& part, const Vec3d& centre) const {
   std::vector<Vec3d> corners = corners_of(part);
-  std::vector<Plane> planes;
-  for (const Triangle& t : triangles_of(*make_hull(corners))) {
+  std::vector<geometry::Plane> planes;
+  for (const geometry::Triangle& t : geometry::triangles_of(*make_hull(corners))) {
     const Vec3d n = t.normal();
     if (n.norm() > 0) planes.push_back({n.normalized(), n.normalized().dot(t.a)});
   }
-  const bool open =
-      std::any_of(planes.begin(), planes.end(), [](const Plane& p) { return !(p.offset > 0); });
+  const bool open = std::any_of(planes.begin(), planes.end(),
+                                [](const geometry::Plane& p) { return !(p.offset > 0); });
   if (planes.size() < 4 || open) return std::nullopt;
   double steepest = 0;
-  for (const Plane& p : planes) steepest = std::max(steepest, 1 / p.offset);
-  std::vector<Triangle> triangles = surface_.triangles();
+  for (const geometry::Plane& p : planes) steepest = std::max(steepest, 1 / p.offset);
+  std::vector<geometry::Triangle> triangles = surface_.triangles();
   double scale = 1e9;
-  for (Triangle& t : triangles) {
+  for (geometry::Triangle& t : triangles) {
     for (Vec3d* v : {&t.a, &t.b, &t.c}) *v -= centre;
     // The least value on the triangle is below that at a corner by at most its reach times the
     // steepest slope.
     double at_corner = 0;
-    for (const Plane& p : planes) at_corner = std::max(at_corner, p.normal.dot(t.a) / p.offset);
+    for (const geometry::Plane& p : planes)
+      at_corner = std::max(at_corner, p.normal.dot(t.a) / p.offset);
     const double reach = std::max((t.b - t.a).norm(), (t.c - t.a).norm());
     if (at_corner - steepest * reach > scale) continue;
     scale = std::min(scale, scale_at(planes, t));
@@ -193,7 +195,8 @@ std::optional<Part> MeshInside::copy_about(const Part& part, const Vec3d& centre
 Part MeshInside::copy(const Part& part) const {
   std::optional<Part> made = copy_about(part, centre_);
   if (!made)
-    throw InputError("nothing of this form is certainly inside the mesh; expected a thicker one");
+    throw base::InputError(
+        "nothing of this form is certainly inside the mesh; expected a thicker one");
   return *made;
 }
 
@@ -209,7 +212,7 @@ std::vector<Part> MeshInside::copies(const std::vector<Part>& parts) const {
     if (std::optional<Part> copy = copy_about(part, *centre)) made.push_back(std::move(*copy));
   }
   if (made.empty())
-    throw InputError("no part is certainly inside the mesh; expected a thicker one");
+    throw base::InputError("no part is certainly inside the mesh; expected a thicker one");
   return made;
 }
 
@@ -250,4 +253,4 @@ Part MeshInside::capsule(const Mat3d& axes) const {
   return best;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

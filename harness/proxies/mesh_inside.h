@@ -7,7 +7,7 @@
 #include "harness/geometry/mesh_solid.h"
 #include "harness/proxies/local_body.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 // Works in the body's local frame. Throws InputError if a piece of the mesh is not closed, or if no
 // ball inside is found. A proxy is inside if it touches no triangle and contains a point around
@@ -38,9 +38,9 @@ class MeshInside {
   std::optional<Part> copy_about(const Part& part, const Vec3d& centre) const;
 
   const LocalBody& body_;
-  std::vector<std::vector<Triangle>> pieces_;
-  Surface surface_{{}};
+  std::vector<std::vector<geometry::Triangle>> pieces_;
+  geometry::Surface surface_{{}};
   Vec3d centre_ = Vec3d::Zero();
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

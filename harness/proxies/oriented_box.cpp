@@ -7,7 +7,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "harness/proxies/outer_fits.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -103,12 +103,13 @@ class Search {
 
 Mat3d best_frame(const Hull& hull) {
   Search search(hull.vertices);
-  std::vector<Triangle> triangles = triangles_of(hull);
-  std::sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) {
-    return a.normal().squaredNorm() > b.normal().squaredNorm();
-  });
+  std::vector<geometry::Triangle> triangles = geometry::triangles_of(hull);
+  std::sort(triangles.begin(), triangles.end(),
+            [](const geometry::Triangle& a, const geometry::Triangle& b) {
+              return a.normal().squaredNorm() > b.normal().squaredNorm();
+            });
   if (triangles.size() > most_faces) triangles.resize(most_faces);
-  for (const Triangle& t : triangles) {
+  for (const geometry::Triangle& t : triangles) {
     if (t.normal().norm() > 0) {
       search.consider_normal(t.normal());
       continue;
@@ -157,4 +158,4 @@ Mat3d fitting_axes(const LocalBody& body) {
   return axes;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -7,7 +7,7 @@
 #include "harness/geometry/enclosing_ball.h"
 #include "harness/proxies/outer_fits.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -61,7 +61,7 @@ Fit fit_on_line(const std::vector<std::pair<double, double>>& along_and_beside, 
 Fit fit_along(const Vec3d& direction, const std::vector<Vec3d>& points) {
   std::vector<Vec3d> flat;
   for (const Vec3d& p : points) flat.push_back(p - direction.dot(p) * direction);
-  const Ball disc = least_ball(flat);
+  const geometry::Ball disc = geometry::least_ball(flat);
   Fit fit;
   fit.direction = direction;
   fit.beside = disc.centre;
@@ -171,4 +171,4 @@ Part outer_capsule(const LocalBody& body) {
   return part;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

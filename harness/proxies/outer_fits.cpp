@@ -13,7 +13,7 @@
 #include "harness/geometry/tessellation.h"
 #include "harness/proxies/certainty.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -23,33 +23,33 @@ constexpr double same_corner = 0x1p-30;  // corners nearer than this are merged
 Part certain(const LocalBody& body, const std::vector<Vec3d>& points) {
   std::optional<Shape> hull = hull_that_holds(body, points);
   if (!hull)
-    throw InputError("no polytope around the body could be proven; expected a rounder one");
+    throw base::InputError("no polytope around the body could be proven; expected a rounder one");
   return {*hull, {}};
 }
 
 // The half-space along n that contains the body, with a small margin around its middle.
-Plane plane_around(const LocalBody& body, const Vec3d& n) {
+geometry::Plane plane_around(const LocalBody& body, const Vec3d& n) {
   const double far = std::max(reach(body, n, body.middle), thinnest * body.size * n.norm());
   return {n, n.dot(body.middle) + far};
 }
 
-std::vector<Vec3d> corners_of(const LocalBody& body, const std::vector<Plane>& planes) {
+std::vector<Vec3d> corners_of(const LocalBody& body, const std::vector<geometry::Plane>& planes) {
   const Vec3d room = Vec3d::Constant(2 * body.size);
-  return intersection(body.middle - room, body.middle + room, planes)
+  return geometry::intersection(body.middle - room, body.middle + room, planes)
       .corners(same_corner * body.size);
 }
 
-double volume_of(const Part& part) { return Polyhedron::of(*part.shape.hull).volume(); }
+double volume_of(const Part& part) { return geometry::Polyhedron::of(*part.shape.hull).volume(); }
 
 // Vertices near the surface of the shape.
 std::vector<Vec3d> vertices_near(const LocalBody& body) {
   if (body.shape.kind == ShapeKind::hull) return body.shape.hull->vertices;
-  return as_polytope(body.shape, 3).hull->vertices;
+  return geometry::as_polytope(body.shape, 3).hull->vertices;
 }
 
 std::vector<Vec3d> normals_near(const LocalBody& body) {
   const bool is_hull = body.shape.kind == ShapeKind::hull;
-  const Shape polytope = is_hull ? body.shape : as_polytope(body.shape, 3);
+  const Shape polytope = is_hull ? body.shape : geometry::as_polytope(body.shape, 3);
   std::vector<Vec3d> normals;
   for (const Hull::Face& face : polytope.hull->faces) normals.push_back(face.normal);
   return normals;
@@ -58,15 +58,16 @@ std::vector<Vec3d> normals_near(const LocalBody& body) {
 // Cuts the oriented box by planes of the body while the number of corners is at most `most`.
 std::vector<Vec3d> cut_box(const LocalBody& body, std::size_t most) {
   const Mat3d axes = fitting_axes(body);
-  std::vector<Plane> planes;
+  std::vector<geometry::Plane> planes;
   for (int k = 0; k < 3; ++k) {
     for (double side : {-1.0, 1.0}) planes.push_back(plane_around(body, side * axes.col(k)));
   }
   const Vec3d room = Vec3d::Constant(2 * body.size);
-  Polyhedron polyhedron = intersection(body.middle - room, body.middle + room, planes);
+  geometry::Polyhedron polyhedron =
+      geometry::intersection(body.middle - room, body.middle + room, planes);
   const double tolerance = same_corner * body.size;
   std::vector<Vec3d> corners = polyhedron.corners(tolerance);
-  std::vector<Plane> more;
+  std::vector<geometry::Plane> more;
   for (const Vec3d& n : normals_near(body)) more.push_back(plane_around(body, n));
   while (!more.empty()) {
     // Distances by which a corner is beyond each plane.
@@ -82,7 +83,7 @@ std::vector<Vec3d> cut_box(const LocalBody& body, std::size_t most) {
     if (order.size() > 16) order.resize(16);
     bool cut = false;
     for (const auto& [beyond, i] : order) {
-      Polyhedron tried = polyhedron;
+      geometry::Polyhedron tried = polyhedron;
       tried.clip(more[i]);
       std::vector<Vec3d> left = tried.corners(tolerance);
       if (left.size() > most) continue;
@@ -116,7 +117,7 @@ Part outer_sphere(const LocalBody& body) {
       const std::array<Vec3d, 3> outline = {Vec3d(s.radius, 0, -s.half_length),
                                             Vec3d(-s.radius, 0, -s.half_length),
                                             Vec3d(0, 0, s.half_length)};
-      const double z = least_ball(outline).centre.z();
+      const double z = geometry::least_ball(outline).centre.z();
       part.pose.translation = body.snap({0, 0, z});
       for (const Vec3d& p : outline) {
         const double far = (p - part.pose.translation).norm();
@@ -125,7 +126,7 @@ Part outer_sphere(const LocalBody& body) {
       break;
     }
     default:
-      part.pose.translation = body.snap(least_ball(body.points).centre);
+      part.pose.translation = body.snap(geometry::least_ball(body.points).centre);
       for (const Vec3d& p : body.points) {
         radius = std::max(radius, (p - part.pose.translation).norm() * (1 + 8 * epsilon));
       }
@@ -160,7 +161,7 @@ std::vector<Vec3d> dop_normals(int directions) {
 
 Part outer_dop(const LocalBody& body, int directions) {
   if (body.size == 0) return {body.shape, {}};  // a point
-  std::vector<Plane> planes;
+  std::vector<geometry::Plane> planes;
   for (const Vec3d& n : dop_normals(directions)) {
     planes.push_back(plane_around(body, n));
     planes.push_back(plane_around(body, -n));
@@ -195,14 +196,14 @@ std::vector<Vec3d> farthest_vertices(const std::vector<Vec3d>& vertices, int cou
   const Vec3d normal = (chosen[1] - chosen[0]).cross(chosen[2] - chosen[0]);
   add_farthest([&](const Vec3d& v) { return std::abs(normal.dot(v - chosen[0])); });
   while (chosen.size() >= 4 && chosen.size() < most) {
-    std::vector<Plane> planes;
-    for (const Triangle& t : triangles_of(*make_hull(chosen))) {
+    std::vector<geometry::Plane> planes;
+    for (const geometry::Triangle& t : geometry::triangles_of(*make_hull(chosen))) {
       const Vec3d n = t.normal().normalized();
       planes.push_back({n, n.dot(t.a)});
     }
     const bool added = add_farthest([&](const Vec3d& v) {
       double beyond = 0;
-      for (const Plane& p : planes) beyond = std::max(beyond, p.normal.dot(v) - p.offset);
+      for (const geometry::Plane& p : planes) beyond = std::max(beyond, p.normal.dot(v) - p.offset);
       return beyond;
     });
     if (!added) break;
@@ -239,14 +240,15 @@ Part outer_icosphere(const LocalBody& body, int level) {
   Shape unit;
   unit.radius = 1;
   double nearest = 1;
-  for (const Triangle& t : triangles_of(*as_polytope(unit, level).hull)) {
+  for (const geometry::Triangle& t :
+       geometry::triangles_of(*geometry::as_polytope(unit, level).hull)) {
     nearest = std::min(nearest, t.a.dot(t.normal().normalized()));
   }
   Shape wider = body.shape;
   const bool circle = wider.kind == ShapeKind::cylinder || wider.kind == ShapeKind::cone;
   wider.radius /= circle ? std::cos(std::numbers::pi / (8 << level)) : nearest;
   wider.radii /= nearest;
-  return certain(body, as_polytope(wider, level).hull->vertices);
+  return certain(body, geometry::as_polytope(wider, level).hull->vertices);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -5,7 +5,7 @@
 
 #include "harness/proxies/local_body.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 // All are in the body's local frame and certainly contain every point of the body (of its hull, for
 // a mesh): radii and extents are rounded up beyond a bound on their error, and hulls are proven
@@ -39,4 +39,4 @@ std::vector<Vec3d> dop_normals(int directions);
 // The longest, middle and shortest axis of the oriented box, right-handed.
 Mat3d fitting_axes(const LocalBody& body);
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

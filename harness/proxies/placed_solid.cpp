@@ -10,7 +10,7 @@
 #include "harness/base/error.h"
 #include "harness/geometry/tessellation.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -89,7 +89,7 @@ PlacedSolid::PlacedSolid(const Shape& shape, const Pose& pose, const Mat3d& turn
   Shape near = shape;
   switch (shape.kind) {
     case ShapeKind::halfspace:
-      throw InputError("a half-space has no size; expected a bounded shape");
+      throw base::InputError("a half-space has no size; expected a bounded shape");
     case ShapeKind::sphere:
       extremes_ = {pose_.translation};
       radius_ = shape.radius;
@@ -112,29 +112,30 @@ PlacedSolid::PlacedSolid(const Shape& shape, const Pose& pose, const Mat3d& turn
       }
       break;
     case ShapeKind::ellipsoid:
-      for (const Vec3d& p : as_polytope(shape, 4).hull->vertices) extremes_.push_back(pose_(p));
+      for (const Vec3d& p : geometry::as_polytope(shape, 4).hull->vertices)
+        extremes_.push_back(pose_(p));
       break;
     case ShapeKind::box:
     case ShapeKind::hull: polytope_ = true;
   }
-  near = as_polytope(shape, 3);
+  near = geometry::as_polytope(shape, 3);
   if (polytope_ && shape.kind == ShapeKind::box && shape.half_extents.minCoeff() == 0) {
     near.hull = make_reduced_hull(near.hull->vertices);  // a flat box
   }
   auto hull = std::make_shared<Hull>(*near.hull);
   for (Vec3d& v : hull->vertices) v = pose_(v);
   if (polytope_ && hull->dimension == 3 && hull->faces.empty()) {
-    throw InputError("the faces of a hull are not known; expected one that is no sliver");
+    throw base::InputError("the faces of a hull are not known; expected one that is no sliver");
   }
   if (polytope_) extremes_ = hull->vertices;
-  std::vector<Triangle> triangles = triangles_of(*hull);
+  std::vector<geometry::Triangle> triangles = geometry::triangles_of(*hull);
   if (polytope_ && hull->dimension == 3) {
-    for (const Triangle& t : triangles) {
+    for (const geometry::Triangle& t : triangles) {
       const Vec3d n = t.normal();
       if (n.norm() > 0) planes_.push_back({n.normalized(), n.normalized().dot(t.a)});
     }
   }
-  surface_ = Surface(std::move(triangles));
+  surface_ = geometry::Surface(std::move(triangles));
   volume_ = own_volume();
   low_ = high_ = extremes_.front();
   for (const Vec3d& p : extremes_) {
@@ -161,7 +162,7 @@ double PlacedSolid::own_volume() const {
     case ShapeKind::cone: return pi * r * r * length / 3;
     case ShapeKind::ellipsoid: return 4.0 / 3 * pi * shape_.radii.prod();
     case ShapeKind::box: return 8 * shape_.half_extents.prod();
-    default: return planes_.empty() ? 0 : std::max(0.0, volume_of(surface()));
+    default: return planes_.empty() ? 0 : std::max(0.0, geometry::volume_of(surface()));
   }
 }
 
@@ -184,15 +185,18 @@ double PlacedSolid::signed_distance(const Vec3d& x) const {
     default: break;
   }
   double beyond = -infinity;
-  for (const Plane& plane : planes_) beyond = std::max(beyond, plane.normal.dot(x) - plane.offset);
+  for (const geometry::Plane& plane : planes_)
+    beyond = std::max(beyond, plane.normal.dot(x) - plane.offset);
   return !planes_.empty() && beyond <= 0 ? beyond : surface_.distance(x);
 }
 
-SurfacePoint PlacedSolid::way_out(const Vec3d& x) const {
-  const auto beyond = [&](const Plane& plane) { return plane.normal.dot(x) - plane.offset; };
-  const Plane& nearest =
-      *std::max_element(planes_.begin(), planes_.end(),
-                        [&](const Plane& a, const Plane& b) { return beyond(a) < beyond(b); });
+geometry::SurfacePoint PlacedSolid::way_out(const Vec3d& x) const {
+  const auto beyond = [&](const geometry::Plane& plane) {
+    return plane.normal.dot(x) - plane.offset;
+  };
+  const geometry::Plane& nearest = *std::max_element(
+      planes_.begin(), planes_.end(),
+      [&](const geometry::Plane& a, const geometry::Plane& b) { return beyond(a) < beyond(b); });
   return {x - beyond(nearest) * nearest.normal, nearest.normal};
 }
 
@@ -202,7 +206,7 @@ std::optional<std::pair<double, double>> PlacedSolid::along_z(double x, double y
   }
   if (planes_.empty()) return std::nullopt;
   double low = -infinity, high = infinity;
-  for (const Plane& p : planes_) {
+  for (const geometry::Plane& p : planes_) {
     const double rest = p.offset - p.normal.x() * x - p.normal.y() * y;
     if (p.normal.z() > 0) {
       high = std::min(high, rest / p.normal.z());
@@ -258,4 +262,4 @@ std::optional<std::pair<double, double>> PlacedSolid::along_line(const Vec3d& fr
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

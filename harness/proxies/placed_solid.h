@@ -9,7 +9,7 @@
 #include "harness/geometry/mesh_solid.h"
 #include "harness/proxies/representation.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 class PlacedSolid {
  public:
@@ -23,7 +23,7 @@ class PlacedSolid {
   double signed_distance(const Vec3d& x) const;
   // The projection of x, which must be inside a polytope, on the nearest face's plane, and the
   // normal.
-  SurfacePoint way_out(const Vec3d& x) const;
+  geometry::SurfacePoint way_out(const Vec3d& x) const;
   // The interval of z in which the points (x, y, z) are inside.
   std::optional<std::pair<double, double>> along_z(double x, double y) const;
 
@@ -39,9 +39,9 @@ class PlacedSolid {
 
   bool is_polytope() const { return polytope_; }
   bool solid() const { return volume_ > 0; }
-  const std::vector<Plane>& planes() const { return planes_; }  // of polytopes
+  const std::vector<geometry::Plane>& planes() const { return planes_; }  // of polytopes
   // Triangles of the surface; approximate if the solid is round.
-  const std::vector<Triangle>& surface() const { return surface_.triangles(); }
+  const std::vector<geometry::Triangle>& surface() const { return surface_.triangles(); }
   Vec3d low() const { return low_; }
   Vec3d high() const { return high_; }
 
@@ -58,8 +58,8 @@ class PlacedSolid {
   std::vector<Vec3d> extremes_;
   double radius_ = 0, volume_ = 0;
   bool polytope_ = false;
-  std::vector<Plane> planes_;
-  Surface surface_{{}};
+  std::vector<geometry::Plane> planes_;
+  geometry::Surface surface_{{}};
 };
 
 template <class Function>
@@ -94,4 +94,4 @@ double PlacedSolid::greatest(const Function& f) const {
   return best;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

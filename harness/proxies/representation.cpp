@@ -15,7 +15,7 @@
 #include "harness/proxies/outer_fits.h"
 #include "harness/proxies/whole_body.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr std::array<std::pair<Form, std::string_view>, 13> names = {{
@@ -89,7 +89,8 @@ std::vector<Part> inner_parts_of_mesh(const LocalBody& body, const Representatio
 Part nearest_part(const LocalBody& body, Representation r) {
   const double volume = WholeBody(body, fitting_axes(body).transpose()).volume();
   if (!(volume > 0)) {
-    throw InputError("a body without volume has no nearest representation; expected an outer one");
+    throw base::InputError(
+        "a body without volume has no nearest representation; expected an outer one");
   }
   Part part = r.form == Form::icosphere ? inner_part(body, r) : outer_part(body, r);
   const double factor = std::cbrt(volume / PlacedSolid(part.shape, part.pose).volume());
@@ -108,16 +109,17 @@ Part nearest_part(const LocalBody& body, Representation r) {
   return part;
 }
 
-void check(const Shape& shape, const Mesh* mesh, const Representation& r) {
+void check(const Shape& shape, const geometry::Mesh* mesh, const Representation& r) {
   if (shape.kind == ShapeKind::halfspace && r.form != Form::as_given) {
-    throw InputError(fmt::format("a half-space has no {}; expected as-given", to_string(r)));
+    throw base::InputError(fmt::format("a half-space has no {}; expected as-given", to_string(r)));
   }
   if (!has_sides(r.form) && r.side != Side::outer) {
-    throw InputError(fmt::format("{}: a body's own shape is on no side of it; expected {}",
-                                 to_string(r), to_string({r.form, Side::outer, 0})));
+    throw base::InputError(fmt::format("{}: a body's own shape is on no side of it; expected {}",
+                                       to_string(r), to_string({r.form, Side::outer, 0})));
   }
   if (r.form == Form::mesh && (mesh == nullptr || mesh->triangles.empty())) {
-    throw InputError("a body without a mesh cannot be represented by it; expected another form");
+    throw base::InputError(
+        "a body without a mesh cannot be represented by it; expected another form");
   }
 }
 
@@ -149,7 +151,7 @@ std::vector<Part> represent_local(const LocalBody& body, const Representation& r
     case Side::nearest: break;
   }
   if (r.form == Form::parts) {
-    throw InputError(
+    throw base::InputError(
         "several parts are not scaled to a body's volume; expected outer or inner ones");
   }
   return {nearest_part(body, own_hull ? Representation{Form::hull, r.side, 0} : r)};
@@ -170,7 +172,7 @@ std::string to_string(const Representation& r) {
 Representation parse_representation(std::string_view text) {
   const std::string whole(text);
   const auto fail = [&]() -> Representation {
-    throw InputError(fmt::format("representation '{}': {}", whole, expected));
+    throw base::InputError(fmt::format("representation '{}': {}", whole, expected));
   };
   Representation r;
   for (Side side : {Side::inner, Side::nearest}) {
@@ -204,7 +206,8 @@ Representation parse_representation(std::string_view text) {
   return fail();
 }
 
-std::vector<Part> represent(const Shape& shape, const Mesh* mesh, const Representation& r) {
+std::vector<Part> represent(const Shape& shape, const geometry::Mesh* mesh,
+                            const Representation& r) {
   check(shape, mesh, r);
   if (r.form == Form::as_given) return {{shape, {}}};
   const LocalBody body(shape, mesh);
@@ -213,4 +216,4 @@ std::vector<Part> represent(const Shape& shape, const Mesh* mesh, const Represen
   return parts;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

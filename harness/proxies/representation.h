@@ -10,7 +10,7 @@
 #include "algorithms/core/shape.h"
 #include "harness/geometry/mesh.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 enum class Form : std::uint8_t {
   as_given,      // the scene's shape; for a mesh its convex hull
@@ -60,7 +60,7 @@ struct Part {
 // proxy: an inner one of a flat body or of an open mesh, a nearest one of a flat body or of several
 // parts, any but as_given of a half-space, a mesh of a body without one, and another side of
 // as_given and mesh.
-std::vector<Part> represent(const Shape& shape, const Mesh* mesh,
+std::vector<Part> represent(const Shape& shape, const geometry::Mesh* mesh,
                             const Representation& representation);
 
 // The difference between a proxy and the body, both as solids (the union of the parts).
@@ -82,7 +82,7 @@ struct RepresentationError {
   double hausdorff_deviation = 0;
   double volume_error() const { return added + lost; }
 };
-RepresentationError representation_error(const Shape& shape, const Mesh* mesh,
+RepresentationError representation_error(const Shape& shape, const geometry::Mesh* mesh,
                                          const std::vector<Part>& parts);
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -8,7 +8,7 @@
 #include "harness/proxies/union_volume.h"
 #include "harness/proxies/whole_body.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -47,8 +47,9 @@ void compare_convex(const PlacedSolid& body, const PlacedSolid& part, double tol
     set_volumes(body_volume, 0, std::max(0.0, body_volume - part_volume), error);
   } else if (body.is_polytope() && part.is_polytope()) {
     const Vec3d room = 0.01 * (body.high() - body.low());
-    Polyhedron common = intersection(body.low() - room, body.high() + room, body.planes());
-    for (const Plane& plane : part.planes()) common.clip(plane);
+    geometry::Polyhedron common =
+        geometry::intersection(body.low() - room, body.high() + room, body.planes());
+    for (const geometry::Plane& plane : part.planes()) common.clip(plane);
     const double both = common.volume();
     set_volumes(body_volume, std::max(0.0, part_volume - both), std::max(0.0, body_volume - both),
                 error);
@@ -63,7 +64,7 @@ void compare_convex(const PlacedSolid& body, const PlacedSolid& part, double tol
 
 // Returns true if a step out of one part at a point of its surface leads into another part.
 bool is_covered(const std::vector<PlacedSolid>& parts, const PlacedSolid& part,
-                const SurfacePoint& p) {
+                const geometry::SurfacePoint& p) {
   const Vec3d out = part.solid() ? Vec3d(p.at + way_step * p.normal) : p.at;
   return std::any_of(parts.begin(), parts.end(), [&](const PlacedSolid& other) {
     return &other != &part && other.solid() && (out.array() >= other.low().array()).all() &&
@@ -77,7 +78,7 @@ std::vector<Vec3d> points_of_union(const std::vector<PlacedSolid>& parts) {
   double area = 0;
   const auto area_of = [](const PlacedSolid& part) {
     double sum = 0;
-    for (const Triangle& t : part.surface()) sum += t.normal().norm();
+    for (const geometry::Triangle& t : part.surface()) sum += t.normal().norm();
     return sum;
   };
   for (const PlacedSolid& part : parts) area += area_of(part);
@@ -85,7 +86,7 @@ std::vector<Vec3d> points_of_union(const std::vector<PlacedSolid>& parts) {
   for (const PlacedSolid& part : parts) {
     const double share = area > 0 ? area_of(part) / area : 1;
     const auto count = static_cast<std::size_t>(share * surface_points) + 1;
-    for (const SurfacePoint& p : spread_points(part.surface(), count)) {
+    for (const geometry::SurfacePoint& p : geometry::spread_points(part.surface(), count)) {
       if (!is_covered(parts, part, p)) points.push_back(p.at);
     }
   }
@@ -118,9 +119,9 @@ double distance_to_union(const std::vector<PlacedSolid>& parts, const std::vecto
 }
 
 // The approximate greatest distance of a surface point from its nearest sample point.
-double spacing_of(const std::vector<Triangle>& surface) {
+double spacing_of(const std::vector<geometry::Triangle>& surface) {
   double area = 0;
-  for (const Triangle& t : surface) area += t.normal().norm() / 2;
+  for (const geometry::Triangle& t : surface) area += t.normal().norm() / 2;
   return 1.5 * std::sqrt(area / surface_points);
 }
 
@@ -135,14 +136,14 @@ void compare_unions(const WholeBody& body, const std::vector<PlacedSolid>& parts
               std::max(0.0, overlap.body - overlap.both), error);
   error.volume_deviation = overlap.deviation > 0 ? overlap.deviation / overlap.body : 0;
 
-  const Surface surface(body.surface);
+  const geometry::Surface surface(body.surface);
   const std::vector<Vec3d> points = points_of_union(parts);
-  std::vector<Triangle> of_parts;
+  std::vector<geometry::Triangle> of_parts;
   for (const PlacedSolid& part : parts) {
     of_parts.insert(of_parts.end(), part.surface().begin(), part.surface().end());
   }
   for (const Vec3d& p : points) error.hausdorff = std::max(error.hausdorff, surface.distance(p));
-  for (const SurfacePoint& p : spread_points(body.surface, surface_points)) {
+  for (const geometry::SurfacePoint& p : geometry::spread_points(body.surface, surface_points)) {
     error.hausdorff = std::max(error.hausdorff, distance_to_union(parts, points, p.at));
   }
   error.hausdorff_deviation = std::max(spacing_of(body.surface), spacing_of(of_parts));
@@ -150,7 +151,7 @@ void compare_unions(const WholeBody& body, const std::vector<PlacedSolid>& parts
 
 }  // namespace
 
-RepresentationError representation_error(const Shape& shape, const Mesh* mesh,
+RepresentationError representation_error(const Shape& shape, const geometry::Mesh* mesh,
                                          const std::vector<Part>& parts) {
   const LocalBody body(shape, mesh);
   RepresentationError error;
@@ -176,4 +177,4 @@ RepresentationError representation_error(const Shape& shape, const Mesh* mesh,
   return error;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

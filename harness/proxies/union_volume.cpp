@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::proxies {
 namespace {
 
 constexpr int lattices = 8, lines = 4096;
@@ -44,7 +44,7 @@ double common_length(const Intervals& a, const Intervals& b) {
 // A closed surface, sorted into cells of the plane.
 class Columns {
  public:
-  Columns(const std::vector<Triangle>& triangles, const Vec3d& low, const Vec3d& high)
+  Columns(const std::vector<geometry::Triangle>& triangles, const Vec3d& low, const Vec3d& high)
       : triangles_(triangles), low_(low), cells_(cells * cells) {
     width_ = ((high - low) / cells).cwiseMax(1e-300);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -84,14 +84,14 @@ class Columns {
     const double s = (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x());
     return s == 0 ? 1e-300 : s;
   }
-  static void cross(const Triangle& t, double x, double y,
+  static void cross(const geometry::Triangle& t, double x, double y,
                     std::vector<std::pair<double, int>>& crossings) {
     const double a = side(t.b, t.c, x, y), b = side(t.c, t.a, x, y), c = side(t.a, t.b, x, y);
     if ((a > 0) != (b > 0) || (b > 0) != (c > 0)) return;
     crossings.emplace_back((a * t.a.z() + b * t.b.z() + c * t.c.z()) / (a + b + c), a > 0 ? -1 : 1);
   }
 
-  const std::vector<Triangle>& triangles_;
+  const std::vector<geometry::Triangle>& triangles_;
   Vec3d low_, width_;
   std::vector<std::vector<std::uint32_t>> cells_;
 };
@@ -99,7 +99,7 @@ class Columns {
 }  // namespace
 
 Overlap overlap_of(const std::vector<PlacedSolid>& body,
-                   const std::vector<std::vector<Triangle>>& closed,
+                   const std::vector<std::vector<geometry::Triangle>>& closed,
                    const std::vector<PlacedSolid>& parts) {
   Vec3d low = Vec3d::Constant(1e300), high = -low;
   const auto widen = [&](const Vec3d& p) {
@@ -113,7 +113,7 @@ Overlap overlap_of(const std::vector<PlacedSolid>& body,
     }
   }
   for (const auto& surface : closed) {
-    for (const Triangle& t : surface) {
+    for (const geometry::Triangle& t : surface) {
       for (const Vec3d& p : {t.a, t.b, t.c}) widen(p);
     }
   }
@@ -165,4 +165,4 @@ Overlap overlap_of(const std::vector<PlacedSolid>& body,
   return sum;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

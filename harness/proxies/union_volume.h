@@ -5,7 +5,7 @@
 
 #include "harness/proxies/placed_solid.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 struct Overlap {
   double body = 0, parts = 0, both = 0;  // metres cubed
@@ -17,7 +17,7 @@ struct Overlap {
 // plastic number), each shifted; lengths along a line are exact. The caller should rotate the
 // solids so that they fill their box in x and y.
 Overlap overlap_of(const std::vector<PlacedSolid>& body,
-                   const std::vector<std::vector<Triangle>>& closed,
+                   const std::vector<std::vector<geometry::Triangle>>& closed,
                    const std::vector<PlacedSolid>& parts);
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -4,7 +4,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "harness/proxies/union_volume.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 WholeBody::WholeBody(const LocalBody& body, const Mat3d& turn) {
   if (body.mesh.triangles.empty()) {
@@ -12,9 +12,9 @@ WholeBody::WholeBody(const LocalBody& body, const Mat3d& turn) {
     surface = convex.front().surface();
     return;
   }
-  for (MeshPiece& piece : pieces_of(body.mesh)) {
+  for (geometry::MeshPiece& piece : geometry::pieces_of(body.mesh)) {
     for (Vec3d& v : piece.mesh.vertices) v = turn * v;
-    std::vector<Triangle> triangles = triangles_of(piece.mesh);
+    std::vector<geometry::Triangle> triangles = geometry::triangles_of(piece.mesh);
     surface.insert(surface.end(), triangles.begin(), triangles.end());
     if (piece.closed) {
       closed.push_back(std::move(triangles));
@@ -32,4 +32,4 @@ double WholeBody::volume() const {
   return overlap_of(convex, closed, {}).body;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -6,16 +6,16 @@
 #include "harness/proxies/local_body.h"
 #include "harness/proxies/placed_solid.h"
 
-namespace touchstone {
+namespace touchstone::proxies {
 
 // Solids in the local frame, rotated by `turn`. The body is their union.
 struct WholeBody {
   WholeBody(const LocalBody& body, const Mat3d& turn);
 
-  std::vector<PlacedSolid> convex;            // hulls of open pieces, or a body without mesh
-  std::vector<std::vector<Triangle>> closed;  // closed pieces of a mesh
-  std::vector<Triangle> surface;              // approximate if round
-  double volume() const;                      // of a mesh as in union_volume.h
+  std::vector<PlacedSolid> convex;  // hulls of open pieces, or a body without mesh
+  std::vector<std::vector<geometry::Triangle>> closed;  // closed pieces of a mesh
+  std::vector<geometry::Triangle> surface;              // approximate if round
+  double volume() const;                                // of a mesh as in union_volume.h
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::proxies

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::record {
 
 void Findings::add(Departure departure) {
   departure.where = one_line(std::move(departure.where));
@@ -43,4 +43,4 @@ std::string departures_text(const Findings& findings) {
   return text.empty() ? text : "Departures\n\n" + text;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::record

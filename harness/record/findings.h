@@ -9,7 +9,7 @@
 #include "harness/record/raw_row.h"
 #include "harness/record/row.h"
 
-namespace touchstone {
+namespace touchstone::record {
 
 // A discrepancy: one algorithm on one frame or window found something else than it should.
 struct Departure {
@@ -58,4 +58,4 @@ void columns(Row& row, Visit visit) {
         "The file that shows it again; empty where there is none.");
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::record

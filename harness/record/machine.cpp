@@ -28,7 +28,7 @@
 #include "harness/files/csv.h"
 #include "harness/record/build_info.h"
 
-namespace touchstone {
+namespace touchstone::record {
 namespace {
 
 constexpr std::string_view unknown = "unknown";
@@ -234,18 +234,18 @@ std::string hash_of_program() {
     for (std::size_t i = 0; i < static_cast<std::size_t>(file.gcount()); i += 8) {
       std::uint64_t word = 0;
       std::copy_n(buffer.data() + i, 8, reinterpret_cast<char*>(&word));
-      hash = mix(hash ^ word);
+      hash = base::mix(hash ^ word);
     }
   }
-  return to_hex(hash);
+  return base::to_hex(hash);
 }
 
 void write_facts(std::vector<std::pair<std::string, std::string>> first,
                  const std::filesystem::path& file) {
-  CsvWriter csv(file, {"name", "value"});
+  files::CsvWriter csv(file, {"name", "value"});
   for (auto& fact : machine_facts()) first.push_back(std::move(fact));
   for (const auto& [name, value] : first) csv.field(name).field(value).end_row();
   csv.close();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::record

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::record {
 
 // Facts as name and value, "unknown" where the system does not tell: processor, cores, caches,
 // governor, turbo, kernel, memory, limits, compiler and flags, vector instructions in use, versions
@@ -24,4 +24,4 @@ std::string hash_of_program();
 void write_facts(std::vector<std::pair<std::string, std::string>> first,
                  const std::filesystem::path& file);
 
-}  // namespace touchstone
+}  // namespace touchstone::record

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::record {
 
-static_assert(enumerators<RowStatus>.size() == enumerators<Status>.size() + 1);
+static_assert(base::enumerators<RowStatus>.size() == base::enumerators<Status>.size() + 1);
 static_assert(row_status(Status::timed_out) == RowStatus::timed_out);
 static_assert(row_origin(Origin::oracle) == RowOrigin::oracle);
 
@@ -54,4 +54,4 @@ std::string label_of(const RawRow& row) {
                       row.duality_gap, row.is_warm());
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::record

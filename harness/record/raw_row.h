@@ -13,7 +13,7 @@
 #include "harness/record/row.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::record {
 
 // `convert` is the part of a peer's build or update that converts to its own types, done once more.
 enum class Phase : std::uint8_t { build, update, find_pairs, narrow, convert };
@@ -54,7 +54,7 @@ struct RawRow {
   std::string scene, scene_hash;
   std::int64_t seed = -1;
   std::int64_t bodies = 0;
-  BoxKind boxes = BoxKind::tight;
+  scene::BoxKind boxes = scene::BoxKind::tight;
   std::int64_t frame = 0;
   std::int64_t frames = -1;
   std::string broad, narrow;
@@ -236,4 +236,4 @@ std::string narrow_label(std::string_view name, std::string_view scalar, double 
 // Label of the row's algorithm: a broad phase's name, or a narrow phase's label.
 std::string label_of(const RawRow& row);
 
-}  // namespace touchstone
+}  // namespace touchstone::record

@@ -22,7 +22,7 @@
 #include "harness/base/error.h"
 #include "harness/record/machine.h"
 
-namespace touchstone {
+namespace touchstone::record {
 namespace {
 
 constexpr const char* finished_key = "finished";
@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 2> source_facts = {"commit", "tree"};
 
 std::map<std::string, std::string> read_facts(const std::filesystem::path& file) {
   std::map<std::string, std::string> facts;
-  CsvReader(file, {"name", "value"}).read([&](const CsvReader::Row& row) {
+  files::CsvReader(file, {"name", "value"}).read([&](const files::CsvReader::Row& row) {
     facts.emplace(row.text(0), row.text(1));
   });
   return facts;
@@ -51,7 +51,7 @@ void expect_header(const std::filesystem::path& path, const RowFile& file) {
   std::getline(stream, line);
   const std::string expected = fmt::format("{}", fmt::join(file.header, ","));
   if (line == expected) return;
-  throw InputError(
+  throw base::InputError(
       path.string(), 1,
       fmt::format("other columns than this program writes; expected {} to resume", expected));
 }
@@ -62,13 +62,14 @@ ResultFolder::ResultFolder(ResultFolderPlan plan) : plan_(std::move(plan)) {
   std::error_code error;
   if (plan_.start == FolderStart::resume) {
     if (!std::filesystem::exists(machine(), error)) {
-      throw InputError(
+      throw base::InputError(
           machine().string(), 0,
           fmt::format("is not there; expected the folder of a {} to resume", plan_.work));
     }
   } else {
     std::filesystem::create_directories(plan_.folder, error);
-    if (error) throw InputError(plan_.folder.string(), 0, "cannot be made: " + error.message());
+    if (error)
+      throw base::InputError(plan_.folder.string(), 0, "cannot be made: " + error.message());
   }
   try {
     lock();
@@ -86,14 +87,14 @@ ResultFolder::~ResultFolder() { ::close(lock_); }
 void ResultFolder::lock() {
   lock_ = ::open(plan_.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) {
-    throw InputError(plan_.folder.string(), 0,
-                     fmt::format("cannot be used: {}", std::strerror(errno)));
+    throw base::InputError(plan_.folder.string(), 0,
+                           fmt::format("cannot be used: {}", std::strerror(errno)));
   }
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   while (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK && errno != EINTR) return;  // a file system without locks
     if (watch.seconds() > seconds_for_others) {
-      throw InputError(
+      throw base::InputError(
           plan_.folder.string(), 0,
           fmt::format("another {} is at work in it; expected a folder for each", plan_.work));
     }
@@ -118,10 +119,11 @@ void ResultFolder::begin_anew() {
         std::filesystem::exists(machine(), error) && read_facts(machine())[finished_key] == "yes";
     for (const RowFile& file : plan_.files) {
       if (finished || !std::filesystem::exists(path(file.name), error)) continue;
-      throw InputError(path(file.name).string(), 0,
-                       fmt::format("is of a {} that was not finished; expected --resume to go on "
-                                   "with it, --overwrite to lose it, or another --out",
-                                   plan_.work));
+      throw base::InputError(
+          path(file.name).string(), 0,
+          fmt::format("is of a {} that was not finished; expected --resume to go on "
+                      "with it, --overwrite to lose it, or another --out",
+                      plan_.work));
     }
   }
   // machine.csv goes first and comes first: rows never stand beside the facts of other work.
@@ -129,7 +131,7 @@ void ResultFolder::begin_anew() {
   for (const RowFile& file : plan_.files) old.push_back(path(file.name));
   for (const auto& file : old) {
     std::filesystem::remove(file, error);
-    if (error) throw InputError(file.string(), 0, "cannot be replaced: " + error.message());
+    if (error) throw base::InputError(file.string(), 0, "cannot be replaced: " + error.message());
   }
   for (const std::string& name : plan_.removed) std::filesystem::remove_all(path(name), error);
   write_facts(false, {});
@@ -142,7 +144,7 @@ void ResultFolder::compare_identity() {
   was_finished_ = old[finished_key] == "yes";
   old.erase(finished_key);
   const auto fail = [&](const std::string& message) {
-    throw InputError(machine().string(), 0, message + "; expected the same to resume");
+    throw base::InputError(machine().string(), 0, message + "; expected the same to resume");
   };
   for (auto& [name, value] : plan_.identity) {
     const auto at = old.find(name);
@@ -181,8 +183,8 @@ void ResultFolder::cut_to_progress() {
     const char* const end = text.data() + text.size();
     const auto [stop, fault] = std::from_chars(text.data(), end, value);
     if (fault != std::errc{} || stop != end || value < 0) {
-      throw InputError(progress().string(), 0,
-                       fmt::format("{}: found '{}'; expected a number", name, text));
+      throw base::InputError(progress().string(), 0,
+                             fmt::format("{}: found '{}'; expected a number", name, text));
     }
     return value;
   };
@@ -193,29 +195,30 @@ void ResultFolder::cut_to_progress() {
     std::uintmax_t there = std::filesystem::file_size(name, error);
     if (error) there = 0;
     if (!any && there > header_size(file)) {
-      throw InputError(progress().string(), 0,
-                       fmt::format("is not there, beside rows in {}; expected the folder of a {} "
-                                   "of this program to resume",
-                                   file.name, plan_.work));
+      throw base::InputError(
+          progress().string(), 0,
+          fmt::format("is not there, beside rows in {}; expected the folder of a {} "
+                      "of this program to resume",
+                      file.name, plan_.work));
     }
     const std::uintmax_t size = any ? static_cast<std::uintmax_t>(number(file.name)) : 0;
     if (size > 0 && there > 0) expect_header(name, file);
     if (there < size) {
-      throw InputError(
+      throw base::InputError(
           name.string(), 0,
           fmt::format("{} bytes; expected at least {}, as progress.csv says", there, size));
     }
     if (there > size) std::filesystem::resize_file(name, size, error);
     if (there > size && error) {
-      throw InputError(name.string(), 0, "cannot be cut: " + error.message());
+      throw base::InputError(name.string(), 0, "cannot be cut: " + error.message());
     }
   }
 }
 
 void ResultFolder::open() {
   for (const RowFile& file : plan_.files) {
-    writers_.push_back(
-        std::make_unique<CsvWriter>(path(file.name), file.header, CsvWriter::Keep::appended_rows));
+    writers_.push_back(std::make_unique<files::CsvWriter>(path(file.name), file.header,
+                                                          files::CsvWriter::Keep::appended_rows));
   }
   for (const auto& writer : writers_) writer->flush();
 }
@@ -227,12 +230,12 @@ void ResultFolder::commit(std::int64_t units) {
 }
 
 void ResultFolder::write_progress() const {
-  CsvWriter csv(progress(), {"name", "value"});
+  files::CsvWriter csv(progress(), {"name", "value"});
   csv.field(units_key).field(units_).end_row();
   for (std::size_t i = 0; i < plan_.files.size(); ++i) {
     csv.field(plan_.files[i].name).field(writers_[i]->size()).end_row();
   }
-  csv.close(CsvWriter::Durable::against_kills);
+  csv.close(files::CsvWriter::Durable::against_kills);
 }
 
 void ResultFolder::finish(const Facts& more) {
@@ -241,7 +244,7 @@ void ResultFolder::finish(const Facts& more) {
 }
 
 void ResultFolder::write_facts(bool finished, const Facts& more) const {
-  CsvWriter csv(machine(), {"name", "value"});
+  files::CsvWriter csv(machine(), {"name", "value"});
   for (const Facts* facts : {&plan_.identity, &plan_.notes, &more}) {
     for (const auto& [name, value] : *facts) csv.field(name).field(value).end_row();
   }
@@ -249,4 +252,4 @@ void ResultFolder::write_facts(bool finished, const Facts& more) const {
   csv.close();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::record

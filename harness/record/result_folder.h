@@ -20,7 +20,7 @@
 #include "harness/files/csv.h"
 #include "harness/record/row.h"
 
-namespace touchstone {
+namespace touchstone::record {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
@@ -77,7 +77,7 @@ class ResultFolder {
   void write(std::size_t file, const Row& row, const Context&... context) {
     write_row(writer(file), row, context...);
   }
-  CsvWriter& writer(std::size_t file) { return *writers_[file]; }
+  files::CsvWriter& writer(std::size_t file) { return *writers_[file]; }
   // Ends `units` units: what was written since the last call is kept from now on.
   void commit(std::int64_t units = 1);
   // Writes machine.csv with `finished` and these further facts.
@@ -100,7 +100,7 @@ class ResultFolder {
   int lock_ = -1;  // the folder, open
   bool was_finished_ = false;
   std::int64_t units_ = 0;
-  std::vector<std::unique_ptr<CsvWriter>> writers_;  // by file
+  std::vector<std::unique_ptr<files::CsvWriter>> writers_;  // by file
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::record

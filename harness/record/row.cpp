@@ -1,6 +1,6 @@
 #include "harness/record/row.h"
 
-namespace touchstone {
+namespace touchstone::record {
 
 std::string one_line(std::string text) {
   for (char& c : text) {
@@ -9,4 +9,4 @@ std::string one_line(std::string text) {
   return text;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::record

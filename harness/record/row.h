@@ -39,7 +39,7 @@
 #include "harness/base/enumerators.h"
 #include "harness/files/csv.h"
 
-namespace touchstone {
+namespace touchstone::record {
 
 // True for a row type and its const twin: one list of columns serves reading and writing.
 template <class Row, class Type>
@@ -120,7 +120,7 @@ concept Enumeration = std::is_enum_v<T>;
 
 // Where a field was read, for the message of a fault.
 struct Cell {
-  const CsvReader::Row& row;
+  const files::CsvReader::Row& row;
   std::size_t column;
 
   std::string_view text() const { return row.text(column); }
@@ -132,7 +132,7 @@ struct Cell {
 template <Enumeration Enum>
 std::string names_of() {
   std::vector<std::string_view> names;
-  for (const Enum value : enumerators<Enum>) names.push_back(to_string(value));
+  for (const Enum value : base::enumerators<Enum>) names.push_back(to_string(value));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -155,7 +155,7 @@ std::string type_of(const T&) {
 }
 
 template <class T>
-void write(CsvWriter& file, const T& value) {
+void write(files::CsvWriter& file, const T& value) {
   if constexpr (is_optional<T>) {
     value ? write(file, *value) : void(file.field(std::string_view()));
   } else if constexpr (std::same_as<T, bool>) {
@@ -195,7 +195,7 @@ void read(const Cell& cell, T& value) {
     if (text != "0" && text != "1") cell.fail("0 or 1");
     value = text == "1";
   } else if constexpr (std::is_enum_v<T>) {
-    for (const T choice : enumerators<T>) {
+    for (const T choice : base::enumerators<T>) {
       if (to_string(choice) == text) {
         value = choice;
         return;
@@ -229,7 +229,7 @@ std::string type_of(const PlaceField<Index, NameOf>&) {
   return "name";
 }
 template <class Index, class NameOf>
-void write(CsvWriter& file, const PlaceField<Index, NameOf>& field) {
+void write(files::CsvWriter& file, const PlaceField<Index, NameOf>& field) {
   file.field(std::string_view(field.name_of(static_cast<std::size_t>(field.index))));
 }
 template <class Index, class NameOf>
@@ -248,7 +248,7 @@ std::string type_of(const DerivedField<Text>&) {
   return "text";
 }
 template <class Text>
-void write(CsvWriter& file, const DerivedField<Text>& field) {
+void write(files::CsvWriter& file, const DerivedField<Text>& field) {
   file.field(std::string_view(field.text()));
 }
 template <class Text>
@@ -259,7 +259,7 @@ std::string type_of(const RoundedField<Number>&) {
   return "number";
 }
 template <class Number>
-void write(CsvWriter& file, const RoundedField<Number>& field) {
+void write(files::CsvWriter& file, const RoundedField<Number>& field) {
   const bool none = std::isnan(field.value);
   file.field(none ? std::string() : fmt::format("{:.{}e}", field.value, field.digits - 1));
 }
@@ -273,7 +273,7 @@ std::string type_of(const SignedField<Number>&) {
   return "whole number";
 }
 template <class Number>
-void write(CsvWriter& file, const SignedField<Number>& field) {
+void write(files::CsvWriter& file, const SignedField<Number>& field) {
   file.field(static_cast<std::int64_t>(field.value));
 }
 template <class Number>
@@ -286,7 +286,7 @@ std::string type_of(const NewerField<Field>& field) {
   return type_of(field.field);
 }
 template <class Field>
-void write(CsvWriter& file, const NewerField<Field>& field) {
+void write(files::CsvWriter& file, const NewerField<Field>& field) {
   write(file, field.field);
 }
 template <class Field>
@@ -308,7 +308,7 @@ std::vector<std::string> header_of(const Context&... context) {
 }
 
 template <class Row, class... Context>
-void write_row(CsvWriter& file, const Row& row, const Context&... context) {
+void write_row(files::CsvWriter& file, const Row& row, const Context&... context) {
   columns(
       row,
       [&](std::string_view, const auto& field, std::string_view) {
@@ -321,7 +321,7 @@ void write_row(CsvWriter& file, const Row& row, const Context&... context) {
 // The row of a file that `reader_of` opens. InputError names file, line, column, what was found and
 // what is expected.
 template <class Row, class... Context>
-Row read_row(const CsvReader::Row& fields, const Context&... context) {
+Row read_row(const files::CsvReader::Row& fields, const Context&... context) {
   Row row{};
   std::size_t column = 0;
   columns(
@@ -334,7 +334,7 @@ Row read_row(const CsvReader::Row& fields, const Context&... context) {
 }
 
 template <class Row, class... Context>
-CsvReader reader_of(std::filesystem::path file, const Context&... context) {
+files::CsvReader reader_of(std::filesystem::path file, const Context&... context) {
   std::vector<std::string> optional;
   const Row row{};
   columns(
@@ -350,7 +350,7 @@ CsvReader reader_of(std::filesystem::path file, const Context&... context) {
 template <class Row, class... Context>
 std::vector<Row> read_rows(const std::filesystem::path& file, const Context&... context) {
   std::vector<Row> rows;
-  reader_of<Row>(file, context...).read([&](const CsvReader::Row& fields) {
+  reader_of<Row>(file, context...).read([&](const files::CsvReader::Row& fields) {
     rows.push_back(read_row<Row>(fields, context...));
   });
   return rows;
@@ -373,4 +373,4 @@ std::string column_docs(const Context&... context) {
 // Replaces what would end a line by blanks: a row is a line.
 std::string one_line(std::string text);
 
-}  // namespace touchstone
+}  // namespace touchstone::record

@@ -15,7 +15,7 @@
 
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // The file has two texts of 128 bytes, each ended by a zero; the number of boxes N and of steps K;
@@ -72,10 +72,11 @@ std::string fault(const Aabb& box) {
 std::string load_text(const char* from, const std::string& file, std::string_view what) {
   const void* end = std::memchr(from, 0, text_size);
   if (end == nullptr) {
-    throw InputError(file, 0,
-                     fmt::format("the {} does not end; expected a text of at most 127 bytes and a "
-                                 "zero: is this a recording of Broadmark?",
-                                 what));
+    throw base::InputError(
+        file, 0,
+        fmt::format("the {} does not end; expected a text of at most 127 bytes and a "
+                    "zero: is this a recording of Broadmark?",
+                    what));
   }
   return std::string(from, static_cast<const char*>(end));
 }
@@ -86,13 +87,14 @@ BoxRecording read_aabbs(const std::filesystem::path& path) {
   const std::string file = path.string();
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw InputError(file, 0, "cannot be read: " + error.message());
+  if (error) throw base::InputError(file, 0, "cannot be read: " + error.message());
   if (size < header_size) {
-    throw InputError(file, 0, fmt::format("{} bytes; expected a header of {}", size, header_size));
+    throw base::InputError(file, 0,
+                           fmt::format("{} bytes; expected a header of {}", size, header_size));
   }
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> bytes(header_size);
-  if (!stream.read(bytes.data(), header_size)) throw InputError(file, 0, "cannot be read");
+  if (!stream.read(bytes.data(), header_size)) throw base::InputError(file, 0, "cannot be read");
 
   BoxRecording recording;
   recording.scene = load_text(bytes.data(), file, "scene's name");
@@ -100,19 +102,22 @@ BoxRecording read_aabbs(const std::filesystem::path& path) {
   recording.world = load_box(bytes.data() + world_at);
   const auto count = static_cast<std::int32_t>(load(bytes.data() + count_at));
   const auto steps = static_cast<std::int32_t>(load(bytes.data() + steps_at));
-  if (count < 1) throw InputError(file, 0, fmt::format("{} boxes; expected at least one", count));
-  if (steps < 0) throw InputError(file, 0, fmt::format("{} steps; expected 0 or more", steps));
+  if (count < 1)
+    throw base::InputError(file, 0, fmt::format("{} boxes; expected at least one", count));
+  if (steps < 0)
+    throw base::InputError(file, 0, fmt::format("{} steps; expected 0 or more", steps));
   // The check comes before anything of that size is allocated.
   const std::uintmax_t frames = std::uintmax_t{1} + static_cast<std::uintmax_t>(steps);
   const std::uintmax_t boxes = frames * static_cast<std::uintmax_t>(count);  // below 2^62
   if ((size - header_size) % box_size != 0 || (size - header_size) / box_size != boxes) {
-    throw InputError(file, 0,
-                     fmt::format("{} bytes behind the header; expected {} frames of {} boxes of {} "
-                                 "bytes",
-                                 size - header_size, frames, count, box_size));
+    throw base::InputError(
+        file, 0,
+        fmt::format("{} bytes behind the header; expected {} frames of {} boxes of {} "
+                    "bytes",
+                    size - header_size, frames, count, box_size));
   }
   if (const std::string what = fault(recording.world); !what.empty()) {
-    throw InputError(file, 0, "the world's box: " + what);
+    throw base::InputError(file, 0, "the world's box: " + what);
   }
 
   const auto n = static_cast<std::size_t>(count);
@@ -120,13 +125,13 @@ BoxRecording read_aabbs(const std::filesystem::path& path) {
   recording.frames.reserve(frames);
   for (std::uintmax_t frame = 0; frame < frames; ++frame) {
     if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-      throw InputError(file, 0, fmt::format("frame {} cannot be read", frame));
+      throw base::InputError(file, 0, fmt::format("frame {} cannot be read", frame));
     }
     std::vector<Aabb>& list = recording.frames.emplace_back(n);
     for (std::size_t i = 0; i < n; ++i) {
       list[i] = load_box(bytes.data() + i * box_size);
       if (const std::string what = fault(list[i]); !what.empty()) {
-        throw InputError(file, 0, fmt::format("frame {}, box {}: {}", frame, i, what));
+        throw base::InputError(file, 0, fmt::format("frame {}, box {}: {}", frame, i, what));
       }
     }
   }
@@ -138,16 +143,17 @@ void write_aabbs(const BoxRecording& recording, const std::filesystem::path& pat
   const bool even = std::all_of(recording.frames.begin(), recording.frames.end(),
                                 [n](const auto& frame) { return frame.size() == n; });
   if (n == 0 || !even || n > INT32_MAX || recording.frames.size() > INT32_MAX) {
-    throw InputError(path.string(), 0,
-                     "cannot hold this recording; expected frames of equally many boxes, from 1 to "
-                     "2147483647 of each");
+    throw base::InputError(
+        path.string(), 0,
+        "cannot hold this recording; expected frames of equally many boxes, from 1 to "
+        "2147483647 of each");
   }
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{}.part", ::getpid());
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw InputError(path.string(), 0, "cannot be written: " + why);
+    throw base::InputError(path.string(), 0, "cannot be written: " + why);
   };
 
   std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
@@ -170,4 +176,4 @@ void write_aabbs(const BoxRecording& recording, const std::filesystem::path& pat
   if (error) fail(error.message());
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -7,7 +7,7 @@
 
 #include "algorithms/core/aabb.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // A recording: equally many boxes in each frame, at least one frame.
 struct BoxRecording {
@@ -24,4 +24,4 @@ BoxRecording read_aabbs(const std::filesystem::path& file);
 // Writes the file whole or not at all (a temporary file, renamed).
 void write_aabbs(const BoxRecording& recording, const std::filesystem::path& file);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

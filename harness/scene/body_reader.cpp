@@ -9,12 +9,12 @@
 
 #include "harness/base/reproducible_math.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // Reads a row-major matrix. It is used as given if it is a rotation to a thousandth.
-Mat3d read_matrix(TomlTable& table) {
-  const std::vector<double> m = table.numbers("rotation", 9, any_number);
+Mat3d read_matrix(files::TomlTable& table) {
+  const std::vector<double> m = table.numbers("rotation", 9, files::any_number);
   Mat3d rotation;
   rotation << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
   const double error = (rotation.transpose() * rotation - Mat3d::Identity()).cwiseAbs().maxCoeff();
@@ -26,7 +26,7 @@ Mat3d read_matrix(TomlTable& table) {
   return rotation;
 }
 
-Mat3d read_rotation(TomlTable& table) {
+Mat3d read_rotation(files::TomlTable& table) {
   if (table.has("rotation")) {
     if (table.contains("quaternion_wxyz")) {
       table.fail("quaternion_wxyz", "given beside rotation; expected one of the two");
@@ -34,32 +34,32 @@ Mat3d read_rotation(TomlTable& table) {
     return read_matrix(table);
   }
   if (!table.has("quaternion_wxyz")) return Mat3d::Identity();
-  const std::vector<double> q = table.numbers("quaternion_wxyz", 4, any_number);
+  const std::vector<double> q = table.numbers("quaternion_wxyz", 4, files::any_number);
   // The numbers are scaled first, so that no square overflows or underflows.
   const double size = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
   if (!(size > 0)) {
     table.fail("quaternion_wxyz", "found [0, 0, 0, 0]; expected a quaternion that is not zero");
   }
-  return rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
+  return base::rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
 }
 
 // Reads a scene file's lists of shapes and bodies.
 class BodyReader {
  public:
-  BodyReader(TomlTable& table, ShapeReader& shapes, Scene& scene)
+  BodyReader(files::TomlTable& table, ShapeReader& shapes, Scene& scene)
       : table_(table), shapes_(shapes), scene_(scene) {}
 
   // Returns the line of each body.
   std::vector<std::int64_t> read() {
     if (table_.has("shapes")) {
-      TomlTable named = table_.inside("shapes", "shapes");
+      files::TomlTable named = table_.inside("shapes", "shapes");
       for (const std::string& name : named.keys()) {
-        TomlTable shape = named.inside(name, "shapes." + name);
+        files::TomlTable shape = named.inside(name, "shapes." + name);
         named_.emplace(name, add(shape));
       }
     }
     std::vector<std::int64_t> lines;
-    for (TomlTable& body : table_.tables("body")) {
+    for (files::TomlTable& body : table_.tables("body")) {
       read_body(body);
       lines.resize(scene_.bodies.size(), body.line());
     }
@@ -72,20 +72,20 @@ class BodyReader {
     Mat3d turn = Mat3d::Identity();
   };
 
-  Placed add(TomlTable& table) {
+  Placed add(files::TomlTable& table) {
     const TurnedShape turned = shapes_.read(table);
     table.finish();
     return {scene_.add_shape(turned.shape, turned.mesh), turned.turn};
   }
 
   // The key "shape" is a name or a table; "mesh" and "scale" are keys of the body itself.
-  Placed shape_of(TomlTable& body) {
+  Placed shape_of(files::TomlTable& body) {
     const toml::node* node = body.node("shape");
     if (node == nullptr && body.contains("mesh")) return mesh_of(body);
     if (node == nullptr) body.fail("shape", "missing; expected a table, a name or a mesh");
     if (body.contains("mesh")) body.fail("mesh", "given beside shape; expected one of the two");
     if (!node->is_string()) {
-      TomlTable shape = body.inside("shape", body.where() + ": shape");
+      files::TomlTable shape = body.inside("shape", body.where() + ": shape");
       return add(shape);
     }
     const std::string name = body.text("shape");
@@ -98,12 +98,12 @@ class BodyReader {
   }
 
   // Bodies with the same mesh and scale share their shape.
-  Placed mesh_of(TomlTable& body) {
+  Placed mesh_of(files::TomlTable& body) {
     const TurnedShape turned = shapes_.read(body);
     return {index_of(turned.shape, turned.mesh), Mat3d::Identity()};
   }
 
-  std::uint32_t index_of(const Shape& shape, const std::shared_ptr<const Mesh>& mesh) {
+  std::uint32_t index_of(const Shape& shape, const std::shared_ptr<const geometry::Mesh>& mesh) {
     const auto same = std::find_if(
         scene_.shapes.begin(), scene_.shapes.end(),
         [&](const Shape& other) { return other.hull != nullptr && other.hull == shape.hull; });
@@ -111,16 +111,16 @@ class BodyReader {
     return static_cast<std::uint32_t>(same - scene_.shapes.begin());
   }
 
-  void read_body(TomlTable& table) {
+  void read_body(files::TomlTable& table) {
     const bool parts = table.contains("mesh") && table.boolean("parts", false);
     const Placed placed = parts ? Placed{} : shape_of(table);
     const bool halfspace = !parts && scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
     Body body;
     body.shape = placed.shape;
-    body.pose.rotation = product(read_rotation(table), placed.turn);
-    body.pose.translation = table.vector("translation", any_number, Vec3d::Zero());
-    body.velocity = table.vector("velocity", any_number, Vec3d::Zero());
-    body.angular_velocity = table.vector("angular_velocity", any_number, Vec3d::Zero());
+    body.pose.rotation = base::product(read_rotation(table), placed.turn);
+    body.pose.translation = table.vector("translation", files::any_number, Vec3d::Zero());
+    body.velocity = table.vector("velocity", files::any_number, Vec3d::Zero());
+    body.angular_velocity = table.vector("angular_velocity", files::any_number, Vec3d::Zero());
     body.moving = table.boolean("moving", !halfspace);
     if (parts) {
       add_parts(table, body);
@@ -131,7 +131,7 @@ class BodyReader {
   }
 
   // Adds a body for each part of the mesh, at its place in the whole.
-  void add_parts(TomlTable& table, const Body& whole) {
+  void add_parts(files::TomlTable& table, const Body& whole) {
     if (whole.angular_velocity != Vec3d::Zero()) {
       table.fail("angular_velocity",
                  "given with parts, which do not turn about a common origin; "
@@ -149,7 +149,7 @@ class BodyReader {
     }
   }
 
-  TomlTable& table_;
+  files::TomlTable& table_;
   ShapeReader& shapes_;
   Scene& scene_;
   std::map<std::string, Placed> named_;
@@ -157,8 +157,8 @@ class BodyReader {
 
 }  // namespace
 
-std::vector<std::int64_t> read_bodies(TomlTable& table, ShapeReader& shapes, Scene& scene) {
+std::vector<std::int64_t> read_bodies(files::TomlTable& table, ShapeReader& shapes, Scene& scene) {
   return BodyReader(table, shapes, scene).read();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -14,13 +14,13 @@
 #include "harness/files/csv.h"
 #include "harness/scene/aabbs.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();  // an empty field
 constexpr std::size_t frame_column = 0, id_column = 1, min_column = 2, max_column = 5;
 
-double coordinate(const CsvReader::Row& row, std::size_t column) {
+double coordinate(const files::CsvReader::Row& row, std::size_t column) {
   const double value = row.number(column);
   if (!(std::abs(value) <= double{std::numeric_limits<float>::max()})) {
     row.fail(
@@ -29,14 +29,14 @@ double coordinate(const CsvReader::Row& row, std::size_t column) {
   return value;
 }
 
-bool is_absent(const CsvReader::Row& row) {
+bool is_absent(const files::CsvReader::Row& row) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!row.text(min_column + i).empty() || !row.text(max_column + i).empty()) return false;
   }
   return true;
 }
 
-Aabb read_box(const CsvReader::Row& row) {
+Aabb read_box(const files::CsvReader::Row& row) {
   if (is_absent(row)) return Aabb::empty();
   Aabb box;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -54,9 +54,9 @@ Aabb read_box(const CsvReader::Row& row) {
 
 std::vector<BoxFrame> read_csv(const std::filesystem::path& file) {
   std::vector<BoxFrame> frames;
-  const CsvReader reader(file,
-                         {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
-  reader.read([&](const CsvReader::Row& row) {
+  const files::CsvReader reader(
+      file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
+  reader.read([&](const files::CsvReader::Row& row) {
     const std::int64_t number = row.integer(frame_column);
     if (frames.empty() || number != frames.back().number) {
       if (number < (frames.empty() ? 0 : frames.back().number)) {
@@ -78,7 +78,7 @@ std::vector<BoxFrame> read_csv(const std::filesystem::path& file) {
     boxes.push_back(read_box(row));
   });
   if (frames.empty()) {
-    throw InputError(file.string(), 1, "no box behind the header; expected at least one");
+    throw base::InputError(file.string(), 1, "no box behind the header; expected at least one");
   }
   return frames;
 }
@@ -123,7 +123,7 @@ std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file) {
   return frames;
 }
 
-void append_box(CsvWriter& csv, const Aabb& box) {
+void append_box(files::CsvWriter& csv, const Aabb& box) {
   for (const auto& end : {box.min, box.max}) {
     for (const float value : end) csv.field(box.is_empty() ? nan : double{value});
   }
@@ -131,7 +131,7 @@ void append_box(CsvWriter& csv, const Aabb& box) {
 
 void write_box_frames(std::span<const std::vector<Aabb>> frames,
                       const std::filesystem::path& file) {
-  CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
+  files::CsvWriter csv(file, {"frame", "id", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"});
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     for (std::size_t id = 0; id < frames[frame].size(); ++id) {
       const Aabb& box = frames[frame][id];
@@ -143,4 +143,4 @@ void write_box_frames(std::span<const std::vector<Aabb>> frames,
   csv.close();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

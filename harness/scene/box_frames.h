@@ -9,7 +9,7 @@
 #include "algorithms/broad_phase.h"
 #include "harness/files/csv.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 struct BoxFrame {
   std::int64_t number = 0;  // the file's number
@@ -35,9 +35,9 @@ struct BoxFrame {
 std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file);
 
 // Appends the last six fields of a row of such a file.
-void append_box(CsvWriter& csv, const Aabb& box);
+void append_box(files::CsvWriter& csv, const Aabb& box);
 
 // Writes such a CSV file, whole or not at all. Frames are numbered from 0.
 void write_box_frames(std::span<const std::vector<Aabb>> frames, const std::filesystem::path& file);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

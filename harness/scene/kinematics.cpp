@@ -6,7 +6,7 @@
 
 #include "harness/base/random.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // The acceleration of all bodies from `frame` to the next frame.
@@ -16,7 +16,7 @@ Vec3d acceleration(const Motion& motion, int frame) {
     case MotionKind::brownian: break;
     case MotionKind::free_fall: return {0, 0, -motion.acceleration};
     case MotionKind::rotating_gravity: {
-      const SinCos turn = sin_cos_turns(frame * motion.time_step / motion.period);
+      const base::SinCos turn = base::sin_cos_turns(frame * motion.time_step / motion.period);
       return {motion.acceleration * turn.sin, 0, -motion.acceleration * turn.cos};
     }
   }
@@ -67,13 +67,13 @@ Kinematics::Kinematics(const Scene& scene) : scene_(&scene) {
   present_.resize(scene.bodies.size(), 0);
 }
 
-void Kinematics::pick_movers(Random& random, std::size_t count) {
+void Kinematics::pick_movers(base::Random& random, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     std::swap(movers_[i], movers_[i + random.below(movers_.size() - i)]);
   }
 }
 
-void Kinematics::exchange_places(Random& random) {
+void Kinematics::exchange_places(base::Random& random) {
   const std::size_t count = scene_->motion.teleports;
   pick_movers(random, count);
   const Vec3d first = poses_[movers_[0]].translation;
@@ -83,7 +83,7 @@ void Kinematics::exchange_places(Random& random) {
   poses_[movers_[count - 1]].translation = first;
 }
 
-void Kinematics::replace_some(Random& random) {
+void Kinematics::replace_some(base::Random& random) {
   const std::size_t count = scene_->motion.churn;
   pick_movers(random, count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ void Kinematics::replace_some(Random& random) {
 // Bodies take turns, as in Broadmark: after a hundred frames each has had a new velocity.
 void Kinematics::kick_some() {
   const std::size_t n = poses_.size(), share = (n + 99) / 100;
-  Random random(scene_->motion.seed, static_cast<std::uint64_t>(frame_));
+  base::Random random(scene_->motion.seed, static_cast<std::uint64_t>(frame_));
   const std::size_t first = share * static_cast<std::size_t>(frame_) % n;
   for (std::size_t k = 0; k < share; ++k) {
     velocities_[(first + k) % n] = scene_->motion.speed * random.in_ball();
@@ -125,14 +125,14 @@ void Kinematics::next() {
     }
     const Vec3d& w = body.angular_velocity;
     if (w.x() != 0 || w.y() != 0 || w.z() != 0) {
-      poses_[i].rotation = product(rotation_over(w, frame_ * dt), body.pose.rotation);
+      poses_[i].rotation = base::product(base::rotation_over(w, frame_ * dt), body.pose.rotation);
     }
   }
   if (movers_.empty()) return;
   // The seed differs from that of the new velocities.
-  Random random(~motion.seed, static_cast<std::uint64_t>(frame_));
+  base::Random random(~motion.seed, static_cast<std::uint64_t>(frame_));
   if (motion.teleports > 0) exchange_places(random);
   if (motion.churn > 0) replace_some(random);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -8,7 +8,7 @@
 #include "harness/base/random.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // Starts at frame 0. Uses plain arithmetic only, which gives the same bits on every platform. Each
 // axis of a body's flight is exact for its velocity and acceleration; walls preserve the energy.
@@ -31,10 +31,10 @@ class Kinematics {
 
  private:
   void kick_some();
-  void exchange_places(Random& random);
-  void replace_some(Random& random);
+  void exchange_places(base::Random& random);
+  void replace_some(base::Random& random);
   // Moves `count` random elements of movers_ to its front, in random order.
-  void pick_movers(Random& random, std::size_t count);
+  void pick_movers(base::Random& random, std::size_t count);
 
   const Scene* scene_;
   int frame_ = 0;
@@ -46,4 +46,4 @@ class Kinematics {
   std::vector<char> present_;  // for each body; only if bodies arrive and leave
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

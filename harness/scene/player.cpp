@@ -8,7 +8,7 @@
 
 #include "algorithms/core/bounds.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof(Aabb)) == 0; }
@@ -126,4 +126,4 @@ void ScenePlayer::list_changes(std::span<const Aabb> before, std::span<const Aab
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -9,7 +9,7 @@
 #include "harness/scene/kinematics.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // Starts at frame 0. A scene gives the same bits each time and on every platform.
 class ScenePlayer {
@@ -45,4 +45,4 @@ class ScenePlayer {
   std::vector<std::uint32_t> moved_, inserted_, removed_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

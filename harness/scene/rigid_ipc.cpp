@@ -19,7 +19,7 @@
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 using Json = nlohmann::json;
@@ -29,17 +29,17 @@ constexpr int frame_cap = 100;
 Json parse(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file)) {
-    throw InputError(file.string(), 0, "cannot be read; expected a rigid-ipc scene");
+    throw base::InputError(file.string(), 0, "cannot be read; expected a rigid-ipc scene");
   }
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& e) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
-    throw InputError(file.string(), 1 + std::count(text.begin(), end, '\n'),
-                     std::string("malformed JSON (") + e.what() + ")");
+    throw base::InputError(file.string(), 1 + std::count(text.begin(), end, '\n'),
+                           std::string("malformed JSON (") + e.what() + ")");
   } catch (const Json::exception& e) {  // for example a number that no double can hold
-    throw InputError(file.string(), 0, std::string("malformed JSON (") + e.what() + ")");
+    throw base::InputError(file.string(), 0, std::string("malformed JSON (") + e.what() + ")");
   }
 }
 
@@ -56,7 +56,7 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(file_, 0, where_.empty() ? message : where_ + ": " + message);
+    throw base::InputError(file_, 0, where_.empty() ? message : where_ + ": " + message);
   }
   const Json* find(const char* key) const {
     const auto at = object_->find(key);
@@ -102,14 +102,14 @@ class Reader {
 
 // The rotation about x, then y, then z, in degrees.
 Mat3d rotation_of_degrees(const Vec3d& degrees) {
-  const SinCos x = sin_cos_turns(degrees.x() / 360);
-  const SinCos y = sin_cos_turns(degrees.y() / 360);
-  const SinCos z = sin_cos_turns(degrees.z() / 360);
+  const base::SinCos x = base::sin_cos_turns(degrees.x() / 360);
+  const base::SinCos y = base::sin_cos_turns(degrees.y() / 360);
+  const base::SinCos z = base::sin_cos_turns(degrees.z() / 360);
   Mat3d about_x, about_y, about_z;
   about_x << 1, 0, 0, 0, x.cos, -x.sin, 0, x.sin, x.cos;
   about_y << y.cos, 0, y.sin, 0, 1, 0, -y.sin, 0, y.cos;
   about_z << z.cos, -z.sin, 0, z.sin, z.cos, 0, 0, 0, 1;
-  return product(about_z, product(about_y, about_x));
+  return base::product(about_z, base::product(about_y, about_x));
 }
 
 class Importer {
@@ -204,7 +204,7 @@ class Importer {
       return own_parts_;
     }
     const auto [at, is_new] = meshes_.try_emplace(name);
-    if (is_new) at->second = read_mesh(find_mesh(body, name));
+    if (is_new) at->second = geometry::read_mesh(find_mesh(body, name));
     const Vec3d scale = scale_of(body, at->second);
     const auto [parts, is_new_scale] =
         parts_.try_emplace({name, scale.x(), scale.y(), scale.z(), split});
@@ -227,8 +227,8 @@ class Importer {
               " or to a folder 'meshes' there or above");
   }
 
-  static Mesh inline_mesh(const Reader& body) {
-    Mesh mesh;
+  static geometry::Mesh inline_mesh(const Reader& body) {
+    geometry::Mesh mesh;
     const Json* vertices = body.find("vertices");
     if (vertices == nullptr || !vertices->is_array() || vertices->empty()) {
       body.fail("expected 'mesh', or 'vertices' with at least one point");
@@ -251,7 +251,7 @@ class Importer {
   }
 
   // Dimensions take precedence over a scale.
-  static Vec3d scale_of(const Reader& body, const Mesh& mesh) {
+  static Vec3d scale_of(const Reader& body, const geometry::Mesh& mesh) {
     if (body.find("dimensions") != nullptr) {
       Vec3d low = mesh.vertices.front(), high = low;
       for (const Vec3d& v : mesh.vertices) {
@@ -267,7 +267,7 @@ class Importer {
     return body.vector("scale", Vec3d::Ones());
   }
 
-  static Mesh scaled(Mesh mesh, const Reader& body) {
+  static geometry::Mesh scaled(geometry::Mesh mesh, const Reader& body) {
     const Vec3d scale = scale_of(body, mesh);
     for (Vec3d& v : mesh.vertices) {
       v = v.cwiseProduct(scale).eval();
@@ -276,16 +276,17 @@ class Importer {
     return mesh;
   }
 
-  std::vector<Part> make_parts(const Mesh& mesh, bool split) {
+  std::vector<Part> make_parts(const geometry::Mesh& mesh, bool split) {
     std::vector<Part> parts;
-    for (Mesh& part : split ? connected_parts(mesh) : std::vector<Mesh>{mesh}) {
-      const Vec3d centre = centre_of_mass(part);
+    for (geometry::Mesh& part :
+         split ? geometry::connected_parts(mesh) : std::vector<geometry::Mesh>{mesh}) {
+      const Vec3d centre = geometry::centre_of_mass(part);
       for (Vec3d& v : part.vertices) v -= centre;
       Shape shape;
       shape.kind = ShapeKind::hull;
       shape.hull = make_reduced_hull(part.vertices);
       const std::uint32_t index =
-          scene_.add_shape(std::move(shape), std::make_shared<Mesh>(std::move(part)));
+          scene_.add_shape(std::move(shape), std::make_shared<geometry::Mesh>(std::move(part)));
       parts.push_back({index, centre});
     }
     return parts;
@@ -308,7 +309,7 @@ class Importer {
   std::filesystem::path file_;
   Scene scene_;
   double end_ = std::numeric_limits<double>::infinity();  // seconds
-  std::map<std::string, Mesh> meshes_;
+  std::map<std::string, geometry::Mesh> meshes_;
   std::map<std::tuple<std::string, double, double, double, bool>, std::vector<Part>> parts_;
   std::vector<Part> own_parts_;
 };
@@ -317,4 +318,4 @@ class Importer {
 
 Scene import_rigid_ipc(const std::filesystem::path& file) { return Importer(file).import(); }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -5,7 +5,7 @@
 
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // Reads a rigid-ipc JSON scene (Ferguson et al., "Intersection-free Rigid Body Dynamics", SIGGRAPH
 // 2021): bodies with mesh, position, rotation (degrees; about the model's origin, about x first,
@@ -20,4 +20,4 @@ namespace touchstone {
 // would be shown wrong: two-dimensional scenes and scripted poses.
 Scene import_rigid_ipc(const std::filesystem::path& file);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -15,7 +15,7 @@
 #include "algorithms/core/shape.h"
 #include "harness/geometry/mesh.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // The kind of a body's box (core/bounds.h).
 enum class BoxKind : std::uint8_t { tight, loose };
@@ -58,7 +58,7 @@ struct Scene {
   std::vector<Shape> shapes;
   // The meshes of shapes that are convex hulls of meshes, in the same frame; null for other shapes.
   // Empty if no shape has a mesh.
-  std::vector<std::shared_ptr<const Mesh>> meshes;
+  std::vector<std::shared_ptr<const geometry::Mesh>> meshes;
   // The last Motion::churn bodies are not present at frame 0.
   std::vector<Body> bodies;
   int frames = 1;  // at least one
@@ -70,7 +70,7 @@ struct Scene {
   // phase; equal in every frame. Otherwise empty.
   std::vector<IndexPair> pairs;
 
-  std::uint32_t add_shape(Shape shape, std::shared_ptr<const Mesh> mesh = nullptr) {
+  std::uint32_t add_shape(Shape shape, std::shared_ptr<const geometry::Mesh> mesh = nullptr) {
     shapes.push_back(std::move(shape));
     if (mesh != nullptr || !meshes.empty()) {
       meshes.resize(shapes.size());
@@ -78,7 +78,7 @@ struct Scene {
     }
     return static_cast<std::uint32_t>(shapes.size() - 1);
   }
-  const Mesh* mesh_of(std::size_t shape) const {
+  const geometry::Mesh* mesh_of(std::size_t shape) const {
     return shape < meshes.size() ? meshes[shape].get() : nullptr;
   }
 
@@ -107,4 +107,4 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
 // poses, or the recording. Equal on every platform.
 std::string scene_hash(const Scene& scene);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

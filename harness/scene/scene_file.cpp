@@ -16,7 +16,7 @@
 #include "harness/scene/scene.h"
 #include "harness/scene/shape_reader.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 constexpr std::int64_t most_bodies = 100'000'000;
@@ -30,46 +30,47 @@ constexpr std::string_view motion_names[] = {"inertial", "brownian", "free_fall"
 
 void refuse_count(const std::string& file, const SceneOverrides& overrides) {
   if (overrides.count == -1) return;
-  throw InputError(file, 0,
-                   fmt::format("a count of {} was asked for; expected none, as the bodies are "
-                               "listed and only a generator makes as many as one likes",
-                               overrides.count));
+  throw base::InputError(
+      file, 0,
+      fmt::format("a count of {} was asked for; expected none, as the bodies are "
+                  "listed and only a generator makes as many as one likes",
+                  overrides.count));
 }
 
 void refuse_seed(const std::string& file, const SceneOverrides& overrides) {
   if (overrides.seed == -1) return;
-  throw InputError(file, 0, "a seed was asked for; expected none, as nothing is random");
+  throw base::InputError(file, 0, "a seed was asked for; expected none, as nothing is random");
 }
 
 void refuse_gap(const std::string& file, const SceneOverrides& overrides) {
   if (!overrides.gap) return;
-  throw InputError(
+  throw base::InputError(
       file, 0,
       fmt::format("a gap of {} was asked for, but only scenes of the generator `pairs` "
                   "have gaps",
                   *overrides.gap));
 }
 
-std::uint64_t read_seed(TomlTable& table, const SceneOverrides& overrides) {
+std::uint64_t read_seed(files::TomlTable& table, const SceneOverrides& overrides) {
   const std::int64_t seed = table.integer("seed", 0, INT64_MAX, 1);
   const std::int64_t used = overrides.seed == -1 ? seed : overrides.seed;
   if (used < 0) {
-    throw InputError(table.file(), 0,
-                     fmt::format("a seed of {} was asked for; expected 0 or more", used));
+    throw base::InputError(table.file(), 0,
+                           fmt::format("a seed of {} was asked for; expected 0 or more", used));
   }
   return static_cast<std::uint64_t>(used);
 }
 
 // Reads `motion` and its parameters; the scene's own motion gives the defaults. `side` is the width
 // of a generated world, and 0 for others.
-void read_motion(TomlTable& table, double side, Motion& motion) {
+void read_motion(files::TomlTable& table, double side, Motion& motion) {
   motion.time_step = table.number("time_step", {.low = 1e-9, .high = 1e6}, motion.time_step);
   motion.kind = static_cast<MotionKind>(
       table.choice("motion", motion_names, static_cast<std::size_t>(motion.kind)));
   if (motion.kind == MotionKind::free_fall || motion.kind == MotionKind::rotating_gravity) {
     const double factor = motion.kind == MotionKind::free_fall ? 1 : 4;
     const double fallback = side > 0 ? factor * broadmark_gravity * side : 9.81;
-    motion.acceleration = table.number("acceleration", not_negative, fallback);
+    motion.acceleration = table.number("acceleration", files::not_negative, fallback);
   }
   if (motion.kind == MotionKind::rotating_gravity) {
     motion.period = table.number("period", {.low = 1e-9, .high = 1e9}, broadmark_period);
@@ -77,18 +78,18 @@ void read_motion(TomlTable& table, double side, Motion& motion) {
 }
 
 // Reads additions to listed and imported scenes: walls, and the parameters of brownian motion.
-void read_motion_of_listed(TomlTable& table, const SceneOverrides& overrides, Scene& scene) {
+void read_motion_of_listed(files::TomlTable& table, const SceneOverrides& overrides, Scene& scene) {
   Motion& motion = scene.motion;
   read_motion(table, 0, motion);
   if (motion.kind == MotionKind::brownian) {
-    motion.speed = table.number("speed", not_negative, 1.0);
+    motion.speed = table.number("speed", files::not_negative, 1.0);
     motion.seed = read_seed(table, overrides);
   } else {
     refuse_seed(table.file(), overrides);
   }
   if (!table.has("wall_min") && !table.has("wall_max")) return;
-  motion.wall_min = table.vector("wall_min", any_number);
-  motion.wall_max = table.vector("wall_max", any_number);
+  motion.wall_min = table.vector("wall_min", files::any_number);
+  motion.wall_max = table.vector("wall_max", files::any_number);
   for (int axis = 0; axis < 3; ++axis) {
     if (motion.wall_min[axis] > motion.wall_max[axis]) {
       table.fail("wall_max", fmt::format("found {} below wall_min {}; expected min <= max",
@@ -97,19 +98,19 @@ void read_motion_of_listed(TomlTable& table, const SceneOverrides& overrides, Sc
   }
 }
 
-int frames_of_pairs(TomlTable& table, const SceneOverrides& overrides) {
+int frames_of_pairs(files::TomlTable& table, const SceneOverrides& overrides) {
   const std::int64_t asked = table.integer("frames", 1, most_frames, 1);
   return overrides.frames == -1 ? static_cast<int>(asked) : overrides.frames;
 }
 
-Scene generate(TomlTable& table, ShapeReader& shapes, const SceneOverrides& overrides) {
+Scene generate(files::TomlTable& table, ShapeReader& shapes, const SceneOverrides& overrides) {
   std::vector<std::string_view> names;
   for (const Generator& generator : generators()) names.push_back(generator.name);
   const Generator& generator = generators()[table.choice("generator", names)];
   std::int64_t count = table.integer("count", 1, most_bodies, 1000);
   if (overrides.count != -1) count = overrides.count;
   if (count < 1 || count > most_bodies) {
-    throw InputError(
+    throw base::InputError(
         table.file(), 0,
         fmt::format("a count of {} was asked for; expected 1 to {}", count, most_bodies));
   }
@@ -135,8 +136,9 @@ Scene load_recording(const std::filesystem::path& file) {
 Scene import_scene(const std::filesystem::path& file) {
   if (file.extension() == ".json") return import_rigid_ipc(file);
   if (file.extension() == ".aabbs") return load_recording(file);
-  throw InputError(file.string(), 0,
-                   "unknown kind of file; expected .toml, .json (rigid-ipc) or .aabbs (Broadmark)");
+  throw base::InputError(
+      file.string(), 0,
+      "unknown kind of file; expected .toml, .json (rigid-ipc) or .aabbs (Broadmark)");
 }
 
 // Sets the number of frames; for a recording it keeps the first ones.
@@ -144,7 +146,7 @@ void set_frames(const std::string& file, std::int64_t line, std::int64_t frames,
   const auto recorded = static_cast<std::int64_t>(scene.recording.size());
   const std::int64_t most = recorded > 0 ? recorded : most_frames;
   if (frames < 1 || frames > most) {
-    throw InputError(file, line, fmt::format("{} frames; expected 1 to {}", frames, most));
+    throw base::InputError(file, line, fmt::format("{} frames; expected 1 to {}", frames, most));
   }
   scene.frames = static_cast<int>(frames);
   if (recorded > 0) scene.recording.resize(static_cast<std::size_t>(frames));
@@ -153,9 +155,9 @@ void set_frames(const std::string& file, std::int64_t line, std::int64_t frames,
 // `lines` receives the lines of listed bodies.
 Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrides,
                 std::vector<std::int64_t>& lines) {
-  const toml::table content = parse_toml(path);
+  const toml::table content = files::parse_toml(path);
   const std::string file = path.string();
-  TomlTable table(content, file, "");
+  files::TomlTable table(content, file, "");
   ShapeReader shapes(path.parent_path(), table.text("get", ""));
   constexpr std::string_view forms[] = {"generator", "body", "import"};
   const auto given = std::count_if(std::begin(forms), std::end(forms),
@@ -200,7 +202,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   if (scene.recording.empty() && table.has("polytope")) {
     const int level = static_cast<int>(table.integer("polytope", 0, 5));
     for (Shape& shape : scene.shapes) {
-      if (shape.kind != ShapeKind::halfspace) shape = as_polytope(shape, level);
+      if (shape.kind != ShapeKind::halfspace) shape = geometry::as_polytope(shape, level);
     }
   }
   table.finish();
@@ -226,10 +228,11 @@ void check_range(const std::string& file, std::span<const std::int64_t> lines, c
     }
     const double turn = body.angular_velocity.cwiseAbs().maxCoeff() * time;
     if (farthest <= most && turn <= most) continue;
-    throw InputError(file, i < lines.size() ? lines[i] : 0,
-                     fmt::format("body {} reaches {:.3g} m and turns by {:.3g}; expected less than "
-                                 "{:g}, for boxes are in float",
-                                 i + 1, farthest, turn, most));
+    throw base::InputError(
+        file, i < lines.size() ? lines[i] : 0,
+        fmt::format("body {} reaches {:.3g} m and turns by {:.3g}; expected less than "
+                    "{:g}, for boxes are in float",
+                    i + 1, farthest, turn, most));
   }
 }
 
@@ -242,7 +245,7 @@ void check_walls(const std::string& file, std::span<const std::int64_t> lines, c
     for (int axis = 0; axis < 3; ++axis) {
       const double x = scene.bodies[i].pose.translation[axis];
       if (x >= motion.wall_min[axis] && x <= motion.wall_max[axis]) continue;
-      throw InputError(
+      throw base::InputError(
           file, i < lines.size() ? lines[i] : 0,
           fmt::format("body {} starts at {} = {}; expected a place between the walls "
                       "{} and {}",
@@ -257,7 +260,7 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
   const std::string file = path.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError(file, 0, "no such file; expected a scene: .toml, .json or .aabbs");
+    throw base::InputError(file, 0, "no such file; expected a scene: .toml, .json or .aabbs");
   }
   Scene scene;
   std::vector<std::int64_t> lines;
@@ -275,10 +278,10 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     const double gap = *overrides.gap;
     scene.name += fmt::format(" {} {}", gap < 0 ? "depth" : "gap", std::abs(gap));
   }
-  if (scene.size() == 0) throw InputError(file, 0, "no bodies; expected at least one");
+  if (scene.size() == 0) throw base::InputError(file, 0, "no bodies; expected at least one");
   check_range(file, lines, scene);
   check_walls(file, lines, scene);
   return scene;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

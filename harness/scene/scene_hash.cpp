@@ -5,13 +5,13 @@
 #include "harness/scene/kinematics.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // A chain of mix(): each word changes all later states.
 class Hash {
  public:
-  void add(std::uint64_t word) { state_ = mix(state_ ^ word); }
+  void add(std::uint64_t word) { state_ = base::mix(state_ ^ word); }
   void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
   void add(const Vec3d& v) {
     for (int i = 0; i < 3; ++i) add(v[i]);
@@ -81,7 +81,7 @@ std::string scene_hash(const Scene& scene) {
     for (const auto& frame : scene.recording) {
       for (const Aabb& box : frame) hash.add(box);
     }
-    return to_hex(hash.value());
+    return base::to_hex(hash.value());
   }
   hash.add(std::uint64_t{scene.shapes.size()});
   for (const Shape& shape : scene.shapes) hash.add(shape);
@@ -102,7 +102,7 @@ std::string scene_hash(const Scene& scene) {
       if (scene.bodies[i].moving) hash.add(kinematics.poses()[i]);
     }
   }
-  return to_hex(hash.value());
+  return base::to_hex(hash.value());
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

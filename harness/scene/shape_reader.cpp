@@ -5,7 +5,7 @@
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // The rotation that takes the body's z axis to axis 0 (x), 1 (y) or 2 (z): a cyclic permutation.
@@ -17,13 +17,13 @@ Mat3d axis_turn(std::size_t axis) {
   return turn;
 }
 
-Mesh read_scaled(const std::tuple<std::string, double, double, double>& mesh_and_scale) {
+geometry::Mesh read_scaled(const std::tuple<std::string, double, double, double>& mesh_and_scale) {
   const auto& [file, x, y, z] = mesh_and_scale;
-  Mesh mesh = read_mesh(file);
+  geometry::Mesh mesh = geometry::read_mesh(file);
   for (Vec3d& v : mesh.vertices) {
     v = v.cwiseProduct(Vec3d(x, y, z)).eval();
     if (!v.allFinite()) {
-      throw InputError(file, 0, "not finite at the scene's scale; expected a smaller one");
+      throw base::InputError(file, 0, "not finite at the scene's scale; expected a smaller one");
     }
   }
   return mesh;
@@ -47,7 +47,7 @@ std::span<const std::string_view> shape_names() {
   return names;
 }
 
-std::filesystem::path ShapeReader::existing_file(TomlTable& table, std::string_view key,
+std::filesystem::path ShapeReader::existing_file(files::TomlTable& table, std::string_view key,
                                                  std::string_view expected) const {
   const std::filesystem::path file = folder_ / table.text(key);
   std::error_code error;
@@ -58,30 +58,30 @@ std::filesystem::path ShapeReader::existing_file(TomlTable& table, std::string_v
   return file;
 }
 
-ShapeReader::MeshAndScale ShapeReader::mesh_and_scale(TomlTable& table) const {
+ShapeReader::MeshAndScale ShapeReader::mesh_and_scale(files::TomlTable& table) const {
   const toml::node* scale_node = table.node("scale");
   const Vec3d scale = scale_node != nullptr && scale_node->is_array()
-                          ? table.vector("scale", positive)
-                          : Vec3d::Constant(table.number("scale", positive, 1.0));
+                          ? table.vector("scale", files::positive)
+                          : Vec3d::Constant(table.number("scale", files::positive, 1.0));
   const std::filesystem::path file = existing_file(table, "mesh", "an OBJ, OFF, STL or PLY file");
   return {file.lexically_normal().string(), scale.x(), scale.y(), scale.z()};
 }
 
-TurnedShape ShapeReader::read_mesh_hull(TomlTable& table) {
+TurnedShape ShapeReader::read_mesh_hull(files::TomlTable& table) {
   const MeshAndScale key = mesh_and_scale(table);
   TurnedShape& known = hulls_[key];
   if (known.mesh == nullptr) {
-    known.mesh = std::make_shared<Mesh>(read_scaled(key));
+    known.mesh = std::make_shared<geometry::Mesh>(read_scaled(key));
     known.shape = hull_shape(make_reduced_hull(known.mesh->vertices));
   }
   return known;
 }
 
-const std::vector<MeshPart>& ShapeReader::read_parts(TomlTable& table) {
+const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {
   const MeshAndScale key = mesh_and_scale(table);
   const auto [found, is_new] = parts_.try_emplace(key);
   if (!is_new) return found->second;
-  for (Mesh& part : connected_parts(read_scaled(key))) {
+  for (geometry::Mesh& part : geometry::connected_parts(read_scaled(key))) {
     Vec3d low = part.vertices.front(), high = low;
     for (const Vec3d& v : part.vertices) {
       low = low.cwiseMin(v);
@@ -90,7 +90,7 @@ const std::vector<MeshPart>& ShapeReader::read_parts(TomlTable& table) {
     const Vec3d centre = 0.5 * low + 0.5 * high;
     for (Vec3d& v : part.vertices) v -= centre;
     const Shape shape = hull_shape(make_reduced_hull(part.vertices));
-    found->second.push_back({shape, std::make_shared<Mesh>(std::move(part)), centre});
+    found->second.push_back({shape, std::make_shared<geometry::Mesh>(std::move(part)), centre});
   }
   if (found->second.empty()) {
     table.fail("parts", "the mesh has no triangles, so no parts; expected parts = false");
@@ -98,28 +98,30 @@ const std::vector<MeshPart>& ShapeReader::read_parts(TomlTable& table) {
   return found->second;
 }
 
-TurnedShape ShapeReader::read(TomlTable& table) {
+TurnedShape ShapeReader::read(files::TomlTable& table) {
   if (table.has("mesh")) return read_mesh_hull(table);
   TurnedShape turned;
   Shape& shape = turned.shape;
   shape.kind = all_shape_kinds[table.choice("type", shape_names())];
   switch (shape.kind) {
-    case ShapeKind::sphere: shape.radius = table.number("radius", not_negative); break;
+    case ShapeKind::sphere: shape.radius = table.number("radius", files::not_negative); break;
     case ShapeKind::capsule:
     case ShapeKind::cylinder:
     case ShapeKind::cone: {
       constexpr std::string_view axes[] = {"x", "y", "z"};
-      shape.radius = table.number("radius", not_negative);
-      shape.half_length = table.number("half_length", not_negative);
+      shape.radius = table.number("radius", files::not_negative);
+      shape.half_length = table.number("half_length", files::not_negative);
       turned.turn = axis_turn(table.choice("axis", axes, 2));
       break;
     }
-    case ShapeKind::box: shape.half_extents = table.vector("half_extents", not_negative); break;
-    case ShapeKind::ellipsoid: shape.radii = table.vector("radii", not_negative); break;
+    case ShapeKind::box:
+      shape.half_extents = table.vector("half_extents", files::not_negative);
+      break;
+    case ShapeKind::ellipsoid: shape.radii = table.vector("radii", files::not_negative); break;
     case ShapeKind::hull: shape.hull = make_hull(table.points("vertices")); break;
     case ShapeKind::halfspace:
-      shape.normal = table.vector("normal", any_number);
-      shape.offset = table.number("offset", any_number);
+      shape.normal = table.vector("normal", files::any_number);
+      shape.offset = table.number("offset", files::any_number);
       if (shape.normal == Vec3d::Zero()) {
         table.fail("normal", "found [0, 0, 0]; expected a vector that is not zero");
       }
@@ -128,4 +130,4 @@ TurnedShape ShapeReader::read(TomlTable& table) {
   return turned;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

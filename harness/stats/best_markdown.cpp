@@ -14,23 +14,24 @@ std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
   const auto name = [](const std::string& label) { return label.empty() ? "-" : label; };
   for (const BroadBestRow& row : rows) {
     if (row.peer.label.empty() && std::isnan(row.over_limit.median)) continue;
-    body += markdown_row({row.key.words(), row.ours.label, name(row.peer.label),
-                          name(row.bullet_or_fcl.label), cell(row.ours.seconds * 1e3),
-                          cell(row.peer.seconds * 1e3), cell(row.peer.ratio.median),
-                          interval_cell(row.peer.ratio), cell(row.bullet_or_fcl.seconds * 1e3),
-                          cell(row.bullet_or_fcl.ratio.median),
-                          interval_cell(row.bullet_or_fcl.ratio), cell(row.over_limit.median),
-                          cell(row.bytes_a_body), cell(row.speed_up.median), cell(row.exponent)});
+    body += base::markdown_row(
+        {row.key.words(), row.ours.label, name(row.peer.label), name(row.bullet_or_fcl.label),
+         base::cell(row.ours.seconds * 1e3), base::cell(row.peer.seconds * 1e3),
+         base::cell(row.peer.ratio.median), interval_cell(row.peer.ratio),
+         base::cell(row.bullet_or_fcl.seconds * 1e3), base::cell(row.bullet_or_fcl.ratio.median),
+         interval_cell(row.bullet_or_fcl.ratio), base::cell(row.over_limit.median),
+         base::cell(row.bytes_a_body), base::cell(row.speed_up.median), base::cell(row.exponent)});
   }
   if (body.empty()) return body;
   return "## The best of our broad phases against the best of others\n\nMilliseconds a frame; "
          "ratios are of the other's time over that of ours. The limit is a radix sort, a gather\n"
          "of the boxes and the writing of the pairs. Speed-up is over the fewest threads, growth "
          "the exponent of\ntime over bodies where there are many.\n\n" +
-         markdown_header({"input", "ours", "peer", "of Bullet and FCL", "ours, ms", "peer, ms",
-                          "peer / ours", "95 % interval", "Bullet or FCL, ms", "/ ours",
-                          "95 % interval", "ours / limit", "bytes / body", "speed-up", "growth"},
-                         4) +
+         base::markdown_header(
+             {"input", "ours", "peer", "of Bullet and FCL", "ours, ms", "peer, ms", "peer / ours",
+              "95 % interval", "Bullet or FCL, ms", "/ ours", "95 % interval", "ours / limit",
+              "bytes / body", "speed-up", "growth"},
+             4) +
          body + "\n";
 }
 
@@ -45,13 +46,14 @@ std::string narrow_best_table(const std::vector<NarrowBestRow>& rows, double dep
   };
   for (const NarrowBestRow& row : rows) {
     if (row.any_peer.label.empty()) continue;
-    body += markdown_row({row.key.words(), row.ours.label, name(row.right_peer), name(row.any_peer),
-                          cell(row.ours.seconds * 1e9), error(row.ours),
-                          cell(row.right_peer.seconds * 1e9), error(row.right_peer),
-                          cell(row.right_peer.ratio.median), interval_cell(row.right_peer.ratio),
-                          cell(row.any_peer.seconds * 1e9),
-                          fmt::format("{} of {}", row.any_peer.wrong, row.any_peer.queries),
-                          error(row.any_peer), cell(row.any_peer.ratio.median)});
+    body += base::markdown_row({row.key.words(), row.ours.label, name(row.right_peer),
+                                name(row.any_peer), base::cell(row.ours.seconds * 1e9),
+                                error(row.ours), base::cell(row.right_peer.seconds * 1e9),
+                                error(row.right_peer), base::cell(row.right_peer.ratio.median),
+                                interval_cell(row.right_peer.ratio),
+                                base::cell(row.any_peer.seconds * 1e9),
+                                fmt::format("{} of {}", row.any_peer.wrong, row.any_peer.queries),
+                                error(row.any_peer), base::cell(row.any_peer.ratio.median)});
   }
   if (body.empty()) return body;
   return fmt::format(
@@ -60,7 +62,7 @@ std::string narrow_best_table(const std::vector<NarrowBestRow>& rows, double dep
              "no distance or depth off by more than {} of the pair's size; errors are the "
              "greatest,\nas parts of it.\n\n",
              depth_error) +
-         markdown_header(
+         base::markdown_header(
              {"input", "ours", "right peer", "fastest peer", "ours, ns", "error", "right peer, ns",
               "error", "/ ours", "95 % interval", "fastest peer, ns", "wrong", "error", "/ ours"},
              4) +

@@ -263,7 +263,7 @@ std::vector<std::string> changed_answers(const Results& a, const Results& b, Com
       lines.push_back(fmt::format("{}: {} in {}", where, to_string(*in_b.failure), names.b));
       return;
     }
-    std::map<std::pair<std::int64_t, Phase>, const Check*> by_frame;
+    std::map<std::pair<std::int64_t, record::Phase>, const Check*> by_frame;
     for (const Check& check : in_b.checks) by_frame[{check.frame, check.phase}] = &check;
     for (const Check& check : in_a.checks) {
       const auto at = by_frame.find({check.frame, check.phase});

@@ -4,13 +4,13 @@
 
 #include "harness/files/toml_table.h"
 
-namespace touchstone {
+namespace touchstone::stats {
 namespace {
 
-void read_claims(TomlTable& published, std::string_view key, PublishedClaim::Kind kind,
+void read_claims(files::TomlTable& published, std::string_view key, PublishedClaim::Kind kind,
                  std::vector<PublishedClaim>& claims) {
   if (!published.has(key)) return;
-  for (TomlTable& table : published.tables(key)) {
+  for (files::TomlTable& table : published.tables(key)) {
     PublishedClaim claim;
     claim.kind = kind;
     claim.algorithm = table.text("algorithm");
@@ -18,8 +18,8 @@ void read_claims(TomlTable& published, std::string_view key, PublishedClaim::Kin
     claim.pair_kind = table.text("pair_kind", "");
     if (kind == PublishedClaim::Kind::faster) claim.than = table.text("than");
     if (kind == PublishedClaim::Kind::iterations) {
-      claim.mean = table.number("mean", positive);
-      claim.deviation = table.number("deviation", not_negative);
+      claim.mean = table.number("mean", files::positive);
+      claim.deviation = table.number("deviation", files::not_negative);
       claim.uncounted = table.integer("uncounted", 0, 1000, 0);
     }
     table.finish();
@@ -29,10 +29,10 @@ void read_claims(TomlTable& published, std::string_view key, PublishedClaim::Kin
 
 }  // namespace
 
-Published read_published(TomlTable& campaign) {
+Published read_published(files::TomlTable& campaign) {
   Published published;
   if (!campaign.has("published")) return published;
-  TomlTable table = campaign.inside("published", "published");
+  files::TomlTable table = campaign.inside("published", "published");
   published.source = table.text("source");
   published.note = table.text("note", "");
   read_claims(table, "iterations", PublishedClaim::Kind::iterations, published.claims);
@@ -42,4 +42,4 @@ Published read_published(TomlTable& campaign) {
   return published;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::stats

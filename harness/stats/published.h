@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-namespace touchstone {
-
+namespace touchstone::files {
 class TomlTable;
+}
+
+namespace touchstone::stats {
 
 struct PublishedClaim {
   enum class Kind : std::uint8_t {
@@ -33,6 +35,6 @@ struct Published {
 };
 
 // The table [published] of a campaign file; see datasets/README.md. InputError with file and line.
-Published read_published(TomlTable& campaign);
+Published read_published(files::TomlTable& campaign);
 
-}  // namespace touchstone
+}  // namespace touchstone::stats

@@ -99,9 +99,9 @@ std::vector<PublishedRow> check_published(const Published& published, const Resu
 std::string published_text(const Published& published, const std::vector<PublishedRow>& rows) {
   std::string text = fmt::format("Published: {}\n\n", published.source);
   if (!published.note.empty()) text += published.note + "\n\n";
-  text += markdown_header({"", "input", "published", "here", ""}, 2);
+  text += base::markdown_header({"", "input", "published", "here", ""}, 2);
   for (const PublishedRow& row : rows) {
-    text += markdown_row(
+    text += base::markdown_row(
         {row.claim, row.key.words(), row.published, row.here, std::string(to_string(row.state))});
   }
   return text;
@@ -109,15 +109,15 @@ std::string published_text(const Published& published, const std::vector<Publish
 
 void write_published(const Published& published, const std::vector<PublishedRow>& rows,
                      const std::filesystem::path& folder) {
-  CsvWriter csv(folder / "published.csv", {"scene", "bodies", "task", "pair_kind", "threads",
-                                           "claim", "published", "here", "holds"});
+  files::CsvWriter csv(folder / "published.csv", {"scene", "bodies", "task", "pair_kind", "threads",
+                                                  "claim", "published", "here", "holds"});
   for (const PublishedRow& row : rows) {
     csv.field(row.key.scene).field(row.key.bodies).field(row.key.task).field(row.key.pair_kind);
     csv.field(row.key.threads).field(row.claim).field(row.published).field(row.here);
     csv.field(to_string(row.state)).end_row();
   }
   csv.close();
-  write_text(folder / "published.md", published_text(published, rows));
+  base::write_text(folder / "published.md", published_text(published, rows));
 }
 
 }  // namespace touchstone::stats

@@ -17,17 +17,19 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // The counters of a row, in the order of Work.
-constexpr std::array<std::int64_t RawRow::*, work_count> work_fields = {
-    &RawRow::iterations, &RawRow::iterations_squared, &RawRow::support_calls,
-    &RawRow::box_tests,  &RawRow::node_visits,        &RawRow::candidates,
-    &RawRow::bytes,      &RawRow::allocations,        &RawRow::allocated_bytes};
+constexpr std::array<std::int64_t record::RawRow::*, work_count> work_fields = {
+    &record::RawRow::iterations,     &record::RawRow::iterations_squared,
+    &record::RawRow::support_calls,  &record::RawRow::box_tests,
+    &record::RawRow::node_visits,    &record::RawRow::candidates,
+    &record::RawRow::bytes,          &record::RawRow::allocations,
+    &record::RawRow::allocated_bytes};
 
 // The noise of a set's last row where the run could tell its baseline from the twin.
 constexpr std::string_view canary = "canary";
 
-bool is_failure(std::optional<RowStatus> status) {
-  return status == RowStatus::crashed || status == RowStatus::timed_out ||
-         status == RowStatus::unsupported || status == RowStatus::wrong;
+bool is_failure(std::optional<record::RowStatus> status) {
+  return status == record::RowStatus::crashed || status == record::RowStatus::timed_out ||
+         status == record::RowStatus::unsupported || status == record::RowStatus::wrong;
 }
 
 class Reader {
@@ -36,9 +38,9 @@ class Reader {
 
   Results read(const std::filesystem::path& file) {
     results_.file = file;
-    reader_of<RawRow>(file).read([&](const CsvReader::Row& fields) {
+    record::reader_of<record::RawRow>(file).read([&](const files::CsvReader::Row& fields) {
       fields_ = &fields;
-      take(read_row<RawRow>(fields));
+      take(record::read_row<record::RawRow>(fields));
     });
     // A file that was cut may end with a set's twin alone.
     std::erase_if(results_.sets, [](const SampleSet& set) { return set.contestants.empty(); });
@@ -56,7 +58,7 @@ class Reader {
     if (value < least) fail(column, fmt::format("a whole number of at least {}", least));
   }
 
-  void take(const RawRow& row) {
+  void take(const record::RawRow& row) {
     if (results_.campaign.empty()) results_.campaign = row.campaign;
     if (row.isa) results_.isa.emplace(to_string(*row.isa));
     SampleSet& set = set_of(row);
@@ -65,7 +67,7 @@ class Reader {
     if (row.noise.ends_with(canary)) set.suspect = true;
     Contestant& contestant = contestant_of(set, row);
     if (is_failure(row.status)) contestant.failure = row.status;
-    if (row.kind == RowKind::sample) {
+    if (row.kind == record::RowKind::sample) {
       take_sample(contestant, row);
       return;
     }
@@ -87,7 +89,7 @@ class Reader {
   }
 
   // Rows of one sample are together, a phase each.
-  void take_sample(Contestant& contestant, const RawRow& row) const {
+  void take_sample(Contestant& contestant, const record::RawRow& row) const {
     if (std::isnan(row.seconds)) return;  // a failure, as the status says
     if (!(row.seconds >= 0) || std::isinf(row.seconds)) fail("seconds", "seconds of at least 0");
     expect_least("process", row.process, 0);
@@ -106,7 +108,7 @@ class Reader {
     add_phase(contestant, row.phase, sample, row.seconds);
   }
 
-  SampleSet& set_of(const RawRow& row) {
+  SampleSet& set_of(const record::RawRow& row) {
     expect_least("bodies", row.bodies, 0);
     expect_least("threads", row.threads, 0);
     SetKey key;
@@ -130,8 +132,8 @@ class Reader {
     return results_.sets[at->second];
   }
 
-  Contestant& contestant_of(SampleSet& set, const RawRow& row) const {
-    const std::string label = label_of(row);
+  Contestant& contestant_of(SampleSet& set, const record::RawRow& row) const {
+    const std::string label = record::label_of(row);
     if (label.empty()) fail("broad", "an algorithm here or in column narrow");
     Contestant* found = &set.twin;
     if (!row.is_twin()) {
@@ -149,7 +151,7 @@ class Reader {
   }
 
   const OriginOf& origin_of_;
-  const CsvReader::Row* fields_ = nullptr;  // at hand
+  const files::CsvReader::Row* fields_ = nullptr;  // at hand
   Results results_;
   std::map<SetKey, std::size_t> places_;
 };
@@ -176,7 +178,7 @@ std::string SetKey::words() const {
   return text;
 }
 
-void add_phase(Contestant& contestant, Phase phase, Sample sample, double seconds) {
+void add_phase(Contestant& contestant, record::Phase phase, Sample sample, double seconds) {
   const auto place = [](const Sample& s) {
     return std::tuple(s.process, s.square, s.round, s.position);
   };
@@ -225,7 +227,7 @@ Results read_results(const std::filesystem::path& folder_or_file, const OriginOf
   Results results = Reader(origin_of).read(file);
   const std::filesystem::path machine = file.parent_path() / "machine.csv";
   if (std::filesystem::exists(machine)) {
-    CsvReader(machine, {"name", "value"}).read([&](const CsvReader::Row& row) {
+    files::CsvReader(machine, {"name", "value"}).read([&](const files::CsvReader::Row& row) {
       results.machine.emplace(row.text(0), row.text(1));
     });
   }

@@ -38,7 +38,7 @@ struct SetKey {
   std::string words() const;  // "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"
 };
 
-inline constexpr std::size_t phase_count = enumerators<Phase>.size();
+inline constexpr std::size_t phase_count = base::enumerators<record::Phase>.size();
 
 // One contestant's work on the same run of frames: its phases together. Seconds, NaN for a part
 // that it did not have.
@@ -64,15 +64,15 @@ enum class Work : std::uint8_t {
   allocated_bytes
 };
 std::string_view to_string(Work work);
-inline constexpr std::size_t work_count = enumerators<Work>.size();
+inline constexpr std::size_t work_count = base::enumerators<Work>.size();
 
 // The verified answer to one frame. Counts of -1 are not known.
 struct Check {
   std::int64_t frame = 0;
-  Phase phase = Phase::build;
+  record::Phase phase = record::Phase::build;
   double seconds = 0;      // no sample: NaN where it failed
   double worst_error = 0;  // of a distance or depth; NaN where there is none
-  std::optional<RowStatus> status;
+  std::optional<record::RowStatus> status;
   std::string pair_hash, outcome_hash;
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
                compared = -1;
@@ -92,14 +92,14 @@ struct Check {
 inline constexpr const char* limit_label = "limit";
 
 struct Contestant {
-  std::string label;                // "sweep-and-prune", "gjk double 1e-06"
-  std::optional<RowOrigin> origin;  // empty where an older file does not say
+  std::string label;                        // "sweep-and-prune", "gjk double 1e-06"
+  std::optional<record::RowOrigin> origin;  // empty where an older file does not say
   std::vector<Sample> samples;
   std::vector<Check> checks;
   // Set where the status of a row is crashed, timed_out, unsupported or wrong.
-  std::optional<RowStatus> failure;
+  std::optional<record::RowStatus> failure;
 
-  bool is_ours() const { return origin == RowOrigin::ours; }
+  bool is_ours() const { return origin == record::RowOrigin::ours; }
 };
 
 struct SampleSet {
@@ -128,7 +128,8 @@ struct Results {
 };
 
 // Gives the origin of an algorithm by its name, for files that have no column `origin`.
-using OriginOf = std::function<std::optional<RowOrigin>(bool narrow, const std::string& name)>;
+using OriginOf =
+    std::function<std::optional<record::RowOrigin>(bool narrow, const std::string& name)>;
 
 // Reads a raw.csv, or the one of a folder, and the machine.csv beside it. InputError with file and
 // line.
@@ -136,7 +137,7 @@ Results read_results(const std::filesystem::path& folder_or_file, const OriginOf
 
 // Adds a phase's seconds to its sample: the phases of one sample come one after the other. `sample`
 // identifies it, without its parts.
-void add_phase(Contestant& contestant, Phase phase, Sample sample, double seconds);
+void add_phase(Contestant& contestant, record::Phase phase, Sample sample, double seconds);
 
 // Seconds a frame or a query, of each square: the median over the square's rounds. Noisy rounds are
 // left out unless they are asked for.

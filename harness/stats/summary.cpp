@@ -84,7 +84,7 @@ std::string winners_text(const Tables& tables) {
     members[name].push_back(&duel);
   }
   if (names.empty()) return "";
-  TextTable table({"", "fastest of ours", "fastest library", "library / ours", "inputs"});
+  base::TextTable table({"", "fastest of ours", "fastest library", "library / ours", "inputs"});
   for (const std::string& name : names) {
     std::vector<std::string> ours, libraries;
     std::vector<MedianInterval> ratios;
@@ -111,7 +111,7 @@ struct Fault {
   std::int64_t unknown = 0, queries = 0;
 };
 
-std::vector<Fault> faults_of(const Tables& tables, std::span<const Departure> departures) {
+std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Departure> departures) {
   std::vector<Fault> faults;
   const auto fault_of = [&](const std::string& label, bool ours) -> Fault& {
     const auto at = std::ranges::find(faults, label, &Fault::label);
@@ -121,7 +121,7 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const Departure> de
     fault.ours = ours;
     return fault;
   };
-  for (const Departure& departure : departures) {
+  for (const record::Departure& departure : departures) {
     Fault& fault = fault_of(departure.algorithm, departure.ours);
     if (fault.what.empty()) {
       fault.what = departure.what + ", on " + departure.where;
@@ -184,7 +184,8 @@ std::string notes_text(const Results& results) {
 }  // namespace
 
 std::string summary(const Results& results, const Tables& tables,
-                    std::span<const Departure> departures, const std::filesystem::path& folder) {
+                    std::span<const record::Departure> departures,
+                    const std::filesystem::path& folder) {
   std::string text;
   if (const std::string winners = winners_text(tables); !winners.empty()) {
     text +=

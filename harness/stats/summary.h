@@ -16,6 +16,7 @@ inline constexpr std::size_t most_summary_lines = 25;
 // 95 % interval; algorithms that were wrong, and by how much; where the files are. At most
 // most_summary_lines lines.
 std::string summary(const Results& results, const Tables& tables,
-                    std::span<const Departure> departures, const std::filesystem::path& folder);
+                    std::span<const record::Departure> departures,
+                    const std::filesystem::path& folder);
 
 }  // namespace touchstone::stats

@@ -14,11 +14,12 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // The cells as the table states them, without those of the canaries.
 std::vector<CheckedCell> read_bands(const std::filesystem::path& file) {
   std::vector<CheckedCell> cells;
-  CsvReader(file,
-            {"scene", "bodies", "seed", "boxes", "threads", "task", "pair_kind", "pairs_of",
-             "scene_hash", "algorithm", "baseline", "canary", "ratio", "band_low", "band_high"},
-            {"rebuild", "isa_limit"})
-      .read([&](const CsvReader::Row& row) {
+  files::CsvReader(
+      file,
+      {"scene", "bodies", "seed", "boxes", "threads", "task", "pair_kind", "pairs_of", "scene_hash",
+       "algorithm", "baseline", "canary", "ratio", "band_low", "band_high"},
+      {"rebuild", "isa_limit"})
+      .read([&](const files::CsvReader::Row& row) {
         const auto text = [&](std::size_t column) { return std::string(row.text(column)); };
         const auto number = [&](std::size_t column) {
           return row.text(column).empty() ? nan : row.number(column);
@@ -84,7 +85,7 @@ TableCheck check_tables(const std::filesystem::path& reference, const Results& h
         (set != nullptr && set->suspect) || (set_there != nullptr && set_there->suspect);
     if (!suspect) cell.state = holds(cell.ratio, cell.band_low, cell.band_high);
     if (cell.state == Holds::fail && cell.ratio.high < cell.band_low && contestant->is_ours() &&
-        baseline->origin == RowOrigin::peer) {
+        baseline->origin == record::RowOrigin::peer) {
       cell.state = Holds::faster;
     }
     check.cells.push_back(std::move(cell));

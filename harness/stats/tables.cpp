@@ -77,8 +77,8 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
     }
   }
   for (const Check& check : contestant.checks) {
-    if (check.phase == Phase::convert) {
-      parts[static_cast<std::size_t>(Phase::convert)].push_back(check.seconds);
+    if (check.phase == record::Phase::convert) {
+      parts[static_cast<std::size_t>(record::Phase::convert)].push_back(check.seconds);
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) row.parts[i] = median(std::move(parts[i]));
@@ -109,7 +109,7 @@ RatioRow ratio_row(const SampleSet& set, const Contestant& a, const Contestant& 
 // The first library of the set that was timed and answers right; null where there is none.
 const Contestant* library_of(const SampleSet& set, double depth_error) {
   for (const Contestant& contestant : set.contestants) {
-    if (contestant.origin == RowOrigin::peer && !contestant.samples.empty() &&
+    if (contestant.origin == record::RowOrigin::peer && !contestant.samples.empty() &&
         !contestant.failure && !is_wrong(set, contestant) &&
         !(worst_error(contestant) > depth_error)) {
       return &contestant;

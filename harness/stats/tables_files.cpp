@@ -19,7 +19,7 @@ class TableFile {
  public:
   TableFile(const std::filesystem::path& file, const std::vector<std::string>& columns)
       : csv_(file, joined(columns)) {}
-  CsvWriter& row(const SetKey& key) {
+  files::CsvWriter& row(const SetKey& key) {
     csv_.field(key.scene).field(key.scene_hash);
     if (key.bodies > 0) {
       csv_.field(key.bodies);
@@ -38,7 +38,7 @@ class TableFile {
     all.insert(all.end(), columns.begin(), columns.end());
     return all;
   }
-  CsvWriter csv_;
+  files::CsvWriter csv_;
 };
 
 void write_ratios(const std::vector<RatioRow>& rows, double band,
@@ -46,7 +46,7 @@ void write_ratios(const std::vector<RatioRow>& rows, double band,
   TableFile ratios(file, {"algorithm", "baseline", "canary", "ratio", "ratio_low", "ratio_high",
                           "squares", "p", "p_corrected", "band_low", "band_high", "suspect"});
   for (const RatioRow& row : rows) {
-    CsvWriter& csv = ratios.row(row.key).field(row.label).field(row.baseline);
+    files::CsvWriter& csv = ratios.row(row.key).field(row.label).field(row.baseline);
     csv.field(int{row.canary}).field(row.ratio.median).field(row.ratio.low).field(row.ratio.high);
     csv.field(row.ratio.n).field(row.p).field(row.p_corrected);
     csv.field(row.ratio.low / band).field(row.ratio.high * band);
@@ -78,7 +78,7 @@ void write_broad_best(const std::vector<BroadBestRow>& rows, const std::filesyst
                         "speed_up_high",
                         "exponent_of_many"});
   for (const BroadBestRow& row : rows) {
-    CsvWriter& csv = best.row(row.key).field(row.ours.label).field(row.ours.seconds);
+    files::CsvWriter& csv = best.row(row.key).field(row.ours.label).field(row.ours.seconds);
     for (const BroadBestRow::Best* other : {&row.peer, &row.bullet_or_fcl}) {
       csv.field(other->label).field(other->seconds);
       csv.field(other->ratio.median).field(other->ratio.low).field(other->ratio.high);
@@ -102,7 +102,7 @@ void write_narrow_best(const std::vector<NarrowBestRow>& rows, const std::filesy
   }
   TableFile best(file, columns);
   for (const NarrowBestRow& row : rows) {
-    CsvWriter& csv = best.row(row.key);
+    files::CsvWriter& csv = best.row(row.key);
     for (const NarrowBestRow::Best* one : {&row.ours, &row.right_peer, &row.any_peer}) {
       csv.field(one->label).field(one->seconds).field(one->queries).field(one->wrong);
       csv.field(one->failed).field(one->worst_error);
@@ -121,7 +121,7 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
                    "minimum", "build", "update", "find_pairs", "narrow", "convert", "squares",
                    "samples", "noisy", "outliers", "wrong", "failure"});
   for (const TimeRow& row : tables.times) {
-    CsvWriter& csv = times.row(row.key).field(row.label).field(row.origin);
+    files::CsvWriter& csv = times.row(row.key).field(row.label).field(row.origin);
     csv.field(row.key.narrow() ? "query" : "frame").field(row.seconds.median);
     csv.field(row.seconds.low).field(row.seconds.high).field(row.minimum);
     for (const double part : row.parts) csv.field(part);
@@ -135,7 +135,7 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
                     {"winner", "runner_up", "ratio", "ratio_low", "ratio_high", "squares", "p",
                      "p_corrected", "suspect"});
   for (const WinnerRow& row : tables.winners) {
-    CsvWriter& csv = winners.row(row.key).field(row.winner).field(row.runner_up);
+    files::CsvWriter& csv = winners.row(row.key).field(row.winner).field(row.runner_up);
     csv.field(row.ratio.median).field(row.ratio.low).field(row.ratio.high).field(row.ratio.n);
     csv.field(row.p).field(row.p_corrected).field(int{row.suspect}).end_row();
   }
@@ -144,7 +144,7 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
                       {"algorithm", "exponent", "exponent_low", "exponent_high", "factor", "counts",
                        "exponent_of_many"});
   for (const ExponentRow& row : tables.exponents) {
-    CsvWriter& csv = exponents.row(row.key).field(row.label).field(row.law.exponent);
+    files::CsvWriter& csv = exponents.row(row.key).field(row.label).field(row.law.exponent);
     csv.field(row.law.low).field(row.law.high).field(row.law.factor);
     csv.field(fmt::format("{}", fmt::join(row.counts, " ")));
     csv.field(row.law_of_many.exponent).end_row();
@@ -153,14 +153,15 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
   TableFile speed_ups(folder / "speed_ups.csv",
                       {"algorithm", "base_threads", "speed_up", "speed_up_low", "speed_up_high"});
   for (const SpeedUpRow& row : tables.speed_ups) {
-    CsvWriter& csv = speed_ups.row(row.key).field(row.label).field(row.base_threads);
+    files::CsvWriter& csv = speed_ups.row(row.key).field(row.label).field(row.base_threads);
     csv.field(row.speed_up.median).field(row.speed_up.low).field(row.speed_up.high).end_row();
   }
   speed_ups.close();
   TableFile agreement(folder / "agreement.csv", {"algorithm", "origin", "queries", "right", "wrong",
                                                  "failed", "unanswered", "worst_error"});
   for (const AgreementRow& row : tables.agreement) {
-    CsvWriter& csv = agreement.row(row.key).field(row.label).field(row.origin).field(row.queries);
+    files::CsvWriter& csv =
+        agreement.row(row.key).field(row.label).field(row.origin).field(row.queries);
     csv.field(row.right)
         .field(row.wrong)
         .field(row.failed)
@@ -174,7 +175,7 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
                   "node_visits_a_body", "candidates_a_pair", "bytes_a_body", "iterations_a_query",
                   "support_calls_a_query", "unit", "allocations", "allocated_bytes"});
   for (const WorkRow& row : tables.work) {
-    CsvWriter& csv = work.row(row.key).field(row.label).field(row.origin);
+    files::CsvWriter& csv = work.row(row.key).field(row.label).field(row.origin);
     csv.field(row.frames).field(row.queries).field(row.box_tests).field(row.node_visits);
     csv.field(row.candidates).field(row.bytes).field(row.iterations).field(row.support_calls);
     csv.field(row.key.narrow() ? "query" : "frame").field(row.allocations);
@@ -183,7 +184,7 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
   work.close();
   write_broad_best(tables.broad_best, folder / "broad_best.csv");
   write_narrow_best(tables.narrow_best, folder / "narrow_best.csv");
-  write_text(folder / "tables.md", tables_markdown(tables));
+  base::write_text(folder / "tables.md", tables_markdown(tables));
 }
 
 }  // namespace touchstone::stats

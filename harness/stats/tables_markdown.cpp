@@ -46,28 +46,30 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   };
   for (std::size_t i = begin; i < end; ++i) {
     const TimeRow& row = tables.times[i];
-    std::vector<std::string> cells = {row.label, cell(row.seconds.median * scale),
-                                      interval_cell(row.seconds, scale), cell(row.minimum * scale)};
+    std::vector<std::string> cells = {row.label, base::cell(row.seconds.median * scale),
+                                      interval_cell(row.seconds, scale),
+                                      base::cell(row.minimum * scale)};
     if (broad) {
-      for (const Phase part : {Phase::build, Phase::update, Phase::convert, Phase::find_pairs}) {
-        cells.push_back(cell(row.parts[static_cast<std::size_t>(part)] * scale));
+      for (const record::Phase part : {record::Phase::build, record::Phase::update,
+                                       record::Phase::convert, record::Phase::find_pairs}) {
+        cells.push_back(base::cell(row.parts[static_cast<std::size_t>(part)] * scale));
       }
     }
     if (const RatioRow* const ratio = ratio_of(row.label, false)) {
       baseline = ratio->baseline;
-      cells.insert(cells.end(), {cell(ratio->ratio.median), interval_cell(ratio->ratio),
+      cells.insert(cells.end(), {base::cell(ratio->ratio.median), interval_cell(ratio->ratio),
                                  probability(ratio->p_corrected)});
     } else {
       cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-", "-"});
     }
     cells.push_back(std::to_string(row.seconds.n));
     cells.push_back(remark(row, tables.depth_error));
-    body += markdown_row(cells);
+    body += base::markdown_row(cells);
     if (const RatioRow* const twin = ratio_of(row.label, true)) {
       const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
       canary =
           fmt::format("The canary, {} against itself: {}, {}{}.\n", row.label,
-                      cell(twin->ratio.median), interval_cell(twin->ratio),
+                      base::cell(twin->ratio.median), interval_cell(twin->ratio),
                       twin->suspect ? " (**told apart** by more than the campaign's width: this "
                                       "table is **suspect**)"
                       : told_apart  ? " (**told apart**: trust no smaller difference)"
@@ -77,7 +79,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   std::string all = fmt::format("### {}\n\n", first.key.words());
   if (!baseline.empty()) all += fmt::format("Ratios are to {}. ", baseline);
   if (!baseline.empty() || !canary.empty()) all += canary + "\n";
-  return all + markdown_header(names) + body + "\n";
+  return all + base::markdown_header(names) + body + "\n";
 }
 
 // Sums over the inputs and kinds of pairs, which are in agreement.csv.
@@ -119,7 +121,8 @@ class MeanWork {
   const std::string& task() const { return row_.key.task; }
   std::vector<std::string> cells() const {
     std::vector<std::string> all = {task(), row_.label};
-    for (std::size_t i = 0; i < sums_.size(); ++i) all.push_back(cell(sums_[i] / queries_[i]));
+    for (std::size_t i = 0; i < sums_.size(); ++i)
+      all.push_back(base::cell(sums_[i] / queries_[i]));
     return all;
   }
 
@@ -145,23 +148,24 @@ std::string work_tables(const std::vector<WorkRow>& rows) {
     if (std::ranges::find(told, input) != told.end()) continue;
     told.push_back(input);
     all += fmt::format("### {}\n\n", input.words());
-    all += markdown_header({"", "box tests / body", "node visits / body", "candidates / pair",
-                            "bytes / body", "allocations / frame", "bytes allocated / frame"});
+    all +=
+        base::markdown_header({"", "box tests / body", "node visits / body", "candidates / pair",
+                               "bytes / body", "allocations / frame", "bytes allocated / frame"});
     for (const WorkRow& row : rows) {
       if (row.key != first.key) continue;
-      all +=
-          markdown_row({row.label, cell(row.box_tests), cell(row.node_visits), cell(row.candidates),
-                        cell(row.bytes), cell(row.allocations), cell(row.allocated_bytes)});
+      all += base::markdown_row({row.label, base::cell(row.box_tests), base::cell(row.node_visits),
+                                 base::cell(row.candidates), base::cell(row.bytes),
+                                 base::cell(row.allocations), base::cell(row.allocated_bytes)});
     }
     all += "\n";
   }
   if (!narrow.empty()) {
     all += "### Narrow phases, over all inputs\n\n";
-    all += markdown_header({"task", "", "iterations / query", "support calls / query",
-                            "allocations / query", "bytes allocated / query"},
-                           2);
+    all += base::markdown_header({"task", "", "iterations / query", "support calls / query",
+                                  "allocations / query", "bytes allocated / query"},
+                                 2);
     std::ranges::stable_sort(narrow, {}, &MeanWork::task);
-    for (const MeanWork& mean : narrow) all += markdown_row(mean.cells());
+    for (const MeanWork& mean : narrow) all += base::markdown_row(mean.cells());
     all += "\n";
   }
   if (all.empty()) return all;
@@ -181,12 +185,12 @@ std::string tables_markdown(const Tables& tables) {
       "`-`: too few samples to tell.\n\n";
   if (!tables.winners.empty()) {
     all += "## Winner against runner-up\n\n";
-    all += markdown_header(
+    all += base::markdown_header(
         {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
     for (const WinnerRow& row : tables.winners) {
-      all += markdown_row({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner,
-                           row.runner_up, cell(row.ratio.median), interval_cell(row.ratio),
-                           probability(row.p_corrected)});
+      all += base::markdown_row({row.key.words() + (row.suspect ? " (**suspect**)" : ""),
+                                 row.winner, row.runner_up, base::cell(row.ratio.median),
+                                 interval_cell(row.ratio), probability(row.p_corrected)});
     }
     all += "\n";
   }
@@ -194,11 +198,11 @@ std::string tables_markdown(const Tables& tables) {
   all += narrow_best_table(tables.narrow_best, tables.depth_error);
   if (!tables.exponents.empty()) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
-    all += markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts",
-                            fmt::format("from {} on", many_bodies)},
-                           2);
+    all += base::markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts",
+                                  fmt::format("from {} on", many_bodies)},
+                                 2);
     for (const ExponentRow& row : tables.exponents) {
-      all += markdown_row(
+      all += base::markdown_row(
           {fmt::format("{}, {} boxes, {} thread{}{}{}", row.key.scene, row.key.boxes,
                        row.key.threads, row.key.threads == 1 ? "" : "s",
                        row.key.isa_limit.empty() ? "" : ", " + row.key.isa_limit + " instructions",
@@ -214,10 +218,11 @@ std::string tables_markdown(const Tables& tables) {
   }
   if (!tables.speed_ups.empty()) {
     all += "## Speed-up by threads\n\n";
-    all += markdown_header({"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
+    all += base::markdown_header(
+        {"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
     for (const SpeedUpRow& row : tables.speed_ups) {
-      all += markdown_row({row.key.words(), row.label, std::to_string(row.base_threads),
-                           cell(row.speed_up.median), interval_cell(row.speed_up)});
+      all += base::markdown_row({row.key.words(), row.label, std::to_string(row.base_threads),
+                                 base::cell(row.speed_up.median), interval_cell(row.speed_up)});
     }
     all += "\n";
   }
@@ -227,15 +232,15 @@ std::string tables_markdown(const Tables& tables) {
         "error is that of a distance or depth, as a part of the\npair's size; **more than {}** is "
         "no agreement, and wins no table.\n\n",
         tables.depth_error);
-    all += markdown_header(
+    all += base::markdown_header(
         {"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered", "worst error"},
         2);
     for (const AgreementRow& row : by_task(tables.agreement)) {
-      all += markdown_row(
+      all += base::markdown_row(
           {row.key.task, row.label, std::to_string(row.queries), std::to_string(row.right),
            std::to_string(row.wrong), std::to_string(row.failed), std::to_string(row.unanswered),
            row.worst_error > tables.depth_error ? fmt::format("**{:.4g}**", row.worst_error)
-                                                : cell(row.worst_error)});
+                                                : base::cell(row.worst_error)});
     }
     all += "\n";
   }

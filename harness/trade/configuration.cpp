@@ -8,48 +8,48 @@
 #include "harness/base/error.h"
 #include "harness/campaign/selection.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 std::string_view body_kind_name(std::size_t kind) {
   return kind == mesh_body ? "mesh" : to_string(all_shape_kinds[kind]);
 }
 
 // Whether it is the body itself, for bodies of that kind: a sphere's sphere, the hull of a hull.
-bool is_the_body(Form form, std::size_t kind) {
+bool is_the_body(proxies::Form form, std::size_t kind) {
   const auto is = [&](ShapeKind shape) { return kind == static_cast<std::size_t>(shape); };
   switch (form) {
-    case Form::as_given: return true;
-    case Form::sphere: return is(ShapeKind::sphere);
-    case Form::box:
-    case Form::oriented_box: return is(ShapeKind::box);
-    case Form::capsule: return is(ShapeKind::capsule);
-    case Form::hull: return is(ShapeKind::hull);
-    case Form::icosphere: return is(ShapeKind::box) || is(ShapeKind::hull);
-    case Form::parts:
-    case Form::mesh: return kind != mesh_body;  // convex already, and without a mesh
-    case Form::dop14:
-    case Form::dop18:
-    case Form::dop26:
-    case Form::reduced_hull: break;
+    case proxies::Form::as_given: return true;
+    case proxies::Form::sphere: return is(ShapeKind::sphere);
+    case proxies::Form::box:
+    case proxies::Form::oriented_box: return is(ShapeKind::box);
+    case proxies::Form::capsule: return is(ShapeKind::capsule);
+    case proxies::Form::hull: return is(ShapeKind::hull);
+    case proxies::Form::icosphere: return is(ShapeKind::box) || is(ShapeKind::hull);
+    case proxies::Form::parts:
+    case proxies::Form::mesh: return kind != mesh_body;  // convex already, and without a mesh
+    case proxies::Form::dop14:
+    case proxies::Form::dop18:
+    case proxies::Form::dop26:
+    case proxies::Form::reduced_hull: break;
   }
   return false;
 }
 
 std::string Representations::name() const {
   std::string listed;
-  std::optional<Representation> common;  // of those that are not as given
+  std::optional<proxies::Representation> common;  // of those that are not as given
   for (const auto& one : of) {
-    if (one && one->form != Form::as_given) common = one;
+    if (one && one->form != proxies::Form::as_given) common = one;
   }
   bool same = true;
   for (std::size_t kind = 0; kind < body_kinds; ++kind) {
     if (!of[kind]) continue;
-    const bool own = of[kind]->form == Form::as_given;
+    const bool own = of[kind]->form == proxies::Form::as_given;
     if (common && (own ? !is_the_body(common->form, kind) : *of[kind] != *common)) same = false;
     listed += fmt::format("{}{}={}", listed.empty() ? "" : ",", body_kind_name(kind),
                           to_string(*of[kind]));
   }
-  return same ? to_string(common.value_or(Representation{})) : listed;
+  return same ? to_string(common.value_or(proxies::Representation{})) : listed;
 }
 
 std::string BoxChoice::name() const {
@@ -92,10 +92,10 @@ NarrowChain parse_chain(std::string_view text) {
   }
   for (const std::string& name : names) {
     if (name == "all" || name == "ours" || name == "peers" || name == "oracle" || name == "none") {
-      throw InputError(fmt::format("'{}' in a chain of narrow phases; expected names", name));
+      throw base::InputError(fmt::format("'{}' in a chain of narrow phases; expected names", name));
     }
   }
-  return select(narrow_phases(), names, "narrow phase");
+  return campaign::select(narrow_phases(), names, "narrow phase");
 }
 
 std::string Configuration::narrow_name() const {
@@ -112,4 +112,4 @@ std::string Configuration::name() const {
   return name + " / " + narrow_name();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -11,7 +11,7 @@
 #include "algorithms/registry.h"
 #include "harness/proxies/representation.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // Kinds of bodies: a shape's, or `mesh` for a body that has a mesh.
 inline constexpr std::size_t mesh_body = all_shape_kinds.size();
@@ -20,12 +20,12 @@ std::string_view body_kind_name(std::size_t kind);
 
 // Tells whether the form is the body itself, for bodies of that kind: the sphere of a sphere, the
 // hull of a hull.
-bool is_the_body(Form form, std::size_t kind);
+bool is_the_body(proxies::Form form, std::size_t kind);
 
 // The representation of the bodies of each kind; without one they are as given, as half-spaces
 // always are.
 struct Representations {
-  std::array<std::optional<Representation>, body_kinds> of;
+  std::array<std::optional<proxies::Representation>, body_kinds> of;
 
   // "hull-16", or "box=sphere,hull=hull-16" where kinds differ otherwise than that some kind's own
   // shape is what the others have.
@@ -65,4 +65,4 @@ struct Configuration {
   std::string name() const;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

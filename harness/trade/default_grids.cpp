@@ -7,7 +7,7 @@
 #include "harness/trade/grid.h"
 #include "harness/trade/pipeline/truth.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::array<std::string_view, 9> broad_names = {"sweep-and-prune",
@@ -95,7 +95,7 @@ std::vector<const BroadPhaseEntry*> broad_entries() {
   return entries;
 }
 
-Representations same_for_all(const Representation& representation) {
+Representations same_for_all(const proxies::Representation& representation) {
   Representations all;
   all.of.fill(representation);
   return all;
@@ -107,7 +107,7 @@ TradeGrid representation_grid(const BroadPhaseEntry& broad) {
   TradeGrid grid;
   grid.representations.clear();
   for (const std::string_view form : forms) {
-    grid.representations.push_back(same_for_all(parse_representation(form)));
+    grid.representations.push_back(same_for_all(proxies::parse_representation(form)));
   }
   grid.boxes = {{}, {BoxChoice::Kind::loose, 0}};
   grid.broad = {&broad};
@@ -174,7 +174,7 @@ void add_kinds(const SceneFrames& frames, std::vector<TradeGrid>& grids) {
   for (const std::size_t kind : kinds) {
     for (const std::string_view form : forms) {
       Representations one;
-      one.of[kind] = parse_representation(form);
+      one.of[kind] = proxies::parse_representation(form);
       each.representations.push_back(one);
     }
   }
@@ -204,4 +204,4 @@ const BroadPhaseEntry& fastest_broad(const SceneFrames& frames, StandInLibrary& 
   return *best;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -20,10 +20,10 @@ double share(std::int64_t part, std::int64_t whole) {
 }  // namespace
 
 std::size_t gap_bin(Answer truth, double gap) {
-  if (is_contact(truth) && std::isnan(gap)) return unknown_depth_bin;
+  if (grade::is_contact(truth) && std::isnan(gap)) return unknown_depth_bin;
   std::size_t decade = 0;
   while (decade < gap_decades.size() && std::abs(gap) < gap_decades[decade]) ++decade;
-  return is_contact(truth) ? decade : gap_bins - 1 - decade;
+  return grade::is_contact(truth) ? decade : gap_bins - 1 - decade;
 }
 
 GapRange gap_range(std::size_t bin) {
@@ -54,9 +54,9 @@ double PointErrors::false_negative_share() const { return share(false_negatives,
 
 void ErrorCount::add(const TruePair& truth, const PairAnswer* answer) {
   if (truth.answer == Answer::unknown) return;
-  const bool contact = is_contact(truth.answer);
+  const bool contact = grade::is_contact(truth.answer);
   const bool answered = answer == nullptr || answer->answer != Answer::unknown;
-  const bool said_contact = answer != nullptr && is_contact(answer->answer);
+  const bool said_contact = answer != nullptr && grade::is_contact(answer->answer);
   GapBin& bin = errors_.bins[gap_bin(truth.answer, truth.gap / truth.size)];
   ++bin.pairs;
   ++errors_.near;
@@ -93,7 +93,7 @@ void ErrorCount::add(const FrameTruth& truth, std::span<const PairAnswer> answer
   auto next = sorted.begin();
   const auto pass_far = [&](const IndexPair* until) {
     while (next != sorted.end() && (until == nullptr || before((*next)->pair, *until))) {
-      if (is_contact((*next)->answer)) ++errors_.far;
+      if (grade::is_contact((*next)->answer)) ++errors_.far;
       ++next;
     }
   };
@@ -112,4 +112,4 @@ PointErrors ErrorCount::errors() {
   return errors_;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

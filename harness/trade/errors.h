@@ -10,7 +10,7 @@
 #include "harness/trade/pipeline/frame_pipeline.h"
 #include "harness/trade/pipeline/truth.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // True signed gaps as parts of the smaller body's size, from deep to far; contact is at 0 and
 // below. The last bin is of contacts whose depth is not known.
@@ -68,4 +68,4 @@ class ErrorCount {
   std::vector<double> values_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

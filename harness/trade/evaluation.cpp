@@ -1,7 +1,7 @@
 #include "harness/trade/evaluation.h"
 
 #include <numeric>
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 struct Found {  // what the child hands over
@@ -44,27 +44,28 @@ double Evaluation::rough_seconds() const {
 std::vector<Evaluation> evaluate(const SceneFrames& frames, std::span<const TradePoint> points,
                                  std::span<const FrameTruth> truth, Task task,
                                  const EvaluationLimits& limits) {
-  SharedArray<Found> found(points.size());
-  IsolationLimits isolation;
+  process::SharedArray<Found> found(points.size());
+  process::IsolationLimits isolation;
   isolation.item_seconds = limits.seconds;
   isolation.memory = limits.memory;
-  const IsolationReport report = isolate(points.size(), isolation, [&]() -> ItemWork {
-    return [&](std::size_t i) { play(frames, points[i], truth, task, found[i]); };
-  });
+  const process::IsolationReport report =
+      process::isolate(points.size(), isolation, [&]() -> process::ItemWork {
+        return [&](std::size_t i) { play(frames, points[i], truth, task, found[i]); };
+      });
   std::vector<Evaluation> evaluations(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     Evaluation& evaluation = evaluations[i];
     evaluation.state = report.states[i];
-    if (report.states[i] == ItemState::done) {
+    if (report.states[i] == process::ItemState::done) {
       evaluation.errors = found[i].errors;
       evaluation.counters = found[i].counters;
       evaluation.rough = found[i].rough;
     }
   }
-  for (const IsolationFailure& failure : report.failures) {
+  for (const process::IsolationFailure& failure : report.failures) {
     evaluations[failure.item].words = failure.reason();
   }
   return evaluations;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

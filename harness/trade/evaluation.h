@@ -9,7 +9,7 @@
 #include "harness/process/isolate.h"
 #include "harness/trade/errors.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // A configuration that is compared on a scene, with what stands for the bodies there.
 struct TradePoint {
@@ -20,11 +20,12 @@ struct TradePoint {
 struct Evaluation {
   PointErrors errors;
   PipelineCounters counters;
-  StageSeconds rough{};               // a frame, read once: for planning only
-  ItemState state = ItemState::done;  // how it ended; if it failed, the rest means nothing
-  std::string words;                  // why it failed
+  StageSeconds rough{};  // a frame, read once: for planning only
+  process::ItemState state =
+      process::ItemState::done;  // how it ended; if it failed, the rest means nothing
+  std::string words;             // why it failed
 
-  bool ok() const { return state == ItemState::done; }
+  bool ok() const { return state == process::ItemState::done; }
   double rough_seconds() const;
 };
 
@@ -38,4 +39,4 @@ std::vector<Evaluation> evaluate(const SceneFrames& frames, std::span<const Trad
                                  std::span<const FrameTruth> truth, Task task,
                                  const EvaluationLimits& limits = {});
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace touchstone {
+namespace touchstone::trade {
 
 std::string_view to_string(ErrorMeasure measure) {
   return error_measure_names[static_cast<std::size_t>(measure)];
@@ -15,9 +15,9 @@ ErrorMeasure default_measure(Task task) {
   return task == Task::intersect ? ErrorMeasure::verdicts : ErrorMeasure::greatest;
 }
 
-RepresentationSpread spread_of(std::span<const RepresentationError> errors) {
+RepresentationSpread spread_of(std::span<const proxies::RepresentationError> errors) {
   std::vector<double> volumes, distances;
-  for (const RepresentationError& error : errors) {
+  for (const proxies::RepresentationError& error : errors) {
     volumes.push_back(error.volume_error());
     distances.push_back(error.size > 0 ? error.hausdorff / error.size : 0);
   }
@@ -58,4 +58,4 @@ std::vector<std::size_t> pareto_front(std::span<const FrontPoint> points) {
   return front;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -9,7 +9,7 @@
 
 #include "harness/trade/errors.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // The number that is taken as the error of a configuration.
 enum class ErrorMeasure : std::uint8_t {
@@ -29,7 +29,7 @@ ErrorMeasure default_measure(Task task);  // verdicts, or greatest where a numbe
 struct RepresentationSpread {
   Spread volume, hausdorff;  // over bodies, as parts of their volume and of their size
 };
-RepresentationSpread spread_of(std::span<const RepresentationError> errors);
+RepresentationSpread spread_of(std::span<const proxies::RepresentationError> errors);
 
 double error_of(const PointErrors& errors, const RepresentationSpread& representation,
                 ErrorMeasure measure);
@@ -41,4 +41,4 @@ struct FrontPoint {
 // rising time. Of points that are equal in both, the first. NaN is never on it.
 std::vector<std::size_t> pareto_front(std::span<const FrontPoint> points);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -7,7 +7,7 @@
 
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 // The narrow phases of the chain that some pair comes to; empty, with the reason, where a pair
@@ -43,7 +43,7 @@ class Expansion {
       std::shared_ptr<const StandIns> stand_ins;
       try {
         stand_ins = library_->get(representations);
-      } catch (const InputError& error) {
+      } catch (const base::InputError& error) {
         leave_out(fmt::format("{}: {}", representations.name(), error.what()));
         continue;
       }
@@ -132,4 +132,4 @@ GridPoints expand(std::span<const TradeGrid> grids, const SceneFrames& frames,
   return std::move(expansion.points);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -10,7 +10,7 @@
 
 #include "harness/trade/evaluation.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct TradeGrid {
   std::vector<Representations> representations = {{}};
@@ -49,4 +49,4 @@ const BroadPhaseEntry& fastest_broad(const SceneFrames& frames, StandInLibrary& 
 // Adds grids in which one kind of bodies is represented, where there are several kinds.
 void add_kinds(const SceneFrames& frames, std::vector<TradeGrid>& grids);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

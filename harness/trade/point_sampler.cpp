@@ -4,7 +4,7 @@
 
 #include "harness/base/hash.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 PointSampler::PointSampler(const SceneFrames& frames, const TradePoint& point, Task task,
                            int threads)
@@ -19,8 +19,8 @@ void PointSampler::play_up_to(std::size_t frame) {
   while (pipeline_.frame() < frame) pipeline_.advance();
 }
 
-SampleReply PointSampler::sample(const SampleRequest& request) {
-  SampleReply reply;
+measure::SampleReply PointSampler::sample(const measure::SampleRequest& request) {
+  measure::SampleReply reply;
   reply.contacts = 0;
   std::size_t frame = request.frame;
   for (std::uint32_t i = 0; i < request.frames; ++i) {
@@ -36,11 +36,12 @@ SampleReply PointSampler::sample(const SampleRequest& request) {
       reply.durations.add(stage_names[k], pipeline_.seconds()[k]);
     }
     reply.pairs += static_cast<std::int64_t>(pipeline_.pairs().size());
-    reply.pair_hash += pair_hash(pipeline_.pairs());
-    reply.contacts += std::ranges::count_if(
-        pipeline_.answers(), [](const PairAnswer& answer) { return is_contact(answer.answer); });
+    reply.pair_hash += base::pair_hash(pipeline_.pairs());
+    reply.contacts += std::ranges::count_if(pipeline_.answers(), [](const PairAnswer& answer) {
+      return grade::is_contact(answer.answer);
+    });
   }
   return reply;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

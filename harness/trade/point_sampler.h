@@ -6,17 +6,17 @@
 #include "harness/measure/sampler.h"
 #include "harness/trade/evaluation.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // Frames are played in order and again and again. They begin at frame 0, which belongs to no
 // sample, unless the scene has no other: then each of its samples begins anew. The durations are
 // the stages of the pipeline.
-class PointSampler final : public Sampler {
+class PointSampler final : public measure::Sampler {
  public:
   // The frames outlive it.
   PointSampler(const SceneFrames& frames, const TradePoint& point, Task task, int threads);
 
-  SampleReply sample(const SampleRequest& request) override;
+  measure::SampleReply sample(const measure::SampleRequest& request) override;
 
  private:
   void play_up_to(std::size_t frame);
@@ -28,4 +28,4 @@ class PointSampler final : public Sampler {
   bool started_ = false;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -5,7 +5,7 @@
 
 #include "harness/stats/statistics.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t least_values = 6;  // for an interval of 95 %
@@ -19,8 +19,8 @@ std::vector<double> PointStatistics::Values::chosen() const {
   return values;
 }
 
-void PointStatistics::add(const Round& round) {
-  const auto is_baseline = [](const Sample& sample) {
+void PointStatistics::add(const measure::Round& round) {
+  const auto is_baseline = [](const measure::Sample& sample) {
     return sample.contestant == 0 && !sample.loss;
   };
   const auto baseline = std::ranges::find_if(round.samples, is_baseline);
@@ -30,7 +30,7 @@ void PointStatistics::add(const Round& round) {
   };
   const double frames = round.request.frames;
   const double unit = baseline->reply.durations.sum() / frames;
-  for (const Sample& sample : round.samples) {
+  for (const measure::Sample& sample : round.samples) {
     if (sample.loss) continue;
     const double seconds = sample.reply.durations.sum() / frames;
     if (sample.contestant == 0) {
@@ -73,4 +73,4 @@ void PointStatistics::summarise(PointTimes& times) const {
   if (!control.empty()) times.control = std::exp(stats::median(control));
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

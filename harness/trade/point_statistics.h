@@ -7,7 +7,7 @@
 
 #include "harness/trade/point_times.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // Contestant i of the plan is point i; point 0 is the baseline, and the last contestant its
 // control.
@@ -15,7 +15,7 @@ class PointStatistics {
  public:
   explicit PointStatistics(std::size_t points) : ratios_(points + 1), stages_(points) {}
 
-  void add(const Round& round);
+  void add(const measure::Round& round);
   // Fills in the times of points that were not lost.
   void summarise(PointTimes& times) const;
 
@@ -31,4 +31,4 @@ class PointStatistics {
   std::vector<std::array<std::vector<double>, stage_names.size()>> stages_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

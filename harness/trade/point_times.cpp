@@ -9,7 +9,7 @@
 #include "harness/trade/point_sampler.h"
 #include "harness/trade/point_statistics.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t others_a_set = 7;
@@ -21,7 +21,7 @@ constexpr double most_window_at_rest = 64;  // frames
 
 // The points as contestants: the last one is the baseline's control. A set is of points of like
 // speed, and each process of it has one square.
-class PointTiming final : private MeasuringJob {
+class PointTiming final : private measure::MeasuringJob {
  public:
   PointTiming(const SceneFrames& frames, std::span<const TradePoint> points,
               std::span<const double> rough, Task task, const TimingPlan& timing,
@@ -52,7 +52,7 @@ class PointTiming final : private MeasuringJob {
     }
     make_sets();
     watch_.restart();
-    MeasuringLoop(plan_, *this).run();
+    measure::MeasuringLoop(plan_, *this).run();
     statistics_.summarise(times_);
     return std::move(times_);
   }
@@ -68,7 +68,7 @@ class PointTiming final : private MeasuringJob {
     std::iota(order.begin(), order.end(), std::size_t{1});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rough_[i]; });
     for (std::size_t at = 0; at < order.size() || plan_.sets.empty(); at += others_a_set) {
-      MeasuredSet& set = plan_.sets.emplace_back();
+      measure::MeasuredSet& set = plan_.sets.emplace_back();
       set.members = {0, points_.size()};
       for (std::size_t i = at; i < std::min(order.size(), at + others_a_set); ++i) {
         set.members.push_back(order[i]);
@@ -81,12 +81,12 @@ class PointTiming final : private MeasuringJob {
     }
     const double share = timing_.seconds / static_cast<double>(plan_.sets.size()) /
                          static_cast<double>(timing_.processes);
-    for (MeasuredSet& set : plan_.sets) share_time(set, share);
+    for (measure::MeasuredSet& set : plan_.sets) share_time(set, share);
   }
 
   // Chooses rounds and window for so many seconds a process: rounds first, as they make the
   // statistics, then longer windows. The untimed window costs as much as a round.
-  void share_time(MeasuredSet& set, double seconds) {
+  void share_time(measure::MeasuredSet& set, double seconds) {
     double a_frame = 0, least = std::numeric_limits<double>::max();
     for (const std::size_t member : set.members) {
       a_frame += rough_[point_of(member)];
@@ -106,7 +106,7 @@ class PointTiming final : private MeasuringJob {
   }
 
   std::vector<Untimed> warm_up(std::size_t, std::span<const std::size_t> sets,
-                               const ProcessLaps& process) override {
+                               const measure::ProcessLaps& process) override {
     std::vector<Untimed> all;
     for (const std::size_t set : sets) {
       all.push_back({set, plan_.sets[set].warm_up_request(process.first, 0, 0)});
@@ -121,26 +121,28 @@ class PointTiming final : private MeasuringJob {
   }
 
   // Errors of the answers are what the other axis of a trade shows.
-  bool is_right(std::size_t, std::size_t, const SampleRequest&, const SampleReply&) const override {
+  bool is_right(std::size_t, std::size_t, const measure::SampleRequest&,
+                const measure::SampleReply&) const override {
     return true;
   }
 
   // Every point gets one process, and further ones as long as there is time.
-  bool has_time(std::size_t set, const ProcessLaps& process) const override {
+  bool has_time(std::size_t set, const measure::ProcessLaps& process) const override {
     return process.process == 0 || watch_.seconds() + costs_[set] <= timing_.seconds;
   }
 
-  void lose(std::size_t contestant, std::size_t, int, std::uint32_t, const Loss& loss) override {
+  void lose(std::size_t contestant, std::size_t, int, std::uint32_t,
+            const measure::Loss& loss) override {
     if (is_control(contestant)) return;
     TimedPoint& point = times_.points[contestant];
     point.state = loss.failure.state;
     point.words = loss.failure.reason();
   }
 
-  void take(Round& round) override {
+  void take(measure::Round& round) override {
     const std::int64_t square = round.square * static_cast<std::int64_t>(plan_.sets.size()) +
                                 static_cast<std::int64_t>(round.set);
-    for (const Sample& sample : round.samples) {
+    for (const measure::Sample& sample : round.samples) {
       if (sample.loss) lose(sample.contestant, round.set, round.process, 0, *sample.loss);
       keep_({point_of(sample.contestant), is_control(sample.contestant), square, round, sample});
     }
@@ -155,9 +157,9 @@ class PointTiming final : private MeasuringJob {
   Task task_;
   const TimingPlan& timing_;
   const std::function<void(const PointSample&)>& keep_;
-  MeasurePlan plan_;
+  measure::MeasurePlan plan_;
   std::vector<double> costs_;  // of each set: seconds a process, about
-  Stopwatch watch_;
+  base::Stopwatch watch_;
   PointTimes times_;
   PointStatistics statistics_;
 };
@@ -171,4 +173,4 @@ PointTimes time_points(const SceneFrames& frames, std::span<const TradePoint> po
   return PointTiming(frames, points, rough, task, plan, keep).run();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -11,7 +11,7 @@
 #include "harness/measure/measuring_loop.h"
 #include "harness/trade/evaluation.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct TimedPoint {
   // Seconds a frame: the baseline's median times the median of the paired ratios to it, and the
@@ -19,10 +19,10 @@ struct TimedPoint {
   double seconds = Outcome::none, low = Outcome::none, high = Outcome::none;
   StageSeconds stages{};  // medians
   std::int64_t rounds = 0;
-  ItemState state = ItemState::done;  // how its worker ended, if it failed
-  std::string words;                  // why
+  process::ItemState state = process::ItemState::done;  // how its worker ended, if it failed
+  std::string words;                                    // why
 
-  bool ok() const { return state == ItemState::done; }
+  bool ok() const { return state == process::ItemState::done; }
 };
 
 // A sample of a configuration, with the round that it is in.
@@ -30,8 +30,8 @@ struct PointSample {
   std::size_t point;
   bool control;         // the A/A control: a second registration of the baseline
   std::int64_t square;  // numbered through all sets
-  const Round& round;
-  const Sample& sample;
+  const measure::Round& round;
+  const measure::Sample& sample;
 };
 
 struct TimingPlan {
@@ -54,4 +54,4 @@ PointTimes time_points(const SceneFrames& frames, std::span<const TradePoint> po
                        std::span<const double> rough, Task task, const TimingPlan& plan,
                        const std::function<void(const PointSample&)>& keep);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -10,12 +10,13 @@
 #include "harness/record/machine.h"
 #include "harness/trade/trade_rows.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr Spread no_spread = {Outcome::none, Outcome::none, Outcome::none};
 
-Facts facts_of(const TradeRequest& request, const TradeScene& scene, const std::string& hash) {
+record::Facts facts_of(const TradeRequest& request, const TradeScene& scene,
+                       const std::string& hash) {
   return {{"campaign", request.name},
           {"scene", scene.scene.name},
           {"scene_hash", hash},
@@ -96,17 +97,17 @@ TradeFiles::TradeFiles(const TradeRequest& request, const TradeScene& scene,
       scene_hash_(scene_hash(scene.scene)),
       path_(folder),
       folder_({.folder = folder,
-               .files = {{"samples.csv", header_of<TradeSampleRow>()}},
+               .files = {{"samples.csv", record::header_of<TradeSampleRow>()}},
                .identity = facts_of(request, scene, scene_hash_),
-               .notes = machine_facts(),
-               .start = FolderStart::overwrite,
+               .notes = record::machine_facts(),
+               .start = record::FolderStart::overwrite,
                .work = "trade",
                .removed = {"points.csv", "bins.csv", "front.csv", "front.md", "left_out.csv",
                            "trade.toml"}}) {}
 
 void TradeFiles::write(const PointSample& from, const Configuration& configuration) {
-  const Round& round = from.round;
-  const SampleReply& reply = from.sample.reply;
+  const measure::Round& round = from.round;
+  const measure::SampleReply& reply = from.sample.reply;
   TradeSampleRow row;
   row.campaign = request_.name;
   row.scene = scene_.scene.name;
@@ -124,10 +125,11 @@ void TradeFiles::write(const PointSample& from, const Configuration& configurati
   row.round = round.round;
   row.position = from.sample.position;
   row.pair_count = reply.pairs;
-  row.pair_hash = to_hex(reply.pair_hash);
+  row.pair_hash = base::to_hex(reply.pair_hash);
   row.contact_count = reply.contacts;
   row.noise = round.noise;
-  row.status = to_string(from.sample.loss ? from.sample.loss->failure.state : ItemState::done);
+  row.status =
+      to_string(from.sample.loss ? from.sample.loss->failure.state : process::ItemState::done);
   for (const std::string_view stage : stage_names) {
     row.phase = stage;
     row.seconds = reply.durations.of(stage);
@@ -140,71 +142,72 @@ void TradeFiles::finish(const TradeResult& result) {
   write_points(result);
   write_bins(result);
   write_front(result);
-  CsvWriter left_out(path_ / "left_out.csv", header_of<LeftOutRow>());
+  files::CsvWriter left_out(path_ / "left_out.csv", record::header_of<LeftOutRow>());
   for (const auto& [reason, count] : result.left_out) {
-    write_row(left_out, LeftOutRow{reason, count});
+    record::write_row(left_out, LeftOutRow{reason, count});
   }
   left_out.close();
-  stats::write_text(path_ / "trade.toml",
-                    trade_toml(request_, path_, "Measured by: touchstone run trade.toml"));
+  base::write_text(path_ / "trade.toml",
+                   trade_toml(request_, path_, "Measured by: touchstone run trade.toml"));
   folder_.commit();
   folder_.finish({{"checked_frames", std::to_string(result.truth_frames)},
                   {"twin_ratio", fmt::format("{}", result.control)}});
 }
 
 void TradeFiles::write_points(const TradeResult& result) const {
-  CsvWriter file(path_ / "points.csv", header_of<TradePointRow>());
+  files::CsvWriter file(path_ / "points.csv", record::header_of<TradePointRow>());
   for (const TradeOutcome& point : result.points) {
     TradePointRow row = row_of_point(point);
     row.baseline = &point == &result.points.front();
-    write_row(file, row);
+    record::write_row(file, row);
   }
   file.close();
 }
 
 void TradeFiles::write_bins(const TradeResult& result) const {
-  CsvWriter file(path_ / "bins.csv", header_of<TradeBinRow>());
+  files::CsvWriter file(path_ / "bins.csv", record::header_of<TradeBinRow>());
   for (const TradeOutcome& point : result.points) {
     const auto& bins = point.evaluation.errors.bins;
     for (std::size_t i = 0; i < bins.size(); ++i) {
       if (bins[i].pairs == 0) continue;
       const GapRange range = gap_range(i);
       const bool contact = !(range.high > 0);
-      write_row(file, TradeBinRow{.point = point.point.configuration.name(),
-                                  .gap_low = range.low,
-                                  .gap_high = range.high,
-                                  .pairs = bins[i].pairs,
-                                  .false_positives = contact ? 0 : bins[i].wrong,
-                                  .false_negatives = contact ? bins[i].wrong : 0,
-                                  .failed = bins[i].failed});
+      record::write_row(file, TradeBinRow{.point = point.point.configuration.name(),
+                                          .gap_low = range.low,
+                                          .gap_high = range.high,
+                                          .pairs = bins[i].pairs,
+                                          .false_positives = contact ? 0 : bins[i].wrong,
+                                          .false_negatives = contact ? bins[i].wrong : 0,
+                                          .failed = bins[i].failed});
     }
   }
   file.close();
 }
 
 void TradeFiles::write_front(const TradeResult& result) const {
-  CsvWriter file(path_ / "front.csv", header_of<TradeFrontRow>());
+  files::CsvWriter file(path_ / "front.csv", record::header_of<TradeFrontRow>());
   std::string text =
-      question(result, request_) + ".\n\n" + stats::markdown_header(front_header(request_));
+      question(result, request_) + ".\n\n" + base::markdown_header(front_header(request_));
   for (const std::size_t i : result.front) {
     const TradeOutcome& point = result.points[i];
-    write_row(file, TradeFrontRow{.point = point.point.configuration.name(),
-                                  .configuration = ConfigurationNames(point.point.configuration),
-                                  .seconds = point.timed.seconds,
-                                  .low = point.timed.low,
-                                  .high = point.timed.high,
-                                  .error = point.error,
-                                  .measure = request_.measure});
-    text += stats::markdown_row(front_row(point));
+    record::write_row(file,
+                      TradeFrontRow{.point = point.point.configuration.name(),
+                                    .configuration = ConfigurationNames(point.point.configuration),
+                                    .seconds = point.timed.seconds,
+                                    .low = point.timed.low,
+                                    .high = point.timed.high,
+                                    .error = point.error,
+                                    .measure = request_.measure});
+    text += base::markdown_row(front_row(point));
   }
   file.close();
-  stats::write_text(path_ / "front.md", text);
+  base::write_text(path_ / "front.md", text);
 }
 
 std::string front_text(const TradeResult& result, const TradeRequest& request,
                        std::size_t page_width) {
   std::string text = question(result, request) + "\n\n";
-  TextTable table(front_header(request));
+  base::TextTable table(front_header(request));
   for (const std::size_t i : result.front) table.add(front_row(result.points[i]));
   text += table.text(page_width);
   std::size_t lost = 0;
@@ -221,4 +224,4 @@ std::string front_text(const TradeResult& result, const TradeRequest& request,
   return text;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

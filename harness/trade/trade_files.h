@@ -8,7 +8,7 @@
 #include "harness/record/result_folder.h"
 #include "harness/trade/trade_job.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 class TradeFiles {
  public:
@@ -30,11 +30,11 @@ class TradeFiles {
   const TradeScene& scene_;
   std::string scene_hash_;
   std::filesystem::path path_;
-  ResultFolder folder_;
+  record::ResultFolder folder_;
 };
 
 // The front as a table for a terminal, with what is worth knowing beside it.
 std::string front_text(const TradeResult& result, const TradeRequest& request,
                        std::size_t page_width);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -8,7 +8,7 @@
 #include "harness/base/error.h"
 #include "harness/trade/trade_files.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr double preparation_share = 0.03;  // of the seconds, for one representation
@@ -24,16 +24,17 @@ int frames_of(const TradeRequest& request) {
 void put_baseline_first(std::vector<TradeOutcome>& points) {
   const auto works =
       std::ranges::find_if(points, [](const TradeOutcome& point) { return point.evaluation.ok(); });
-  if (works == points.end()) throw InputError("no configuration works on this scene");
+  if (works == points.end()) throw base::InputError("no configuration works on this scene");
   std::rotate(points.begin(), works, works + 1);
 }
 
 }  // namespace
 
 TradeScene::TradeScene(const TradeRequest& request, const Representing& representing)
-    : TradeScene(load_scene(request.scene, request.overrides), request, representing) {}
+    : TradeScene(scene::load_scene(request.scene, request.overrides), request, representing) {}
 
-TradeScene::TradeScene(Scene from, const TradeRequest& request, const Representing& representing)
+TradeScene::TradeScene(scene::Scene from, const TradeRequest& request,
+                       const Representing& representing)
     : scene(std::move(from)),
       frames(scene, frames_of(request)),
       library(frames, representing, preparation_share * request.seconds) {}
@@ -41,13 +42,13 @@ TradeScene::TradeScene(Scene from, const TradeRequest& request, const Representi
 TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
                           const std::filesystem::path& folder,
                           const std::function<void(const std::string&)>& said) {
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   if (request.grids.empty()) {
     request.grids = default_grids(request.task, fastest_broad(scene.frames, scene.library));
   }
   GridPoints grid = expand(request.grids, scene.frames, scene.library, request.task);
   if (grid.points.empty()) {
-    throw InputError(
+    throw base::InputError(
         request.scene.string() + ": every configuration makes no sense for this scene" +
         (grid.left_out.empty() ? "" : ", the first as " + grid.left_out.begin()->first));
   }
@@ -122,4 +123,4 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -10,7 +10,7 @@
 #include "harness/trade/point_times.h"
 #include "harness/trade/trade_request.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct TradeOutcome {
   TradePoint point;
@@ -36,11 +36,11 @@ struct TradeResult {
 struct TradeScene {
   // Throws InputError where the scene cannot be had.
   TradeScene(const TradeRequest& request, const Representing& representing);
-  TradeScene(Scene from, const TradeRequest& request, const Representing& representing);
+  TradeScene(scene::Scene from, const TradeRequest& request, const Representing& representing);
   TradeScene(const TradeScene&) = delete;  // its members know each other's places
   TradeScene& operator=(const TradeScene&) = delete;
 
-  Scene scene;
+  scene::Scene scene;
   SceneFrames frames;
   StandInLibrary library;
 };
@@ -51,4 +51,4 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
                           const std::filesystem::path& folder,
                           const std::function<void(const std::string&)>& said);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -8,14 +8,14 @@
 #include "harness/campaign/selection.h"
 #include "harness/files/toml_table.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
 constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
 
 // The elements of an array; one value stands for an array of it.
-std::vector<const toml::node*> elements(TomlTable& table, std::string_view key) {
+std::vector<const toml::node*> elements(files::TomlTable& table, std::string_view key) {
   const toml::node* node = table.node(key);
   std::vector<const toml::node*> list;
   if (node == nullptr) return list;
@@ -28,7 +28,7 @@ std::vector<const toml::node*> elements(TomlTable& table, std::string_view key) 
 
 // Each element as `make` gives it; a fault that it throws is told with its place.
 template <class Value, class Make>
-void read_axis(TomlTable& table, std::string_view key, std::vector<Value>& values,
+void read_axis(files::TomlTable& table, std::string_view key, std::vector<Value>& values,
                const Make& make) {
   const auto nodes = elements(table, key);
   if (nodes.empty()) return;
@@ -36,7 +36,7 @@ void read_axis(TomlTable& table, std::string_view key, std::vector<Value>& value
   for (const toml::node* node : nodes) {
     try {
       values.push_back(make(*node));
-    } catch (const InputError& error) {
+    } catch (const base::InputError& error) {
       table.fail(key, error.what());
     }
   }
@@ -44,7 +44,7 @@ void read_axis(TomlTable& table, std::string_view key, std::vector<Value>& value
 
 std::string text_of(const toml::node& node) {
   const auto* text = node.as_string();
-  if (text == nullptr) throw InputError("expected texts");
+  if (text == nullptr) throw base::InputError("expected texts");
   return text->get();
 }
 
@@ -55,16 +55,16 @@ Representations representations_of(const toml::node& node) {
       std::size_t kind = 0;
       while (kind < body_kinds && body_kind_name(kind) != name.str()) ++kind;
       if (kind == body_kinds || kind == static_cast<std::size_t>(ShapeKind::halfspace)) {
-        throw InputError(fmt::format(
+        throw base::InputError(fmt::format(
             "found \"{}\"; expected a kind of bodies: sphere, capsule, box, cylinder, cone, "
             "ellipsoid, hull, mesh",
             name.str()));
       }
-      representations.of[kind] = parse_representation(text_of(value));
+      representations.of[kind] = proxies::parse_representation(text_of(value));
     }
     return representations;
   }
-  representations.of.fill(parse_representation(text_of(node)));
+  representations.of.fill(proxies::parse_representation(text_of(node)));
   return representations;
 }
 
@@ -72,7 +72,7 @@ BoxChoice boxes_of(const toml::node& node) {
   const std::string text = text_of(node);
   const std::optional<BoxChoice> choice = parse_box_choice(text);
   if (!choice) {
-    throw InputError(fmt::format(
+    throw base::InputError(fmt::format(
         "found \"{}\"; expected tight, loose, or fat-M with a margin M above 0 and up to 10",
         text));
   }
@@ -83,27 +83,28 @@ NarrowChain chain_of(const toml::node& node) { return parse_chain(text_of(node))
 
 std::optional<double> tolerance_of(const toml::node& node) {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value || !(*value > 0 && *value < 1)) throw InputError("expected numbers between 0 and 1");
+  if (!value || !(*value > 0 && *value < 1))
+    throw base::InputError("expected numbers between 0 and 1");
   return value;
 }
 
 std::optional<int> cap_of(const toml::node& node) {
   const auto* value = node.as_integer();
   if (value == nullptr || value->get() < 1 || value->get() > 1'000'000) {
-    throw InputError("expected whole numbers from 1 to 1000000");
+    throw base::InputError("expected whole numbers from 1 to 1000000");
   }
   return static_cast<int>(value->get());
 }
 
-TradeGrid read_grid(TomlTable& table) {
+TradeGrid read_grid(files::TomlTable& table) {
   TradeGrid grid;
   read_axis(table, "representations", grid.representations, representations_of);
   read_axis(table, "boxes", grid.boxes, boxes_of);
   std::vector<std::string> names = {"sweep-and-prune"};
   read_axis(table, "broad", names, text_of);
   try {
-    grid.broad = select(broad_phases(), names, "broad phase");
-  } catch (const InputError& error) {
+    grid.broad = campaign::select(broad_phases(), names, "broad phase");
+  } catch (const base::InputError& error) {
     table.fail("broad", error.what());
   }
   if (grid.broad.empty()) table.fail("broad", "found none; expected at least one");
@@ -178,24 +179,24 @@ std::string describe(const TradeGrid& grid) {
 }  // namespace
 
 TradeRequest read_trade(const std::filesystem::path& file) {
-  const toml::table root = parse_toml(file);
-  TomlTable top(root, file.string(), "");
+  const toml::table root = files::parse_toml(file);
+  files::TomlTable top(root, file.string(), "");
   TradeRequest request;
   request.name = top.text("name", file.stem().string());
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(top.integer("seed", 0, most, 1));
-  TomlTable table = top.inside("trade", "trade");
+  files::TomlTable table = top.inside("trade", "trade");
   request.scene = (file.parent_path() / table.text("scene")).lexically_normal();
   request.overrides.count = table.integer("count", 1, 100'000'000, -1);
   request.overrides.seed = table.integer("seed", 0, most, -1);
   request.overrides.frames = static_cast<int>(table.integer("frames", 1, 1'000'000, -1));
   request.task = static_cast<Task>(table.choice("task", task_names, 0));
   request.threads = static_cast<int>(table.integer("threads", 1, 1024, 2));
-  request.seconds = table.number("seconds", positive, 150.0);
+  request.seconds = table.number("seconds", files::positive, 150.0);
   request.measure = static_cast<ErrorMeasure>(table.choice(
       "error", error_measure_names, static_cast<std::size_t>(default_measure(request.task))));
   if (table.has("grid")) {
-    for (TomlTable& grid : table.tables("grid")) request.grids.push_back(read_grid(grid));
+    for (files::TomlTable& grid : table.tables("grid")) request.grids.push_back(read_grid(grid));
   }
   table.finish();
   top.finish();
@@ -228,4 +229,4 @@ std::string trade_toml(const TradeRequest& request, const std::filesystem::path&
   return text;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

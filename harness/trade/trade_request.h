@@ -9,14 +9,14 @@
 #include "harness/trade/front.h"
 #include "harness/trade/grid.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 inline constexpr int default_trade_frames = 65;  // one to begin with and 64 that are timed
 
 struct TradeRequest {
   std::string name;  // of the figure
   std::filesystem::path scene;
-  SceneOverrides overrides;  // frames: -1 is the scene's, up to default_trade_frames
+  scene::SceneOverrides overrides;  // frames: -1 is the scene's, up to default_trade_frames
   Task task = Task::intersect;
   int threads = 2;
   ErrorMeasure measure = ErrorMeasure::verdicts;
@@ -34,4 +34,4 @@ TradeRequest read_trade(const std::filesystem::path& file);
 std::string trade_toml(const TradeRequest& request, const std::filesystem::path& folder,
                        const std::string& comment);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

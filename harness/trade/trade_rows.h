@@ -8,7 +8,7 @@
 #include "harness/record/row.h"
 #include "harness/trade/trade_job.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // A configuration as the columns of a row name it; empty where it has no such part.
 struct ConfigurationNames {
@@ -20,7 +20,7 @@ struct ConfigurationNames {
   double tolerance = Outcome::none;
   std::optional<int> max_iterations;
 };
-template <row_of<ConfigurationNames> Names, class Visit>
+template <record::row_of<ConfigurationNames> Names, class Visit>
 void columns(Names& names, Visit& visit) {
   visit("representation", names.representation, "What stands for the bodies.");
   visit("boxes", names.boxes, "Kind of boxes; empty without a broad phase.");
@@ -47,7 +47,7 @@ struct TradeSampleRow {
   std::int64_t contact_count = -1;
   std::string noise, status;
 };
-template <row_of<TradeSampleRow> Row, class Visit>
+template <record::row_of<TradeSampleRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("campaign", row.campaign, "Name of the trade.");
   visit("scene", row.scene, "Name of the scene.");
@@ -91,7 +91,7 @@ void spread_columns(const std::string& name, Value& spread, const std::string& w
   visit(name + "_p99", spread.p99, "The " + what + " that 99 % do not exceed.");
   visit(name + "_greatest", spread.greatest, "Greatest " + what + ".");
 }
-template <row_of<TradePointRow> Row, class Visit>
+template <record::row_of<TradePointRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("point", row.point, "Name of the configuration.");
   visit("baseline", row.baseline, "1: its times are what the others are compared with.");
@@ -140,7 +140,7 @@ struct TradeBinRow {
   double gap_low = 0, gap_high = 0;
   std::int64_t pairs = 0, false_positives = 0, false_negatives = 0, failed = 0;
 };
-template <row_of<TradeBinRow> Row, class Visit>
+template <record::row_of<TradeBinRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("point", row.point, "Name of the configuration.");
   visit("gap_low", row.gap_low,
@@ -160,7 +160,7 @@ struct TradeFrontRow {
   double seconds = 0, low = 0, high = 0, error = 0;
   ErrorMeasure measure = ErrorMeasure::verdicts;
 };
-template <row_of<TradeFrontRow> Row, class Visit>
+template <record::row_of<TradeFrontRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("point", row.point, "Name of the configuration.");
   columns(row.configuration, visit);
@@ -176,10 +176,10 @@ struct LeftOutRow {
   std::string reason;
   std::int64_t combinations = 0;
 };
-template <row_of<LeftOutRow> Row, class Visit>
+template <record::row_of<LeftOutRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("reason", row.reason, "Why they were left out.");
   visit("combinations", row.combinations, "How many.");
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -12,7 +12,7 @@ template <class Action>
 std::string input_fault(const Action& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const base::InputError& error) {
     return error.what();
   }
   return "";

@@ -13,7 +13,7 @@
 #include "harness/process/isolate.h"
 #include "harness/scene/box_frames.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr double setup_seconds = 60;
@@ -24,12 +24,12 @@ constexpr double longest_to_count = 3;  // seconds of all frames: allocations ar
 
 // The child's findings in one frame.
 struct ChildAnswer {
-  SampleReply reply;
-  PairFaults faults;
+  measure::SampleReply reply;
+  grade::PairFaults faults;
   std::size_t pairs_at = 0;  // in the array of all pairs, where they are kept
 };
 
-std::span<const Aabb> boxes_before(const BlockInput& input, std::size_t frame) {
+std::span<const Aabb> boxes_before(const measure::BlockInput& input, std::size_t frame) {
   return frame == 0 ? std::span<const Aabb>()
                     : std::span<const Aabb>(input.frames[frame - 1].boxes);
 }
@@ -37,16 +37,16 @@ std::span<const Aabb> boxes_before(const BlockInput& input, std::size_t frame) {
 // A pass of its own, in a child of its own: the frames are played once to warm the algorithm up,
 // and counted the second time, when what it keeps from frame to frame is there. What fails here is
 // not counted; the check tells of failures.
-std::vector<BroadSampler::FrameAllocations> count_allocations(const BlockInput& input,
-                                                              const BroadPhaseEntry& entry,
-                                                              bool rebuild,
-                                                              const IsolationLimits& limits) {
+std::vector<measure::BroadSampler::FrameAllocations> count_allocations(
+    const measure::BlockInput& input, const BroadPhaseEntry& entry, bool rebuild,
+    const process::IsolationLimits& limits) {
   const std::size_t count = input.frames.size();
-  SharedArray<BroadSampler::FrameAllocations> counts(count);
-  if (can_count_allocations()) {
-    isolate(2 * count, limits, [&]() -> ItemWork {
+  process::SharedArray<measure::BroadSampler::FrameAllocations> counts(count);
+  if (measure::can_count_allocations()) {
+    process::isolate(2 * count, limits, [&]() -> process::ItemWork {
       const auto executor = std::make_shared<Executor>(1);
-      const auto sampler = std::make_shared<BroadSampler>(entry, input, rebuild, *executor);
+      const auto sampler =
+          std::make_shared<measure::BroadSampler>(entry, input, rebuild, *executor);
       return [&, executor, sampler](std::size_t item) {
         if (item < count) {
           sampler->play(item);
@@ -63,12 +63,12 @@ std::vector<BroadSampler::FrameAllocations> count_allocations(const BlockInput& 
 // with fewer of the same scene will be over this one too. Returns the reason; empty where it is to
 // be tried.
 std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& entry) {
-  const RawRow here = context.row(0, entry, Phase::find_pairs);
-  for (const RawRow& row : context.findings->rows()) {
+  const record::RawRow here = context.row(0, entry, record::Phase::find_pairs);
+  for (const record::RawRow& row : context.findings->rows()) {
     if (row.block < 0 || row.block >= context.number ||
-        std::cmp_greater_equal(row.block, context.blocks.size()) || row.kind != RowKind::check ||
-        row.process >= 0 || row.broad != here.broad || !row.narrow.empty() ||
-        row.status != RowStatus::timed_out) {
+        std::cmp_greater_equal(row.block, context.blocks.size()) ||
+        row.kind != record::RowKind::check || row.process >= 0 || row.broad != here.broad ||
+        !row.narrow.empty() || row.status != record::RowStatus::timed_out) {
       continue;
     }
     const Block& before = context.blocks[static_cast<std::size_t>(row.block)];
@@ -85,7 +85,7 @@ std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& e
   return "";
 }
 
-std::string write_frames(const RunContext& context, const BlockInput& input,
+std::string write_frames(const RunContext& context, const measure::BlockInput& input,
                          const std::string& name, std::size_t frame) {
   if (context.reproductions.empty()) return "";
   const std::filesystem::path file =
@@ -97,19 +97,19 @@ std::string write_frames(const RunContext& context, const BlockInput& input,
   if (frame > 0) frames.push_back(input.frames[frame - 1].boxes);
   frames.push_back(input.frames[frame].boxes);
   std::filesystem::create_directories(context.reproductions);
-  write_box_frames(frames, file);
+  scene::write_box_frames(frames, file);
   return file.string();
 }
 
 // Seconds of a frame; the conversion, where it is timed again by itself, is a part of the others.
-double frame_seconds(const SampleReply& reply) {
-  const double conversion = reply.durations.of(to_string(Phase::convert));
+double frame_seconds(const measure::SampleReply& reply) {
+  const double conversion = reply.durations.of(to_string(record::Phase::convert));
   return reply.durations.sum() - (conversion >= 0 ? conversion : 0);
 }
 
 }  // namespace
 
-CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
+CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& input,
                          const BroadPhaseEntry& entry, bool with_pairs) {
   const CampaignGroup& group = *context.block->group;
   const std::size_t count = input.frames.size();
@@ -117,11 +117,12 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
   result.whole = result.right = true;
   const auto leave = [&](std::size_t frame, Status status, const std::string& why,
                          const std::string& words) {
-    RawRow row = context.row(frame, entry, Phase::find_pairs);
-    row.status = row_status(status);
-    row.words = one_line(words);
+    record::RawRow row = context.row(frame, entry, record::Phase::find_pairs);
+    row.status = record::row_status(status);
+    row.words = record::one_line(words);
     context.findings->add(std::move(row));
-    Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
+    record::Departure departure =
+        context.departure(entry.info, entry.info.name, context.place(frame));
     departure.known = departure.known || status == Status::timed_out;
     departure.what = why + "; left out from here on";
     context.findings->add(std::move(departure));
@@ -132,62 +133,67 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     return result;
   }
   std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
-  for (const BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
-  SharedArray<ChildAnswer> answers(count);
-  SharedArray<IndexPair> kept(with_pairs ? room : 0);
-  SharedArray<std::size_t> too_slow(1);  // 0: no frame was, else the frame's number and one
-  std::size_t greatest = 0;              // boxes and pairs of a frame
-  for (const BlockFrame& frame : input.frames) {
+  for (const measure::BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
+  process::SharedArray<ChildAnswer> answers(count);
+  process::SharedArray<IndexPair> kept(with_pairs ? room : 0);
+  process::SharedArray<std::size_t> too_slow(
+      1);                    // 0: no frame was, else the frame's number and one
+  std::size_t greatest = 0;  // boxes and pairs of a frame
+  for (const measure::BlockFrame& frame : input.frames) {
     greatest = std::max(greatest, frame.boxes.size() + frame.truth.size());
   }
   const double patience = group.time_limit + std::min(3 * group.time_limit, longest_grace) +
                           seconds_to_verify * static_cast<double>(greatest);
-  const IsolationLimits limits = {.item_seconds = patience,
-                                  .setup_seconds = setup_seconds,
-                                  .failures = 1,
-                                  .memory = group.memory_limit};
-  const IsolationReport report = isolate(count, limits, [&]() -> ItemWork {
-    const auto executor = std::make_shared<Executor>(1);
-    const auto sampler = std::make_shared<BroadSampler>(entry, input, group.rebuild, *executor);
+  const process::IsolationLimits limits = {.item_seconds = patience,
+                                           .setup_seconds = setup_seconds,
+                                           .failures = 1,
+                                           .memory = group.memory_limit};
+  const process::IsolationReport report =
+      process::isolate(count, limits, [&]() -> process::ItemWork {
+        const auto executor = std::make_shared<Executor>(1);
+        const auto sampler =
+            std::make_shared<measure::BroadSampler>(entry, input, group.rebuild, *executor);
 
-    return [&, executor, sampler](std::size_t frame) {
-      if (too_slow[0] > 0) return;
-      ChildAnswer& answer = answers[frame];
-      const double waited_before = run_delay().value_or(0);
-      answer.reply = sampler->play(frame);
-      const double waited = run_delay().value_or(0) - waited_before;
-      std::vector<IndexPair> pairs = sampler->sink().gather();
-      if (with_pairs) {
-        answer.pairs_at = frame == 0 ? 0
-                                     : answers[frame - 1].pairs_at +
-                                           static_cast<std::size_t>(answers[frame - 1].reply.pairs);
-        if (answer.pairs_at + pairs.size() > kept.size()) {
-          throw std::runtime_error("more than four times as many pairs as there are");
-        }
-        std::ranges::copy(pairs,
-                          kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
-      }
-      answer.faults = check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
-      // Time in which other processes had the processor does not count.
-      if (frame_seconds(answer.reply) - waited > group.time_limit) {
-        too_slow[0] = frame + 1;
-      }
-    };
-  });
+        return [&, executor, sampler](std::size_t frame) {
+          if (too_slow[0] > 0) return;
+          ChildAnswer& answer = answers[frame];
+          const double waited_before = measure::run_delay().value_or(0);
+          answer.reply = sampler->play(frame);
+          const double waited = measure::run_delay().value_or(0) - waited_before;
+          std::vector<IndexPair> pairs = sampler->sink().gather();
+          if (with_pairs) {
+            answer.pairs_at = frame == 0
+                                  ? 0
+                                  : answers[frame - 1].pairs_at +
+                                        static_cast<std::size_t>(answers[frame - 1].reply.pairs);
+            if (answer.pairs_at + pairs.size() > kept.size()) {
+              throw std::runtime_error("more than four times as many pairs as there are");
+            }
+            std::ranges::copy(pairs,
+                              kept.span().begin() + static_cast<std::ptrdiff_t>(answer.pairs_at));
+          }
+          answer.faults =
+              grade::check_pairs(pairs, input.frames[frame].truth, boxes_before(input, frame));
+          // Time in which other processes had the processor does not count.
+          if (frame_seconds(answer.reply) - waited > group.time_limit) {
+            too_slow[0] = frame + 1;
+          }
+        };
+      });
 
   const bool to_the_end = report.failures.empty() && too_slow[0] == 0;
   double seconds = 0;
   for (const ChildAnswer& answer : answers.span()) {
     seconds += frame_seconds(answer.reply);
   }
-  std::vector<BroadSampler::FrameAllocations> allocations(count);
+  std::vector<measure::BroadSampler::FrameAllocations> allocations(count);
   if (to_the_end && seconds < longest_to_count) {
     allocations = count_allocations(input, entry, group.rebuild, limits);
   }
   for (std::size_t frame = 0; frame < count; ++frame) {
-    if (report.states[frame] != ItemState::done) {
-      const IsolationFailure& failure = report.failures.front();
-      const bool late = failure.state == ItemState::timed_out;
+    if (report.states[frame] != process::ItemState::done) {
+      const process::IsolationFailure& failure = report.failures.front();
+      const bool late = failure.state == process::ItemState::timed_out;
       leave(frame, late ? Status::timed_out : Status::crashed,
             late ? fmt::format("no answer to a frame within the limit of {:g} s, over the limit",
                                group.time_limit)
@@ -197,31 +203,33 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
     }
     const ChildAnswer& answer = answers[frame];
     const bool build = group.rebuild || frame == 0;
-    const Phase phase = build ? Phase::build : Phase::update;
-    RawRow prepare = context.row(frame, entry, phase);
+    const record::Phase phase = build ? record::Phase::build : record::Phase::update;
+    record::RawRow prepare = context.row(frame, entry, phase);
     prepare.seconds = answer.reply.durations.of(to_string(phase));
     prepare.allocations = allocations[frame].prepare.calls;
     prepare.allocated_bytes = allocations[frame].prepare.bytes;
-    RawRow query = context.row(frame, entry, Phase::find_pairs);
-    query.seconds = answer.reply.durations.of(to_string(Phase::find_pairs));
-    query.status = row_status(answer.reply.status);
+    record::RawRow query = context.row(frame, entry, record::Phase::find_pairs);
+    query.seconds = answer.reply.durations.of(to_string(record::Phase::find_pairs));
+    query.status = record::row_status(answer.reply.status);
     query.pair_count = answer.reply.pairs;
-    query.pair_hash = to_hex(answer.reply.pair_hash);
+    query.pair_hash = base::to_hex(answer.reply.pair_hash);
     query.take(answer.reply.work);
     query.allocations = allocations[frame].query.calls;
     query.allocated_bytes = allocations[frame].query.bytes;
-    if (!answer.faults.none() && entry.info.known_defect.empty()) query.status = RowStatus::wrong;
+    if (!answer.faults.none() && entry.info.known_defect.empty())
+      query.status = record::RowStatus::wrong;
     context.findings->add(std::move(prepare));
-    const double conversion = answer.reply.durations.of(to_string(Phase::convert));
+    const double conversion = answer.reply.durations.of(to_string(record::Phase::convert));
     if (conversion >= 0) {
-      RawRow convert = context.row(frame, entry, Phase::convert);
+      record::RawRow convert = context.row(frame, entry, record::Phase::convert);
       convert.seconds = conversion;
       context.findings->add(std::move(convert));
     }
     context.findings->add(std::move(query));
     if (!answer.faults.none()) {
       result.right = false;
-      Departure departure = context.departure(entry.info, entry.info.name, context.place(frame));
+      record::Departure departure =
+          context.departure(entry.info, entry.info.name, context.place(frame));
       departure.what = to_string(answer.faults);
       if (departure.known) departure.what += "; known defect: " + entry.info.known_defect;
       departure.reproduction = write_frames(context, input, entry.info.name, frame);
@@ -243,4 +251,4 @@ CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -7,7 +7,7 @@
 #include "harness/campaign/run_context.h"
 #include "harness/measure/phases/block_input.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 // Plays the scene in a child process and writes a row a frame and phase, and a departure for each
 // frame whose pairs are not the true ones. Pairs of each frame as they were found, where asked for;
@@ -17,7 +17,7 @@ struct CheckedBroad {
   bool right = false;  // and found the true pairs
   std::vector<std::vector<IndexPair>> pairs;
 };
-CheckedBroad check_broad(const RunContext& context, const BlockInput& input,
+CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& input,
                          const BroadPhaseEntry& entry, bool with_pairs);
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -14,7 +14,7 @@
 #include "harness/measure/phases/outcome_hash.h"
 #include "harness/process/queries/guarded_solve.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr double setup_seconds = 60;
@@ -28,35 +28,35 @@ struct ChildAnswer {
   std::int64_t contacts = 0, iterations = -1, support_calls = -1;
 };
 
-Status status_of(const OutcomeFaults& faults, Origin origin) {
+Status status_of(const grade::OutcomeFaults& faults, Origin origin) {
   if (faults.failed > 0) return Status::not_converged;
   return origin == Origin::ours ? Status::ok : Status::not_reported;
 }
 
 }  // namespace
 
-SampleRequest NarrowCheck::request(const Piece& piece) {
+measure::SampleRequest NarrowCheck::request(const Piece& piece) {
   return {.set = static_cast<std::uint32_t>(piece.set),
           .frame = static_cast<std::uint32_t>(piece.frame)};
 }
 
-NarrowCheck::NarrowCheck(const RunContext& context, const BlockInput& input,
-                         std::span<const NarrowSet> sets)
+NarrowCheck::NarrowCheck(const RunContext& context, const measure::BlockInput& input,
+                         std::span<const measure::NarrowSet> sets)
     : context_(&context), input_(&input), sets_(sets) {}
 
 void NarrowCheck::run() {
   Executor executor(1);
-  Reference oracle(input_->shapes, executor);
+  grade::Reference oracle(input_->shapes, executor);
   Batch batch;
   const auto flush = [&] {
-    for (const NarrowChoice& choice : context_->block->group->narrow) run(batch, choice);
+    for (const measure::NarrowChoice& choice : context_->block->group->narrow) run(batch, choice);
     batch = {};
   };
   for (std::size_t frame = 0; frame < input_->frames.size(); ++frame) {
     // The exact answer to a pair is the same for every task: one for all sets of these pairs.
     std::map<std::tuple<std::string, ShapeKind, ShapeKind>, std::size_t> known;
     for (std::size_t set = 0; set < sets_.size(); ++set) {
-      const PairGroup& pairs = sets_[set].frames[frame];
+      const grade::PairGroup& pairs = sets_[set].frames[frame];
       if (pairs.size() == 0) continue;
       const auto [at, is_new] = known.try_emplace({sets_[set].broad, pairs.kind_a, pairs.kind_b},
                                                   batch.references.size());
@@ -72,19 +72,19 @@ void NarrowCheck::run() {
   flush();
 }
 
-RawRow NarrowCheck::row(const Piece& piece, const NarrowChoice& choice) const {
-  const NarrowSet& set = sets_[piece.set];
-  RawRow result = context_->row(piece.frame, choice);
+record::RawRow NarrowCheck::row(const Piece& piece, const measure::NarrowChoice& choice) const {
+  const measure::NarrowSet& set = sets_[piece.set];
+  record::RawRow result = context_->row(piece.frame, choice);
   result.broad = set.broad;
   result.task = set.task;
   result.pair_kind = set.kind_name();
   return result;
 }
 
-void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
+void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
   std::vector<Piece> pieces;
   for (const Piece& piece : batch.pieces) {
-    const NarrowSet& set = sets_[piece.set];
+    const measure::NarrowSet& set = sets_[piece.set];
     if (!offers(*choice.entry, set.task) || out_.contains({&choice, piece.set}) ||
         !context_->admits(choice, set.broad, set.task, set.kind_name()))
       continue;
@@ -92,39 +92,42 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
       pieces.push_back(piece);
       continue;
     }
-    RawRow unsupported = row(piece, choice);
+    record::RawRow unsupported = row(piece, choice);
     unsupported.pair_count = static_cast<std::int64_t>(group(piece).size());
-    unsupported.status = RowStatus::unsupported;
+    unsupported.status = record::RowStatus::unsupported;
     context_->findings->add(std::move(unsupported));
   }
   if (pieces.empty()) return;
 
   const CampaignGroup& settings = *context_->block->group;
-  SharedArray<Outcome> outcomes(batch.outcomes);
-  SharedArray<ChildAnswer> answers(pieces.size());
-  SharedArray<char> lost(sets_.size());  // 1 while the set is at work; it stays when that kills
-  const IsolationLimits limits = {.item_seconds = settings.time_limit,
-                                  .setup_seconds = setup_seconds,
-                                  .memory = settings.memory_limit};
-  const IsolationReport report = isolate(pieces.size(), limits, [&]() -> ItemWork {
-    const auto executor = std::make_shared<Executor>(1);
-    const auto sampler = std::make_shared<NarrowSampler>(choice, *input_, sets_, *executor);
-    return [&, executor, sampler](std::size_t item) {
-      const Piece& piece = pieces[item];
-      if (lost[piece.set] != 0) return;
-      lost[piece.set] = 1;
-      const SampleReply reply = sampler->sample(request(piece));
-      answers[item] = {reply.durations.sum(), reply.outcome_hash, reply.contacts, reply.iterations,
-                       reply.support_calls};
-      std::ranges::copy(sampler->outcomes(),
-                        outcomes.span().begin() + static_cast<std::ptrdiff_t>(piece.first));
-      lost[piece.set] = 0;
-    };
-  });
+  process::SharedArray<Outcome> outcomes(batch.outcomes);
+  process::SharedArray<ChildAnswer> answers(pieces.size());
+  process::SharedArray<char> lost(
+      sets_.size());  // 1 while the set is at work; it stays when that kills
+  const process::IsolationLimits limits = {.item_seconds = settings.time_limit,
+                                           .setup_seconds = setup_seconds,
+                                           .memory = settings.memory_limit};
+  const process::IsolationReport report =
+      process::isolate(pieces.size(), limits, [&]() -> process::ItemWork {
+        const auto executor = std::make_shared<Executor>(1);
+        const auto sampler =
+            std::make_shared<measure::NarrowSampler>(choice, *input_, sets_, *executor);
+        return [&, executor, sampler](std::size_t item) {
+          const Piece& piece = pieces[item];
+          if (lost[piece.set] != 0) return;
+          lost[piece.set] = 1;
+          const measure::SampleReply reply = sampler->sample(request(piece));
+          answers[item] = {reply.durations.sum(), reply.outcome_hash, reply.contacts,
+                           reply.iterations, reply.support_calls};
+          std::ranges::copy(sampler->outcomes(),
+                            outcomes.span().begin() + static_cast<std::ptrdiff_t>(piece.first));
+          lost[piece.set] = 0;
+        };
+      });
 
   double seconds = 0;
   for (const ChildAnswer& answer : answers.span()) seconds += answer.seconds;
-  std::vector<Allocations> allocations(pieces.size());
+  std::vector<measure::Allocations> allocations(pieces.size());
   if (report.failures.empty() && seconds < longest_to_count) {
     allocations = count_allocations(pieces, choice, limits);
   }
@@ -134,7 +137,7 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
     const Key key{&choice, piece.set};
     if (out_.contains(key)) continue;
     const auto& reference = batch.references[piece.reference];
-    if (report.states[item] != ItemState::done) {
+    if (report.states[item] != process::ItemState::done) {
       // A child whose setup failed reports one failure for all remaining pieces.
       while (failure + 1 < report.failures.end() && failure->item < item) ++failure;
       out_.insert(key);
@@ -142,10 +145,10 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
       continue;
     }
     const ChildAnswer& answer = answers[item];
-    RawRow result = row(piece, choice);
+    record::RawRow result = row(piece, choice);
     result.seconds = answer.seconds;
     result.contact_count = answer.contacts;
-    result.outcome_hash = to_hex(answer.outcome_hash);
+    result.outcome_hash = base::to_hex(answer.outcome_hash);
     result.iterations = answer.iterations;
     result.support_calls = answer.support_calls;
     result.allocations = allocations[item].calls;
@@ -155,15 +158,16 @@ void NarrowCheck::run(const Batch& batch, const NarrowChoice& choice) {
   }
 }
 
-std::vector<Allocations> NarrowCheck::count_allocations(std::span<const Piece> pieces,
-                                                        const NarrowChoice& choice,
-                                                        IsolationLimits limits) const {
+std::vector<measure::Allocations> NarrowCheck::count_allocations(
+    std::span<const Piece> pieces, const measure::NarrowChoice& choice,
+    process::IsolationLimits limits) const {
   limits.failures = 1;
-  SharedArray<Allocations> counts(pieces.size());
-  if (can_count_allocations()) {
-    isolate(pieces.size(), limits, [&]() -> ItemWork {
+  process::SharedArray<measure::Allocations> counts(pieces.size());
+  if (measure::can_count_allocations()) {
+    process::isolate(pieces.size(), limits, [&]() -> process::ItemWork {
       const auto executor = std::make_shared<Executor>(1);
-      const auto sampler = std::make_shared<NarrowSampler>(choice, *input_, sets_, *executor);
+      const auto sampler =
+          std::make_shared<measure::NarrowSampler>(choice, *input_, sets_, *executor);
       return [&, executor, sampler](std::size_t item) {
         sampler->sample(request(pieces[item]));
         counts[item] = sampler->count_allocations(request(pieces[item]));
@@ -173,13 +177,14 @@ std::vector<Allocations> NarrowCheck::count_allocations(std::span<const Piece> p
   return {counts.span().begin(), counts.span().end()};
 }
 
-void NarrowCheck::take(const Piece& piece, const NarrowChoice& choice,
+void NarrowCheck::take(const Piece& piece, const measure::NarrowChoice& choice,
                        std::span<const Outcome> outcomes,
-                       const std::vector<ReferenceOutcome>& reference, RawRow result) {
-  const OutcomeFaults faults =
-      check_outcomes(outcomes, reference, sets_[piece.set].task, choice.settings.scalar);
+                       const std::vector<grade::ReferenceOutcome>& reference,
+                       record::RawRow result) {
+  const grade::OutcomeFaults faults =
+      grade::check_outcomes(outcomes, reference, sets_[piece.set].task, choice.settings.scalar);
   result.pair_count = static_cast<std::int64_t>(outcomes.size());
-  result.pair_hash = to_hex(group_hash(group(piece)));
+  result.pair_hash = base::to_hex(measure::group_hash(group(piece)));
   if (result.iterations >= 0) {
     result.iterations_squared = 0;
     for (const Outcome& outcome : outcomes) {
@@ -192,15 +197,15 @@ void NarrowCheck::take(const Piece& piece, const NarrowChoice& choice,
   result.worst_disagreement = faults.worst;
   if (faults.values > 0) result.worst_error = faults.worst_value_error;
   result.failures = faults.failed + faults.unanswered;
-  result.status = row_status(status_of(faults, choice.entry->info.origin));
+  result.status = record::row_status(status_of(faults, choice.entry->info.origin));
   context_->findings->add(std::move(result));
   if (faults.disagree > 0) report(piece, choice, faults);
 }
 
-void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
-                       const std::vector<ReferenceOutcome>& reference, Status status,
+void NarrowCheck::lose(const Piece& piece, const measure::NarrowChoice& choice,
+                       const std::vector<grade::ReferenceOutcome>& reference, Status status,
                        const std::string& words) {
-  const NarrowSet& set = sets_[piece.set];
+  const measure::NarrowSet& set = sets_[piece.set];
   std::vector<Outcome> outcomes(group(piece).size());
   const auto make = [&] {
     std::unique_ptr<NarrowPhase> algorithm = choice.entry->make(choice.settings);
@@ -208,13 +213,14 @@ void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
     return algorithm;
   };
   const CampaignGroup& settings = *context_->block->group;
-  solve_guarded(make, set.task,
-                group(piece).batch(input_->shape_of, input_->frames[piece.frame].poses, 0,
-                                   group(piece).size()),
-                outcomes, settings.time_limit, settings.memory_limit);
-  OutcomeFaults faults = check_outcomes(outcomes, reference, set.task, choice.settings.scalar);
+  process::solve_guarded(make, set.task,
+                         group(piece).batch(input_->shape_of, input_->frames[piece.frame].poses, 0,
+                                            group(piece).size()),
+                         outcomes, settings.time_limit, settings.memory_limit);
+  grade::OutcomeFaults faults =
+      grade::check_outcomes(outcomes, reference, set.task, choice.settings.scalar);
   const auto at = std::ranges::find_if(
-      outcomes, [](const Outcome& outcome) { return is_lost(outcome.status); });
+      outcomes, [](const Outcome& outcome) { return process::is_lost(outcome.status); });
   if (at != outcomes.end()) {
     faults.worst_pair = static_cast<std::size_t>(at - outcomes.begin());
   } else {
@@ -223,23 +229,24 @@ void NarrowCheck::lose(const Piece& piece, const NarrowChoice& choice,
         static_cast<std::int64_t>(outcomes.size());
     faults.worst_pair.reset();
   }
-  RawRow result = row(piece, choice);
+  record::RawRow result = row(piece, choice);
   result.pair_count = static_cast<std::int64_t>(outcomes.size());
   result.failures = faults.crashed + faults.timed_out;
-  result.status = row_status(status);
-  result.words = one_line(words);
+  result.status = record::row_status(status);
+  result.words = record::one_line(words);
   context_->findings->add(std::move(result));
   report(piece, choice, faults);
 }
 
-void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
-                         const OutcomeFaults& faults) {
+void NarrowCheck::report(const Piece& piece, const measure::NarrowChoice& choice,
+                         const grade::OutcomeFaults& faults) {
   if (!reported_.insert({&choice, piece.set}).second) return;
   const AlgorithmInfo& info = choice.entry->info;
-  const NarrowSet& set = sets_[piece.set];
-  Departure departure = context_->departure(info, choice.label(),
-                                            fmt::format("{}, {}, {}", context_->place(piece.frame),
-                                                        set.kind_name(), to_string(set.task)));
+  const measure::NarrowSet& set = sets_[piece.set];
+  record::Departure departure =
+      context_->departure(info, choice.label(),
+                          fmt::format("{}, {}, {}", context_->place(piece.frame), set.kind_name(),
+                                      to_string(set.task)));
   departure.known = departure.known || choice.entry->traits.approximate;
   if (faults.crashed > 0) {
     departure.what = fmt::format("{} of {} queries crashed", faults.crashed, group(piece).size());
@@ -251,7 +258,7 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
     const std::size_t i = *faults.worst_pair;
     departure.what =
         fmt::format("{} of {} answers differ from {}'s, by up to {:.3g} m (bodies {} and {})",
-                    faults.disagree, faults.compared, Reference::name(), faults.worst,
+                    faults.disagree, faults.compared, grade::Reference::name(), faults.worst,
                     group(piece).first[i], group(piece).second[i]);
   }
   if (choice.entry->traits.approximate) departure.what += "; approximate by design";
@@ -261,13 +268,13 @@ void NarrowCheck::report(const Piece& piece, const NarrowChoice& choice,
   context_->findings->add(std::move(departure));
 }
 
-std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choice,
+std::string NarrowCheck::write_case(const Piece& piece, const measure::NarrowChoice& choice,
                                     std::size_t pair) const {
   if (context_->reproductions.empty()) return "";
   const std::uint32_t a = group(piece).first[pair];
   const std::uint32_t b = group(piece).second[pair];
   const std::vector<Pose>& poses = input_->frames[piece.frame].poses;
-  const Case reproduction{
+  const files::Case reproduction{
       .id = fmt::format("{}-frame-{}-{}-{}", context_->scene->name, piece.frame, a, b),
       .shape_a = input_->shapes[input_->shape_of[a]],
       .shape_b = input_->shapes[input_->shape_of[b]],
@@ -281,12 +288,13 @@ std::string NarrowCheck::write_case(const Piece& piece, const NarrowChoice& choi
                                       sets_[piece.set].kind_name(), reproduction.id));
   std::filesystem::create_directories(context_->reproductions);
   std::ofstream stream(file);
-  stream << to_json(reproduction) << '\n';
+  stream << files::to_json(reproduction) << '\n';
   stream.flush();
   if (!stream) {
-    throw InputError(file.string(), 0, fmt::format("cannot be written: {}", std::strerror(errno)));
+    throw base::InputError(file.string(), 0,
+                           fmt::format("cannot be written: {}", std::strerror(errno)));
   }
   return file.string();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

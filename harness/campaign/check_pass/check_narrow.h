@@ -15,12 +15,13 @@
 #include "harness/measure/phases/narrow_sampler.h"
 #include "harness/process/isolate.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 class NarrowCheck {
  public:
   // `sets` are of one block; all outlive it.
-  NarrowCheck(const RunContext& context, const BlockInput& input, std::span<const NarrowSet> sets);
+  NarrowCheck(const RunContext& context, const measure::BlockInput& input,
+              std::span<const measure::NarrowSet> sets);
 
   // Takes every algorithm's answers for every set and writes a row for each frame. Each algorithm
   // runs in a child process. One that crashes or hangs on the pairs of a set is asked again pair by
@@ -35,33 +36,38 @@ class NarrowCheck {
   };
   struct Batch {  // of pieces whose outcomes fit into memory together
     std::vector<Piece> pieces;
-    std::vector<std::vector<ReferenceOutcome>> references;
+    std::vector<std::vector<grade::ReferenceOutcome>> references;
     std::size_t outcomes = 0;
   };
-  const PairGroup& group(const Piece& piece) const { return sets_[piece.set].frames[piece.frame]; }
-  static SampleRequest request(const Piece& piece);
-  void run(const Batch& batch, const NarrowChoice& choice);
+  const grade::PairGroup& group(const Piece& piece) const {
+    return sets_[piece.set].frames[piece.frame];
+  }
+  static measure::SampleRequest request(const Piece& piece);
+  void run(const Batch& batch, const measure::NarrowChoice& choice);
   // A pass of its own, in a child of its own: each piece is solved once to warm the algorithm up,
   // and counted the second time. What fails here is not counted; the check tells of failures.
-  std::vector<Allocations> count_allocations(std::span<const Piece> pieces,
-                                             const NarrowChoice& choice,
-                                             IsolationLimits limits) const;
-  void take(const Piece& piece, const NarrowChoice& choice, std::span<const Outcome> outcomes,
-            const std::vector<ReferenceOutcome>& reference, RawRow row);
-  void lose(const Piece& piece, const NarrowChoice& choice,
-            const std::vector<ReferenceOutcome>& reference, Status status,
+  std::vector<measure::Allocations> count_allocations(std::span<const Piece> pieces,
+                                                      const measure::NarrowChoice& choice,
+                                                      process::IsolationLimits limits) const;
+  void take(const Piece& piece, const measure::NarrowChoice& choice,
+            std::span<const Outcome> outcomes,
+            const std::vector<grade::ReferenceOutcome>& reference, record::RawRow row);
+  void lose(const Piece& piece, const measure::NarrowChoice& choice,
+            const std::vector<grade::ReferenceOutcome>& reference, Status status,
             const std::string& words);
-  void report(const Piece& piece, const NarrowChoice& choice, const OutcomeFaults& faults);
-  std::string write_case(const Piece& piece, const NarrowChoice& choice, std::size_t pair) const;
-  RawRow row(const Piece& piece, const NarrowChoice& choice) const;
+  void report(const Piece& piece, const measure::NarrowChoice& choice,
+              const grade::OutcomeFaults& faults);
+  std::string write_case(const Piece& piece, const measure::NarrowChoice& choice,
+                         std::size_t pair) const;
+  record::RawRow row(const Piece& piece, const measure::NarrowChoice& choice) const;
 
-  using Key = std::tuple<const NarrowChoice*, std::size_t>;  // and the set
+  using Key = std::tuple<const measure::NarrowChoice*, std::size_t>;  // and the set
 
   const RunContext* context_;
-  const BlockInput* input_;
-  std::span<const NarrowSet> sets_;
+  const measure::BlockInput* input_;
+  std::span<const measure::NarrowSet> sets_;
   std::set<Key> out_;       // crashed, hung or too slow on such pairs: no longer run
   std::set<Key> reported_;  // a discrepancy is reported once a block
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -14,7 +14,7 @@
 #include "harness/grade/outcome_check.h"
 #include "harness/grade/pair_check.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 constexpr std::size_t tried_frames = 2;  // one is built, one an update
@@ -22,7 +22,7 @@ constexpr std::size_t tried_pairs = 48;  // of a set, from all frames
 
 // A block's check with findings of its own and without files.
 struct Trial {
-  Findings findings;
+  record::Findings findings;
   RunContext context;
 
   explicit Trial(const RunContext& block) : context(block) {
@@ -31,26 +31,27 @@ struct Trial {
   }
 };
 
-double price_of(const RunContext& block, const BroadPhaseEntry& entry, const BlockInput& first,
-                double verifying, double times) {
+double price_of(const RunContext& block, const BroadPhaseEntry& entry,
+                const measure::BlockInput& first, double verifying, double times) {
   Trial trial(block);
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   check_broad(trial.context, first, entry, false);
   const double once = watch.seconds();
   double again = verifying;
-  for (const RawRow& row : trial.findings.rows()) {
+  for (const record::RawRow& row : trial.findings.rows()) {
     if (row.seconds >= 0) again += row.seconds;
   }
   return once + (times - 1) * again;
 }
 
-double price_of_broad(const RunContext& context, const BlockInput& input, std::size_t frames) {
-  BlockInput first = input;
+double price_of_broad(const RunContext& context, const measure::BlockInput& input,
+                      std::size_t frames) {
+  measure::BlockInput first = input;
   first.frames.resize(std::min(first.frames.size(), tried_frames));
-  const Stopwatch watch;
-  for (const BlockFrame& frame : first.frames) {
+  const base::Stopwatch watch;
+  for (const measure::BlockFrame& frame : first.frames) {
     std::vector<IndexPair> found = frame.truth;
-    check_pairs(found, frame.truth, {});
+    grade::check_pairs(found, frame.truth, {});
   }
   const double verifying = watch.seconds();
   const double times = static_cast<double>(frames) / static_cast<double>(first.frames.size());
@@ -61,12 +62,12 @@ double price_of_broad(const RunContext& context, const BlockInput& input, std::s
   return seconds;
 }
 
-NarrowSet some_of(const NarrowSet& set) {
+measure::NarrowSet some_of(const measure::NarrowSet& set) {
   const std::size_t step = std::max<std::size_t>(set.pairs() / tried_pairs, 1);
-  NarrowSet some = set;
+  measure::NarrowSet some = set;
   std::size_t at = 0;
-  for (PairGroup& group : some.frames) {
-    PairGroup taken{group.kind_a, group.kind_b, {}, {}};
+  for (grade::PairGroup& group : some.frames) {
+    grade::PairGroup taken{group.kind_a, group.kind_b, {}, {}};
     for (std::size_t i = 0; i < group.size(); ++i, ++at) {
       if (at % step != 0) continue;
       taken.first.push_back(group.first[i]);
@@ -77,31 +78,31 @@ NarrowSet some_of(const NarrowSet& set) {
   return some;
 }
 
-double price_of_narrow(const RunContext& context, const BlockInput& input,
-                       std::span<const NarrowSet> sets) {
-  std::vector<NarrowSet> some;
+double price_of_narrow(const RunContext& context, const measure::BlockInput& input,
+                       std::span<const measure::NarrowSet> sets) {
+  std::vector<measure::NarrowSet> some;
   std::map<std::string, double> more;  // times that many pairs on top, of each set
   std::set<std::tuple<std::string, ShapeKind, ShapeKind>> priced;
   Executor executor(1);
-  Reference oracle(input.shapes, executor);
+  grade::Reference oracle(input.shapes, executor);
   double seconds = 0;
-  for (const NarrowSet& set : sets) {
-    const NarrowSet& few = some.emplace_back(some_of(set));
+  for (const measure::NarrowSet& set : sets) {
+    const measure::NarrowSet& few = some.emplace_back(some_of(set));
     const double times = static_cast<double>(set.pairs()) / static_cast<double>(few.pairs()) - 1;
     more[set_key(set)] = times;
     // One exact answer serves all tasks.
     if (!priced.insert({set.broad, set.kind_a, set.kind_b}).second) continue;
-    const Stopwatch watch;
+    const base::Stopwatch watch;
     for (std::size_t frame = 0; frame < few.frames.size(); ++frame) {
       oracle.solve(few.frames[frame], input.shape_of, input.frames[frame].poses);
     }
     seconds += times * watch.seconds();
   }
   Trial trial(context);
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   NarrowCheck(trial.context, input, some).run();
   seconds += watch.seconds();
-  for (const RawRow& row : trial.findings.rows()) {
+  for (const record::RawRow& row : trial.findings.rows()) {
     if (row.seconds >= 0) seconds += more.at(set_key(row)) * row.seconds;
   }
   return seconds;
@@ -109,10 +110,10 @@ double price_of_narrow(const RunContext& context, const BlockInput& input,
 
 }  // namespace
 
-double price_of_check(const RunContext& context, const BlockInput& input, std::size_t frames,
-                      std::span<const NarrowSet> sets) {
+double price_of_check(const RunContext& context, const measure::BlockInput& input,
+                      std::size_t frames, std::span<const measure::NarrowSet> sets) {
   return price_of_broad(context, input, frames) +
          (sets.empty() ? 0 : price_of_narrow(context, input, sets));
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace touchstone {
+namespace touchstone::campaign {
 namespace {
 
 std::string key(const std::string& broad, std::string_view task, const std::string& kind) {
@@ -18,24 +18,25 @@ std::uint64_t from_hex(const std::string& text) {
 
 }  // namespace
 
-std::string set_key(const NarrowSet& set) {
+std::string set_key(const measure::NarrowSet& set) {
   return key(set.broad, to_string(set.task), set.kind_name());
 }
 
-std::string set_key(const RawRow& row) {
+std::string set_key(const record::RawRow& row) {
   return row.narrow.empty() ? "" : key(row.broad, to_string(*row.task), row.pair_kind);
 }
 
 double Checked::greatest_seconds() const { return seconds.empty() ? 0 : std::ranges::max(seconds); }
 
-CheckTable::CheckTable(std::span<const RawRow> rows, std::int64_t block, std::size_t frames) {
-  for (const RawRow& row : rows) {
-    if (row.block != block || row.kind != RowKind::check || row.process >= 0) continue;
-    if (row.phase == Phase::convert) continue;  // a part of the build or the update
-    if (row.status == RowStatus::unsupported) continue;
+CheckTable::CheckTable(std::span<const record::RawRow> rows, std::int64_t block,
+                       std::size_t frames) {
+  for (const record::RawRow& row : rows) {
+    if (row.block != block || row.kind != record::RowKind::check || row.process >= 0) continue;
+    if (row.phase == record::Phase::convert) continue;  // a part of the build or the update
+    if (row.status == record::RowStatus::unsupported) continue;
     const auto frame = static_cast<std::size_t>(row.frame);
     if (frame >= frames) continue;
-    Checked& checked = table_[{label_of(row), set_key(row)}];
+    Checked& checked = table_[{record::label_of(row), set_key(row)}];
     if (checked.pairs.empty()) {
       checked.pairs.resize(frames);
       checked.hash.resize(frames);
@@ -48,11 +49,11 @@ CheckTable::CheckTable(std::span<const RawRow> rows, std::int64_t block, std::si
     const std::string& hash = row.narrow.empty() ? row.pair_hash : row.outcome_hash;
     if (!hash.empty()) checked.hash[frame] = from_hex(hash);
     if (row.disagreements >= 0) checked.disagreements[frame] = row.disagreements;
-    checked.gave_up = checked.gave_up || row.status == RowStatus::not_converged;
+    checked.gave_up = checked.gave_up || row.status == record::RowStatus::not_converged;
   }
 }
 
-const Checked* CheckTable::find(const std::string& label, const NarrowSet* set) const {
+const Checked* CheckTable::find(const std::string& label, const measure::NarrowSet* set) const {
   auto at = table_.find({label, set == nullptr ? "" : set_key(*set)});
   if (at == table_.end() && set != nullptr) {
     at = table_.find({label, key("", to_string(set->task), set->kind_name())});
@@ -60,4 +61,4 @@ const Checked* CheckTable::find(const std::string& label, const NarrowSet* set) 
   return at == table_.end() ? nullptr : &at->second;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -12,11 +12,11 @@
 #include "harness/campaign/run_context.h"
 #include "harness/measure/phases/block_input.h"
 
-namespace touchstone {
+namespace touchstone::campaign {
 
 // "BROAD|TASK|KIND": a set of narrow phases; that of the broad phases is "".
-std::string set_key(const NarrowSet& set);
-std::string set_key(const RawRow& row);
+std::string set_key(const measure::NarrowSet& set);
+std::string set_key(const record::RawRow& row);
 
 // One algorithm on one set, at one thread.
 struct Checked {
@@ -33,13 +33,13 @@ struct Checked {
 class CheckTable {
  public:
   // Takes the rows of this block's check pass.
-  CheckTable(std::span<const RawRow> rows, std::int64_t block, std::size_t frames);
+  CheckTable(std::span<const record::RawRow> rows, std::int64_t block, std::size_t frames);
   // Null where the algorithm was never given such pairs. A broad phase that found the true pairs
   // has no entry of its own: its pairs are checked as the true ones.
-  const Checked* find(const std::string& label, const NarrowSet* set) const;
+  const Checked* find(const std::string& label, const measure::NarrowSet* set) const;
 
  private:
   std::map<std::pair<std::string, std::string>, Checked> table_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::campaign

@@ -8,7 +8,7 @@
 
 #include "harness/check/axes/axis_draws.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // The nearest double of a power of ten.
@@ -112,4 +112,4 @@ std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes) {
   return cells;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

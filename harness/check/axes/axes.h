@@ -15,7 +15,7 @@
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/regimes/regimes.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct AxisValue {
   std::string name;  // "1e-3"; "0" where the property is not there at all
@@ -53,4 +53,4 @@ std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes);
 inline constexpr std::uint64_t tries = 8;
 inline std::uint64_t slot_of(std::uint64_t index) { return index / tries; }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

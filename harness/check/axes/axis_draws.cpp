@@ -9,15 +9,15 @@
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/check/regimes/regime_draws.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // Two compact bodies of these sizes (metres) of the slot's kinds, the first in a random pose.
 RegimeCase compact_pair(RegimeDraw& draw, double size_a, double size_b) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const KindPair kinds = kinds_of_slot(slot_of(draw.index));
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = shape_of_extents(kinds.a, compact_half(size_a, random), draw.seed, random);
   c.shape_b = shape_of_extents(kinds.b, compact_half(size_b, random), draw.seed, random);
   c.pose_a = random_pose(std::max(size_a, size_b), random);
@@ -26,9 +26,9 @@ RegimeCase compact_pair(RegimeDraw& draw, double size_a, double size_b) {
 
 RegimeCase draw_at_signed_distance(RegimeDraw& draw, double value, const char* name) {
   RegimeCase result = compact_pair(draw, 1, 1);
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   // Fine, or the rounding of a translation would be more than the gap.
-  result.detail = place_at_features(c, value * pair_size(c), true, draw.random) + "-" + name;
+  result.detail = place_at_features(c, value * grade::pair_size(c), true, draw.random) + "-" + name;
   swap_at_random(c, draw.random);
   return result;
 }
@@ -44,11 +44,11 @@ RegimeCase draw_at_scale(RegimeDraw& draw) {
 }
 
 RegimeCase draw_at_aspect(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const double aspect = draw.regime.parameter;
   const KindPair kinds = kinds_of_slot(slot_of(draw.index));
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = shape_of_extents(kinds.a, slender_half(1, aspect, random), draw.seed, random);
   c.shape_b = shape_of_extents(kinds.b, slender_half(1, aspect, random), draw.seed, random);
   c.pose_a = random_pose(1, random);
@@ -58,9 +58,9 @@ RegimeCase draw_at_aspect(RegimeDraw& draw) {
 }
 
 RegimeCase draw_at_distance(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   RegimeCase result = compact_pair(draw, 1, 1);
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   Vec3d way = random.on_sphere();
   if (random.below(4) == 0) way = Vec3d::UnitX();
   c.pose_a.translation = draw.regime.parameter * way;
@@ -69,7 +69,7 @@ RegimeCase draw_at_distance(RegimeDraw& draw) {
 }
 
 RegimeCase draw_at_ratio(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const double small = 1 / draw.regime.parameter;
   const bool first = random.below(2) == 0;
   RegimeCase result = compact_pair(draw, first ? 1 : small, first ? small : 1);
@@ -89,7 +89,7 @@ RegimeCase draw_at_depth(RegimeDraw& draw) {
 RegimeCase draw_with_vertices(RegimeDraw& draw) {
   using enum ShapeKind;
   constexpr std::array<ShapeKind, 6> others = {hull, box, sphere, hull, capsule, cylinder};
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const auto count = static_cast<std::size_t>(draw.regime.parameter);
   const std::uint64_t slot = slot_of(draw.index);
   const auto ringed = [&] {
@@ -99,7 +99,7 @@ RegimeCase draw_with_vertices(RegimeDraw& draw) {
     return shape;
   };
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = ringed();
   const ShapeKind kind = others[slot % others.size()];
   if (slot % others.size() == 0) {
@@ -113,4 +113,4 @@ RegimeCase draw_with_vertices(RegimeDraw& draw) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -3,7 +3,7 @@
 
 #include "harness/check/regimes/regimes.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 RegimeCase draw_at_scale(RegimeDraw& draw);       // the longest side of both bodies, metres
 RegimeCase draw_at_aspect(RegimeDraw& draw);      // the longest side over the shortest
@@ -19,4 +19,4 @@ RegimeCase draw_near_coplanar(RegimeDraw& draw);
 // The angle between two edges, sides or faces in contact, radians.
 RegimeCase draw_near_parallel(RegimeDraw& draw);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

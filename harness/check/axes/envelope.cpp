@@ -8,7 +8,7 @@
 
 #include "harness/grade/answer_count.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 std::string name_at(const StressAxis& axis, const std::optional<std::size_t>& place) {
@@ -19,12 +19,12 @@ std::string name_at(const StressAxis& axis, const std::optional<std::size_t>& pl
 // named.
 std::string first_wrong(const Reach& reach, bool side_only) {
   using Place = std::optional<std::size_t>;
-  const auto first = [&](AnswerClass outcome) { return reach.first_of(outcome); };
+  const auto first = [&](grade::AnswerClass outcome) { return reach.first_of(outcome); };
   const std::array<std::pair<Place, const char*>, 4> all = {
-      {{side_only ? reach.first_side : first(AnswerClass::silent), ""},
-       {side_only ? Place() : first(AnswerClass::rounded), " (input)"},
-       {first(AnswerClass::crashed), " crashes"},
-       {first(AnswerClass::hung), " hangs"}}};
+      {{side_only ? reach.first_side : first(grade::AnswerClass::silent), ""},
+       {side_only ? Place() : first(grade::AnswerClass::rounded), " (input)"},
+       {first(grade::AnswerClass::crashed), " crashes"},
+       {first(grade::AnswerClass::hung), " hangs"}}};
   const std::pair<Place, const char*>* found = nullptr;
   for (const auto& one : all) {
     if (one.first && (found == nullptr || *one.first < *found->first)) found = &one;
@@ -33,7 +33,7 @@ std::string first_wrong(const Reach& reach, bool side_only) {
 }
 
 std::string first_honest(const Reach& reach) {
-  const std::optional<std::size_t> place = reach.first_of(AnswerClass::honest);
+  const std::optional<std::size_t> place = reach.first_of(grade::AnswerClass::honest);
   return place ? name_at(*reach.axis, place) : "-";
 }
 
@@ -62,15 +62,15 @@ std::vector<Reach> envelope(const StressRequest& request, std::span<const Stress
           if (row.entry != entry || row.scalar != scalar || cell.axis != axis) continue;
           reach.answers += row.answers();
           reach.skipped += row.skipped;
-          keep_greater(reach.margin, row.margin);
-          keep_greater(reach.error, row.error);
+          grade::keep_greater(reach.margin, row.margin);
+          grade::keep_greater(reach.error, row.error);
           if (!std::isnan(row.margin) && (!reach.first_side || cell.place < *reach.first_side)) {
             reach.first_side = cell.place;
           }
-          for (const AnswerClass outcome : all_answer_classes) {
+          for (const grade::AnswerClass outcome : grade::all_answer_classes) {
             const auto i = static_cast<std::size_t>(outcome);
             reach.counts[i] += row.counts[i];
-            if (row.counts[i] == 0 || outcome == AnswerClass::right) continue;
+            if (row.counts[i] == 0 || outcome == grade::AnswerClass::right) continue;
             if (!reach.first[i] || cell.place < *reach.first[i]) reach.first[i] = cell.place;
           }
         }
@@ -88,8 +88,8 @@ std::vector<std::string> broken_promises(const StressRequest& request,
     const AlgorithmInfo& info = request.narrow[row.entry]->info;
     if (info.origin != Origin::ours || row.scalar != Precision::float64) continue;
     const StressCell& cell = request.cells[row.cell];
-    for (const AnswerClass outcome :
-         {AnswerClass::silent, AnswerClass::crashed, AnswerClass::hung}) {
+    for (const grade::AnswerClass outcome :
+         {grade::AnswerClass::silent, grade::AnswerClass::crashed, grade::AnswerClass::hung}) {
       if (row.count(outcome) == 0) continue;
       lines.push_back(fmt::format("{} double {}: {} of {} {} at {} {}", info.name,
                                   to_string(row.task), row.count(outcome), row.answers(),
@@ -103,14 +103,15 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
                     const std::filesystem::path& file) {
   std::vector<std::string> header = {"algorithm", "origin", "scalar", "axis",
                                      "unit",      "from",   "to",     "answers"};
-  for (const AnswerClass outcome : all_answer_classes) header.emplace_back(to_string(outcome));
+  for (const grade::AnswerClass outcome : grade::all_answer_classes)
+    header.emplace_back(to_string(outcome));
   header.emplace_back("skipped");
-  for (const AnswerClass outcome : all_answer_classes) {
-    if (outcome == AnswerClass::right) continue;
+  for (const grade::AnswerClass outcome : grade::all_answer_classes) {
+    if (outcome == grade::AnswerClass::right) continue;
     header.push_back("first_" + std::string(to_string(outcome)));
   }
   header.insert(header.end(), {"first_wrong_side", "worst_margin", "worst_error"});
-  CsvWriter csv(file, header);
+  files::CsvWriter csv(file, header);
   for (const Reach& reach : reaches) {
     const AlgorithmInfo& info = request.narrow[reach.entry]->info;
     const StressAxis& axis = *reach.axis;
@@ -119,8 +120,8 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
     csv.field(axis.values.front().name).field(axis.values.back().name).field(reach.answers);
     for (const std::int64_t count : reach.counts) csv.field(count);
     csv.field(reach.skipped);
-    for (const AnswerClass outcome : all_answer_classes) {
-      if (outcome != AnswerClass::right) csv.field(name_at(axis, reach.first_of(outcome)));
+    for (const grade::AnswerClass outcome : grade::all_answer_classes) {
+      if (outcome != grade::AnswerClass::right) csv.field(name_at(axis, reach.first_of(outcome)));
     }
     csv.field(name_at(axis, reach.first_side)).field(reach.margin).field(reach.error).end_row();
   }
@@ -149,4 +150,4 @@ std::vector<std::vector<std::string>> table(const StressRequest& request,
   return rows;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

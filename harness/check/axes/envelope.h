@@ -11,7 +11,7 @@
 
 #include "harness/check/axes/stress_row.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // Of one algorithm in one scalar along one axis, over all tasks.
 struct Reach {
@@ -19,13 +19,13 @@ struct Reach {
   Precision scalar{};
   const StressAxis* axis = nullptr;
   // Of each outcome but right: the place of the first value at which there was one.
-  std::array<std::optional<std::size_t>, all_answer_classes.size()> first{};
+  std::array<std::optional<std::size_t>, grade::all_answer_classes.size()> first{};
   std::optional<std::size_t> first_side;  // the same of silent answers on the wrong side of contact
   std::int64_t answers = 0, skipped = 0;
-  std::array<std::int64_t, all_answer_classes.size()> counts{};
+  std::array<std::int64_t, grade::all_answer_classes.size()> counts{};
   double margin = Outcome::none, error = Outcome::none;  // the greatest; see StressRow
 
-  std::optional<std::size_t> first_of(AnswerClass outcome) const {
+  std::optional<std::size_t> first_of(grade::AnswerClass outcome) const {
     return first[static_cast<std::size_t>(outcome)];
   }
 };
@@ -49,4 +49,4 @@ enum class EnvelopeTable : std::uint8_t { side, wrong, honest };
 std::vector<std::vector<std::string>> table(const StressRequest& request,
                                             std::span<const Reach> reaches, EnvelopeTable which);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -7,7 +7,7 @@
 #include "harness/check/regimes/features.h"
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct KindPair {
   ShapeKind a, b;
@@ -20,13 +20,13 @@ struct MildAmount {
   std::string name;  // "gap-1e-2"
   double value;      // as a part of some length
 };
-MildAmount mild_amount(Random& random);
+MildAmount mild_amount(base::Random& random);
 
 // Puts b of a case whose shapes and whose pose of a are set at `gap` (metres; < 0: a depth) between
 // random features, and turns it. `fine` as in placement.h. Returns the features' names.
-std::string place_at_features(Case& c, double gap, bool fine, Random& random);
+std::string place_at_features(files::Case& c, double gap, bool fine, base::Random& random);
 
 // The same at a mild part of `length` (metres), or now and then anywhere. Returns what it did.
-std::string place_mildly(Case& c, double length, Random& random);
+std::string place_mildly(files::Case& c, double length, base::Random& random);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

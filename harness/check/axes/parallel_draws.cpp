@@ -12,20 +12,20 @@
 #include "harness/check/regimes/regime_draws.h"
 #include "harness/geometry/signed_permutation.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
-Mat3d about_x(const SinCos& turn) {
+Mat3d about_x(const base::SinCos& turn) {
   Mat3d m;
   m << 1, 0, 0, 0, turn.cos, -turn.sin, 0, turn.sin, turn.cos;
   return m;
 }
-Mat3d about_z(const SinCos& turn) {
+Mat3d about_z(const base::SinCos& turn) {
   Mat3d m;
   m << turn.cos, -turn.sin, 0, turn.sin, turn.cos, 0, 0, 0, 1;
   return m;
 }
-SinCos radians(double angle) { return sin_cos_turns(angle * 0.15915494309189533577); }
+base::SinCos radians(double angle) { return base::sin_cos_turns(angle * 0.15915494309189533577); }
 
 // Takes z to x, x to y and y to z.
 Mat3d z_to_x() {
@@ -45,16 +45,16 @@ Shape box_of(const Vec3d& half) {
 
 // Equally high boxes that stand beside each other, the second by `step` (metres) higher.
 RegimeCase side_by_side(RegimeDraw& draw, bool second_as_hull) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const double step = draw.regime.parameter;
   Vec3d half_a = compact_half(1, random), half_b = compact_half(1, random);
   half_b.z() = half_a.z();
   const MildAmount amount = mild_amount(random);
   RegimeCase result{{}, "side-by-side-" + amount.name};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = box_of(half_a);
   c.shape_b = second_as_hull ? box_as_hull(half_b) : box_of(half_b);
-  const SignedPermutation turn = signed_permutations()[random.below(24)];
+  const geometry::SignedPermutation turn = geometry::signed_permutations()[random.below(24)];
   const double across = (half_a.y() + half_b.y()) * random.uniform(-0.9, 0.9);
   const double along = half_a.x() + half_b.x() + amount.value;
   c.pose_a.rotation = c.pose_b.rotation = turn.matrix();
@@ -65,16 +65,16 @@ RegimeCase side_by_side(RegimeDraw& draw, bool second_as_hull) {
 // The middle of the cap, with the cap's normal.
 Feature top_of(const Shape& prism) {
   Feature top;
-  top.point = exactly(prism.hull->vertices.back());
+  top.point = base::exactly(prism.hull->vertices.back());
   top.normal = Vec3d::UnitZ();
   return top;
 }
 
 RegimeCase on_a_cap(RegimeDraw& draw, ShapeKind kind, bool two_caps) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const double bulge = draw.regime.parameter;
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   const auto prism = [&] { return capped_prism(static_cast<int>(4 + random.below(9)), bulge); };
   c.shape_a = prism();
   c.shape_b =
@@ -105,37 +105,37 @@ struct Posed {
 constexpr double side(bool first) { return first ? 1 : -1; }
 
 // An edge along x.
-Posed with_edge(bool as_hull, bool first, Random& random) {
+Posed with_edge(bool as_hull, bool first, base::Random& random) {
   const Vec3d half = compact_half(1, random);
   Posed posed;
   posed.shape = as_hull ? box_as_hull(half) : box_of(half);
-  posed.rotation = about_x(sin_cos_turns(random.uniform(0.05, 0.2)));
-  const Vec3d normal = transposed_times(posed.rotation, Vec3d(0, 0, side(first)));
-  posed.feature = box_feature(half, unit({0, normal.y(), normal.z()}), random);
+  posed.rotation = about_x(base::sin_cos_turns(random.uniform(0.05, 0.2)));
+  const Vec3d normal = base::transposed_times(posed.rotation, Vec3d(0, 0, side(first)));
+  posed.feature = box_feature(half, base::unit({0, normal.y(), normal.z()}), random);
   return posed;
 }
 
 // The side of a capsule or cylinder.
-Posed with_side(ShapeKind kind, bool first, std::uint64_t seed, Random& random) {
+Posed with_side(ShapeKind kind, bool first, std::uint64_t seed, base::Random& random) {
   Posed posed;
   posed.shape = shape_of_extents(kind, compact_half(1, random), seed, random);
   posed.rotation = z_to_x();
   Feature& feature = posed.feature;
   feature.kind = FeatureKind::side;
-  feature.normal = transposed_times(posed.rotation, Vec3d(0, 0, side(first)));
+  feature.normal = base::transposed_times(posed.rotation, Vec3d(0, 0, side(first)));
   feature.direction = Vec3d::UnitZ();
-  feature.point = exactly({0, 0, posed.shape.half_length * random.uniform(-0.8, 0.8)});
+  feature.point = base::exactly({0, 0, posed.shape.half_length * random.uniform(-0.8, 0.8)});
   feature.radius = posed.shape.radius;
   return posed;
 }
 
 // A face across z; the second's, which will be turned about x, is met at its lowest edge.
-Posed with_face(bool as_hull, bool first, double angle, Random& random) {
+Posed with_face(bool as_hull, bool first, double angle, base::Random& random) {
   const Vec3d half = compact_half(1, random);
   Posed posed;
   posed.shape = as_hull ? box_as_hull(half) : box_of(half);
-  posed.rotation = first ? about_z(sin_cos_turns(random.unit())) : Mat3d(Mat3d::Identity());
-  const SinCos turn = radians(angle);
+  posed.rotation = first ? about_z(base::sin_cos_turns(random.unit())) : Mat3d(Mat3d::Identity());
+  const base::SinCos turn = radians(angle);
   const Vec3d normal = first ? Vec3d(0, 0, 1) : Vec3d(0, -turn.sin, -turn.cos);
   posed.feature = box_feature(half, normal, random);
   return posed;
@@ -153,7 +153,7 @@ RegimeCase draw_near_coplanar(RegimeDraw& draw) {
 
 RegimeCase draw_near_parallel(RegimeDraw& draw) {
   using enum ShapeKind;
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const double angle = draw.regime.parameter;
   const std::uint64_t slot = slot_of(draw.index) % 8;
   const bool faces = slot == 1 || slot == 4 || slot == 7;
@@ -180,15 +180,15 @@ RegimeCase draw_near_parallel(RegimeDraw& draw) {
   }
   const Mat3d tilt = faces ? about_x(radians(angle)) : about_z(radians(angle));
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = a.shape;
   c.shape_b = b.shape;
   c.pose_a.rotation = a.rotation;
-  c.pose_b.rotation = product(tilt, b.rotation);
+  c.pose_b.rotation = base::product(tilt, b.rotation);
   if (angle >= 1e-8 && random.below(2) == 0) {
     const Mat3d turn = random.rotation();
-    c.pose_a.rotation = product(turn, c.pose_a.rotation);
-    c.pose_b.rotation = product(turn, c.pose_b.rotation);
+    c.pose_a.rotation = base::product(turn, c.pose_a.rotation);
+    c.pose_b.rotation = base::product(turn, c.pose_b.rotation);
   }
   const MildAmount amount = mild_amount(random);
   place(c, a.feature, b.feature, amount.value, false);
@@ -200,4 +200,4 @@ RegimeCase draw_near_parallel(RegimeDraw& draw) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

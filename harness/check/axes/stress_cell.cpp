@@ -8,12 +8,12 @@
 #include "harness/grade/pair_size.h"
 #include "harness/process/queries/limited_query.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // How bad a silent error is: a wrong side of contact before a wrong number.
-double badness(const NarrowPhaseEntry& entry, const GradedAnswer& answer) {
-  const double margin = wrong_margin(entry, answer);
+double badness(const NarrowPhaseEntry& entry, const grade::GradedAnswer& answer) {
+  const double margin = grade::wrong_margin(entry, answer);
   if (margin >= 0) return 1e3 * (1 + margin);
   const double error = worst_error(entry, answer);
   return error >= 0 ? std::min(error, 1e3) : 0;
@@ -45,10 +45,10 @@ class CellWork {
 
   void ask(std::uint32_t entry, Precision scalar, Task task) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
-    std::vector<LimitedQuery> queries;
-    std::vector<TrueCase*> of;  // of each query
-    for (TrueCase& c : cases_) {
-      const Case& pair = c.pair();
+    std::vector<process::LimitedQuery> queries;
+    std::vector<grade::TrueCase*> of;  // of each query
+    for (grade::TrueCase& c : cases_) {
+      const files::Case& pair = c.pair();
       if (!offers(algorithm, pair.shape_a.kind, pair.shape_b.kind, task)) continue;
       queries.push_back({&pair, task});
       of.push_back(&c);
@@ -59,12 +59,12 @@ class CellWork {
     row.entry = entry;
     row.scalar = scalar;
     row.task = task;
-    const QueryLimits limits = {.seconds = request_.time_limit, .lost = most_lost};
+    const process::QueryLimits limits = {.seconds = request_.time_limit, .lost = most_lost};
     const std::vector<Outcome> outcomes =
-        ask_limited(algorithm, {.scalar = scalar}, queries, limits);
+        process::ask_limited(algorithm, {.scalar = scalar}, queries, limits);
     double worst = -1;  // badness
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (is_not_asked(outcomes[i])) {
+      if (process::is_not_asked(outcomes[i])) {
         ++row.skipped;
       } else {
         count(row, *of[i], outcomes[i], worst);
@@ -73,19 +73,19 @@ class CellWork {
     result_.rows.push_back(row);
   }
 
-  void count(StressRow& row, TrueCase& c, const Outcome& outcome, double& worst) {
+  void count(StressRow& row, grade::TrueCase& c, const Outcome& outcome, double& worst) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[row.entry];
-    const Query query = {static_cast<std::uint32_t>(cell_), row.entry, row.scalar, row.task};
+    const grade::Query query = {static_cast<std::uint32_t>(cell_), row.entry, row.scalar, row.task};
     const bool extreme = request_.cells[cell_].regime.extreme;
-    const GradedAnswer answer = grade_answer(algorithm, extreme, query, c, outcome);
-    const AnswerClass became = class_of(algorithm, answer, extreme);
+    const grade::GradedAnswer answer = grade::grade_answer(algorithm, extreme, query, c, outcome);
+    const grade::AnswerClass became = grade::class_of(algorithm, answer, extreme);
     row.add(became);
-    keep_greater(row.margin, wrong_margin(algorithm, answer));
-    keep_greater(row.error, worst_error(algorithm, answer));
+    grade::keep_greater(row.margin, grade::wrong_margin(algorithm, answer));
+    grade::keep_greater(row.error, worst_error(algorithm, answer));
     const auto index = static_cast<std::int64_t>(c.index());
-    if (became == AnswerClass::crashed || became == AnswerClass::hung) {
+    if (became == grade::AnswerClass::crashed || became == grade::AnswerClass::hung) {
       if (row.lost < 0) row.lost = index;
-    } else if (became == AnswerClass::silent) {
+    } else if (became == grade::AnswerClass::silent) {
       const double bad = badness(algorithm, answer);
       if (bad > worst) {
         row.worst = index;
@@ -96,26 +96,26 @@ class CellWork {
 
   const StressRequest& request_;
   std::size_t cell_;
-  std::vector<TrueCase> cases_;
+  std::vector<grade::TrueCase> cases_;
   CellResult result_;
 };
 
 }  // namespace
 
-std::vector<TrueCase> true_cases(const StressRequest& request, std::size_t cell,
-                                 oracle::Oracle& oracle, CellSummary& summary) {
+std::vector<grade::TrueCase> true_cases(const StressRequest& request, std::size_t cell,
+                                        oracle::Oracle& oracle, CellSummary& summary) {
   const StressCell& place = request.cells[cell];
   const auto asked = static_cast<std::uint64_t>(request.cases);
   const std::uint64_t slots = std::min(asked, place.axis->most_cases(place.value().value));
-  std::vector<TrueCase> cases;
+  std::vector<grade::TrueCase> cases;
   for (std::uint64_t slot = 0; slot < slots; ++slot) {
     bool found = false;
     for (std::uint64_t attempt = 0; attempt < tries && !found; ++attempt) {
       const std::uint64_t index = slot * tries + attempt;
-      TrueCase c(make(place.regime, request.seed, index), index, oracle);
+      grade::TrueCase c(make(place.regime, request.seed, index), index, oracle);
       const oracle::Measure& exact = c.truth(Encoding::as_given).measure;
       found = place.axis->accepts == nullptr ||
-              place.axis->accepts(place.value().value, exact, pair_size(c.pair()));
+              place.axis->accepts(place.value().value, exact, grade::pair_size(c.pair()));
       if (!found) continue;
       if (exact.answer == Answer::unknown) ++summary.unresolved;
       cases.push_back(std::move(c));
@@ -130,4 +130,4 @@ CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracl
   return CellWork(request, cell, oracle).run();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -9,7 +9,7 @@
 #include "harness/check/axes/stress_row.h"
 #include "harness/grade/true_case.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct CellSummary {
   std::uint32_t cell = 0;
@@ -18,7 +18,7 @@ struct CellSummary {
   std::int32_t unresolved = 0;  // the oracle's enclosure does not tell the side of contact
 };
 
-template <row_of<CellSummary> Row, class Visit>
+template <record::row_of<CellSummary> Row, class Visit>
 void columns(Row& row, Visit visit, const StressRequest& request) {
   cell_columns(row, visit, request);
   visit("cases", row.cases, "Cases that were drawn, and are what the value asks for.");
@@ -41,7 +41,7 @@ struct CellResult {
 CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle);
 
 // The cell's cases with their exact answers.
-std::vector<TrueCase> true_cases(const StressRequest& request, std::size_t cell,
-                                 oracle::Oracle& oracle, CellSummary& summary);
+std::vector<grade::TrueCase> true_cases(const StressRequest& request, std::size_t cell,
+                                        oracle::Oracle& oracle, CellSummary& summary);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

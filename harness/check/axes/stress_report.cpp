@@ -8,7 +8,7 @@
 #include "harness/check/axes/stress_run.h"
 #include "harness/record/machine.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr std::size_t most_lines = 40;  // of broken promises
@@ -28,7 +28,7 @@ std::string as_markdown(const Rows& rows) {
 }
 
 std::string as_text(const Rows& rows, std::size_t page_width) {
-  TextTable table(rows.front());
+  base::TextTable table(rows.front());
   for (std::size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
   return table.text(page_width);
 }
@@ -65,7 +65,7 @@ std::string ranges(const StressRequest& request) {
 
 std::string facts() {
   std::string text;
-  for (const auto& [name, value] : machine_facts()) {
+  for (const auto& [name, value] : record::machine_facts()) {
     for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "commit"}) {
       if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
     }
@@ -152,4 +152,4 @@ std::string stress_page(const StressRequest& request, const StressResult& result
   return failures.empty() ? text : text + "\n" + failures;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -7,7 +7,7 @@
 #include "harness/check/axes/axes.h"
 #include "harness/check/check_request.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // `cases` are those of each cell; `time_limit` is of the processor's time. `regimes`, `broad` and
 // `seconds` are not read: as_check() fills in the first.
@@ -30,4 +30,4 @@ struct StressRequest : CheckRequest {
 // After so many crashes or hangs of an algorithm in a cell the rest of the cell is skipped.
 inline constexpr std::size_t most_lost = 3;
 
-}  // namespace touchstone
+}  // namespace touchstone::check

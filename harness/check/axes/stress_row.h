@@ -12,13 +12,13 @@
 #include "harness/grade/wrong.h"
 #include "harness/record/row.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct StressRow {
   std::uint32_t cell = 0, entry = 0;  // places in the request
   Precision scalar{};
   Task task{};
-  std::array<std::int32_t, all_answer_classes.size()> counts{};
+  std::array<std::int32_t, grade::all_answer_classes.size()> counts{};
   std::int32_t skipped = 0;       // not asked, after too many crashes and hangs
   double margin = Outcome::none;  // the greatest of the cell: see wrong_margin and worst_error
   double error = Outcome::none;
@@ -27,14 +27,14 @@ struct StressRow {
   std::int64_t worst = -1;
   std::int64_t lost = -1;
 
-  std::int32_t count(AnswerClass outcome) const {
+  std::int32_t count(grade::AnswerClass outcome) const {
     return counts[static_cast<std::size_t>(outcome)];
   }
   // Answers that were asked for and graded.
   std::int32_t answers() const {
     return std::accumulate(counts.begin(), counts.end(), std::int32_t{0});
   }
-  void add(AnswerClass outcome) { ++counts[static_cast<std::size_t>(outcome)]; }
+  void add(grade::AnswerClass outcome) { ++counts[static_cast<std::size_t>(outcome)]; }
 };
 
 // The axes that the request's cells are of, in order.
@@ -46,7 +46,7 @@ void cell_columns(Row& row, Visit& visit, const StressRequest& request) {
   const std::vector<const StressAxis*> axes = axes_of(request);
   const StressAxis* const of_row = request.cells[row.cell].axis;
   auto axis = static_cast<std::size_t>(std::ranges::find(axes, of_row) - axes.begin());
-  visit("axis", place_in(axis, axes.size(), [&](std::size_t i) { return axes[i]->name; }),
+  visit("axis", record::place_in(axis, axes.size(), [&](std::size_t i) { return axes[i]->name; }),
         "The axis.");
   std::vector<std::uint32_t> cells;  // those of the axis
   for (std::uint32_t i = 0; i < request.cells.size(); ++i) {
@@ -54,30 +54,31 @@ void cell_columns(Row& row, Visit& visit, const StressRequest& request) {
   }
   auto place = static_cast<std::size_t>(std::ranges::find(cells, row.cell) - cells.begin());
   visit("value",
-        place_in(place, cells.size(),
-                 [&](std::size_t i) { return request.cells[cells[i]].value().name; }),
+        record::place_in(place, cells.size(),
+                         [&](std::size_t i) { return request.cells[cells[i]].value().name; }),
         "The value on the axis.");
   if constexpr (!std::is_const_v<Row>) row.cell = cells[place];
 }
 
-template <row_of<StressRow> Row, class Visit>
+template <record::row_of<StressRow> Row, class Visit>
 void columns(Row& row, Visit visit, const StressRequest& request) {
   cell_columns(row, visit, request);
   visit("algorithm",
-        place_in(row.entry, request.narrow.size(),
-                 [&](std::size_t i) { return request.narrow[i]->info.name; }),
+        record::place_in(row.entry, request.narrow.size(),
+                         [&](std::size_t i) { return request.narrow[i]->info.name; }),
         "The narrow phase.");
   visit("scalar", row.scalar, "Precision that it computes in.");
   visit("task", row.task, "What it was asked.");
-  for (const AnswerClass one : all_answer_classes) {
+  for (const grade::AnswerClass one : grade::all_answer_classes) {
     visit(to_string(one), row.counts[static_cast<std::size_t>(one)], "Answers of this class.");
   }
   visit("skipped", row.skipped, "Queries that were not asked, after too many crashes and hangs.");
-  visit("worst_margin", rounded(row.margin, 3),
+  visit("worst_margin", record::rounded(row.margin, 3),
         "Greatest exact distance or depth that was called wrongly, part of the scale.");
-  visit("worst_error", rounded(row.error, 3), "Greatest error of a number, part of the scale.");
+  visit("worst_error", record::rounded(row.error, 3),
+        "Greatest error of a number, part of the scale.");
   visit("worst_index", row.worst, "Case of the silent error that is furthest off.");
   visit("lost_index", row.lost, "Case of the first query that crashed or hung.");
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

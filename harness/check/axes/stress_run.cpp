@@ -6,26 +6,26 @@
 #include "harness/check/axes/worst_cases.h"
 #include "harness/check/job_folder.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 enum : std::size_t { rows_file, cells_file };
 
-ResultFolderPlan plan_of(const StressRequest& request) {
+record::ResultFolderPlan plan_of(const StressRequest& request) {
   std::string axes;
   for (const StressCell& cell : request.cells) {
     if (cell.place == 0) axes += (axes.empty() ? "" : " ") + cell.axis->name;
   }
   return job_folder(request, "stress", {"axes", axes},
-                    {{"stress.csv", header_of<StressRow>(request)},
-                     {"cells.csv", header_of<CellSummary>(request)}});
+                    {{"stress.csv", record::header_of<StressRow>(request)},
+                     {"cells.csv", record::header_of<CellSummary>(request)}});
 }
 
-void do_cells(const StressRequest& request, ResultFolder& folder) {
+void do_cells(const StressRequest& request, record::ResultFolder& folder) {
   const std::size_t end = request.cells.size();
   const auto first = static_cast<std::size_t>(folder.units());
   if (first >= end) return;
-  Progress progress(end - first);
+  base::Progress progress(end - first);
   do_jobs<CellResult>(
       folder, request, end,
       [&](std::size_t cell, oracle::Oracle& oracle) { return do_cell(request, cell, oracle); },
@@ -41,7 +41,7 @@ void do_cells(const StressRequest& request, ResultFolder& folder) {
 }  // namespace
 
 StressResult run_stress(const StressRequest& request) {
-  ResultFolder folder(plan_of(request));
+  record::ResultFolder folder(plan_of(request));
   do_cells(request, folder);
   folder.finish();
   StressResult result;
@@ -55,4 +55,4 @@ StressResult run_stress(const StressRequest& request) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -8,7 +8,7 @@
 #include "harness/check/axes/stress_cell.h"
 #include "harness/check/failures.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct StressResult {
   std::vector<StressRow> rows;
@@ -32,4 +32,4 @@ std::string stress_text(const StressRequest& request, const StressResult& result
 std::string stress_page(const StressRequest& request, const StressResult& result,
                         const std::string& command, const std::string& pictures);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -12,16 +12,16 @@
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/check/regimes/hull_pool.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
-Vec3d in_no_order(std::array<double, 3> half, Random& random) {
+Vec3d in_no_order(std::array<double, 3> half, base::Random& random) {
   for (std::size_t i = 2; i > 0; --i) std::swap(half[i], half[random.below(i + 1)]);
   return {half[0], half[1], half[2]};
 }
 
 // One of the pool's hulls of unit size, stretched to these half extents about its middle.
-Shape stretched_hull(const Vec3d& half, std::uint64_t seed, Random& random) {
+Shape stretched_hull(const Vec3d& half, std::uint64_t seed, base::Random& random) {
   const std::shared_ptr<const Hull> hull = pooled_hull(seed, random.below(160), {});
   std::vector<Vec3d> points = hull->vertices;
   Vec3d low = points.front(), high = low;
@@ -56,8 +56,8 @@ std::uint32_t number(std::size_t i) { return static_cast<std::uint32_t>(i); }
 // A face through the first three of the loop.
 void add_face(Hull& hull, std::vector<std::uint32_t> loop) {
   const Vec3d &p = hull.vertices[loop[0]], &q = hull.vertices[loop[1]], &r = hull.vertices[loop[2]];
-  const Vec3d n = outer(q - p, r - p);
-  hull.faces.push_back({std::move(loop), n / length(n)});
+  const Vec3d n = base::outer(q - p, r - p);
+  hull.faces.push_back({std::move(loop), n / base::length(n)});
 }
 
 void add_faces_and_edges(Hull& hull, const Rings& rings) {
@@ -107,18 +107,19 @@ void add_faces_and_edges(Hull& hull, const Rings& rings) {
 
 }  // namespace
 
-Vec3d compact_half(double size, Random& random) {
+Vec3d compact_half(double size, base::Random& random) {
   const double longest = size / 2;
   const double second = longest * random.uniform(0.25, 1);
   return in_no_order({longest, second, longest * random.uniform(0.25, 1)}, random);
 }
 
-Vec3d slender_half(double size, double aspect, Random& random) {
+Vec3d slender_half(double size, double aspect, base::Random& random) {
   const double longest = size / 2, shortest = longest / aspect;
   return in_no_order({longest, random.below(2) == 0 ? longest : shortest, shortest}, random);
 }
 
-Shape shape_of_extents(ShapeKind kind, const Vec3d& half, std::uint64_t seed, Random& random) {
+Shape shape_of_extents(ShapeKind kind, const Vec3d& half, std::uint64_t seed,
+                       base::Random& random) {
   Shape shape;
   shape.kind = kind;
   std::array<double, 3> sorted = {half.x(), half.y(), half.z()};
@@ -182,10 +183,10 @@ std::shared_ptr<const Hull> ringed_hull(std::size_t vertices, const Vec3d& radii
   const auto m = static_cast<double>(rings.points);
   for (std::size_t r = 0; r < rings.count; ++r) {
     const double step = (static_cast<double>(r) + 0.5) / static_cast<double>(rings.count);
-    const SinCos latitude = sin_cos_turns(step / 2 - 0.25);
+    const base::SinCos latitude = base::sin_cos_turns(step / 2 - 0.25);
     for (std::size_t i = 0; i < rings.points; ++i) {
       const double half_steps = 2 * static_cast<double>(i) + (r % 2 == 0 ? 0 : 1);
-      const SinCos longitude = sin_cos_turns(half_steps / (2 * m));
+      const base::SinCos longitude = base::sin_cos_turns(half_steps / (2 * m));
       hull->vertices.push_back(radii.cwiseProduct(
           Vec3d(latitude.cos * longitude.cos, latitude.cos * longitude.sin, latitude.sin)));
     }
@@ -197,7 +198,7 @@ std::shared_ptr<const Hull> ringed_hull(std::size_t vertices, const Vec3d& radii
 Shape capped_prism(int sides, double bulge) {
   std::vector<Vec3d> points;
   for (int i = 0; i < sides; ++i) {
-    const SinCos corner = sin_cos_turns(static_cast<double>(i) / sides);
+    const base::SinCos corner = base::sin_cos_turns(static_cast<double>(i) / sides);
     points.emplace_back(corner.cos / 2, corner.sin / 2, -0.5);
     points.emplace_back(corner.cos / 2, corner.sin / 2, 0);
     // On a paraboloid, so that no facet of the cap is in the plane of another.
@@ -207,4 +208,4 @@ Shape capped_prism(int sides, double bulge) {
   return hull_of(std::move(points));
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

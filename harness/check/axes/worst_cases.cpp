@@ -9,7 +9,7 @@
 #include "harness/grade/true_case.h"
 #include "harness/process/queries/limited_query.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr std::size_t axes_of_a_peer = 3;
@@ -70,8 +70,8 @@ void find_of_peers(const StressRequest& request, std::span<const StressRow> rows
 
 }  // namespace
 
-std::vector<GradedAnswer> worst_cases(const StressRequest& request,
-                                      std::span<const StressRow> rows) {
+std::vector<grade::GradedAnswer> worst_cases(const StressRequest& request,
+                                             std::span<const StressRow> rows) {
   std::vector<Found> found;
   find_of_ours(request, rows, found);
   find_of_peers(request, rows, found);
@@ -79,19 +79,19 @@ std::vector<GradedAnswer> worst_cases(const StressRequest& request,
     return std::tuple(f.row->entry, f.row->scalar, f.row->task);
   });
   oracle::Oracle oracle;
-  std::vector<GradedAnswer> answers;
+  std::vector<grade::GradedAnswer> answers;
   for (const auto& [row, place] : found) {
     const auto index = static_cast<std::uint64_t>(place);
-    TrueCase c(make(request.cells[row->cell].regime, request.seed, index), index, oracle);
-    const std::vector<Outcome> outcomes =
-        ask_limited(*request.narrow[row->entry], {.scalar = row->scalar}, {{&c.pair(), row->task}},
-                    {.seconds = request.time_limit, .lost = most_lost});
-    const Query query = {row->cell, row->entry, row->scalar, row->task};
-    answers.push_back(grade_answer(*request.narrow[row->entry],
-                                   request.cells[row->cell].regime.extreme, query, c,
-                                   outcomes.front()));
+    grade::TrueCase c(make(request.cells[row->cell].regime, request.seed, index), index, oracle);
+    const std::vector<Outcome> outcomes = process::ask_limited(
+        *request.narrow[row->entry], {.scalar = row->scalar}, {{&c.pair(), row->task}},
+        {.seconds = request.time_limit, .lost = most_lost});
+    const grade::Query query = {row->cell, row->entry, row->scalar, row->task};
+    answers.push_back(grade::grade_answer(*request.narrow[row->entry],
+                                          request.cells[row->cell].regime.extreme, query, c,
+                                          outcomes.front()));
   }
   return answers;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

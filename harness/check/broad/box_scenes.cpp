@@ -7,13 +7,13 @@
 
 #include "harness/base/random.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr std::size_t box_count = 240;
 constexpr int frame_count = 5;
 
-using MakeBox = std::function<Aabb(Random&)>;
+using MakeBox = std::function<Aabb(base::Random&)>;
 
 Aabb box_at(const Vec3d& low, const Vec3d& size) {
   Aabb box{};
@@ -24,26 +24,26 @@ Aabb box_at(const Vec3d& low, const Vec3d& size) {
   return box;
 }
 
-Vec3d point(Random& random) {
+Vec3d point(base::Random& random) {
   const double x = random.unit(), y = random.unit(), z = random.unit();
   return {x, y, z};
 }
 
 // A point of the grid 0, 1, ..., n - 1 on each axis.
-Vec3d grid_point(Random& random, std::uint64_t n) {
+Vec3d grid_point(base::Random& random, std::uint64_t n) {
   const auto x = random.below(n), y = random.below(n), z = random.below(n);
   return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
 }
 
 MakeBox uniform(double scale, const Vec3d& offset) {
-  return [=](Random& random) {
+  return [=](base::Random& random) {
     const Vec3d low = point(random);
     return box_at(scale * low + offset, 0.2 * scale * point(random));
   };
 }
 
 BoxScene play(std::string name, std::uint64_t seed, std::uint64_t stream, const MakeBox& make) {
-  Random random(seed, stream);
+  base::Random random(seed, stream);
   BoxScene scene{std::move(name), {}};
   std::vector<Aabb> boxes(box_count);
   std::ranges::generate(boxes, [&] { return make(random); });
@@ -70,29 +70,29 @@ std::vector<BoxScene> box_scenes(std::uint64_t seed) {
   const Vec3d one = Vec3d::Ones();
   const std::vector<std::pair<std::string, MakeBox>> makers = {
       {"uniform", uniform(1, zero)},
-      {"touching-grid", [=](Random& random) { return box_at(grid_point(random, 6), one); }},
+      {"touching-grid", [=](base::Random& random) { return box_at(grid_point(random, 6), one); }},
       {"touching-at-zero",
-       [=](Random& random) {
+       [=](base::Random& random) {
          Aabb box = box_at(grid_point(random, 2) - one, one);
          for (float& x : box.max) x = x == 0 && random.below(2) == 0 ? -0.0F : x;
          return box;
        }},
-      {"points", [=](Random& random) { return box_at(grid_point(random, 5), zero); }},
+      {"points", [=](base::Random& random) { return box_at(grid_point(random, 5), zero); }},
       {"flat",
-       [](Random& random) {
+       [](base::Random& random) {
          Vec3d size = point(random);
          size[static_cast<int>(random.below(3))] = 0;
          return box_at(grid_point(random, 4), size);
        }},
       {"in-one-plane",
-       [](Random& random) {
+       [](base::Random& random) {
          Vec3d low = point(random), size = 0.1 * point(random);
          low.z() = size.z() = 0;
          return box_at(low, size);
        }},
-      {"coincident", [=](Random&) { return box_at(zero, one); }},
+      {"coincident", [=](base::Random&) { return box_at(zero, one); }},
       {"nested",
-       [=](Random& random) {
+       [=](base::Random& random) {
          const double half = random.magnitude(1e-6, 1);
          return box_at(-half * one, 2 * half * one);
        }},
@@ -101,7 +101,7 @@ std::vector<BoxScene> box_scenes(std::uint64_t seed) {
       {"subnormal", uniform(0x1p-140, zero)},
       {"far", uniform(1, Vec3d(0x1p20, -0x1p21, 0x1p22))},
       {"sizes",
-       [](Random& random) {
+       [](base::Random& random) {
          const double size = random.magnitude(1e-6, 1e4);
          return box_at(10 * point(random), size * point(random));
        }},
@@ -114,4 +114,4 @@ std::vector<BoxScene> box_scenes(std::uint64_t seed) {
   return scenes;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -8,7 +8,7 @@
 
 #include "algorithms/core/aabb.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct BoxScene {
   std::string name;
@@ -20,4 +20,4 @@ struct BoxScene {
 // The same for a seed on every platform.
 std::vector<BoxScene> box_scenes(std::uint64_t seed);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

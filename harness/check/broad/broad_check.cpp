@@ -10,7 +10,7 @@
 #include "algorithms/core/executor.h"
 #include "harness/process/isolate.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr std::size_t most_frames = 16;
@@ -20,7 +20,7 @@ constexpr int threads = 2;
 struct Found {
   Status status = Status::ok;
   std::size_t frames = 0;
-  std::array<PairFaults, most_frames> faults{};
+  std::array<grade::PairFaults, most_frames> faults{};
 };
 
 std::vector<IndexPair> true_pairs(std::span<const Aabb> boxes) {
@@ -71,7 +71,7 @@ Found play(const BroadPhaseEntry& entry, const BoxScene& scene) {
       return found;
     }
     std::vector<IndexPair> pairs = sink.gather();
-    found.faults[found.frames++] = check_pairs(pairs, true_pairs(boxes), before);
+    found.faults[found.frames++] = grade::check_pairs(pairs, true_pairs(boxes), before);
     before = boxes;
   }
   return found;
@@ -81,7 +81,7 @@ Found play(const BroadPhaseEntry& entry, const BoxScene& scene) {
 
 bool BroadCheck::good() const {
   return status == Status::ok &&
-         std::ranges::all_of(frames, [](const PairFaults& f) { return f.none(); });
+         std::ranges::all_of(frames, [](const grade::PairFaults& f) { return f.none(); });
 }
 
 std::string BroadCheck::faults() const {
@@ -98,9 +98,9 @@ std::vector<BroadCheck> check_broad_phases(std::span<const BroadPhaseEntry* cons
                                            std::span<const BoxScene> scenes, double time_limit) {
   std::vector<BroadCheck> checks;
   for (const BroadPhaseEntry* entry : entries) {
-    const auto played = isolated_answers<Found>(scenes.size(), {.item_seconds = time_limit}, [&] {
-      return [&](std::size_t i) { return play(*entry, scenes[i]); };
-    });
+    const auto played = process::isolated_answers<Found>(
+        scenes.size(), {.item_seconds = time_limit},
+        [&] { return [&](std::size_t i) { return play(*entry, scenes[i]); }; });
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       BroadCheck check;
       check.entry = entry;
@@ -112,7 +112,7 @@ std::vector<BroadCheck> check_broad_phases(std::span<const BroadPhaseEntry* cons
       check.status = found.status;
       const auto faults = std::span(found.faults).first(found.frames);
       check.frames.assign(faults.begin(), faults.end());
-      const auto at = std::ranges::find(played.failures, i, &IsolationFailure::item);
+      const auto at = std::ranges::find(played.failures, i, &process::IsolationFailure::item);
       if (at != played.failures.end()) check.failure = at->reason();
       checks.push_back(std::move(check));
     }
@@ -120,4 +120,4 @@ std::vector<BroadCheck> check_broad_phases(std::span<const BroadPhaseEntry* cons
   return checks;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -10,15 +10,15 @@
 #include "harness/check/broad/box_scenes.h"
 #include "harness/grade/pair_check.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct BroadCheck {
   const BroadPhaseEntry* entry = nullptr;
   const BoxScene* scene = nullptr;
-  Status status = Status::ok;      // the worst of the frames; crashed and timed_out too
-  std::int64_t pairs = 0;          // that there are, over all frames
-  std::vector<PairFaults> frames;  // of each frame that was answered with ok
-  std::string failure;             // what became of a lost one, in words
+  Status status = Status::ok;             // the worst of the frames; crashed and timed_out too
+  std::int64_t pairs = 0;                 // that there are, over all frames
+  std::vector<grade::PairFaults> frames;  // of each frame that was answered with ok
+  std::string failure;                    // what became of a lost one, in words
 
   bool good() const;
   std::string faults() const;  // in words; empty where it is good
@@ -29,4 +29,4 @@ struct BroadCheck {
 std::vector<BroadCheck> check_broad_phases(std::span<const BroadPhaseEntry* const> entries,
                                            std::span<const BoxScene> scenes, double time_limit);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

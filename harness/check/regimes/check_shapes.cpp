@@ -10,7 +10,7 @@
 #include "harness/base/plain_math.h"
 #include "harness/check/regimes/hull_pool.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 Shape hull_shape(std::shared_ptr<const Hull> hull) {
@@ -20,7 +20,7 @@ Shape hull_shape(std::shared_ptr<const Hull> hull) {
   return shape;
 }
 
-Shape random_halfspace(const ShapeStyle& style, Random& random) {
+Shape random_halfspace(const ShapeStyle& style, base::Random& random) {
   Shape shape;
   shape.kind = ShapeKind::halfspace;
   const double length = random.below(2) == 0 ? 1 : random.magnitude(0.1, 10);
@@ -36,7 +36,7 @@ Shape random_halfspace(const ShapeStyle& style, Random& random) {
 
 }  // namespace
 
-Vec3d random_sides(const ShapeStyle& style, Random& random) {
+Vec3d random_sides(const ShapeStyle& style, base::Random& random) {
   const double longest = style.size * random.uniform(0.5, 1);
   std::array<double, 3> half = {longest, longest * random.uniform(0.25, 1),
                                 longest * random.uniform(0.25, 1)};
@@ -46,7 +46,7 @@ Vec3d random_sides(const ShapeStyle& style, Random& random) {
   return {half[0], half[1], half[2]};
 }
 
-ShapeKind random_kind(Random& random) {
+ShapeKind random_kind(base::Random& random) {
   constexpr std::array<std::pair<ShapeKind, std::uint64_t>, 7> weights = {
       {{ShapeKind::box, 25},
        {ShapeKind::hull, 25},
@@ -63,7 +63,8 @@ ShapeKind random_kind(Random& random) {
   return ShapeKind::box;
 }
 
-Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed, Random& random) {
+Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed,
+                   base::Random& random) {
   Shape shape;
   shape.kind = kind;
   switch (kind) {
@@ -117,20 +118,20 @@ Vec3d inner_point(const Shape& shape) {
 }
 
 double support_value(const Shape& shape, const Vec3d& n) {
-  const double norm = length(n);
+  const double norm = base::length(n);
   const double disc = shape.radius * std::sqrt(n.x() * n.x() + n.y() * n.y());
   const double along = shape.half_length * std::abs(n.z());
   switch (shape.kind) {
     case ShapeKind::sphere: return shape.radius * norm;
     case ShapeKind::capsule: return along + shape.radius * norm;
-    case ShapeKind::box: return inner(n.cwiseAbs(), shape.half_extents);
+    case ShapeKind::box: return base::inner(n.cwiseAbs(), shape.half_extents);
     case ShapeKind::cylinder: return along + disc;
     case ShapeKind::cone:
       return std::max(shape.half_length * n.z(), disc - shape.half_length * n.z());
-    case ShapeKind::ellipsoid: return length(n.cwiseProduct(shape.radii));
+    case ShapeKind::ellipsoid: return base::length(n.cwiseProduct(shape.radii));
     case ShapeKind::hull: {
       double greatest = -std::numeric_limits<double>::infinity();
-      for (const Vec3d& v : shape.hull->vertices) greatest = std::max(greatest, inner(n, v));
+      for (const Vec3d& v : shape.hull->vertices) greatest = std::max(greatest, base::inner(n, v));
       return greatest;
     }
     case ShapeKind::halfspace: break;
@@ -138,4 +139,4 @@ double support_value(const Shape& shape, const Vec3d& n) {
   return std::numeric_limits<double>::infinity();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -7,7 +7,7 @@
 #include "algorithms/core/shape.h"
 #include "harness/base/random.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 enum class Proportions : std::uint8_t { compact, needle, plate };
 
@@ -23,13 +23,14 @@ struct ShapeStyle {
 };
 
 // Boxes and hulls most, then spheres and capsules, then the other bounded kinds.
-ShapeKind random_kind(Random& random);
+ShapeKind random_kind(base::Random& random);
 
 // Half of each side, the longest between size / 2 and size, in no order.
-Vec3d random_sides(const ShapeStyle& style, Random& random);
+Vec3d random_sides(const ShapeStyle& style, base::Random& random);
 
 // Hulls come from the pool of the seed's (hull_pool.h). Safe to call from several threads.
-Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed, Random& random);
+Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed,
+                   base::Random& random);
 
 // A hull turned inside out: each vertex v becomes -v, exactly.
 Shape mirrored(const Shape& hull);
@@ -46,4 +47,4 @@ Vec3d inner_point(const Shape& shape);
 // coordinates; infinite for half-spaces.
 double support_value(const Shape& shape, const Vec3d& n);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

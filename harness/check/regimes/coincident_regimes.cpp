@@ -8,11 +8,11 @@
 #include "harness/check/regimes/placement.h"
 #include "harness/check/regimes/regime_draws.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // Two shapes of unit size.
-void draw_shapes(RegimeDraw& draw, Case& c) {
+void draw_shapes(RegimeDraw& draw, files::Case& c) {
   c.shape_a = random_shape(random_kind(draw.random), {}, draw.seed, draw.random);
   c.shape_b = random_shape(random_kind(draw.random), {}, draw.seed, draw.random);
 }
@@ -21,7 +21,7 @@ void draw_shapes(RegimeDraw& draw, Case& c) {
 
 RegimeCase draw_identical(RegimeDraw& draw) {
   RegimeCase result{{}, "identical"};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = random_shape(random_kind(draw.random), {}, draw.seed, draw.random);
   c.shape_b = c.shape_a;
   c.pose_a = c.pose_b = random_pose(1, draw.random);
@@ -30,7 +30,7 @@ RegimeCase draw_identical(RegimeDraw& draw) {
 
 RegimeCase draw_same_pose(RegimeDraw& draw) {
   RegimeCase result{{}, "pose"};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   draw_shapes(draw, c);
   c.pose_a = c.pose_b = random_pose(1, draw.random);
   return result;
@@ -38,7 +38,7 @@ RegimeCase draw_same_pose(RegimeDraw& draw) {
 
 RegimeCase draw_same_centre(RegimeDraw& draw) {
   RegimeCase result{{}, "centre"};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   draw_shapes(draw, c);
   c.pose_a = random_pose(1, draw.random);
   c.pose_b = c.pose_a;
@@ -47,9 +47,9 @@ RegimeCase draw_same_centre(RegimeDraw& draw) {
 }
 
 RegimeCase draw_contained(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   RegimeCase result{{}, "inside"};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = random_shape(random_kind(random), {}, draw.seed, random);
   const double size = std::array{0.1, 0.01, 0.001}[random.below(3)];
   c.shape_b = random_shape(random_kind(random), {size, Proportions::compact, 1}, draw.seed, random);
@@ -57,16 +57,17 @@ RegimeCase draw_contained(RegimeDraw& draw) {
   c.pose_b.rotation = random.rotation();
   // At the middle, or some way off it.
   const Vec3d away = random.below(3) == 0 ? Vec3d(Vec3d::Zero()) : Vec3d(0.1 * random.in_ball());
-  c.pose_b.translation = c.pose_a.translation + times(c.pose_a.rotation, inner_point(c.shape_a)) +
-                         away - times(c.pose_b.rotation, inner_point(c.shape_b));
+  c.pose_b.translation = c.pose_a.translation +
+                         base::times(c.pose_a.rotation, inner_point(c.shape_a)) + away -
+                         base::times(c.pose_b.rotation, inner_point(c.shape_b));
   swap_at_random(c, random);
   return result;
 }
 
 RegimeCase draw_contained_touching(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = grid_shape(random.below(2) == 0 ? ShapeKind::box : ShapeKind::hull, 32, random);
   const Vec3d outer_extents = grid_extents(c.shape_a);
   const auto least = static_cast<int>(outer_extents.minCoeff() / grid_step);
@@ -91,7 +92,7 @@ RegimeCase draw_contained_touching(RegimeDraw& draw) {
 }
 
 RegimeCase draw_coplanar(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   constexpr std::array<Amount, 7> amounts = {{{"touching", 0},
                                               {"gap-1e-3", 1e-3},
                                               {"gap-1e-9", 1e-9},
@@ -101,7 +102,7 @@ RegimeCase draw_coplanar(RegimeDraw& draw) {
                                               {"depth-1e-12", -1e-12}}};
   const Amount& amount = amounts[random.below(amounts.size())];
   RegimeCase result{{}, "flush-" + std::string(amount.name)};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   const Vec3d half_a = grid_extents(grid_shape(ShapeKind::box, 32, random));
   Vec3d half_b = grid_extents(grid_shape(ShapeKind::box, 32, random));
   const bool both_faces = random.below(2) == 0;
@@ -118,15 +119,15 @@ RegimeCase draw_coplanar(RegimeDraw& draw) {
   // Side by side along x, the tops in one plane; along y also flush, or shifted.
   const double shift = half_a.y() + half_b.y();
   const Vec3d offset(
-      half_a.x() + half_b.x() + amount.value * pair_size(c),
+      half_a.x() + half_b.x() + amount.value * grade::pair_size(c),
       random.below(2) == 0 ? half_a.y() - half_b.y() : on_grid(-shift, shift, random) / 2,
       half_a.z() - half_b.z());
   c.pose_a = random_pose(1, random);
   if (random.below(2) == 0) c.pose_a.rotation = Mat3d::Identity();
   c.pose_b.rotation = c.pose_a.rotation;
-  c.pose_b.translation = c.pose_a.translation + times(c.pose_a.rotation, offset);
+  c.pose_b.translation = c.pose_a.translation + base::times(c.pose_a.rotation, offset);
   swap_at_random(c, random);
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -8,7 +8,7 @@
 #include "harness/check/regimes/regime_draws.h"
 #include "harness/geometry/signed_permutation.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // How the two features lie to each other beyond their normals' being opposite. `parallel`: the
@@ -67,7 +67,7 @@ std::string name_of(const ContactPlan& plan) {
   return name;
 }
 
-ShapeKind kind_with(FeatureKind feature, bool bounded, Random& random) {
+ShapeKind kind_with(FeatureKind feature, bool bounded, base::Random& random) {
   switch (feature) {
     case face:
       if (!bounded && random.below(10) == 0) return ShapeKind::halfspace;
@@ -94,16 +94,16 @@ struct ContactSetting {
   double distance = -1;  // of a from the origin, metres; < 0: about the bodies' size
 };
 
-void finish(const ContactSetting& setting, const Feature& a, const Feature& b, Case& c,
-            Random& random) {
+void finish(const ContactSetting& setting, const Feature& a, const Feature& b, files::Case& c,
+            base::Random& random) {
   const bool fine = setting.distance < 0 && random.below(4) == 0;
-  place(c, a, b, setting.gap * pair_size(c), fine);
+  place(c, a, b, setting.gap * grade::pair_size(c), fine);
 }
 
 // A body's own size may be 0 for its part (half-spaces).
-double reach_of(const Shape& other) { return shape_size(other) / 2; }
+double reach_of(const Shape& other) { return grade::shape_size(other) / 2; }
 
-Pose first_pose(const ContactSetting& setting, double size, Random& random) {
+Pose first_pose(const ContactSetting& setting, double size, base::Random& random) {
   Pose pose = random_pose(size, random);
   if (setting.distance >= 0) {
     pose.translation = setting.distance * random.on_sphere();
@@ -113,30 +113,30 @@ Pose first_pose(const ContactSetting& setting, double size, Random& random) {
 }
 
 // Two boxes whose axes are parallel, their features of the kind against each other.
-void place_axis_parallel_boxes(FeatureKind kind, const ContactSetting& setting, Case& c,
-                               Random& random) {
+void place_axis_parallel_boxes(FeatureKind kind, const ContactSetting& setting, files::Case& c,
+                               base::Random& random) {
   const Feature a = pick_feature(c.shape_a, kind, 0, random);
-  const SignedPermutation turn = signed_permutations()[random.below(24)];
-  c.pose_b.rotation = product(c.pose_a.rotation, turn.matrix());
+  const geometry::SignedPermutation turn = geometry::signed_permutations()[random.below(24)];
+  c.pose_b.rotation = base::product(c.pose_a.rotation, turn.matrix());
   const Vec3d normal = Vec3d::Zero() - turn.inverse()(a.normal);
   finish(setting, a, box_feature(c.shape_b.half_extents, normal, random), c, random);
 }
 
 // A hull and its point reflection: each feature is parallel to its image.
-void place_mirrored_hulls(FeatureKind kind, const ContactSetting& setting, Case& c,
-                          Random& random) {
+void place_mirrored_hulls(FeatureKind kind, const ContactSetting& setting, files::Case& c,
+                          base::Random& random) {
   c.shape_b = mirrored(c.shape_a);
   c.pose_b.rotation = c.pose_a.rotation;
   const Feature a = pick_feature(c.shape_a, kind, 0, random);
   Feature b = a;
-  b.point = exactly(Vec3d::Zero()) - a.point;
+  b.point = base::exactly(Vec3d::Zero()) - a.point;
   b.normal = Vec3d::Zero() - a.normal;
   finish(setting, a, b, c, random);
 }
 
 // A box's edge along z and a face of a square prism whose faces' normals are (+-1, +-1, 0).
-void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, Case& c,
-                           Random& random) {
+void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, files::Case& c,
+                           base::Random& random) {
   c.shape_a = random_shape(ShapeKind::box, setting.style_a, seed, random);
   const Vec3d sides = random_shape(ShapeKind::box, setting.style_b, seed, random).half_extents;
   const double s = sides.x(), t = sides.z();
@@ -145,11 +145,11 @@ void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, Ca
     corners.insert(corners.end(), {{s, 0, z}, {0, s, z}, {-s, 0, z}, {0, -s, z}});
   }
   c.shape_b = hull_of(std::move(corners));
-  c.pose_a = first_pose(setting, pair_size(c), random);
+  c.pose_a = first_pose(setting, grade::pair_size(c), random);
   c.pose_b.rotation = c.pose_a.rotation;
   const double sign_x = random.below(2) == 0 ? 1 : -1;
   const Vec3d signs(sign_x, random.below(2) == 0 ? 1 : -1, 0);
-  const Feature a = box_feature(c.shape_a.half_extents, unit(signs), random);
+  const Feature a = box_feature(c.shape_a.half_extents, base::unit(signs), random);
   // Between two of the corners, (-x s, 0) and (0, -y s), exactly.
   Feature b;
   b.kind = face;
@@ -163,14 +163,14 @@ void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, Ca
 }
 
 void place_exactly_parallel(const ContactPlan& plan, const ContactSetting& setting,
-                            std::uint64_t seed, Case& c, Random& random) {
+                            std::uint64_t seed, files::Case& c, base::Random& random) {
   if (plan.a != plan.b) return place_edge_on_diamond(setting, seed, c, random);
   // A reflection has the size of what is reflected.
   const bool boxes = random.below(2) == 0 || !(setting.style_a == setting.style_b);
   const ShapeKind kind = boxes ? ShapeKind::box : ShapeKind::hull;
   c.shape_a = random_shape(kind, setting.style_a, seed, random);
   c.shape_b = random_shape(kind, setting.style_b, seed, random);
-  c.pose_a = first_pose(setting, pair_size(c), random);
+  c.pose_a = first_pose(setting, grade::pair_size(c), random);
   if (random.below(2) == 0) c.pose_a.rotation = Mat3d::Identity();
   if (boxes) {
     place_axis_parallel_boxes(plan.a, setting, c, random);
@@ -180,10 +180,10 @@ void place_exactly_parallel(const ContactPlan& plan, const ContactSetting& setti
 }
 
 RegimeCase make_contact(RegimeDraw& draw, const ContactSetting& setting) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const ContactPlan& plan = plan_of(draw.index);
   RegimeCase result{{}, name_of(plan)};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   if (plan.alignment == exact) {
     place_exactly_parallel(plan, setting, draw.seed, c, random);
   } else {
@@ -193,7 +193,7 @@ RegimeCase make_contact(RegimeDraw& draw, const ContactSetting& setting) {
         random_shape(kind_with(plan.b, bounded, random), setting.style_b, draw.seed, random);
     const Feature a = pick_feature(c.shape_a, plan.a, reach_of(c.shape_b), random);
     const Feature b = pick_feature(c.shape_b, plan.b, reach_of(c.shape_a), random);
-    c.pose_a = first_pose(setting, pair_size(c), random);
+    c.pose_a = first_pose(setting, grade::pair_size(c), random);
     c.pose_b.rotation = facing(c.pose_a.rotation, a, b, plan.alignment == parallel, random);
     finish(setting, a, b, c, random);
   }
@@ -203,7 +203,7 @@ RegimeCase make_contact(RegimeDraw& draw, const ContactSetting& setting) {
 
 // One of several gaps and depths, or a random pose of shapes of any kind.
 RegimeCase make_at_an_amount(RegimeDraw& draw, ContactSetting setting) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const Amount amount = random_amount(random);
   if (!amount.random_pose) {
     setting.gap = amount.value;
@@ -213,10 +213,10 @@ RegimeCase make_at_an_amount(RegimeDraw& draw, ContactSetting setting) {
     return result;
   }
   RegimeCase result{{}, std::string(amount.name)};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = random_shape(random_kind(random), setting.style_a, draw.seed, random);
   c.shape_b = random_shape(random_kind(random), setting.style_b, draw.seed, random);
-  c.pose_a = first_pose(setting, pair_size(c), random);
+  c.pose_a = first_pose(setting, grade::pair_size(c), random);
   c.pose_b.rotation = random.rotation();
   place_at_random(c, random);
   swap_at_random(c, random);
@@ -261,4 +261,4 @@ RegimeCase draw_ratio(RegimeDraw& draw) {
   return make_at_an_amount(draw, setting);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

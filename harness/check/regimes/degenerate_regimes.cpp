@@ -5,18 +5,18 @@
 #include "harness/base/plain_math.h"
 #include "harness/check/regimes/regime_draws.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 using Points = std::vector<Vec3d>;
 
-Vec3d in_cube(Random& random) {
+Vec3d in_cube(base::Random& random) {
   const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
   return {x, y, random.uniform(-1, 1)};
 }
 
 // In the plane z = 0, or in one that is tilted, in which the points are coplanar up to rounding.
-Points flat_points(Random& random) {
+Points flat_points(base::Random& random) {
   Points points;
   const std::uint64_t count = random.below(2) == 0 ? 3 : 4 + random.below(13);
   const bool grid = random.below(2) == 0;
@@ -28,12 +28,12 @@ Points flat_points(Random& random) {
   if (grid) points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   if (random.below(2) == 0) {
     const Mat3d turn = random.rotation();
-    for (Vec3d& p : points) p = times(turn, p);
+    for (Vec3d& p : points) p = base::times(turn, p);
   }
   return points;
 }
 
-Points segment_points(Random& random) {
+Points segment_points(base::Random& random) {
   const Vec3d a = in_cube(random), b = in_cube(random);
   Points points = {a, b};
   if (random.below(2) == 0) points.push_back((a + b) / 2);
@@ -43,7 +43,7 @@ Points segment_points(Random& random) {
 
 // A solid's points with a third as many again: copies, middles of two or three of them, and points
 // inside.
-Points redundant_points(Random& random) {
+Points redundant_points(base::Random& random) {
   Points points;
   const std::uint64_t count = 4 + random.below(13);
   if (random.below(2) == 0) {
@@ -65,7 +65,7 @@ Points redundant_points(Random& random) {
 }
 
 // A flat set, or a tetrahedron, pressed to 1e-3 to 1e-12 of its size.
-Points sliver_points(Random& random) {
+Points sliver_points(base::Random& random) {
   const double thickness = random.magnitude(1e-12, 1e-3);
   Points points;
   const std::uint64_t count = random.below(2) == 0 ? 4 : 5 + random.below(12);
@@ -76,13 +76,13 @@ Points sliver_points(Random& random) {
   }
   if (random.below(2) == 0) {
     const Mat3d turn = random.rotation();
-    for (Vec3d& p : points) p = times(turn, p);
+    for (Vec3d& p : points) p = base::times(turn, p);
   }
   return points;
 }
 
 // Any kind with one or more of its sizes zero, but not a hull.
-Shape zero_sized(std::uint64_t seed, Random& random) {
+Shape zero_sized(std::uint64_t seed, base::Random& random) {
   ShapeKind kind = ShapeKind::hull;
   while (kind == ShapeKind::hull) kind = random_kind(random);
   Shape shape = random_shape(kind, {}, seed, random);
@@ -110,7 +110,7 @@ Shape sized(Shape shape, double size) {
   return shape;
 }
 
-Shape any_degenerate(std::uint64_t seed, Random& random) {
+Shape any_degenerate(std::uint64_t seed, base::Random& random) {
   switch (random.below(5)) {
     case 0: return hull_of(flat_points(random));
     case 1: return hull_of(segment_points(random));
@@ -123,9 +123,9 @@ Shape any_degenerate(std::uint64_t seed, Random& random) {
 // The shape against one of any kind, half of the time against another of its own family.
 template <class MakeShape>
 RegimeCase pair_with(RegimeDraw& draw, MakeShape make_shape) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = make_shape();
   switch (random.below(8)) {
     case 0:
@@ -169,10 +169,10 @@ RegimeCase draw_redundant_hull(RegimeDraw& draw) {
 }
 
 RegimeCase draw_scaled_degenerate(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const double size = random.magnitude(1e-9, 1e9);
   RegimeCase result;
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = sized(any_degenerate(draw.seed, random), size);
   c.shape_b = sized(random.below(2) == 0 ? any_degenerate(draw.seed, random)
                                          : random_shape(random_kind(random), {}, draw.seed, random),
@@ -182,4 +182,4 @@ RegimeCase draw_scaled_degenerate(RegimeDraw& draw) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -7,18 +7,18 @@
 
 #include "harness/base/plain_math.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 constexpr std::array<std::string_view, 8> names = {"vertex", "edge", "face", "smooth",
                                                    "side",   "rim",  "tip",  "base"};
 
 // A share of a whole, well inside it.
-double inside(Random& random) { return random.uniform(0.1, 0.9); }
+double inside(base::Random& random) { return random.uniform(0.1, 0.9); }
 
 // --- boxes and hulls ----------------------------------------------------------------------------
 
-Feature pick_box_feature(const Vec3d& half, FeatureKind kind, Random& random) {
+Feature pick_box_feature(const Vec3d& half, FeatureKind kind, base::Random& random) {
   Vec3d n;
   for (int i = 0; i < 3; ++i) {
     n[i] = random.uniform(0.2, 1);
@@ -31,12 +31,12 @@ Feature pick_box_feature(const Vec3d& half, FeatureKind kind, Random& random) {
     n = Vec3d::Zero();
     n[axis] = side;
   }
-  return box_feature(half, unit(n), random);
+  return box_feature(half, base::unit(n), random);
 }
 
 // For hulls without faces: the vertex that is furthest along a random direction; inside a segment
 // with a normal across it, inside a flat set with one of its two normals.
-Feature pick_degenerate_feature(const Hull& hull, FeatureKind kind, Random& random) {
+Feature pick_degenerate_feature(const Hull& hull, FeatureKind kind, base::Random& random) {
   const std::vector<Vec3d>& v = hull.vertices;
   Feature feature;
   feature.normal = random.on_sphere();
@@ -46,37 +46,39 @@ Feature pick_degenerate_feature(const Hull& hull, FeatureKind kind, Random& rand
     });
   };
   const auto between = [](const Vec3d& p, const Vec3d& q, double share) {
-    return exactly(p) + scaled(DoubleDouble3::difference(q, p), {share, 0});
+    return base::exactly(p) + base::scaled(DoubleDouble3::difference(q, p), {share, 0});
   };
-  const Vec3d start = furthest([&](const Vec3d& p) { return inner(feature.normal, p); });
-  const Vec3d end = furthest([&](const Vec3d& p) { return length(p - start); });
+  const Vec3d start = furthest([&](const Vec3d& p) { return base::inner(feature.normal, p); });
+  const Vec3d end = furthest([&](const Vec3d& p) { return base::length(p - start); });
   if (kind == FeatureKind::edge && hull.dimension == 1) {
     feature.kind = FeatureKind::edge;
-    feature.direction = unit(end - start);
-    feature.normal = beside(feature.direction, feature.normal);
+    feature.direction = base::unit(end - start);
+    feature.normal = base::beside(feature.direction, feature.normal);
     feature.point = between(start, end, inside(random));
     return feature;
   }
   if (kind == FeatureKind::face && hull.dimension == 2) {
-    const Vec3d third =
-        furthest([&](const Vec3d& p) { return length(outer(unit(end - start), p - start)); });
+    const Vec3d third = furthest([&](const Vec3d& p) {
+      return base::length(base::outer(base::unit(end - start), p - start));
+    });
     feature.kind = FeatureKind::face;
-    feature.normal = unit(outer(unit(end - start), unit(third - start)));
+    feature.normal = base::unit(base::outer(base::unit(end - start), base::unit(third - start)));
     if (random.below(2) == 0) feature.normal = Vec3d::Zero() - feature.normal;
     const double share = inside(random);
-    feature.point = between(start, end, share) + scaled(DoubleDouble3::difference(third, start),
-                                                        {inside(random) * (1 - share), 0});
+    feature.point =
+        between(start, end, share) +
+        base::scaled(DoubleDouble3::difference(third, start), {inside(random) * (1 - share), 0});
     return feature;
   }
-  feature.point = exactly(start);
+  feature.point = base::exactly(start);
   return feature;
 }
 
-Feature pick_hull_feature(const Hull& hull, FeatureKind kind, Random& random) {
+Feature pick_hull_feature(const Hull& hull, FeatureKind kind, base::Random& random) {
   if (hull.faces.empty()) return pick_degenerate_feature(hull, kind, random);
   Feature feature;
   feature.kind = kind;
-  const auto vertex = [&](std::uint32_t i) { return exactly(hull.vertices[i]); };
+  const auto vertex = [&](std::uint32_t i) { return base::exactly(hull.vertices[i]); };
   if (kind == FeatureKind::face) {
     const Hull::Face& face = hull.faces[random.below(hull.faces.size())];
     feature.normal = face.normal;
@@ -91,7 +93,7 @@ Feature pick_hull_feature(const Hull& hull, FeatureKind kind, Random& random) {
     for (std::size_t i = 1; i < face.loop.size(); ++i) {
       const DoubleDouble3 side =
           DoubleDouble3::difference(hull.vertices[face.loop[i]], hull.vertices[face.loop.front()]);
-      feature.point = feature.point + scaled(side, {weights[i - 1] / sum, 0});
+      feature.point = feature.point + base::scaled(side, {weights[i - 1] / sum, 0});
     }
     return feature;
   }
@@ -99,11 +101,11 @@ Feature pick_hull_feature(const Hull& hull, FeatureKind kind, Random& random) {
     const Hull::Edge& edge = hull.edges[random.below(hull.edges.size())];
     const DoubleDouble3 side =
         DoubleDouble3::difference(hull.vertices[edge.head], hull.vertices[edge.tail]);
-    feature.direction = unit(side.value());
-    feature.point = vertex(edge.tail) + scaled(side, {inside(random), 0});
+    feature.direction = base::unit(side.value());
+    feature.point = vertex(edge.tail) + base::scaled(side, {inside(random), 0});
     const double share = inside(random);
-    feature.normal =
-        unit(share * hull.faces[edge.left].normal + (1 - share) * hull.faces[edge.right].normal);
+    feature.normal = base::unit(share * hull.faces[edge.left].normal +
+                                (1 - share) * hull.faces[edge.right].normal);
     return feature;
   }
   std::uint32_t index = 0;
@@ -117,19 +119,19 @@ Feature pick_hull_feature(const Hull& hull, FeatureKind kind, Random& random) {
       n += random.uniform(0.2, 1) * face.normal;
     }
   }
-  feature.normal = unit(n);
+  feature.normal = base::unit(n);
   return feature;
 }
 
 // --- round shapes -------------------------------------------------------------------------------
 
 // A direction across the z axis, of length 1 to about 1e-31.
-DoubleDouble3 around_axis(Random& random) {
-  const SinCos turn = sin_cos_turns(random.unit());
-  return true_unit({turn.cos, turn.sin, 0});
+DoubleDouble3 around_axis(base::Random& random) {
+  const base::SinCos turn = base::sin_cos_turns(random.unit());
+  return base::true_unit({turn.cos, turn.sin, 0});
 }
 
-Feature pick_smooth_feature(const Shape& shape, Random& random) {
+Feature pick_smooth_feature(const Shape& shape, base::Random& random) {
   Feature feature;
   feature.kind = FeatureKind::smooth;
   feature.normal = random.on_sphere();
@@ -144,18 +146,18 @@ Feature pick_smooth_feature(const Shape& shape, Random& random) {
   if (r.minCoeff() > 0 && random.below(2) == 0) {
     // Over the surface rather than over the normals, which gather where it is strongly curved.
     const Vec3d p = feature.normal;
-    feature.normal = unit(p.cwiseProduct((greatest * r.cwiseInverse())));
-    feature.point = exactly(r.cwiseProduct(p));
+    feature.normal = base::unit(p.cwiseProduct((greatest * r.cwiseInverse())));
+    feature.point = base::exactly(r.cwiseProduct(p));
     return feature;
   }
   if (!(greatest > 0)) return feature;
   const Vec3d stretched = (r / greatest).cwiseProduct(feature.normal);
-  feature.point = exactly(r.cwiseProduct(stretched / length(stretched)));
+  feature.point = base::exactly(r.cwiseProduct(stretched / base::length(stretched)));
   return feature;
 }
 
 // Side, rim, tip and base of a capsule, cylinder or cone.
-Feature pick_axial_feature(const Shape& shape, FeatureKind kind, Random& random) {
+Feature pick_axial_feature(const Shape& shape, FeatureKind kind, base::Random& random) {
   Feature feature;
   feature.kind = kind;
   const double r = shape.radius, h = shape.half_length;
@@ -165,33 +167,34 @@ Feature pick_axial_feature(const Shape& shape, FeatureKind kind, Random& random)
   const double end = cone || random.below(2) == 0 ? -1 : 1;  // which base
   const double most = std::max(r, 2 * h);
   // A cone's slope; across the axis where it has none.
-  const Vec3d slope = most > 0 ? unit((2 * h / most) * across + Vec3d(0, 0, r / most)) : across;
+  const Vec3d slope =
+      most > 0 ? base::unit((2 * h / most) * across + Vec3d(0, 0, r / most)) : across;
   const Vec3d side_normal = cone ? slope : across;
-  const DoubleDouble3 base_centre = exactly({0, 0, end * h});
+  const DoubleDouble3 base_centre = base::exactly({0, 0, end * h});
   switch (kind) {
     case FeatureKind::tip:
-      feature.point = exactly({0, 0, h});
-      feature.normal = unit(Vec3d::UnitZ() + 2 * random.unit() * side_normal);
+      feature.point = base::exactly({0, 0, h});
+      feature.normal = base::unit(Vec3d::UnitZ() + 2 * random.unit() * side_normal);
       break;
     case FeatureKind::base: {
       feature.normal = {0, 0, end};
       const Vec3d place = random.in_ball();
-      feature.point = exactly({0.9 * r * place.x(), 0.9 * r * place.y(), end * h});
+      feature.point = base::exactly({0.9 * r * place.x(), 0.9 * r * place.y(), end * h});
       break;
     }
     case FeatureKind::rim:
-      feature.point = base_centre + scaled(around, {r, 0});
-      feature.normal = unit(side_normal + random.magnitude(0.25, 4) * Vec3d(0, 0, end));
+      feature.point = base_centre + base::scaled(around, {r, 0});
+      feature.normal = base::unit(side_normal + random.magnitude(0.25, 4) * Vec3d(0, 0, end));
       feature.direction = {-across.y(), across.x(), 0};
       break;
     default:  // side
       feature.normal = side_normal;
       if (cone) {
-        const DoubleDouble3 down = scaled(around, {r, 0}) + exactly({0, 0, -2 * h});
-        feature.point = exactly({0, 0, h}) + scaled(down, {inside(random), 0});
-        feature.direction = most > 0 ? unit(down.value()) : Vec3d::UnitZ();
+        const DoubleDouble3 down = base::scaled(around, {r, 0}) + base::exactly({0, 0, -2 * h});
+        feature.point = base::exactly({0, 0, h}) + base::scaled(down, {inside(random), 0});
+        feature.direction = most > 0 ? base::unit(down.value()) : Vec3d::UnitZ();
       } else {
-        feature.point = exactly({0, 0, random.uniform(-0.9, 0.9) * h});
+        feature.point = base::exactly({0, 0, random.uniform(-0.9, 0.9) * h});
         feature.direction = Vec3d::UnitZ();
         feature.radius = r;
       }
@@ -202,18 +205,18 @@ Feature pick_axial_feature(const Shape& shape, FeatureKind kind, Random& random)
 
 // --- half-spaces --------------------------------------------------------------------------------
 
-Feature pick_plane_feature(const Shape& shape, double reach, Random& random) {
+Feature pick_plane_feature(const Shape& shape, double reach, base::Random& random) {
   Feature feature;
   feature.kind = FeatureKind::face;
-  feature.normal = unit(shape.normal);
-  const DoubleDouble3 n = exactly(shape.normal);
+  feature.normal = base::unit(shape.normal);
+  const DoubleDouble3 n = base::exactly(shape.normal);
   const double square = dot(n, n).value();
-  const Vec3d away = beside(feature.normal, random.on_sphere());
-  feature.point = exactly((reach * random.unit()) * away);
+  const Vec3d away = base::beside(feature.normal, random.on_sphere());
+  feature.point = base::exactly((reach * random.unit()) * away);
   // Onto the plane: the second step takes away the first one's rounding.
   for (int step = 0; step < 2; ++step) {
     const DoubleDouble miss = DoubleDouble{shape.offset, 0} - dot(n, feature.point);
-    feature.point = feature.point + scaled(n, {miss.value() / square, 0});
+    feature.point = feature.point + base::scaled(n, {miss.value() / square, 0});
   }
   return feature;
 }
@@ -241,7 +244,7 @@ bool has_feature(ShapeKind shape, FeatureKind feature) {
   return false;
 }
 
-Feature pick_feature(const Shape& shape, FeatureKind kind, double reach, Random& random) {
+Feature pick_feature(const Shape& shape, FeatureKind kind, double reach, base::Random& random) {
   switch (shape.kind) {
     case ShapeKind::box: return pick_box_feature(shape.half_extents, kind, random);
     case ShapeKind::hull: return pick_hull_feature(*shape.hull, kind, random);
@@ -252,14 +255,14 @@ Feature pick_feature(const Shape& shape, FeatureKind kind, double reach, Random&
                                      : pick_axial_feature(shape, kind, random);
 }
 
-FeatureKind random_feature_kind(const Shape& shape, Random& random) {
+FeatureKind random_feature_kind(const Shape& shape, base::Random& random) {
   for (;;) {
     const auto kind = static_cast<FeatureKind>(random.below(names.size()));
     if (has_feature(shape.kind, kind)) return kind;
   }
 }
 
-Feature box_feature(const Vec3d& half_extents, const Vec3d& n, Random& random) {
+Feature box_feature(const Vec3d& half_extents, const Vec3d& n, base::Random& random) {
   Feature feature;
   feature.normal = n;
   Vec3d point, direction = Vec3d::Zero();
@@ -273,7 +276,7 @@ Feature box_feature(const Vec3d& half_extents, const Vec3d& n, Random& random) {
       point[i] = n[i] > 0 ? half_extents[i] : -half_extents[i];
     }
   }
-  feature.point = exactly(point);
+  feature.point = base::exactly(point);
   feature.kind = free == 0   ? FeatureKind::vertex
                  : free == 1 ? FeatureKind::edge
                              : FeatureKind::face;
@@ -281,4 +284,4 @@ Feature box_feature(const Vec3d& half_extents, const Vec3d& n, Random& random) {
   return feature;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

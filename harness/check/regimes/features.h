@@ -8,7 +8,7 @@
 #include "algorithms/core/shape.h"
 #include "harness/base/random.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 enum class FeatureKind : std::uint8_t {
   vertex,  // of a box or hull
@@ -47,12 +47,12 @@ struct Feature {
 // at random. The shape has such features, but where it is degenerate (a flat hull, a sliver whose
 // faces are not known) another kind may come. Points on a half-space's plane are within about
 // `reach` (metres) of that nearest the local origin.
-Feature pick_feature(const Shape& shape, FeatureKind kind, double reach, Random& random);
+Feature pick_feature(const Shape& shape, FeatureKind kind, double reach, base::Random& random);
 
 // A kind that the shape has.
-FeatureKind random_feature_kind(const Shape& shape, Random& random);
+FeatureKind random_feature_kind(const Shape& shape, base::Random& random);
 
 // The feature of a box whose normal is n (unit): a coordinate is free where n's is zero.
-Feature box_feature(const Vec3d& half_extents, const Vec3d& n, Random& random);
+Feature box_feature(const Vec3d& half_extents, const Vec3d& n, base::Random& random);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -11,7 +11,7 @@
 #include "harness/geometry/signed_permutation.h"
 #include "harness/grade/pair_size.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 struct Pythagorean {
@@ -31,13 +31,13 @@ constexpr std::array<Pythagorean, 12> wholes = {{{{1, 0, 0}, 1},
                                                  {{2, 6, 9}, 11},
                                                  {{6, 6, 7}, 11}}};
 
-double sign(Random& random) { return random.below(2) == 0 ? 1 : -1; }
+double sign(base::Random& random) { return random.below(2) == 0 ? 1 : -1; }
 
-SignedPermutation random_turn(Random& random) {
-  return signed_permutations()[random.below(signed_permutations().size())];
+geometry::SignedPermutation random_turn(base::Random& random) {
+  return geometry::signed_permutations()[random.below(geometry::signed_permutations().size())];
 }
 
-ShapeKind polytope_kind(Random& random) {
+ShapeKind polytope_kind(base::Random& random) {
   return random.below(2) == 0 ? ShapeKind::box : ShapeKind::hull;
 }
 
@@ -49,15 +49,15 @@ Vec3d core_extents(const Shape& shape) {
   return {0, 0, shape.kind == ShapeKind::capsule ? shape.half_length : 0};
 }
 
-Vec3d random_place(Random& random) {
+Vec3d random_place(base::Random& random) {
   Vec3d place;
   for (int i = 0; i < 3; ++i) place[i] = on_grid(-2, 2, random);
   return place;
 }
 
 // Turns both bodies and moves them away from the origin, exactly.
-void move_both(Case& c, Random& random) {
-  const SignedPermutation turn = random_turn(random);
+void move_both(files::Case& c, base::Random& random) {
+  const geometry::SignedPermutation turn = random_turn(random);
   const Vec3d place = random_place(random);
   for (Pose* pose : {&c.pose_a, &c.pose_b}) {
     pose->rotation = turn(pose->rotation);
@@ -66,11 +66,11 @@ void move_both(Case& c, Random& random) {
 }
 
 // A half-space, and a shape whose core is away from its plane by the shape's radius.
-std::string touch_plane(Case& c, ShapeKind kind, Random& random) {
+std::string touch_plane(files::Case& c, ShapeKind kind, base::Random& random) {
   c.shape_a.kind = ShapeKind::halfspace;
   c.shape_a.normal = {0, 0, std::ldexp(1.0, static_cast<int>(random.below(5)) - 2)};
   c.shape_b = grid_shape(kind, 32, random);
-  const SignedPermutation turn = random_turn(random);
+  const geometry::SignedPermutation turn = random_turn(random);
   c.pose_b.rotation = turn.matrix();
   const double height = turn(grid_extents(c.shape_b)).cwiseAbs().z();
   const double offset = on_grid(-1, 1, random);
@@ -80,7 +80,7 @@ std::string touch_plane(Case& c, ShapeKind kind, Random& random) {
   return "plane";
 }
 
-void give_radii(Case& c, double sum, int ulps, Random& random) {
+void give_radii(files::Case& c, double sum, int ulps, base::Random& random) {
   const bool a_is_ball = is_ball(c.shape_a.kind), b_is_ball = is_ball(c.shape_b.kind);
   if (a_is_ball) c.shape_a.radius = b_is_ball ? on_grid(0, sum, random) : sum;
   if (b_is_ball) c.shape_b.radius = a_is_ball ? sum - c.shape_a.radius : sum;
@@ -92,7 +92,7 @@ void give_radii(Case& c, double sum, int ulps, Random& random) {
 }
 
 // The point of a grid shape that is furthest along a signed axis, or one of those that are.
-Vec3d furthest(const Shape& shape, const Vec3d& axis, Random& random) {
+Vec3d furthest(const Shape& shape, const Vec3d& axis, base::Random& random) {
   const Vec3d extents = grid_extents(shape);
   const bool across = axis.z() == 0;
   Vec3d p = extents.cwiseProduct(axis);
@@ -126,12 +126,12 @@ Vec3d furthest(const Shape& shape, const Vec3d& axis, Random& random) {
 
 }  // namespace
 
-double on_grid(double low, double high, Random& random) {
+double on_grid(double low, double high, base::Random& random) {
   const auto steps = static_cast<std::uint64_t>((high - low) / grid_step);
   return low + static_cast<double>(random.below(steps + 1)) * grid_step;
 }
 
-Shape grid_shape(ShapeKind kind, int most, Random& random) {
+Shape grid_shape(ShapeKind kind, int most, base::Random& random) {
   const auto size = [&] { return on_grid(grid_step, most * grid_step, random); };
   const double x = size(), y = size();
   const Vec3d half(x, y, size());
@@ -160,7 +160,7 @@ Vec3d grid_extents(const Shape& shape) {
   }
 }
 
-std::string touch_on_grid(Case& c, Roundness roundness, int ulps, Random& random) {
+std::string touch_on_grid(files::Case& c, Roundness roundness, int ulps, base::Random& random) {
   const bool balls = roundness == Roundness::balls;
   const auto ball_kind = [&] {
     return random.below(2) == 0 ? ShapeKind::sphere : ShapeKind::capsule;
@@ -187,8 +187,8 @@ std::string touch_on_grid(Case& c, Roundness roundness, int ulps, Random& random
     apart = Vec3d(1, axes > 1 ? 1 : 0, axes > 2 ? 1 : 0);
   }
   const auto touching_axes = static_cast<std::size_t>(apart.sum());
-  const SignedPermutation turn = random_turn(random), turn_a = random_turn(random),
-                          turn_b = random_turn(random);
+  const geometry::SignedPermutation turn = random_turn(random), turn_a = random_turn(random),
+                                    turn_b = random_turn(random);
   side = turn(side);
   apart = turn(apart);
   const Vec3d extents_a = turn_a(core_extents(c.shape_a)).cwiseAbs();
@@ -208,14 +208,14 @@ std::string touch_on_grid(Case& c, Roundness roundness, int ulps, Random& random
   return std::string((balls ? offsets : shared)[touching_axes - 1]);
 }
 
-std::string touch_along_axis(Case& c, Random& random) {
+std::string touch_along_axis(files::Case& c, base::Random& random) {
   constexpr std::array<ShapeKind, 3> curved = {ShapeKind::cylinder, ShapeKind::cone,
                                                ShapeKind::ellipsoid};
   c.shape_a = grid_shape(curved[random.below(curved.size())], 32, random);
   c.shape_b = grid_shape(random_kind(random), 32, random);
   Vec3d axis = Vec3d::Zero();
   axis[static_cast<int>(random.below(3))] = sign(random);
-  const SignedPermutation turn = random_turn(random);
+  const geometry::SignedPermutation turn = random_turn(random);
   const Vec3d opposite = turn.inverse()(Vec3d(Vec3d::Zero() - axis));
   c.pose_b.rotation = turn.matrix();
   const Vec3d point_a = furthest(c.shape_a, axis, random);
@@ -224,4 +224,4 @@ std::string touch_along_axis(Case& c, Random& random) {
   return "axis";
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

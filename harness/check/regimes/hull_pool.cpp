@@ -10,14 +10,14 @@
 #include "algorithms/hull/convex_hull.h"
 #include "harness/geometry/tessellation.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // --- hulls, in the cube from -1 to 1 ------------------------------------------------------------
 
 using Points = std::vector<Vec3d>;
 
-Points cloud(std::size_t count, Random& random) {
+Points cloud(std::size_t count, base::Random& random) {
   const bool round = random.below(2) == 0;
   Points points;
   while (points.size() < count) points.push_back(round ? random.on_sphere() : random.in_ball());
@@ -27,11 +27,11 @@ Points cloud(std::size_t count, Random& random) {
 Points sphere_points(int level) {
   Shape ball;
   ball.radius = 1;
-  return as_polytope(ball, level).hull->vertices;
+  return geometry::as_polytope(ball, level).hull->vertices;
 }
 
 // Some of the points of a grid: many of them are coplanar, some collinear.
-Points grid_points(Random& random) {
+Points grid_points(base::Random& random) {
   const auto steps = static_cast<int>(1 + random.below(3));
   const auto count = static_cast<std::size_t>(8 + random.below(33));
   const auto coordinate = [&] {
@@ -50,18 +50,18 @@ Points grid_points(Random& random) {
   return points;
 }
 
-Points prism(Random& random) {
+Points prism(base::Random& random) {
   const auto sides = static_cast<int>(3 + random.below(14));
   const double phase = random.unit();
   Points points;
   for (int i = 0; i < sides; ++i) {
-    const SinCos corner = sin_cos_turns(phase + static_cast<double>(i) / sides);
+    const base::SinCos corner = base::sin_cos_turns(phase + static_cast<double>(i) / sides);
     for (const double z : {-1.0, 1.0}) points.emplace_back(corner.cos, corner.sin, z);
   }
   return points;
 }
 
-Points hull_points(std::uint64_t entry, Random& random) {
+Points hull_points(std::uint64_t entry, base::Random& random) {
   switch (entry % 16) {
     case 0:
     case 1: return cloud(4, random);
@@ -93,7 +93,7 @@ struct HullKey {
 };
 
 std::shared_ptr<const Hull> build(const HullKey& key) {
-  Random random(key.seed, mix(key.entry) + 1);
+  base::Random random(key.seed, base::mix(key.entry) + 1);
   Points points = hull_points(key.entry, random);
   const Vec3d half = random_sides({key.size, key.form, key.aspect}, random);
   const Vec3d away = key.entry % 4 == 3 ? random.in_ball() : Vec3d::Zero();
@@ -162,4 +162,4 @@ std::shared_ptr<const Hull> mirrored_hull(const Hull& hull) {
   return make_hull(std::move(points));
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

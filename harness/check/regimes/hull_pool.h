@@ -6,7 +6,7 @@
 
 #include "harness/check/regimes/check_shapes.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // Hull `entry` of the style, for the seed: random points, tetrahedra, split icosahedra, subsets of
 // a grid (coplanar points) and prisms, of 4 to 64 vertices and, for two entries, up to 512; some
@@ -18,4 +18,4 @@ std::shared_ptr<const Hull> pooled_hull(std::uint64_t seed, std::uint64_t entry,
 // Each vertex v becomes -v, exactly. Found again too where the hull is one of the pool's.
 std::shared_ptr<const Hull> mirrored_hull(const Hull& hull);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -7,7 +7,7 @@
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/grade/pair_size.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // Columns n, u, n x u.
@@ -15,7 +15,7 @@ Mat3d frame(const Vec3d& n, const Vec3d& u) {
   Mat3d m;
   m.col(0) = n;
   m.col(1) = u;
-  m.col(2) = outer(n, u);
+  m.col(2) = base::outer(n, u);
   return m;
 }
 
@@ -25,82 +25,83 @@ bool have_one_normal(const Mat3d& rotation_a, const Mat3d& rotation_b, const Fea
                      const Feature& b) {
   if (a.has_one_normal() || b.has_one_normal()) return true;
   if (!a.has_direction() || !b.has_direction()) return false;
-  return length(outer(times(rotation_a, a.direction), times(rotation_b, b.direction))) > 0.05;
+  return base::length(base::outer(base::times(rotation_a, a.direction),
+                                  base::times(rotation_b, b.direction))) > 0.05;
 }
 
 // Inside the body, relative to its translation, in world axes. For a half-space: below `surface`
 // (of the plane, likewise) by the size of the pair.
 Vec3d inner_offset(const Shape& shape, const Mat3d& rotation, const Vec3d& surface, double size) {
   if (shape.kind == ShapeKind::halfspace) {
-    return surface - size * times(rotation, unit(shape.normal));
+    return surface - size * base::times(rotation, base::unit(shape.normal));
   }
-  return times(rotation, inner_point(shape));
+  return base::times(rotation, inner_point(shape));
 }
 
 double width(const Shape& shape, const Mat3d& rotation, const Vec3d& world_n) {
-  const Vec3d n = transposed_times(rotation, world_n);
+  const Vec3d n = base::transposed_times(rotation, world_n);
   return support_value(shape, n) + support_value(shape, Vec3d::Zero() - n);
 }
 
 // Translation b = translation a + offset.
-void translate(Case& c, const DoubleDouble3& offset, bool fine) {
+void translate(files::Case& c, const DoubleDouble3& offset, bool fine) {
   if (fine) {
     c.pose_b.translation = offset.value();
-    c.pose_a.translation = (exactly(c.pose_b.translation) - offset).value();
+    c.pose_a.translation = (base::exactly(c.pose_b.translation) - offset).value();
   } else {
-    c.pose_b.translation = (exactly(c.pose_a.translation) + offset).value();
+    c.pose_b.translation = (base::exactly(c.pose_a.translation) + offset).value();
   }
 }
 
 }  // namespace
 
 Mat3d facing(const Mat3d& rotation_a, const Feature& a, const Feature& b, bool aligned,
-             Random& random) {
-  const Vec3d n = unit(times(rotation_a, a.normal));
-  const Vec3d wish = aligned ? times(rotation_a, a.direction) : random.on_sphere();
+             base::Random& random) {
+  const Vec3d n = base::unit(base::times(rotation_a, a.normal));
+  const Vec3d wish = aligned ? base::times(rotation_a, a.direction) : random.on_sphere();
   const Vec3d own = b.has_direction() ? b.direction : random.on_sphere();
-  const Mat3d to = frame(Vec3d::Zero() - n, beside(n, wish));
-  return product(to, frame(b.normal, beside(b.normal, own)).transpose());
+  const Mat3d to = frame(Vec3d::Zero() - n, base::beside(n, wish));
+  return base::product(to, frame(b.normal, base::beside(b.normal, own)).transpose());
 }
 
-void place(Case& c, const Feature& a, const Feature& b, double gap, bool fine) {
+void place(files::Case& c, const Feature& a, const Feature& b, double gap, bool fine) {
   const Mat3d& rotation_a = c.pose_a.rotation;
   const Mat3d& rotation_b = c.pose_b.rotation;
-  const DoubleDouble3 n = true_unit(times(rotation_a, a.normal));
+  const DoubleDouble3 n = base::true_unit(base::times(rotation_a, a.normal));
   const DoubleDouble radii = DoubleDouble::sum(a.radius, b.radius);
   const DoubleDouble3 touching =
-      times(rotation_a, a.point) + scaled(n, radii) - times(rotation_b, b.point);
-  DoubleDouble3 offset = touching + scaled(n, {gap, 0});
+      base::times(rotation_a, a.point) + base::scaled(n, radii) - base::times(rotation_b, b.point);
+  DoubleDouble3 offset = touching + base::scaled(n, {gap, 0});
   if (gap < 0) {
-    const double size = pair_size(c);
-    const Vec3d surface = times(rotation_a, a.point).value();
-    const Vec3d surface_b = times(rotation_b, b.point).value();
+    const double size = grade::pair_size(c);
+    const Vec3d surface = base::times(rotation_a, a.point).value();
+    const Vec3d surface_b = base::times(rotation_b, b.point).value();
     const Vec3d inward = inner_offset(c.shape_a, rotation_a, surface, size) -
                          inner_offset(c.shape_b, rotation_b, surface_b, size) - touching.value();
-    const double room = length(inward);
+    const double room = base::length(inward);
     const double narrow =
         std::min(width(c.shape_a, rotation_a, n.value()), width(c.shape_b, rotation_b, n.value()));
     if (-gap > 0.02 * narrow || !have_one_normal(rotation_a, rotation_b, a, b)) {
-      offset = touching + scaled(true_unit(inward), {std::min(-gap, 0.9 * room), 0});
+      offset = touching + base::scaled(base::true_unit(inward), {std::min(-gap, 0.9 * room), 0});
     }
   }
   translate(c, offset, fine);
 }
 
-void place_at_random(Case& c, Random& random) {
-  const double size = pair_size(c);
+void place_at_random(files::Case& c, base::Random& random) {
+  const double size = grade::pair_size(c);
   const Mat3d& rotation_a = c.pose_a.rotation;
   const Mat3d& rotation_b = c.pose_b.rotation;
   Vec3d n = random.on_sphere();
   double share = random.uniform(0, 1.4);  // of the offset with which they touch along n
   const auto planar = [](const Shape& shape) { return shape.kind == ShapeKind::halfspace; };
-  if (planar(c.shape_a)) n = times(rotation_a, unit(c.shape_a.normal));
-  if (planar(c.shape_b)) n = Vec3d::Zero() - times(rotation_b, unit(c.shape_b.normal));
+  if (planar(c.shape_a)) n = base::times(rotation_a, base::unit(c.shape_a.normal));
+  if (planar(c.shape_b)) n = Vec3d::Zero() - base::times(rotation_b, base::unit(c.shape_b.normal));
   if (planar(c.shape_a) || planar(c.shape_b)) share = random.uniform(0.5, 1.5);
   const auto foot = [&](const Shape& shape, const Mat3d& rotation) -> Vec3d {
     if (!planar(shape)) return Vec3d::Zero();
-    const double norm = length(shape.normal);
-    return times(rotation, (shape.offset / norm) * (shape.normal / norm));
+    const double norm = base::length(shape.normal);
+    return base::times(rotation, (shape.offset / norm) * (shape.normal / norm));
   };
   const Vec3d inner_a = inner_offset(c.shape_a, rotation_a, foot(c.shape_a, rotation_a), size);
   const Vec3d inner_b = inner_offset(c.shape_b, rotation_b, foot(c.shape_b, rotation_b), size);
@@ -108,12 +109,12 @@ void place_at_random(Case& c, Random& random) {
   const auto reach = [&](const Shape& shape, const Mat3d& rotation, const Vec3d& inner_point_,
                          const Vec3d& direction) {
     if (planar(shape)) return size;
-    return support_value(shape, transposed_times(rotation, direction)) -
-           inner(inner_point_, direction);
+    return support_value(shape, base::transposed_times(rotation, direction)) -
+           base::inner(inner_point_, direction);
   };
   const double touching = reach(c.shape_a, rotation_a, inner_a, n) +
                           reach(c.shape_b, rotation_b, inner_b, Vec3d::Zero() - n);
-  translate(c, exactly(inner_a - inner_b + (share * touching) * n), false);
+  translate(c, base::exactly(inner_a - inner_b + (share * touching) * n), false);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -5,12 +5,12 @@
 #include "harness/check/regimes/features.h"
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // The rotation of b with which b's normal is against a's in the world, up to rounding. The rest of
 // the turn puts the two directions along each other (`aligned`), or is random.
 Mat3d facing(const Mat3d& rotation_a, const Feature& a, const Feature& b, bool aligned,
-             Random& random);
+             base::Random& random);
 
 // Translates b of a case whose shapes, rotations and translation of a are set, and whose features
 // face each other: for gap >= 0 (metres) the features' surface points get the offset gap * normal,
@@ -20,10 +20,10 @@ Mat3d facing(const Mat3d& rotation_a, const Feature& a, const Feature& b, bool a
 //
 // The offset is computed to about 1e-30, and rounded once. `fine` leaves that rounding to the
 // translation of a, which becomes tiny: the difference of the two is then right far below an ulp.
-void place(Case& c, const Feature& a, const Feature& b, double gap, bool fine);
+void place(files::Case& c, const Feature& a, const Feature& b, double gap, bool fine);
 
 // Translates b so that, along a random direction, the bodies are between well inside each other and
 // well apart. A half-space's direction is its normal.
-void place_at_random(Case& c, Random& random);
+void place_at_random(files::Case& c, base::Random& random);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -2,15 +2,15 @@
 #include "harness/check/regimes/placement.h"
 #include "harness/check/regimes/regime_draws.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 RegimeCase random_pair(RegimeDraw& draw, ShapeKind a, ShapeKind b) {
   RegimeCase result{{}, "random"};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   c.shape_a = random_shape(a, {}, draw.seed, draw.random);
   c.shape_b = random_shape(b, {}, draw.seed, draw.random);
-  c.pose_a = random_pose(pair_size(c), draw.random);
+  c.pose_a = random_pose(grade::pair_size(c), draw.random);
   c.pose_b.rotation = draw.random.rotation();
   place_at_random(c, draw.random);
   swap_at_random(c, draw.random);
@@ -30,4 +30,4 @@ RegimeCase draw_random_mixed(RegimeDraw& draw) {
   return random_pair(draw, a, random_kind(draw.random));
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -5,26 +5,26 @@
 
 #include "harness/check/regimes/placement.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
-Pose random_pose(double size, Random& random) {
+Pose random_pose(double size, base::Random& random) {
   Pose pose;
   if (random.below(8) != 0) pose.rotation = random.rotation();
   if (random.below(4) != 0) pose.translation = size * random.in_ball();
   return pose;
 }
 
-void swap_at_random(Case& c, Random& random) {
+void swap_at_random(files::Case& c, base::Random& random) {
   if (random.below(2) == 0) return;
   std::swap(c.shape_a, c.shape_b);
   std::swap(c.pose_a, c.pose_b);
 }
 
-std::string kinds_of(const Case& c) {
+std::string kinds_of(const files::Case& c) {
   return std::string(to_string(c.shape_a.kind)) + "-" + std::string(to_string(c.shape_b.kind));
 }
 
-Amount random_amount(Random& random) {
+Amount random_amount(base::Random& random) {
   constexpr std::array<Amount, 7> amounts = {{{"gap-1e-3", 1e-3},
                                               {"gap-1e-6", 1e-6},
                                               {"gap-1e-9", 1e-9},
@@ -35,8 +35,8 @@ Amount random_amount(Random& random) {
   return amounts[random.below(amounts.size())];
 }
 
-std::string place_by_amount(Case& c, const Amount& amount, Random& random) {
-  double size = pair_size(c);
+std::string place_by_amount(files::Case& c, const Amount& amount, base::Random& random) {
+  double size = grade::pair_size(c);
   if (size == 0) size = 1;  // two points
   c.pose_a = random_pose(size, random);
   c.pose_b.rotation = random.rotation();
@@ -45,13 +45,13 @@ std::string place_by_amount(Case& c, const Amount& amount, Random& random) {
     return std::string(amount.name);
   }
   const Feature a = pick_feature(c.shape_a, random_feature_kind(c.shape_a, random),
-                                 shape_size(c.shape_b) / 2, random);
+                                 grade::shape_size(c.shape_b) / 2, random);
   const Feature b = pick_feature(c.shape_b, random_feature_kind(c.shape_b, random),
-                                 shape_size(c.shape_a) / 2, random);
+                                 grade::shape_size(c.shape_a) / 2, random);
   c.pose_b.rotation = facing(c.pose_a.rotation, a, b, false, random);
   place(c, a, b, amount.value * size, random.below(4) == 0);
   return std::string(to_string(a.kind)) + "-" + std::string(to_string(b.kind)) + "-" +
          std::string(amount.name);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -4,7 +4,7 @@
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/check/regimes/regimes.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // Features at a gap or depth: regime.parameter times the pair's size.
 RegimeCase draw_contact(RegimeDraw& draw);
@@ -43,11 +43,11 @@ RegimeCase draw_random_mixed(RegimeDraw& draw);
 // --- what several groups share ------------------------------------------------------------------
 
 // A random translation of about `size`, or none; a random rotation, or now and then none.
-Pose random_pose(double size, Random& random);
+Pose random_pose(double size, base::Random& random);
 // The two bodies exchanged, half of the time.
-void swap_at_random(Case& c, Random& random);
+void swap_at_random(files::Case& c, base::Random& random);
 // Names such as "box-hull" for the id.
-std::string kinds_of(const Case& c);
+std::string kinds_of(const files::Case& c);
 
 // A gap (as a part of the size), a depth, or a random pose.
 struct Amount {
@@ -55,9 +55,9 @@ struct Amount {
   double value = 0;
   bool random_pose = false;
 };
-Amount random_amount(Random& random);
+Amount random_amount(base::Random& random);
 // Places b at the amount between random features of the two shapes, which are set; sets the poses.
 // Returns what it did, for the detail.
-std::string place_by_amount(Case& c, const Amount& amount, Random& random);
+std::string place_by_amount(files::Case& c, const Amount& amount, base::Random& random);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -8,7 +8,7 @@
 
 #include "harness/check/regimes/regime_draws.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 struct Amounts {
@@ -122,11 +122,11 @@ const Regime* find_regime(std::string_view name) {
   return nullptr;
 }
 
-Case make(const Regime& regime, std::uint64_t seed, std::uint64_t index) {
-  RegimeDraw draw{regime, seed, index, Random(seed, mix(hash_of(regime.name)) + index)};
+files::Case make(const Regime& regime, std::uint64_t seed, std::uint64_t index) {
+  RegimeDraw draw{regime, seed, index, base::Random(seed, base::mix(hash_of(regime.name)) + index)};
   RegimeCase made = regime.draw(draw);
   made.pair.id = fmt::format("{}/{}/{}/{}", regime.name, kinds_of(made.pair), made.detail, index);
   return std::move(made.pair);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -15,7 +15,7 @@
 #include "harness/files/cases.h"
 #include "harness/grade/pair_size.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 struct Regime;
 
@@ -23,12 +23,12 @@ struct Regime;
 struct RegimeDraw {
   const Regime& regime;
   std::uint64_t seed, index;
-  Random random;  // of this case alone
+  base::Random random;  // of this case alone
 };
 
 // A case without an id, and what tells it from others of its regime, such as "edge-edge".
 struct RegimeCase {
-  Case pair;
+  files::Case pair;
   std::string detail;
 };
 
@@ -49,6 +49,6 @@ const Regime* find_regime(std::string_view name);
 
 // Its id is "regime/kind-kind/detail/index", such as "gap-1e-9/box-box/edge-edge/17". Safe to call
 // from several threads.
-Case make(const Regime& regime, std::uint64_t seed, std::uint64_t index);
+files::Case make(const Regime& regime, std::uint64_t seed, std::uint64_t index);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

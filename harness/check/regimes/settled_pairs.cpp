@@ -10,7 +10,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/random.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 // How the pair of a family is made; unit scale, and then the family's.
@@ -72,7 +72,7 @@ Resting box_of(const Vec3d& half, double side) {
 }
 
 // Lies on its largest face.
-Resting hull_of(double scale, Random& random) {
+Resting hull_of(double scale, base::Random& random) {
   std::vector<Vec3d> points(8 + random.below(17));
   const Vec3d radii{random.uniform(0.4, 1), random.uniform(0.4, 1), random.uniform(0.3, 1)};
   for (Vec3d& point : points) point = scale * random.on_sphere().cwiseProduct(radii);
@@ -99,7 +99,7 @@ Resting hull_of(double scale, Random& random) {
   return body;
 }
 
-Vec3d across(const Vec3d& normal, Random& random) {
+Vec3d across(const Vec3d& normal, base::Random& random) {
   for (;;) {
     const Vec3d direction = random.on_sphere();
     const Vec3d part = direction - direction.dot(normal) * normal;
@@ -107,7 +107,7 @@ Vec3d across(const Vec3d& normal, Random& random) {
   }
 }
 
-Vec3d random_half(Random& random) {
+Vec3d random_half(base::Random& random) {
   return {random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1)};
 }
 
@@ -133,7 +133,7 @@ Vec3d lowest_corner(const Shape& shape, const Mat3d& turn, const Vec3d& up) {
 }
 
 // Where on a's face the middle of b's is, beside a's middle. Boxes, b not turned.
-Vec3d place_on(Recipe::Place place, const Vec3d& a, const Vec3d& b, Random& random) {
+Vec3d place_on(Recipe::Place place, const Vec3d& a, const Vec3d& b, base::Random& random) {
   switch (place) {
     case Recipe::Place::inside:
       return {random.uniform(-1, 1) * (a.x() - b.x()), random.uniform(-1, 1) * (a.y() - b.y()), 0};
@@ -156,11 +156,11 @@ std::span<const SettledFamily> settled_families() {
   return families;
 }
 
-Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t index) {
+files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t index) {
   const auto number = static_cast<std::size_t>(&family - settled_families().data());
   const Recipe& recipe = recipes[number];
   using Place = Recipe::Place;
-  Random random(seed, number << 32 | index);
+  base::Random random(seed, number << 32 | index);
   const Vec3d half_a = random_half(random);
   Vec3d half_b = recipe.place == Place::same ? half_a : random_half(random);
   if (recipe.place == Place::inside) half_b = half_a.cwiseProduct(Vec3d(0.3, 0.4, 0.5));
@@ -172,7 +172,7 @@ Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t
   const double depth =
       recipe.scale * random.magnitude(least_depth, recipe.place == Place::edge ? 1e-7 : 1e-3);
 
-  Case c;
+  files::Case c;
   c.id = fmt::format("{}/{}", family.name, index);
   c.shape_a = a.shape;
   c.shape_b = b.shape;
@@ -202,4 +202,4 @@ Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t
   return c;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

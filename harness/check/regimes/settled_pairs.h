@@ -8,7 +8,7 @@
 
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::check {
 
 // A family of such pairs.
 struct SettledFamily {
@@ -21,6 +21,6 @@ std::span<const SettledFamily> settled_families();
 
 // The case of this index alone, with the id "family/index". The bodies overlap by 1e-6 to 1e-3 of
 // their size. Safe to call from several threads.
-Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t index);
+files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t index);
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -10,17 +10,17 @@
 #include "harness/check/regimes/regime_draws.h"
 #include "harness/geometry/signed_permutation.h"
 
-namespace touchstone {
+namespace touchstone::check {
 namespace {
 
 using Points = std::vector<Vec3d>;
 
 constexpr std::array<std::string_view, 3> names = {"vertex", "edge", "face"};
 
-int integer(int low, int high, Random& random) {
+int integer(int low, int high, base::Random& random) {
   return low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low) + 1));
 }
-Vec3d integers(int most, Random& random) {
+Vec3d integers(int most, base::Random& random) {
   const int x = integer(-most, most, random), y = integer(-most, most, random);
   return Vec3d(x, y, integer(-most, most, random));
 }
@@ -28,9 +28,9 @@ Vec3d integers(int most, Random& random) {
 // --- one pose, and a common plane with small whole numbers --------------------------------------
 
 // Non-zero, across k, of whole numbers; all of these come about.
-Vec3d across(const Vec3d& k, Random& random) {
+Vec3d across(const Vec3d& k, base::Random& random) {
   for (;;) {
-    Vec3d v = outer(k, integers(6, random));
+    Vec3d v = base::outer(k, integers(6, random));
     if (!v.isZero(0)) return v;
   }
 }
@@ -38,7 +38,7 @@ Vec3d across(const Vec3d& k, Random& random) {
 // Points of a hull that touches the plane k . x = 0 from the side where `side` * k . x > 0: in the
 // plane it has a vertex at the origin, an edge along `line` or a face with the origin inside it.
 Points touching_plane(std::size_t feature, const Vec3d& k, double side, const Vec3d& line,
-                      Random& random) {
+                      base::Random& random) {
   Points points;
   if (feature == 0) points.push_back(Vec3d::Zero());
   if (feature == 1) {
@@ -47,12 +47,12 @@ Points touching_plane(std::size_t feature, const Vec3d& k, double side, const Ve
   }
   if (feature == 2) {
     Vec3d other = across(k, random);
-    while (outer(other, line).isZero(0)) other = across(k, random);
+    while (base::outer(other, line).isZero(0)) other = across(k, random);
     points.insert(points.end(), {line, other, -(line + other)});
   }
   for (int more = integer(3, 10, random); more > 0;) {
     Vec3d p = integers(96, random);
-    const double height = side * inner(k, p);
+    const double height = side * base::inner(k, p);
     if (height == 0) continue;
     points.push_back(height > 0 ? p : Vec3d(Vec3d::Zero() - p));
     --more;
@@ -64,7 +64,7 @@ Points touching_plane(std::size_t feature, const Vec3d& k, double side, const Ve
 
 // The same for the plane z = 0 and the side z > 0, with everything else at least 10 degrees off the
 // plane. All numbers are floats.
-Points above_origin(std::size_t feature, const Vec3d& line, Random& random) {
+Points above_origin(std::size_t feature, const Vec3d& line, base::Random& random) {
   Points points;
   if (feature == 0) points.push_back(Vec3d::Zero());
   if (feature == 1) {
@@ -83,28 +83,28 @@ Points above_origin(std::size_t feature, const Vec3d& line, Random& random) {
   return points;
 }
 
-Mat3d turn_about_z(Random& random) {
-  const SinCos turn = sin_cos_turns(random.unit());
+Mat3d turn_about_z(base::Random& random) {
+  const base::SinCos turn = base::sin_cos_turns(random.unit());
   Mat3d m;
   m << turn.cos, -turn.sin, 0, turn.sin, turn.cos, 0, 0, 0, 1;
   return m;
 }
 
 // A turn about the z axis, then by an angle whose sine is at most about 0.1.
-Mat3d small_tilt(Random& random) {
+Mat3d small_tilt(base::Random& random) {
   const Vec3d v = 0.05 * random.in_ball();
-  return product(rotation_of({1, v.x(), v.y(), 0}), turn_about_z(random));
+  return base::product(base::rotation_of({1, v.x(), v.y(), 0}), turn_about_z(random));
 }
 
 bool crossing(const Vec3d& u, const Vec3d& v) {
-  return std::abs(outer(unit(u), unit(v)).z()) > 0.25;
+  return std::abs(base::outer(base::unit(u), base::unit(v)).z()) > 0.25;
 }
 
-void turn_points(Points& points, const SignedPermutation& turn) {
+void turn_points(Points& points, const geometry::SignedPermutation& turn) {
   for (Vec3d& p : points) p = turn(p);
 }
 
-Pose common_pose(Random& random) {
+Pose common_pose(base::Random& random) {
   Pose pose = random_pose(1, random);
   if (random.below(4) == 0) pose.translation *= 1000;
   return pose;
@@ -113,10 +113,10 @@ Pose common_pose(Random& random) {
 }  // namespace
 
 RegimeCase draw_touching_baked(RegimeDraw& draw) {
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const std::size_t a = draw.index % 3, b = draw.index / 3 % 3;
   RegimeCase result{{}, std::string(names[a]) + "-" + std::string(names[b])};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   Vec3d k = Vec3d::Zero();
   while (k.isZero(0)) k = integers(3, random);
   const Vec3d line = across(k, random);
@@ -141,10 +141,10 @@ RegimeCase draw_touching_origin(RegimeDraw& draw) {
     bool planar = false;
   };
   constexpr std::array<Kind, 5> kinds = {{{0, 0}, {1, 0}, {2, 0}, {1, 1}, {2, 0, true}}};
-  Random& random = draw.random;
+  base::Random& random = draw.random;
   const Kind& kind = kinds[draw.index % kinds.size()];
   RegimeCase result{{}, std::string(names[kind.a]) + "-" + std::string(names[kind.b])};
-  Case& c = result.pair;
+  files::Case& c = result.pair;
   // Both are above z = 0; a is then turned upside down.
   const auto line = [&] {
     Vec3d v = Vec3d::Zero();
@@ -156,8 +156,8 @@ RegimeCase draw_touching_origin(RegimeDraw& draw) {
   };
   const Vec3d line_a = line();
   const Vec3d line_b = line();
-  const SignedPermutation axes = signed_permutations()[random.below(24)];
-  const SignedPermutation over{{0, 1, 2}, {1, -1, -1}};
+  const geometry::SignedPermutation axes = geometry::signed_permutations()[random.below(24)];
+  const geometry::SignedPermutation over{{0, 1, 2}, {1, -1, -1}};
   if (kind.planar) {
     c.shape_a.kind = ShapeKind::halfspace;
     c.shape_a.normal = random.magnitude(0.1, 10) * axes(Vec3d(Vec3d::UnitZ()));
@@ -170,14 +170,14 @@ RegimeCase draw_touching_origin(RegimeDraw& draw) {
   c.shape_b = hull_of(above_origin(kind.b, line_b, random));
   c.pose_a = common_pose(random);
   c.pose_b = c.pose_a;
-  c.pose_b.rotation = product(c.pose_a.rotation, axes.matrix());
+  c.pose_b.rotation = base::product(c.pose_a.rotation, axes.matrix());
   if (kind.a != 1 || kind.b != 1) {
-    c.pose_b.rotation = product(c.pose_b.rotation, small_tilt(random));
+    c.pose_b.rotation = base::product(c.pose_b.rotation, small_tilt(random));
   } else {
     // The edges stay in one plane, whichever it is after rounding.
     Mat3d turn = turn_about_z(random);
-    while (!crossing(over(line_a), times(turn, line_b))) turn = turn_about_z(random);
-    c.pose_b.rotation = product(c.pose_b.rotation, turn);
+    while (!crossing(over(line_a), base::times(turn, line_b))) turn = turn_about_z(random);
+    c.pose_b.rotation = base::product(c.pose_b.rotation, turn);
   }
   swap_at_random(c, random);
   return result;
@@ -205,4 +205,4 @@ RegimeCase draw_touching_curved(RegimeDraw& draw) {
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::check

@@ -5,7 +5,7 @@
 
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 CaseFiles::CaseFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
@@ -24,7 +24,7 @@ std::filesystem::path CaseFiles::add(const std::string& name, const std::string&
 void CaseFiles::close() {
   for (auto& [file, stream] : streams_) {
     stream.close();
-    if (!stream) throw InputError(file.string(), 0, "cannot be written");
+    if (!stream) throw base::InputError(file.string(), 0, "cannot be written");
   }
 }
 
@@ -35,4 +35,4 @@ void remove_case_files(const std::filesystem::path& folder) {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // Each file is made when its first line comes.
 class CaseFiles {
@@ -26,4 +26,4 @@ class CaseFiles {
 // Removes the case files of earlier work from the folder.
 void remove_case_files(const std::filesystem::path& folder);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -12,7 +12,7 @@
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/geometry/signed_permutation.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 // To so many significant decimal digits.
@@ -52,14 +52,14 @@ bool keeps_sizes(const Shape& before, const Shape& after) {
 
 class Shrinker {
  public:
-  Shrinker(const Case& c, const FailurePredicate& still_fails, int budget)
+  Shrinker(const files::Case& c, const FailurePredicate& still_fails, int budget)
       : best_(c), still_fails_(still_fails), budget_(budget) {}
 
-  Case run() {
+  files::Case run() {
     do {
       changed_ = false;
-      drop_vertices(&Case::shape_a);
-      drop_vertices(&Case::shape_b);
+      drop_vertices(&files::Case::shape_a);
+      drop_vertices(&files::Case::shape_b);
       simplify_shapes();
       move_to_origin();
       simplify_rotations();
@@ -70,7 +70,7 @@ class Shrinker {
   }
 
  private:
-  bool keep_if_fails(Case candidate) {
+  bool keep_if_fails(files::Case candidate) {
     if (budget_ <= 0 || !keeps_sizes(best_.shape_a, candidate.shape_a) ||
         !keeps_sizes(best_.shape_b, candidate.shape_b)) {
       return false;
@@ -88,7 +88,7 @@ class Shrinker {
   // --- vertices
   // -----------------------------------------------------------------------------------
 
-  void drop_vertices(Shape Case::*shape) {
+  void drop_vertices(Shape files::Case::*shape) {
     if ((best_.*shape).kind != ShapeKind::hull) return;
     const auto count = [&] { return (best_.*shape).hull->vertices.size(); };
     for (std::size_t chunk = count() / 2; chunk >= 1; chunk /= 2) {
@@ -97,8 +97,8 @@ class Shrinker {
         const std::size_t dropped = std::min({chunk, count() - first, count() - 1});
         const auto begin = vertices.begin() + static_cast<std::ptrdiff_t>(first);
         vertices.erase(begin, begin + static_cast<std::ptrdiff_t>(dropped));
-        Case candidate = best_;
-        candidate.*shape = hull_of(std::move(vertices));
+        files::Case candidate = best_;
+        candidate.*shape = check::hull_of(std::move(vertices));
         if (!keep_if_fails(std::move(candidate))) first += chunk;
       }
     }
@@ -108,14 +108,14 @@ class Shrinker {
   // ----------------------------------------------------------------------------
 
   void simplify_shapes() {
-    for (Shape Case::*shape : {&Case::shape_a, &Case::shape_b}) {
+    for (Shape files::Case::*shape : {&files::Case::shape_a, &files::Case::shape_b}) {
       const Shape& now = best_.*shape;
       Shape simpler;  // a sphere
       simpler.radius = now.kind == ShapeKind::ellipsoid ? now.radii.maxCoeff() : now.radius;
       const bool round = now.kind == ShapeKind::capsule || now.kind == ShapeKind::cylinder ||
                          now.kind == ShapeKind::cone || now.kind == ShapeKind::ellipsoid;
       if (!round) continue;
-      Case candidate = best_;
+      files::Case candidate = best_;
       candidate.*shape = simpler;
       keep_if_fails(std::move(candidate));
     }
@@ -127,26 +127,26 @@ class Shrinker {
   // Hulls need no rotation of their own, and their first vertex can be the local origin.
   void bake_poses() {
     for (const bool first : {true, false}) {
-      Shape Case::*shape = first ? &Case::shape_a : &Case::shape_b;
-      Pose Case::*pose = first ? &Case::pose_a : &Case::pose_b;
+      Shape files::Case::*shape = first ? &files::Case::shape_a : &files::Case::shape_b;
+      Pose files::Case::*pose = first ? &files::Case::pose_a : &files::Case::pose_b;
       if ((best_.*shape).kind != ShapeKind::hull) continue;
       const auto try_vertices = [&](const Pose& new_pose, const auto& change) {
         std::vector<Vec3d> vertices = (best_.*shape).hull->vertices;
         for (Vec3d& v : vertices) v = change(v);
-        Case candidate = best_;
-        candidate.*shape = hull_of(std::move(vertices));
+        files::Case candidate = best_;
+        candidate.*shape = check::hull_of(std::move(vertices));
         candidate.*pose = new_pose;
         keep_if_fails(std::move(candidate));
       };
       const Pose old = best_.*pose;
       if (old.rotation != Mat3d::Identity()) {
         try_vertices({Mat3d::Identity(), old.translation},
-                     [&](const Vec3d& v) { return times(old.rotation, v); });
+                     [&](const Vec3d& v) { return base::times(old.rotation, v); });
       }
       const Mat3d rotation = (best_.*pose).rotation;
       const Vec3d origin = (best_.*shape).hull->vertices.front();
       if (!origin.isZero(0)) {
-        try_vertices({rotation, old.translation + times(rotation, origin)},
+        try_vertices({rotation, old.translation + base::times(rotation, origin)},
                      [&](const Vec3d& v) -> Vec3d { return v - origin; });
       }
     }
@@ -155,13 +155,13 @@ class Shrinker {
   // Both bodies, so that one of them is at the origin and not turned: the first if possible, but
   // rather a body that is no hull.
   void move_to_origin() {
-    std::array<Pose Case::*, 2> order = {&Case::pose_a, &Case::pose_b};
+    std::array<Pose files::Case::*, 2> order = {&files::Case::pose_a, &files::Case::pose_b};
     if (best_.shape_a.kind == ShapeKind::hull && best_.shape_b.kind != ShapeKind::hull) {
       std::swap(order[0], order[1]);
     }
-    for (Pose Case::*first : order) {
+    for (Pose files::Case::*first : order) {
       if (!best_.pose_a.translation.isZero(0) && !best_.pose_b.translation.isZero(0)) {
-        Case candidate = best_;
+        files::Case candidate = best_;
         const Vec3d away = (best_.*first).translation;
         candidate.pose_a.translation -= away;
         candidate.pose_b.translation -= away;
@@ -169,10 +169,10 @@ class Shrinker {
       }
       if (best_.pose_a.rotation != Mat3d::Identity() &&
           best_.pose_b.rotation != Mat3d::Identity()) {
-        Case candidate = best_;
+        files::Case candidate = best_;
         const Mat3d back = (best_.*first).rotation.transpose();
         for (Pose* pose : {&candidate.pose_a, &candidate.pose_b}) {
-          *pose = {product(back, pose->rotation), times(back, pose->translation)};
+          *pose = {base::product(back, pose->rotation), base::times(back, pose->translation)};
         }
         (candidate.*first).rotation = Mat3d::Identity();
         keep_if_fails(std::move(candidate));
@@ -181,7 +181,7 @@ class Shrinker {
   }
 
   void simplify_rotations() {
-    for (Pose Case::*pose : {&Case::pose_a, &Case::pose_b}) {
+    for (Pose files::Case::*pose : {&files::Case::pose_a, &files::Case::pose_b}) {
       if (is_signed_permutation((best_.*pose).rotation)) {
         try_rotation(pose, Mat3d::Identity());
         continue;
@@ -193,15 +193,15 @@ class Shrinker {
       for (double steps = 1; steps <= 1024; steps *= 2) {
         std::array<double, 4> whole;
         std::ranges::transform(q, whole.begin(), [&](double x) { return std::round(x * steps); });
-        if (try_rotation(pose, rotation_of(whole))) break;
+        if (try_rotation(pose, base::rotation_of(whole))) break;
       }
     }
   }
 
-  bool try_rotation(Pose Case::*pose, const Mat3d& rotation) {
+  bool try_rotation(Pose files::Case::*pose, const Mat3d& rotation) {
     // A rotation that was found before is not changed for a finer one.
     if ((best_.*pose).rotation == rotation) return true;
-    Case candidate = best_;
+    files::Case candidate = best_;
     (candidate.*pose).rotation = rotation;
     return keep_if_fails(std::move(candidate));
   }
@@ -211,9 +211,9 @@ class Shrinker {
   }
 
   static Mat3d nearest_signed_permutation(const Mat3d& m) {
-    const SignedPermutation* best = nullptr;
+    const geometry::SignedPermutation* best = nullptr;
     double greatest = -4;
-    for (const SignedPermutation& turn : signed_permutations()) {
+    for (const geometry::SignedPermutation& turn : geometry::signed_permutations()) {
       const double likeness = (turn.matrix().array() * m.array()).sum();
       if (likeness > greatest) {
         greatest = likeness;
@@ -239,7 +239,7 @@ class Shrinker {
     std::array<std::vector<Vec3d>, 2> vertices;
     std::vector<double*> all;
 
-    explicit Numbers(Case& c) {
+    explicit Numbers(files::Case& c) {
       collect(c.shape_a, vertices[0], all);
       collect(c.shape_b, vertices[1], all);
       for (Pose* pose : {&c.pose_a, &c.pose_b}) {
@@ -276,7 +276,7 @@ class Shrinker {
   // a half-space would lose its normal.
   template <class Change>
   bool try_numbers(Change change) {
-    Case candidate = best_;
+    files::Case candidate = best_;
     Numbers numbers(candidate);
     bool differs = false;
     for (std::size_t i = 0; i < numbers.all.size(); ++i) {
@@ -290,7 +290,7 @@ class Shrinker {
     for (std::size_t body = 0; body < 2; ++body) {
       Shape& shape = body == 0 ? candidate.shape_a : candidate.shape_b;
       if (shape.kind == ShapeKind::hull && shape.hull->vertices != numbers.vertices[body]) {
-        shape = hull_of(std::move(numbers.vertices[body]));
+        shape = check::hull_of(std::move(numbers.vertices[body]));
       }
     }
     return keep_if_fails(std::move(candidate));
@@ -303,7 +303,7 @@ class Shrinker {
       if (try_numbers([&](std::size_t, double x) { return rounded(x, digits); })) break;
     }
     std::vector<double> values;
-    Case copy = best_;
+    files::Case copy = best_;
     for (const double* x : Numbers(copy).all) values.push_back(*x);
     for (std::size_t i = 0; i < values.size() && budget_ > 0; ++i) {
       const double value = values[i];
@@ -319,7 +319,7 @@ class Shrinker {
     }
   }
 
-  Case best_;
+  files::Case best_;
   const FailurePredicate& still_fails_;
   int budget_;
   bool changed_ = false;
@@ -327,8 +327,8 @@ class Shrinker {
 
 }  // namespace
 
-Case shrink(const Case& c, const FailurePredicate& still_fails, int budget) {
+files::Case shrink(const files::Case& c, const FailurePredicate& still_fails, int budget) {
   return Shrinker(c, still_fails, budget).run();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

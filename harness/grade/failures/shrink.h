@@ -5,10 +5,10 @@
 
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // Whether the case still shows the failure.
-using FailurePredicate = std::function<bool(const Case&)>;
+using FailurePredicate = std::function<bool(const files::Case&)>;
 
 // Changes the case, one thing at a time, to something simpler, and keeps each change after which
 // still_fails holds: hulls lose vertices, the first body goes to the origin with the identity as
@@ -22,6 +22,6 @@ using FailurePredicate = std::function<bool(const Case&)>;
 // (the vertices are dropped in chunks, from half of them down to one). The same calls and the same
 // result each time, as long as still_fails answers the same. `c` itself is not tried: where it does
 // not fail, what comes back may be anything that does, or `c`. The id is kept.
-Case shrink(const Case& c, const FailurePredicate& still_fails, int budget = 2000);
+files::Case shrink(const files::Case& c, const FailurePredicate& still_fails, int budget = 2000);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

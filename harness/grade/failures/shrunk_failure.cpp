@@ -10,7 +10,7 @@
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 constexpr int shrink_budget = 400;           // queries
@@ -18,25 +18,28 @@ constexpr double shrink_seconds = 1;         // wall clock, of a case
 constexpr std::size_t most_bytes = 1 << 20;  // of a shrunk case
 
 // Asks in this process.
-GradedAnswer ask(const FailedQuery& failed, const Case& c, oracle::Oracle& oracle) {
+GradedAnswer ask(const FailedQuery& failed, const files::Case& c, oracle::Oracle& oracle) {
   TrueCase true_case(c, failed.answer.index, oracle);
   const Query query = query_of(failed.answer);
-  return grade_answer(*failed.algorithm, failed.extreme, query, true_case,
-                      solve_case(*failed.algorithm, {.scalar = query.scalar}, c, query.task));
+  return grade_answer(
+      *failed.algorithm, failed.extreme, query, true_case,
+      process::solve_case(*failed.algorithm, {.scalar = query.scalar}, c, query.task));
 }
 
 // Shrinking may turn a body into one of another kind.
-bool offers_kinds(const FailedQuery& failed, const Case& c) {
+bool offers_kinds(const FailedQuery& failed, const files::Case& c) {
   return offers(*failed.algorithm, c.shape_a.kind, c.shape_b.kind, failed.answer.task);
 }
 
 // Whether the query kills its process.
-bool crashes(const FailedQuery& failed, const Case& c) {
-  const auto solved = isolated_answers<Outcome>(1, {.item_seconds = failed.time_limit}, [&] {
-    return [&](std::size_t) {
-      return solve_case(*failed.algorithm, {.scalar = failed.answer.scalar}, c, failed.answer.task);
-    };
-  });
+bool crashes(const FailedQuery& failed, const files::Case& c) {
+  const auto solved =
+      process::isolated_answers<Outcome>(1, {.item_seconds = failed.time_limit}, [&] {
+        return [&](std::size_t) {
+          return process::solve_case(*failed.algorithm, {.scalar = failed.answer.scalar}, c,
+                                     failed.answer.task);
+        };
+      });
   return solved.answers[0].status == Status::crashed;
 }
 
@@ -50,25 +53,25 @@ bool is_alike(const GradedAnswer& small, const GradedAnswer& failure) {
   return badness(small) >= badness(failure) / 10;
 }
 
-Case shrunk(const FailedQuery& failed) {
+files::Case shrunk(const FailedQuery& failed) {
   const GradedAnswer& failure = failed.answer;
   // Without a measure of it nothing tells whether a smaller case is as bad.
   if (failure.given.verdict == Verdict::timed_out || badness(failure) == 0) return failed.original;
   oracle::Oracle oracle;
-  const Stopwatch watch;
-  const auto still_fails = [&](const Case& c) {
+  const base::Stopwatch watch;
+  const auto still_fails = [&](const files::Case& c) {
     if (watch.seconds() > shrink_seconds) return false;
     if (!offers_kinds(failed, c)) return false;
     if (failure.given.verdict == Verdict::crashed) return crashes(failed, c);
     return is_alike(ask(failed, c, oracle), failure);
   };
-  Case small = shrink(failed.original, still_fails, shrink_budget);
+  files::Case small = shrink(failed.original, still_fails, shrink_budget);
   small.id = failed.original.id;
   return small;
 }
 
-std::string to_line(const FailedQuery& failed, const Case& c, const GradedAnswer& answer) {
-  nlohmann::ordered_json line = nlohmann::ordered_json::parse(to_json(c));
+std::string to_line(const FailedQuery& failed, const files::Case& c, const GradedAnswer& answer) {
+  nlohmann::ordered_json line = nlohmann::ordered_json::parse(files::to_json(c));
   const auto bound = [](double x) {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
   };
@@ -86,12 +89,12 @@ std::string to_line(const FailedQuery& failed, const Case& c, const GradedAnswer
 
 ShrunkFailure shrunk_failure(const FailedQuery& failed) {
   const GradedAnswer& failure = failed.answer;
-  SharedArray<GradedAnswer> answer(1);
-  SharedArray<char> text(most_bytes);
-  const IsolationLimits limits = {.item_seconds = 3 * shrink_seconds + failed.time_limit};
-  const IsolationReport report = isolate(1, limits, [&]() -> ItemWork {
+  process::SharedArray<GradedAnswer> answer(1);
+  process::SharedArray<char> text(most_bytes);
+  const process::IsolationLimits limits = {.item_seconds = 3 * shrink_seconds + failed.time_limit};
+  const process::IsolationReport report = process::isolate(1, limits, [&]() -> process::ItemWork {
     return [&](std::size_t) {
-      const Case small = shrunk(failed);
+      const files::Case small = shrunk(failed);
       answer[0] = failure;
       const Verdict verdict = failure.given.verdict;
       if (verdict != Verdict::crashed && verdict != Verdict::timed_out) {
@@ -102,8 +105,8 @@ ShrunkFailure shrunk_failure(const FailedQuery& failed) {
       if (line.size() < most_bytes) std::memcpy(&text[0], line.data(), line.size());
     };
   });
-  if (report.states[0] == ItemState::done && text[0] != '\0') return {answer[0], &text[0]};
+  if (report.states[0] == process::ItemState::done && text[0] != '\0') return {answer[0], &text[0]};
   return {failure, to_line(failed, failed.original, failure)};
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

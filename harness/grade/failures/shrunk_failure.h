@@ -6,13 +6,13 @@
 #include "harness/files/cases.h"
 #include "harness/grade/graded_answer.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 struct FailedQuery {
   const NarrowPhaseEntry* algorithm;
   bool extreme;       // of the regime, see margins.h
   double time_limit;  // seconds a query
-  Case original;
+  files::Case original;
   GradedAnswer answer;  // about the original
 };
 
@@ -33,4 +33,4 @@ struct ShrunkFailure {
 // process: a query that is tried on the way may kill it. Then the case stays as it is.
 ShrunkFailure shrunk_failure(const FailedQuery& failed);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -9,7 +9,7 @@
 #include "harness/grade/pair_size.h"
 #include "harness/process/queries/solve_case.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 const NarrowPhaseEntry& oracle() {
@@ -20,13 +20,13 @@ const NarrowPhaseEntry& oracle() {
 // Metres; zero inside. By the oracle.
 double distance_from(const Shape& shape, const Pose& pose, const Vec3d& point) {
   static const std::shared_ptr<const Hull> at_origin = make_hull({Vec3d::Zero()});
-  Case c;
+  files::Case c;
   c.shape_a.kind = ShapeKind::hull;
   c.shape_a.hull = at_origin;
   c.pose_a.translation = point;
   c.shape_b = shape;
   c.pose_b = pose;
-  const Outcome outcome = solve_case(oracle(), {}, c, Task::distance);
+  const Outcome outcome = process::solve_case(oracle(), {}, c, Task::distance);
   if (outcome.answer != Answer::separated) return 0;
   return outcome.distance;
 }
@@ -38,11 +38,11 @@ constexpr Real same_depth = 1e-14L;
 
 }  // namespace
 
-ManifoldTruth manifold_truth(const Case& c) {
+ManifoldTruth manifold_truth(const files::Case& c) {
   ManifoldTruth truth;
   truth.size = pair_size(c);
   if (!(truth.size > 0)) truth.size = 1;
-  const Outcome outcome = solve_case(oracle(), {}, c, Task::penetration);
+  const Outcome outcome = process::solve_case(oracle(), {}, c, Task::penetration);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   truth.depth = truth.least_depth = truth.greatest_depth = -infinity;
   if (outcome.answer == Answer::separated || outcome.answer == Answer::unknown) return truth;
@@ -52,13 +52,13 @@ ManifoldTruth manifold_truth(const Case& c) {
   return truth;
 }
 
-double coordinate_rounding(const Case& c, const ManifoldTruth& truth) {
+double coordinate_rounding(const files::Case& c, const ManifoldTruth& truth) {
   const double far = std::max(c.pose_a.translation.cwiseAbs().maxCoeff(),
                               c.pose_b.translation.cwiseAbs().maxCoeff());
   return 4 * std::numeric_limits<double>::epsilon() * far / truth.size;
 }
 
-ManifoldGrade grade(const Case& c, const ManifoldTruth& truth, const Manifold& manifold) {
+ManifoldGrade grade(const files::Case& c, const ManifoldTruth& truth, const Manifold& manifold) {
   ManifoldGrade result;
   if (manifold.count == 0) {
     result.missed = truth.overlap();
@@ -98,4 +98,4 @@ ManifoldGrade grade(const Case& c, const ManifoldTruth& truth, const Manifold& m
   return result;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -7,7 +7,7 @@
 #include "algorithms/contact_manifold.h"
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 // What is graded against, found once for each case.
 struct ManifoldTruth {
@@ -19,7 +19,7 @@ struct ManifoldTruth {
   bool overlap() const { return depth > 0; }
 };
 
-ManifoldTruth manifold_truth(const Case& c);
+ManifoldTruth manifold_truth(const files::Case& c);
 
 // Lengths as a part of the pair's size.
 struct ManifoldGrade {
@@ -36,9 +36,9 @@ struct ManifoldGrade {
   std::optional<double> of_best_four, of_all;
 };
 
-ManifoldGrade grade(const Case& c, const ManifoldTruth& truth, const Manifold& manifold);
+ManifoldGrade grade(const files::Case& c, const ManifoldTruth& truth, const Manifold& manifold);
 
 // What rounding of world coordinates may put a point off by, as a part of the size.
-double coordinate_rounding(const Case& c, const ManifoldTruth& truth);
+double coordinate_rounding(const files::Case& c, const ManifoldTruth& truth);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

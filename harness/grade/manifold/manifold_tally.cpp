@@ -7,7 +7,7 @@
 #include "harness/base/markdown.h"
 #include "harness/base/text_table.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 // What ours promise, as a part of the size.
@@ -28,7 +28,7 @@ std::string length(double x) { return x == 0 ? "0" : fmt::format("{:.1e}", x); }
 }  // namespace
 
 void ManifoldTally::add(const std::string& family, const std::string& algorithm,
-                        const AlgorithmInfo& info, Precision scalar, const Case& c,
+                        const AlgorithmInfo& info, Precision scalar, const files::Case& c,
                         const ManifoldTruth& truth, const Manifold& manifold) {
   const Key key{family, algorithm};
   auto at = std::ranges::find(rows_, key, [](const auto& row) { return row.first; });
@@ -94,15 +94,15 @@ std::vector<std::vector<std::string>> ManifoldTally::cells() const {
 }
 
 std::string ManifoldTally::text(std::size_t page_width) const {
-  TextTable table(header);
+  base::TextTable table(header);
   for (std::vector<std::string>& row : cells()) table.add(std::move(row));
   return table.text(page_width);
 }
 
 std::string ManifoldTally::markdown() const {
-  std::string text = stats::markdown_header(header, 2);
-  for (const std::vector<std::string>& row : cells()) text += stats::markdown_row(row);
+  std::string text = base::markdown_header(header, 2);
+  for (const std::vector<std::string>& row : cells()) text += base::markdown_row(row);
   return text;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -8,13 +8,14 @@
 
 #include "harness/grade/manifold/manifold_grade.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 class ManifoldTally {
  public:
   // `algorithm` as it is to be called in the tables. Ours are held to what they promise.
   void add(const std::string& family, const std::string& algorithm, const AlgorithmInfo& info,
-           Precision scalar, const Case& c, const ManifoldTruth& truth, const Manifold& manifold);
+           Precision scalar, const files::Case& c, const ManifoldTruth& truth,
+           const Manifold& manifold);
 
   // A row for each family and algorithm: how often it was asked and missed, and the worst of each
   // grade.
@@ -42,4 +43,4 @@ class ManifoldTally {
   std::vector<std::string> wrong_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -5,7 +5,7 @@
 
 #include "algorithms/encoding.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 namespace {
 
 using Vec = Vec3<Real>;
@@ -159,7 +159,7 @@ AreaPoint AreaFrame::see(const Vec& world) const {
   return {u.dot(p), v.dot(p), 0};
 }
 
-AreaFrame area_frame(const Case& c, const Vec3d& normal) {
+AreaFrame area_frame(const files::Case& c, const Vec3d& normal) {
   AreaFrame frame;
   frame.normal = wide(normal).normalized();
   frame.u = frame.normal.unitOrthogonal();
@@ -168,7 +168,7 @@ AreaFrame area_frame(const Case& c, const Vec3d& normal) {
   return frame;
 }
 
-std::optional<std::vector<AreaPoint>> touching_area(const Case& c, const AreaFrame& frame) {
+std::optional<std::vector<AreaPoint>> touching_area(const files::Case& c, const AreaFrame& frame) {
   const std::vector<Face> of_a = faces_of(c.shape_a, c.pose_a, frame.origin);
   const std::vector<Face> of_b = faces_of(c.shape_b, c.pose_b, frame.origin);
   if (of_a.empty() || of_b.empty()) return std::nullopt;
@@ -233,4 +233,4 @@ Real greatest_area_of_four(const std::vector<AreaPoint>& points, Real slack) {
   return best / 2;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -7,7 +7,7 @@
 #include "algorithms/contact_manifold.h"
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::grade {
 
 using Real = long double;
 
@@ -22,14 +22,14 @@ struct AreaFrame {
   AreaPoint see(const Vec3<Real>& world) const;
 };
 
-AreaFrame area_frame(const Case& c, const Vec3d& normal);
+AreaFrame area_frame(const files::Case& c, const Vec3d& normal);
 
 // The corners of the polygon in which the face of a that lies furthest along the normal and that of
 // b that lies furthest against it overlap, seen along the normal, where one is below the other.
 // Every two lines of the outlines, and of the faces' intersection, are brought to an intersection;
 // the corners are those that no line cuts off. Empty where there is no area or a face is more than
 // 20 degrees off, nullopt where a body has no faces.
-std::optional<std::vector<AreaPoint>> touching_area(const Case& c, const AreaFrame& frame);
+std::optional<std::vector<AreaPoint>> touching_area(const files::Case& c, const AreaFrame& frame);
 
 // Of the convex hull of the points.
 Real hull_area(std::vector<AreaPoint> points);
@@ -37,4 +37,4 @@ Real hull_area(std::vector<AreaPoint> points);
 // slack.
 Real greatest_area_of_four(const std::vector<AreaPoint>& points, Real slack);
 
-}  // namespace touchstone
+}  // namespace touchstone::grade

@@ -6,12 +6,13 @@
 #include "harness/measure/phases/overlapping_pairs.h"
 #include "harness/scene/player.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
-BlockInput::BlockInput(const Scene& scene, BoxKind kind, bool with_poses) : shapes(scene.shapes) {
-  for (const Body& body : scene.bodies) shape_of.push_back(body.shape);
+BlockInput::BlockInput(const scene::Scene& scene, scene::BoxKind kind, bool with_poses)
+    : shapes(scene.shapes) {
+  for (const scene::Body& body : scene.bodies) shape_of.push_back(body.shape);
   const bool listed = !scene.pairs.empty();
-  ScenePlayer player(scene, kind);
+  scene::ScenePlayer player(scene, kind);
   do {
     BlockFrame& frame = frames.emplace_back();
     frame.boxes.assign(player.boxes().begin(), player.boxes().end());
@@ -24,23 +25,24 @@ BlockInput::BlockInput(const Scene& scene, BoxKind kind, bool with_poses) : shap
   } while (player.next());
 }
 
-std::string NarrowSet::kind_name() const { return PairGroup{kind_a, kind_b, {}, {}}.name(); }
+std::string NarrowSet::kind_name() const { return grade::PairGroup{kind_a, kind_b, {}, {}}.name(); }
 
 std::size_t NarrowSet::pairs() const {
   std::size_t total = 0;
-  for (const PairGroup& group : frames) total += group.size();
+  for (const grade::PairGroup& group : frames) total += group.size();
   return total;
 }
 
 std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& broad,
                                    std::span<const std::vector<IndexPair>> pairs,
                                    std::span<const Task> tasks) {
-  std::map<std::pair<ShapeKind, ShapeKind>, std::vector<PairGroup>> kinds;
+  std::map<std::pair<ShapeKind, ShapeKind>, std::vector<grade::PairGroup>> kinds;
   for (std::size_t frame = 0; frame < pairs.size(); ++frame) {
-    for (PairGroup& group : group_by_kind(pairs[frame], input.shapes, input.shape_of)) {
-      std::vector<PairGroup>& frames = kinds[{group.kind_a, group.kind_b}];
+    for (grade::PairGroup& group :
+         grade::group_by_kind(pairs[frame], input.shapes, input.shape_of)) {
+      std::vector<grade::PairGroup>& frames = kinds[{group.kind_a, group.kind_b}];
       if (frames.empty()) {
-        frames.assign(pairs.size(), PairGroup{group.kind_a, group.kind_b, {}, {}});
+        frames.assign(pairs.size(), grade::PairGroup{group.kind_a, group.kind_b, {}, {}});
       }
       frames[frame] = std::move(group);
     }
@@ -54,4 +56,4 @@ std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& b
   return sets;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

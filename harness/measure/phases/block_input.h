@@ -12,7 +12,7 @@
 #include "harness/grade/pair_groups.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 struct BlockFrame {
   std::vector<Aabb> boxes;
@@ -26,7 +26,7 @@ struct BlockFrame {
 struct BlockInput {
   // Plays the scene. The true pairs are those that overlapping_pairs finds, unless the scene lists
   // its pairs.
-  BlockInput(const Scene& scene, BoxKind kind, bool with_poses);
+  BlockInput(const scene::Scene& scene, scene::BoxKind kind, bool with_poses);
 
   std::span<const Shape> shapes;  // the scene's
   std::vector<std::uint32_t> shape_of;
@@ -38,7 +38,7 @@ struct NarrowSet {
   std::string broad;  // the broad phase that found the pairs; empty where they are the true ones
   Task task;
   ShapeKind kind_a, kind_b;
-  std::vector<PairGroup> frames;  // of each frame, perhaps without pairs
+  std::vector<grade::PairGroup> frames;  // of each frame, perhaps without pairs
 
   std::string kind_name() const;
   std::size_t pairs() const;  // of all frames
@@ -49,4 +49,4 @@ std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& b
                                    std::span<const std::vector<IndexPair>> pairs,
                                    std::span<const Task> tasks);
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

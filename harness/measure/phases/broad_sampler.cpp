@@ -8,7 +8,7 @@
 #include "harness/base/hash.h"
 #include "harness/record/raw_row.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 BroadSampler::BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
                            Executor& executor)
@@ -26,14 +26,15 @@ void BroadSampler::prepare(std::size_t frame) {
 }
 
 void BroadSampler::step(std::size_t frame, SampleReply& reply) {
-  const Stopwatch preparing;
+  const base::Stopwatch preparing;
   prepare(frame);
   const double prepared = preparing.seconds();
-  const Stopwatch finding;
+  const base::Stopwatch finding;
   const Status status = algorithm_->find_pairs(sink_);
   const double found = finding.seconds();
-  reply.durations.add(to_string(is_built(frame) ? Phase::build : Phase::update), prepared);
-  reply.durations.add(to_string(Phase::find_pairs), found);
+  reply.durations.add(to_string(is_built(frame) ? record::Phase::build : record::Phase::update),
+                      prepared);
+  reply.durations.add(to_string(record::Phase::find_pairs), found);
   if (status != Status::ok) reply.status = status;
   reply.pairs += static_cast<std::int64_t>(sink_.size());
   at_ = static_cast<std::ptrdiff_t>(frame);
@@ -57,7 +58,7 @@ double BroadSampler::time_conversion(std::size_t frame) {
   peer->convert(converted);  // makes room for them
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < repetitions; ++i) {
-    const Stopwatch converting;
+    const base::Stopwatch converting;
     peer->convert(converted);
     least = std::min(least, converting.seconds());
   }
@@ -76,9 +77,9 @@ SampleReply BroadSampler::play(std::size_t frame) {
   step(frame, reply);
   reply.work = algorithm_->work();
   if (const double seconds = time_conversion(frame); seconds >= 0) {
-    reply.durations.add(to_string(Phase::convert), seconds);
+    reply.durations.add(to_string(record::Phase::convert), seconds);
   }
-  for (const PairBuffer& chunk : sink_.chunks()) reply.pair_hash += pair_hash(chunk.pairs());
+  for (const PairBuffer& chunk : sink_.chunks()) reply.pair_hash += base::pair_hash(chunk.pairs());
   return reply;
 }
 
@@ -112,4 +113,4 @@ SampleReply BroadSampler::sample(const SampleRequest& request) {
   return reply;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -9,7 +9,7 @@
 #include "harness/measure/phases/block_input.h"
 #include "harness/measure/sampler.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Frame 0 is built and each other frame is an update of the one before, as in a scene that is
 // played again and again. The build of frame 0 is outside a sample of updates, and so is frame 0;
@@ -48,4 +48,4 @@ class BroadSampler final : public Sampler {
   std::ptrdiff_t at_ = -1;  // the frame that the algorithm holds; -1: none yet
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -4,12 +4,12 @@
 
 #include "harness/record/raw_row.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 std::string NarrowChoice::label() const {
-  return narrow_label(entry->info.name, to_string(settings.scalar),
-                      settings.tolerance.value_or(Outcome::none),
-                      settings.duality_gap.value_or(Outcome::none), warm);
+  return record::narrow_label(entry->info.name, to_string(settings.scalar),
+                              settings.tolerance.value_or(Outcome::none),
+                              settings.duality_gap.value_or(Outcome::none), warm);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

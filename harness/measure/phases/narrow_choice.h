@@ -5,7 +5,7 @@
 
 #include "algorithms/registry.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 struct NarrowChoice {
   const NarrowPhaseEntry* entry = nullptr;
@@ -15,4 +15,4 @@ struct NarrowChoice {
   std::string label() const;  // as narrow_label gives it
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -7,7 +7,7 @@
 #include "harness/measure/phases/outcome_hash.h"
 #include "harness/record/raw_row.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 // Pairs that one task of the executor answers: enough to hide the cost of handing it out, few
@@ -48,7 +48,7 @@ std::vector<NarrowSampler::Chunk> NarrowSampler::cut(const NarrowSet& set,
   std::vector<Chunk> chunks;
   std::size_t total = 0;
   for (const std::size_t frame : frames) {
-    const PairGroup& group = set.frames[frame];
+    const grade::PairGroup& group = set.frames[frame];
     for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task) {
       const std::size_t end = std::min(begin + pairs_a_task, group.size());
       chunks.push_back(
@@ -87,7 +87,7 @@ double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size
             worker);
     }
   };
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   executor_->run(tasks.size() - 1, std::cref(work));
   return watch.seconds();
 }
@@ -127,7 +127,7 @@ double NarrowSampler::play(Warm& warm, Task task, std::span<const std::size_t> f
             outcomes.subspan(firsts[i] + begin, end - begin), worker);
     }
   };
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   executor_->run(warm.pairs.tasks(), std::cref(work));
   const double seconds = watch.seconds();
   warm.at = static_cast<std::ptrdiff_t>(frames.back());
@@ -180,7 +180,7 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
   for (const std::size_t frame : frames) total += set.frames[frame].size();
   outcomes_.assign(total, Outcome{});
   SampleReply reply;
-  reply.durations.add(to_string(Phase::narrow),
+  reply.durations.add(to_string(record::Phase::narrow),
                       starts_warm_ ? solve_warm(request, frames) : solve_cold(set, frames));
   reply.pairs = static_cast<std::int64_t>(outcomes_.size());
   reply.contacts = 0;
@@ -192,7 +192,7 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
   }
   std::size_t first = 0;
   for (const std::size_t frame : frames) {
-    const PairGroup& group = set.frames[frame];
+    const grade::PairGroup& group = set.frames[frame];
     reply.pair_hash += group_hash(group);
     reply.outcome_hash += outcome_hash(group, std::span(outcomes_).subspan(first, group.size()));
     first += group.size();
@@ -219,4 +219,4 @@ Allocations NarrowSampler::count_allocations(const SampleRequest& request) {
   return allocations;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

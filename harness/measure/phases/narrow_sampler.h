@@ -15,7 +15,7 @@
 #include "harness/measure/phases/warm_pairs.h"
 #include "harness/measure/sampler.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // The pairs of all frames of the window are one piece of work for the executor; the duration is
 // `narrow`. A warm narrow phase answers each frame with what the frames before left in memory, as
@@ -71,4 +71,4 @@ class NarrowSampler final : public Sampler {
   std::vector<std::optional<Warm>> warm_;  // of each set, once it was asked about
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -10,20 +10,21 @@
 #include "harness/base/hash.h"
 #include "harness/grade/pair_groups.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // It does not depend on the order of the pairs or on the number of threads. It is a sum modulo 2^64
 // over the pairs, so the one of several frames is the sum of theirs.
-inline std::uint64_t outcome_hash(const PairGroup& group, std::span<const Outcome> outcomes) {
+inline std::uint64_t outcome_hash(const grade::PairGroup& group,
+                                  std::span<const Outcome> outcomes) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& outcome = outcomes[i];
-    std::uint64_t hash = mix((std::uint64_t{group.first[i]} << 32) + group.second[i]);
-    hash = mix(hash ^ (static_cast<std::uint64_t>(outcome.answer) << 8) ^
-               static_cast<std::uint64_t>(outcome.status));
+    std::uint64_t hash = base::mix((std::uint64_t{group.first[i]} << 32) + group.second[i]);
+    hash = base::mix(hash ^ (static_cast<std::uint64_t>(outcome.answer) << 8) ^
+                     static_cast<std::uint64_t>(outcome.status));
     // Every NaN counts as the same: it says that there is no number.
     if (!std::isnan(outcome.distance)) {
-      hash = mix(hash ^ std::bit_cast<std::uint64_t>(outcome.distance));
+      hash = base::mix(hash ^ std::bit_cast<std::uint64_t>(outcome.distance));
     }
     sum += hash;
   }
@@ -31,14 +32,14 @@ inline std::uint64_t outcome_hash(const PairGroup& group, std::span<const Outcom
 }
 
 // The fingerprint of the pairs of a group, as pair_hash has it.
-inline std::uint64_t group_hash(const PairGroup& group) {
+inline std::uint64_t group_hash(const grade::PairGroup& group) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < group.size(); ++i) {
     const std::uint32_t a = group.first[i];
     const std::uint32_t b = group.second[i];
-    sum += mix((std::uint64_t{a < b ? a : b} << 32) + (a < b ? b : a));
+    sum += base::mix((std::uint64_t{a < b ? a : b} << 32) + (a < b ? b : a));
   }
   return sum;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

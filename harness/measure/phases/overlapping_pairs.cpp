@@ -8,7 +8,7 @@
 
 #include "algorithms/registry.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 Aabb hull_of(const Aabb& a, const Aabb& b) {
@@ -145,4 +145,4 @@ std::vector<IndexPair> overlapping_pairs(std::span<const Aabb> boxes,
   return pairs;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

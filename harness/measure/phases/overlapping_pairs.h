@@ -8,7 +8,7 @@
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/pair_sink.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Up to so many boxes every pair is tested, by the naive broad phase; beyond, where that would take
 // minutes, a tree of boxes leaves out those that are certainly apart.
@@ -18,4 +18,4 @@ inline constexpr std::size_t most_boxes_to_test_all = 30'000;
 std::vector<IndexPair> overlapping_pairs(std::span<const Aabb> boxes,
                                          std::size_t most_to_test_all = most_boxes_to_test_all);
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

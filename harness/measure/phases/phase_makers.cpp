@@ -3,7 +3,7 @@
 #include "harness/measure/phases/broad_sampler.h"
 #include "harness/measure/phases/narrow_sampler.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
 // A sampler with the executor that it runs on.
@@ -38,4 +38,4 @@ Worker::Make narrow_maker(const NarrowChoice& choice, const BlockInput& input,
   };
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

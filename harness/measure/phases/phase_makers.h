@@ -7,7 +7,7 @@
 #include "harness/measure/phases/narrow_choice.h"
 #include "harness/measure/worker.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // All that is passed by reference, and the sets, outlive the maker and its samplers.
 Worker::Make broad_maker(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
@@ -15,4 +15,4 @@ Worker::Make broad_maker(const BroadPhaseEntry& entry, const BlockInput& input, 
 Worker::Make narrow_maker(const NarrowChoice& choice, const BlockInput& input,
                           std::span<const NarrowSet> sets, int threads);
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
-namespace touchstone {
+namespace touchstone::measure {
 namespace {
 
-std::uint64_t key(const PairGroup& group, std::size_t i) {
+std::uint64_t key(const grade::PairGroup& group, std::size_t i) {
   const auto [low, high] = std::minmax(group.first[i], group.second[i]);
   return (std::uint64_t{low} << 32) + high;
 }
@@ -16,7 +16,7 @@ std::uint64_t key(const PairGroup& group, std::size_t i) {
 WarmPairs::WarmPairs(const NarrowSet& set, std::size_t slots_a_task) {
   std::vector<std::uint64_t> keys;
   keys.reserve(set.pairs());
-  for (const PairGroup& group : set.frames) {
+  for (const grade::PairGroup& group : set.frames) {
     for (std::size_t i = 0; i < group.size(); ++i) keys.push_back(key(group, i));
   }
   std::ranges::sort(keys);
@@ -24,7 +24,7 @@ WarmPairs::WarmPairs(const NarrowSet& set, std::size_t slots_a_task) {
   slots_ = keys.size();
   tasks_ = (slots_ + slots_a_task - 1) / slots_a_task;
 
-  for (const PairGroup& group : set.frames) {
+  for (const grade::PairGroup& group : set.frames) {
     Frame& frame = frames_.emplace_back();
     frame.pairs.kind_a = group.kind_a;
     frame.pairs.kind_b = group.kind_b;
@@ -49,4 +49,4 @@ WarmPairs::WarmPairs(const NarrowSet& set, std::size_t slots_a_task) {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -7,7 +7,7 @@
 
 #include "harness/measure/phases/block_input.h"
 
-namespace touchstone {
+namespace touchstone::measure {
 
 // Two bodies have the same slot of memory in every frame in which they are a pair. The slots are
 // cut into tasks, and the pairs of a frame are put in order so that those of a task are together:
@@ -17,7 +17,7 @@ class WarmPairs {
   WarmPairs(const NarrowSet& set, std::size_t slots_a_task);
 
   struct Frame {
-    PairGroup pairs;                    // as in the set, within each task
+    grade::PairGroup pairs;             // as in the set, within each task
     std::vector<std::uint32_t> slots;   // of each pair
     std::vector<std::uint32_t> places;  // of each pair in the set's frame; empty: the same order
     std::vector<std::size_t> begins;    // of each task's pairs, and the end of the last
@@ -31,4 +31,4 @@ class WarmPairs {
   std::vector<Frame> frames_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::measure

@@ -5,12 +5,12 @@
 #include "harness/base/clock.h"
 #include "harness/process/isolate.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make, Task task,
                    const PairBatch& batch, std::span<Outcome> outcomes, double time_limit,
                    std::size_t memory_limit) {
-  const Stopwatch total;
+  const base::Stopwatch total;
   const IsolationLimits limits = {
       .item_seconds = time_limit, .failures = 3, .memory = memory_limit};
   const auto solved = isolated_answers<Outcome>(batch.size(), limits, [&] {
@@ -30,4 +30,4 @@ void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make, Ta
   std::ranges::copy(solved.answers, outcomes.begin());
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

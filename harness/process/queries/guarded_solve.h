@@ -8,7 +8,7 @@
 
 #include "algorithms/narrow_phase.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 // Answers the batch pair by pair in a child process, where `make` gives the algorithm with its
 // shapes bound. A query that kills the child gets the status crashed; one that takes longer than
@@ -18,4 +18,4 @@ void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make, Ta
                    const PairBatch& batch, std::span<Outcome> outcomes, double time_limit,
                    std::size_t memory_limit);
 
-}  // namespace touchstone
+}  // namespace touchstone::process

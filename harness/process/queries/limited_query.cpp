@@ -13,7 +13,7 @@
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
 
-namespace touchstone {
+namespace touchstone::process {
 namespace {
 
 constexpr double clock_factor = 20;  // of the processor's time
@@ -35,7 +35,7 @@ bool is_large(const Shape& shape) {
 }
 
 // What a child keeps of large bodies from query to query.
-using Bound = std::map<const Case*, std::unique_ptr<BoundCase>>;
+using Bound = std::map<const files::Case*, std::unique_ptr<BoundCase>>;
 
 struct Asked {
   struct Range {
@@ -65,7 +65,7 @@ class Asker {
       const auto bound = std::make_shared<Bound>();
       limit_processor_time(bind_seconds);
       for (std::size_t i = 0; large_ && i < places.size(); ++i) {
-        const Case* const c = queries_[places[i]].pair;
+        const files::Case* const c = queries_[places[i]].pair;
         if (!bound->contains(c)) (*bound)[c] = std::make_unique<BoundCase>(entry_, settings_, *c);
       }
       limit_processor_time(0);
@@ -125,4 +125,4 @@ std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhas
 
 bool is_not_asked(const Outcome& outcome) { return outcome.status == Status::unsupported; }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

@@ -7,10 +7,10 @@
 #include "algorithms/registry.h"
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 struct LimitedQuery {
-  const Case* pair;
+  const files::Case* pair;
   Task task;
 };
 
@@ -31,4 +31,4 @@ std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhas
 // Whether the outcome is of a query that was not asked, after too many that were lost.
 bool is_not_asked(const Outcome& outcome);
 
-}  // namespace touchstone
+}  // namespace touchstone::process

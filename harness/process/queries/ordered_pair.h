@@ -7,7 +7,7 @@
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/shape.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 // Whether the pair is to be handed over as (b, a).
 constexpr bool needs_swap(ShapeKind a, ShapeKind b) { return b < a; }
@@ -19,4 +19,4 @@ inline Outcome swapped(Outcome outcome) {
   return outcome;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

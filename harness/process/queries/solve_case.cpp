@@ -5,7 +5,7 @@
 
 #include "harness/process/queries/ordered_pair.h"
 
-namespace touchstone {
+namespace touchstone::process {
 namespace {
 
 Outcome asked_for(Outcome outcome, Task task) {
@@ -20,7 +20,7 @@ Outcome asked_for(Outcome outcome, Task task) {
 }  // namespace
 
 BoundCase::BoundCase(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
-                     const Case& c)
+                     const files::Case& c)
     : shapes_{c.shape_a, c.shape_b},
       poses_{c.pose_a, c.pose_b},
       narrow_phase_(entry.make(settings)) {
@@ -41,8 +41,8 @@ Outcome BoundCase::solve(Task task) {
 }
 
 Outcome solve_case(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
-                   const Case& c, Task task) {
+                   const files::Case& c, Task task) {
   return BoundCase(entry, settings, c).solve(task);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

@@ -7,13 +7,14 @@
 #include "algorithms/registry.h"
 #include "harness/files/cases.h"
 
-namespace touchstone {
+namespace touchstone::process {
 
 // An algorithm that was made for a case and given its two shapes alone. The entry is built and
 // takes such pairs; the case stays alive.
 class BoundCase {
  public:
-  BoundCase(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings, const Case& c);
+  BoundCase(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
+            const files::Case& c);
   BoundCase(const BoundCase&) = delete;  // the algorithm knows the place of the shapes
   BoundCase& operator=(const BoundCase&) = delete;
 
@@ -30,6 +31,6 @@ class BoundCase {
 // know more, but then knows it by chance. The algorithm is bound for the query alone, so that no
 // case can spoil another's answer.
 Outcome solve_case(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
-                   const Case& c, Task task);
+                   const files::Case& c, Task task);
 
-}  // namespace touchstone
+}  // namespace touchstone::process

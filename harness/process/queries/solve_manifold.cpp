@@ -7,7 +7,7 @@
 
 #include "harness/process/queries/ordered_pair.h"
 
-namespace touchstone {
+namespace touchstone::process {
 namespace {
 
 // The manifold of the pair (b, a), from that of (a, b).
@@ -20,7 +20,7 @@ Manifold swapped(Manifold manifold) {
 }  // namespace
 
 Manifold solve_manifold(const ManifoldEntry& entry, const ManifoldSettings& settings,
-                        const Case& c) {
+                        const files::Case& c) {
   const std::array<Shape, 2> shapes = {c.shape_a, c.shape_b};
   const std::array<Pose, 2> poses = {c.pose_a, c.pose_b};
   constexpr std::array<std::uint32_t, 2> bodies = {0, 1};
@@ -37,4 +37,4 @@ Manifold solve_manifold(const ManifoldEntry& entry, const ManifoldSettings& sett
   return swap ? swapped(manifold) : manifold;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::process

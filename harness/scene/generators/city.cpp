@@ -4,7 +4,7 @@
 
 #include "harness/scene/generators/generators.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 constexpr double car_length = 4.5, car_width = 1.8, car_height = 1.5;  // metres
@@ -23,9 +23,9 @@ Shape box(double x, double y, double z) {
 // and heights spread evenly over the magnitudes of `height`. All touch the ground.
 Generated make_city(GeneratorInput& input) {
   const double block = input.table.number("block", {.low = 8, .high = 1e6}, 20.0);
-  const auto [lowest, highest] = input.table.range("height", positive, {4, 200});
+  const auto [lowest, highest] = input.table.range("height", files::positive, {4, 200});
   const double share = input.table.number("moving", {.low = 0, .high = 1}, 0.5);
-  const double speed = input.table.number("speed", not_negative, 15.0);
+  const double speed = input.table.number("speed", files::not_negative, 15.0);
 
   Generated made;
   Scene& scene = made.scene;
@@ -44,7 +44,7 @@ Generated make_city(GeneratorInput& input) {
   made.side = static_cast<double>(blocks) * block;
   const double start = -made.side / 2;
 
-  Random shapes = input.random(GeneratorInput::shape_stream);
+  base::Random shapes = input.random(GeneratorInput::shape_stream);
   for (std::int64_t i = 0; i < buildings; ++i) {
     const double width = block * shapes.uniform(0.4, 0.75);
     const double depth = block * shapes.uniform(0.4, 0.75);
@@ -57,7 +57,7 @@ Generated make_city(GeneratorInput& input) {
     scene.shapes.push_back(box(width, depth, height));
     scene.bodies.push_back(body);
   }
-  Random places = input.random(GeneratorInput::place_stream);
+  base::Random places = input.random(GeneratorInput::place_stream);
   for (std::int64_t i = 0; i < cars; ++i) {
     const std::uint64_t along = places.below(2);  // x or y
     const auto street = static_cast<double>(places.below(static_cast<std::uint64_t>(blocks) + 1));
@@ -75,4 +75,4 @@ Generated make_city(GeneratorInput& input) {
   return made;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -7,7 +7,7 @@
 
 #include "algorithms/core/bounds.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 double median_size(const Scene& scene) {
@@ -37,9 +37,9 @@ std::size_t part_of(double share, std::size_t count) {
 
 }  // namespace
 
-void read_step(TomlTable& table, Scene& scene) {
+void read_step(files::TomlTable& table, Scene& scene) {
   if (!table.has("step")) return;
-  const double step = table.number("step", not_negative);
+  const double step = table.number("step", files::not_negative);
   if (table.contains("speed")) table.fail("step", "given beside speed; expected one of the two");
   Motion& motion = scene.motion;
   if (!(motion.speed > 0)) {
@@ -56,7 +56,7 @@ void read_order(GeneratorInput& input, Scene& scene) {
   if (!scene.pairs.empty()) {
     input.table.fail("shuffled", "given with bodies that are listed in pairs; expected none");
   }
-  Random random = input.random(GeneratorInput::order_stream);
+  base::Random random = input.random(GeneratorInput::order_stream);
   for (std::size_t left = scene.bodies.size(); left > 1; --left) {
     std::swap(scene.bodies[left - 1], scene.bodies[random.below(left)]);
   }
@@ -79,11 +79,11 @@ void read_exchange(GeneratorInput& input, Scene& scene) {
     scene.motion.teleports = std::max<std::size_t>(teleports, 2);  // it takes two to exchange
   }
   const std::size_t churn = read("churn");
-  Random random = input.random(GeneratorInput::arrival_stream);
+  base::Random random = input.random(GeneratorInput::arrival_stream);
   for (std::size_t i = 0; i < churn; ++i) {
     scene.bodies.push_back(Body(scene.bodies[movers[random.below(movers.size())]]));
   }
   scene.motion.churn = churn;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

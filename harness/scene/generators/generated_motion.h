@@ -6,12 +6,12 @@
 #include "harness/scene/generators/generators.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // Reads `step`, an alternative to `speed`: the greatest displacement per frame as a share of the
 // bodies' median size (the longest side of a body's box in its own frame). The scene must have its
 // time step already.
-void read_step(TomlTable& table, Scene& scene);
+void read_step(files::TomlTable& table, Scene& scene);
 
 // Reads `shuffled`, which puts ids in random order. Algorithms gain from ids that follow places.
 void read_order(GeneratorInput& input, Scene& scene);
@@ -20,4 +20,4 @@ void read_order(GeneratorInput& input, Scene& scene);
 // arrive at frame 1: copies of random ones.
 void read_exchange(GeneratorInput& input, Scene& scene);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

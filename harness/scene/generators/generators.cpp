@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::scene {
 
 std::span<const Generator> generators() {
   static constexpr Generator all[] = {
@@ -24,18 +24,18 @@ std::span<const Generator> generators() {
 Scene make_bodies(GeneratorInput& input, const ShapeMixDefaults& defaults, bool turned,
                   std::int64_t count) {
   Scene scene;
-  Random shapes = input.random(GeneratorInput::shape_stream);
+  base::Random shapes = input.random(GeneratorInput::shape_stream);
   const std::vector<TurnedShape> mix =
       make_shape_mix(input.table, input.shapes, count, defaults, shapes);
   for (const TurnedShape& entry : mix) scene.add_shape(entry.shape, entry.mesh);
   const bool turn = input.table.boolean("turned", turned);
-  Random poses = input.random(GeneratorInput::pose_stream);
+  base::Random poses = input.random(GeneratorInput::pose_stream);
   scene.bodies.resize(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     Body& body = scene.bodies[i];
     body.shape = static_cast<std::uint32_t>(i % mix.size());
     const Mat3d& axis = mix[body.shape].turn;
-    body.pose.rotation = turn ? product(poses.rotation(), axis) : axis;
+    body.pose.rotation = turn ? base::product(poses.rotation(), axis) : axis;
   }
   return scene;
 }
@@ -43,11 +43,11 @@ Scene make_bodies(GeneratorInput& input, const ShapeMixDefaults& defaults, bool 
 void set_in_motion(GeneratorInput& input, const MovementDefaults& defaults, std::size_t first,
                    Scene& scene) {
   const double share = input.table.number("moving", {.low = 0, .high = 1}, defaults.moving);
-  const double speed = input.table.number("speed", not_negative, defaults.speed);
-  const double spin = input.table.number("spin", not_negative, defaults.spin);
+  const double speed = input.table.number("speed", files::not_negative, defaults.speed);
+  const double spin = input.table.number("spin", files::not_negative, defaults.spin);
   scene.motion.speed = speed;
-  Random velocities = input.random(GeneratorInput::velocity_stream);
-  Random choice = input.random(GeneratorInput::moving_stream);
+  base::Random velocities = input.random(GeneratorInput::velocity_stream);
+  base::Random choice = input.random(GeneratorInput::moving_stream);
   std::uint64_t left = scene.bodies.size() - first;
   auto wanted = static_cast<std::uint64_t>(std::floor(share * static_cast<double>(left) + 0.5));
   for (std::size_t i = first; i < scene.bodies.size(); ++i) {
@@ -68,4 +68,4 @@ void set_walls(GeneratorInput& input, const Vec3d& low, const Vec3d& high, Scene
   scene.motion.wall_max = high;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

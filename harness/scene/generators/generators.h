@@ -11,10 +11,10 @@
 #include "harness/scene/scene.h"
 #include "harness/scene/shape_reader.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 struct GeneratorInput {
-  TomlTable& table;
+  files::TomlTable& table;
   ShapeReader& shapes;
   std::int64_t count;  // number of bodies, at least one
   std::uint64_t seed;
@@ -34,7 +34,7 @@ struct GeneratorInput {
     order_stream,
     arrival_stream
   };
-  Random random(Stream stream) const { return Random(seed, stream); }
+  base::Random random(Stream stream) const { return base::Random(seed, stream); }
 };
 
 // A scene with its walls, its kind of motion and its bodies' velocities. `side` is the world's
@@ -78,4 +78,4 @@ Generated make_stack(GeneratorInput& input);
 Generated make_ground(GeneratorInput& input);
 Generated make_pairs(GeneratorInput& input);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -10,7 +10,7 @@
 #include "harness/scene/generators/settle.h"
 #include "harness/scene/generators/sway.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // Returns a point of the shape that is farthest along n (unit, local).
@@ -36,12 +36,12 @@ Vec3d support_point(const Shape& shape, const Vec3d& n) {
     case ShapeKind::ellipsoid: {
       const Vec3d& r = shape.radii;
       const Vec3d scaled(r.x() * n.x(), r.y() * n.y(), r.z() * n.z());
-      const double norm = length(scaled);
+      const double norm = base::length(scaled);
       return {r.x() * (scaled.x() / norm), r.y() * (scaled.y() / norm),
               r.z() * (scaled.z() / norm)};
     }
     case ShapeKind::hull: {
-      const auto along = [&](const Vec3d& v) { return inner(v, n); };
+      const auto along = [&](const Vec3d& v) { return base::inner(v, n); };
       const std::vector<Vec3d>& vertices = shape.hull->vertices;
       return *std::ranges::max_element(vertices, {}, along);
     }
@@ -52,14 +52,14 @@ Vec3d support_point(const Shape& shape, const Vec3d& n) {
 
 Vec3d world_support(const Scene& scene, const Body& body, const Vec3d& n) {
   const Mat3d& r = body.pose.rotation;
-  return times(r, support_point(scene.shapes[body.shape], transposed_times(r, n)));
+  return base::times(r, support_point(scene.shapes[body.shape], base::transposed_times(r, n)));
 }
 
 constexpr std::string_view placement_names[] = {"facing", "settled", "meeting"};
 enum class Placement : std::uint8_t { facing, settled, meeting };
 
 std::vector<double> read_gaps(GeneratorInput& input) {
-  TomlTable& table = input.table;
+  files::TomlTable& table = input.table;
   std::vector<double> gaps;
   if (const toml::node* node = table.node("gaps")) {
     const toml::array* array = node->as_array();
@@ -93,10 +93,11 @@ std::vector<double> read_gaps(GeneratorInput& input) {
 // Pairs stand on a grid, clear of each other. With `sway` they move (sway.h).
 Generated make_pairs(GeneratorInput& input) {
   if (input.count % 2 != 0) {
-    throw InputError(input.table.file(), 0,
-                     fmt::format("a count of {} was asked for; expected an even one, as the bodies "
-                                 "come in pairs",
-                                 input.count));
+    throw base::InputError(
+        input.table.file(), 0,
+        fmt::format("a count of {} was asked for; expected an even one, as the bodies "
+                    "come in pairs",
+                    input.count));
   }
   const std::vector<double> gaps = read_gaps(input);
   const auto placement =
@@ -114,8 +115,8 @@ Generated make_pairs(GeneratorInput& input) {
   const auto pairs = static_cast<std::uint32_t>(scene.bodies.size() / 2);
   std::uint32_t side = 1;
   while (std::uint64_t{side} * side * side < pairs) ++side;
-  Random places = input.random(GeneratorInput::place_stream);
-  Random motions = input.random(GeneratorInput::velocity_stream);
+  base::Random places = input.random(GeneratorInput::place_stream);
+  base::Random motions = input.random(GeneratorInput::velocity_stream);
   oracle::Oracle oracle;
   for (std::uint32_t i = 0; i < pairs; ++i) {
     Body& a = scene.bodies[2 * i];
@@ -142,16 +143,17 @@ Generated make_pairs(GeneratorInput& input) {
       };
       while (!is_placed()) {
         if (++tries > most_tries) {
-          throw InputError(input.table.file(), 0,
-                           fmt::format("no place found for bodies {} and {} at the distance {}: "
-                                       "expected one that these shapes can have",
-                                       2 * i, 2 * i + 1, gap));
+          throw base::InputError(
+              input.table.file(), 0,
+              fmt::format("no place found for bodies {} and {} at the distance {}: "
+                          "expected one that these shapes can have",
+                          2 * i, 2 * i + 1, gap));
         }
         face();
       }
       if (sway.share > 0) {
         const Vec3d normal = oracle.measure({solid_a, a.pose}, {solid_b, b.pose}).normal;
-        if (length(normal) > 0) n = normal / length(normal);
+        if (base::length(normal) > 0) n = normal / base::length(normal);
       }
     }
     a.moving = b.moving = false;
@@ -162,4 +164,4 @@ Generated make_pairs(GeneratorInput& input) {
   return made;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -5,7 +5,7 @@
 #include "harness/scene/generators/generators.h"
 #include "harness/scene/generators/world_size.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // Broadmark starts its bodies in a ball of 0.9 times the world's width.
@@ -17,7 +17,7 @@ Region centred(double half_width) {
   return {Vec3d::Constant(-half_width), Vec3d::Constant(2 * half_width)};
 }
 
-Vec3d place_in(const Region& region, Random& random) {
+Vec3d place_in(const Region& region, base::Random& random) {
   Vec3d place;
   for (int axis = 0; axis < 3; ++axis) {
     place[axis] = region.low[axis] + region.width[axis] * random.unit();
@@ -34,7 +34,7 @@ Generated scatter_evenly(GeneratorInput& input, const ShapeMixDefaults& sizes) {
   const RegionOf region = [](std::size_t, double side) { return centred(side / 2); };
   made.side = read_world_side(input.table, made.scene, region, {}, true,
                               input.random(GeneratorInput::world_stream));
-  Random places = input.random(GeneratorInput::place_stream);
+  base::Random places = input.random(GeneratorInput::place_stream);
   for (Body& body : made.scene.bodies) {
     body.pose.translation = place_in(centred(made.side / 2), places);
   }
@@ -53,7 +53,7 @@ Generated scatter_as_broadmark(GeneratorInput& input, MotionKind motion) {
   const RegionOf region = [](std::size_t, double side) { return centred(ball_as_cube * side); };
   made.side = read_world_side(input.table, made.scene, region, {.density = 0.1}, true,
                               input.random(GeneratorInput::world_stream));
-  Random places = input.random(GeneratorInput::place_stream);
+  base::Random places = input.random(GeneratorInput::place_stream);
   for (Body& body : made.scene.bodies) {
     body.pose.translation = ball_radius * made.side * places.in_ball();
   }
@@ -77,7 +77,7 @@ Generated make_clustered(GeneratorInput& input) {
   const std::int64_t clusters =
       input.table.integer("clusters", 1, 1'000'000, std::max<std::int64_t>(1, input.count / 100));
   const double spread = input.table.number("spread", {.low = 1e-6, .high = 1}, 0.1);
-  Random places = input.random(GeneratorInput::place_stream);
+  base::Random places = input.random(GeneratorInput::place_stream);
   std::vector<Vec3d> centres;  // for a world of side 2
   for (std::int64_t i = 0; i < clusters; ++i) {
     centres.push_back(place_in(centred(1 - spread), places));
@@ -111,4 +111,4 @@ Generated make_rotating_gravity(GeneratorInput& input) {
   return scatter_as_broadmark(input, MotionKind::rotating_gravity);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // The precision with which doubles of the size of the translations can place a body.
@@ -44,4 +44,4 @@ bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, cons
   return false;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -3,7 +3,7 @@
 
 #include "algorithms/oracle/oracle.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // Moves b along the shortest connection, or separating translation, until the signed distance
 // (metres) is correct to one millionth of it or to 4e-16. The nearest features may change on the
@@ -17,4 +17,4 @@ bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
 bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, const oracle::Solid& b,
           Pose& at_b, const Vec3d& way, double distance);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -9,7 +9,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 constexpr std::int64_t default_hull_points = 12;
@@ -30,9 +30,10 @@ struct Ingredient {
 // The least length relative to the mean that is drawn, since a normal distribution is unbounded.
 constexpr double least_part = 0.05;
 
-NormalLaw read_normal(TomlTable& table, const std::string& key) {
-  TomlTable law = table.inside(key, table.where() + ": " + key);
-  const NormalLaw result{law.number("mean", positive), law.number("deviation", not_negative)};
+NormalLaw read_normal(files::TomlTable& table, const std::string& key) {
+  files::TomlTable law = table.inside(key, table.where() + ": " + key);
+  const NormalLaw result{law.number("mean", files::positive),
+                         law.number("deviation", files::not_negative)};
   law.finish();
   return result;
 }
@@ -43,16 +44,16 @@ std::span<const std::string_view> bounded_names() {
 }
 
 // Returns true if a table gives sizes or a mesh, and so a fixed shape.
-bool is_fixed(const TomlTable& table) {
+bool is_fixed(const files::TomlTable& table) {
   constexpr std::string_view sizes[] = {"mesh",  "radius",   "half_length", "half_extents",
                                         "radii", "vertices", "normal",      "offset"};
   return std::any_of(std::begin(sizes), std::end(sizes),
                      [&](std::string_view key) { return table.contains(key); });
 }
 
-Ingredient read_ingredient(TomlTable table, ShapeReader& reader) {
+Ingredient read_ingredient(files::TomlTable table, ShapeReader& reader) {
   Ingredient ingredient;
-  ingredient.weight = table.number("weight", positive, 1.0);
+  ingredient.weight = table.number("weight", files::positive, 1.0);
   ingredient.fixed = is_fixed(table);
   if (!table.contains("mesh")) {
     ingredient.kind = all_shape_kinds[table.choice("type", bounded_names())];
@@ -68,7 +69,7 @@ Ingredient read_ingredient(TomlTable table, ShapeReader& reader) {
   return ingredient;
 }
 
-std::vector<Ingredient> read_ingredients(TomlTable& table, ShapeReader& reader) {
+std::vector<Ingredient> read_ingredients(files::TomlTable& table, ShapeReader& reader) {
   const toml::node* node = table.node("shapes");
   if (node == nullptr) return {Ingredient{}};
   const toml::array* array = node->as_array();
@@ -90,7 +91,7 @@ std::vector<Ingredient> read_ingredients(TomlTable& table, ShapeReader& reader) 
 }
 
 // Makes a shape whose longest side or diameter is `size`.
-Shape random_shape(const Ingredient& ingredient, double size, double aspect, Random& random) {
+Shape random_shape(const Ingredient& ingredient, double size, double aspect, base::Random& random) {
   Shape shape;
   shape.kind = ingredient.kind;
   const double half = size / 2;
@@ -132,10 +133,11 @@ Shape random_shape(const Ingredient& ingredient, double size, double aspect, Ran
 
 }  // namespace
 
-std::vector<TurnedShape> make_shape_mix(TomlTable& table, ShapeReader& reader, std::int64_t count,
-                                        const ShapeMixDefaults& defaults, Random& random) {
+std::vector<TurnedShape> make_shape_mix(files::TomlTable& table, ShapeReader& reader,
+                                        std::int64_t count, const ShapeMixDefaults& defaults,
+                                        base::Random& random) {
   const std::vector<Ingredient> ingredients = read_ingredients(table, reader);
-  const auto [least, greatest] = table.range("size", positive, defaults.size);
+  const auto [least, greatest] = table.range("size", files::positive, defaults.size);
   const double aspect = table.number("aspect", {.low = 1e-6, .high = 1}, defaults.aspect);
   const std::int64_t distinct = table.integer("distinct", 1, 100'000'000, 1000);
   double total = 0;
@@ -160,4 +162,4 @@ std::vector<TurnedShape> make_shape_mix(TomlTable& table, ShapeReader& reader, s
   return shapes;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -7,7 +7,7 @@
 #include "harness/base/random.h"
 #include "harness/scene/shape_reader.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // Distribution of sizes between the least and the greatest.
 enum class SizeLaw : std::uint8_t { even, over_magnitudes };
@@ -25,7 +25,8 @@ struct ShapeMixDefaults {
 //   size      [least, greatest] length of a shape's longest side or diameter
 //   aspect    least ratio of the other sides to the longest
 //   distinct  the greatest number of different shapes, default 1000
-std::vector<TurnedShape> make_shape_mix(TomlTable& table, ShapeReader& reader, std::int64_t count,
-                                        const ShapeMixDefaults& defaults, Random& random);
+std::vector<TurnedShape> make_shape_mix(files::TomlTable& table, ShapeReader& reader,
+                                        std::int64_t count, const ShapeMixDefaults& defaults,
+                                        base::Random& random);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

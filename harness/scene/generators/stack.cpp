@@ -3,15 +3,15 @@
 
 #include "harness/scene/generators/generators.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // Makes piles of `height` cubes of side `size` on a square grid with `gap` sides between them; gap
 // 0 makes a solid block. Faces touch exactly if size is a power of two. `turned` rotates each pile
 // about z.
 Generated make_stack(GeneratorInput& input) {
-  const double size = input.table.number("size", positive, 1.0);
+  const double size = input.table.number("size", files::positive, 1.0);
   const std::int64_t height = input.table.integer("height", 1, 1'000'000, 10);
-  const double gap = input.table.number("gap", not_negative, 0.5);
+  const double gap = input.table.number("gap", files::not_negative, 0.5);
   const bool turned = input.table.boolean("turned", false);
 
   Generated made;
@@ -23,13 +23,13 @@ Generated make_stack(GeneratorInput& input) {
   const std::int64_t piles = (input.count + height - 1) / height;
   std::int64_t row = 1;
   while (row * row < piles) ++row;
-  Random poses = input.random(GeneratorInput::pose_stream);
+  base::Random poses = input.random(GeneratorInput::pose_stream);
   Mat3d rotation = Mat3d::Identity();
   const double step = size * (1 + gap);
   for (std::int64_t i = 0; i < input.count; ++i) {
     const std::int64_t pile = i / height, level = i % height;
     if (turned && level == 0) {
-      const SinCos turn = sin_cos_turns(poses.unit());
+      const base::SinCos turn = base::sin_cos_turns(poses.unit());
       rotation << turn.cos, -turn.sin, 0, turn.sin, turn.cos, 0, 0, 0, 1;
     }
     Body body;
@@ -48,4 +48,4 @@ Generated make_stack(GeneratorInput& input) {
   return made;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

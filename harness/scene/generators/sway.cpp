@@ -5,7 +5,7 @@
 
 #include "harness/base/reproducible_math.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 Vec3d cross(const Vec3d& u, const Vec3d& v) {
@@ -17,13 +17,14 @@ Vec3d cross(const Vec3d& u, const Vec3d& v) {
 void start(double seconds, Body& body) {
   body.moving = true;
   body.pose.translation -= seconds * body.velocity;
-  body.pose.rotation = product(rotation_over(body.angular_velocity, -seconds), body.pose.rotation);
+  body.pose.rotation =
+      base::product(base::rotation_over(body.angular_velocity, -seconds), body.pose.rotation);
 }
 
 }  // namespace
 
 Sway read_sway(const GeneratorInput& input) {
-  TomlTable& table = input.table;
+  files::TomlTable& table = input.table;
   Sway sway;
   sway.share = table.number("sway", {.low = 0, .high = 1}, 0.0);
   if (sway.share > 0 && table.contains("motion")) {
@@ -34,18 +35,18 @@ Sway read_sway(const GeneratorInput& input) {
   return sway;
 }
 
-void set_swaying(const Sway& sway, const Vec3d& normal, double gap, double reach, Random& random,
-                 Body& a, Body& b) {
+void set_swaying(const Sway& sway, const Vec3d& normal, double gap, double reach,
+                 base::Random& random, Body& a, Body& b) {
   const int middle = sway.frames / 2;
   if (!(sway.share > 0) || middle == 0) return;
   const double seconds = middle * sway.time_step;
   const double change = sway.share * std::abs(gap);
   const Vec3d between = b.pose.translation - a.pose.translation;
-  const double arm = length(between) + reach;
+  const double arm = base::length(between) + reach;
   const double angle = std::sqrt(change / (2 * arm));  // arm * angle^2 / 2 is a quarter
   const Vec3d turn = (angle / seconds) * random.in_ball();
   Vec3d slide = (angle * arm / 2 / seconds) * random.in_ball();
-  slide -= inner(slide, normal) * normal;
+  slide -= base::inner(slide, normal) * normal;
   const double spin = (angle / seconds) * (2 * random.unit() - 1);
   const Vec3d tilt = (change / (4 * arm) / seconds) * random.in_ball();
   a.angular_velocity = turn;
@@ -55,4 +56,4 @@ void set_swaying(const Sway& sway, const Vec3d& normal, double gap, double reach
   start(seconds, b);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -5,7 +5,7 @@
 #include "harness/scene/generators/generators.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 struct Sway {
   double share = 0;      // change of the distance relative to the gap, about; 0: nothing moves
@@ -25,7 +25,7 @@ Sway read_sway(const GeneratorInput& input);
 // the length of the slide, is small enough to change the distance at the first and the last frame
 // by at most about a quarter of share * |gap|, if the nearest features stay the same. If one slides
 // off the other's edge, the bodies are further apart.
-void set_swaying(const Sway& sway, const Vec3d& normal, double gap, double reach, Random& random,
-                 Body& a, Body& b);
+void set_swaying(const Sway& sway, const Vec3d& normal, double gap, double reach,
+                 base::Random& random, Body& a, Body& b);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -8,7 +8,7 @@
 
 #include "algorithms/core/bounds.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 namespace {
 
 // Many bodies need a larger sample: the smaller the share of overlapping pairs, the fewer a sample
@@ -62,7 +62,7 @@ double own_volume(const Scene& scene) {
 
 // Returns the side at which that many overlaps are expected, or 0 if no side has so many.
 double side_for_overlaps(double overlaps, std::span<const Aabb> boxes, const RegionOf& region,
-                         const Random& random) {
+                         const base::Random& random) {
   const auto expect = [&](double side) { return expected_overlaps(boxes, region, side, random); };
   double low = 1, high = 1;
   for (int i = 0; expect(low) < overlaps; ++i) {
@@ -88,7 +88,7 @@ std::vector<Aabb> boxes_at_origin(const Scene& scene) {
 }
 
 double expected_overlaps(std::span<const Aabb> boxes, const RegionOf& region, double side,
-                         Random random) {
+                         base::Random random) {
   const std::size_t n = boxes.size();
   if (n < 2) return 0;
   double sum = 0;
@@ -111,19 +111,19 @@ double expected_overlaps(std::span<const Aabb> boxes, const RegionOf& region, do
   return sum / static_cast<double>(pairs) * static_cast<double>(n - 1);
 }
 
-double read_world_side(TomlTable& table, const Scene& scene, const RegionOf& region,
-                       const WorldDefaults& defaults, bool with_density, Random random) {
+double read_world_side(files::TomlTable& table, const Scene& scene, const RegionOf& region,
+                       const WorldDefaults& defaults, bool with_density, base::Random random) {
   const auto others = static_cast<double>(scene.bodies.size()) - 1;
   const bool asked = table.has("overlaps");
   if (with_density && (table.has("density") || (defaults.density > 0 && !asked))) {
     if (asked) table.fail("overlaps", "given beside density; expected one of the two");
-    const double density = table.number("density", positive, defaults.density);
-    return round_to_16_bits(cube_root(own_volume(scene) / density));
+    const double density = table.number("density", files::positive, defaults.density);
+    return round_to_16_bits(base::cube_root(own_volume(scene) / density));
   }
   // Few bodies have few overlaps by default.
   const double overlaps =
-      asked ? table.number("overlaps", positive) : std::min(defaults.overlaps, others / 2);
-  if (!(overlaps > 0)) return round_to_16_bits(cube_root(own_volume(scene)) + 1);
+      asked ? table.number("overlaps", files::positive) : std::min(defaults.overlaps, others / 2);
+  if (!(overlaps > 0)) return round_to_16_bits(base::cube_root(own_volume(scene)) + 1);
   const double side =
       overlaps < others ? side_for_overlaps(overlaps, boxes_at_origin(scene), region, random) : 0;
   if (side == 0) {
@@ -134,4 +134,4 @@ double read_world_side(TomlTable& table, const Scene& scene, const RegionOf& reg
   return round_to_16_bits(side);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

@@ -8,7 +8,7 @@
 #include "harness/files/toml_table.h"
 #include "harness/scene/scene.h"
 
-namespace touchstone {
+namespace touchstone::scene {
 
 // The region of a body's origin, all places equally likely: [low, low + width] (metres).
 struct Region {
@@ -24,7 +24,7 @@ std::vector<Aabb> boxes_at_origin(const Scene& scene);
 // The expected number of other boxes that a body's box overlaps, from all pairs of boxes, or from
 // 16,384 random ones if there are more (262,144 from 200,000 boxes on).
 double expected_overlaps(std::span<const Aabb> boxes, const RegionOf& region, double side,
-                         Random random);
+                         base::Random random);
 
 struct WorldDefaults {
   double overlaps = 2;
@@ -35,7 +35,7 @@ struct WorldDefaults {
 // cube that the bodies' unrotated boxes would fill, Broadmark's measure). Returns the side of the
 // world (metres), rounded to 16 bits so that differences between platforms vanish. Without
 // `with_density` only overlaps are read.
-double read_world_side(TomlTable& table, const Scene& scene, const RegionOf& region,
-                       const WorldDefaults& defaults, bool with_density, Random random);
+double read_world_side(files::TomlTable& table, const Scene& scene, const RegionOf& region,
+                       const WorldDefaults& defaults, bool with_density, base::Random random);
 
-}  // namespace touchstone
+}  // namespace touchstone::scene

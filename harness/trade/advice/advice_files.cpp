@@ -10,7 +10,7 @@
 #include "harness/record/machine.h"
 #include "harness/trade/advice/verification_row.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 std::string interval(const TimedPoint& timed) {
@@ -84,16 +84,16 @@ std::string advice_text(const Advice& advice, const AdviceProblem& problem) {
 
 void write_advice(const Advice& advice, const AdviceProblem& problem,
                   const std::filesystem::path& folder) {
-  stats::write_text(folder / "advice.txt", advice_text(advice, problem));
+  base::write_text(folder / "advice.txt", advice_text(advice, problem));
   if (!advice.best) return;
   TradeRequest request = problem.request;
   request.grids = {grid_of(advice.best->point.configuration)};
   if (advice.next_better) request.grids.push_back(grid_of(advice.next_better->point.configuration));
-  stats::write_text(folder / "advice.toml",
-                    trade_toml(request, folder,
-                               "The cheapest with " + to_string(problem.budget, request.measure) +
-                                   ", and the next better behind it.\n"
-                                   "Measured by: touchstone run advice.toml"));
+  base::write_text(folder / "advice.toml",
+                   trade_toml(request, folder,
+                              "The cheapest with " + to_string(problem.budget, request.measure) +
+                                  ", and the next better behind it.\n"
+                                  "Measured by: touchstone run advice.toml"));
 }
 
 std::string verification_text(const Verification& v) {
@@ -120,15 +120,15 @@ std::string verification_text(const Verification& v) {
 VerificationRows::VerificationRows(const std::filesystem::path& folder, int draws)
     : draws_(draws),
       folder_({.folder = folder,
-               .files = {{"verification.csv", header_of<VerificationRow>(draws)}},
+               .files = {{"verification.csv", record::header_of<VerificationRow>(draws)}},
                .identity = {{"held_out_scenes", std::to_string(draws)}},
-               .notes = machine_facts(),
-               .start = FolderStart::overwrite,
+               .notes = record::machine_facts(),
+               .start = record::FolderStart::overwrite,
                .work = "verification"}) {}
 
 void VerificationRows::write(const AdviceProblem& problem, const Verification* verification) {
   VerificationRow row;
-  const Scene& scene = problem.scene.scene;
+  const scene::Scene& scene = problem.scene.scene;
   row.scene = scene.name;
   row.scene_hash = scene_hash(scene);
   row.bodies = static_cast<std::int64_t>(scene.size());
@@ -161,4 +161,4 @@ void VerificationRows::write(const AdviceProblem& problem, const Verification* v
   folder_.commit();
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

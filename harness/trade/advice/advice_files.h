@@ -8,7 +8,7 @@
 #include "harness/trade/advice/advise.h"
 #include "harness/trade/advice/verification.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // The question, and the answer in a few lines.
 std::string advice_text(const Advice& advice, const AdviceProblem& problem);
@@ -32,7 +32,7 @@ class VerificationRows {
 
  private:
   int draws_;
-  ResultFolder folder_;
+  record::ResultFolder folder_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -8,12 +8,12 @@
 
 #include "harness/files/toml_table.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
 
-AdviceTask read_task(TomlTable& table, const std::filesystem::path& folder,
+AdviceTask read_task(files::TomlTable& table, const std::filesystem::path& folder,
                      const TradeRequest& usual) {
   AdviceTask task;
   TradeRequest& request = task.request = usual;
@@ -31,7 +31,7 @@ AdviceTask read_task(TomlTable& table, const std::filesystem::path& folder,
       static_cast<Task>(table.choice("task", task_names, static_cast<std::size_t>(usual.task)));
   request.measure = static_cast<ErrorMeasure>(table.choice(
       "error", error_measure_names, static_cast<std::size_t>(default_measure(request.task))));
-  task.budget.most = table.number("max_error", not_negative, task.budget.most);
+  task.budget.most = table.number("max_error", files::not_negative, task.budget.most);
   task.budget.no_false_negatives = table.boolean("no_false_negatives", false);
   table.finish();
   return task;
@@ -41,11 +41,11 @@ AdviceTask read_task(TomlTable& table, const std::filesystem::path& folder,
 
 std::vector<AdviceTask> read_advice_list(const std::filesystem::path& file,
                                          const TradeRequest& usual) {
-  const toml::table root = parse_toml(file);
-  TomlTable top(root, file.string(), "");
+  const toml::table root = files::parse_toml(file);
+  files::TomlTable top(root, file.string(), "");
   std::vector<AdviceTask> tasks;
   std::set<std::string> names;
-  for (TomlTable& table : top.tables("scene")) {
+  for (files::TomlTable& table : top.tables("scene")) {
     tasks.push_back(read_task(table, file.parent_path(), usual));
     if (!names.insert(tasks.back().name).second) {
       table.fail("name", fmt::format("\"{}\" is there twice; expected another name for one of them",
@@ -56,4 +56,4 @@ std::vector<AdviceTask> read_advice_list(const std::filesystem::path& file,
   return tasks;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -8,7 +8,7 @@
 #include "harness/trade/advice/error_budget.h"
 #include "harness/trade/trade_request.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct AdviceTask {
   std::string name;  // of its folder: the scene file's stem, unless the list says otherwise
@@ -21,4 +21,4 @@ struct AdviceTask {
 std::vector<AdviceTask> read_advice_list(const std::filesystem::path& file,
                                          const TradeRequest& usual);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -8,7 +8,7 @@
 #include "harness/trade/advice/error_budget.h"
 #include "harness/trade/trade_job.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct AdviceProblem {
   const TradeRequest& request;
@@ -18,4 +18,4 @@ struct AdviceProblem {
   std::function<void(const std::string&)> said;  // gets a line for each step
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -10,7 +10,7 @@
 
 #include "harness/base/clock.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr double truth_share = 0.15;  // of the seconds; as much again for what is held out
@@ -203,7 +203,7 @@ class Search {
   }
 
   const AdviceProblem& problem_;
-  Stopwatch watch_;
+  base::Stopwatch watch_;
   std::vector<TradeOutcome> all_;
   std::set<std::string> names_;          // of all
   std::vector<std::size_t> candidates_;  // of all, those within the budget
@@ -215,4 +215,4 @@ class Search {
 
 Advice advise(const AdviceProblem& problem) { return Search(problem).run(); }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -12,7 +12,7 @@
 #include "harness/trade/advice/advice_problem.h"
 #include "harness/trade/advice/held_out.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // Draws of held_out.h that the search itself uses, from 1 on; a verification uses those behind.
 inline constexpr int advice_draws = 2;
@@ -33,4 +33,4 @@ struct Advice {
 // held-out scene is dropped for the next.
 Advice advise(const AdviceProblem& problem);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace touchstone {
+namespace touchstone::trade {
 
 bool meets(const ErrorBudget& budget, ErrorMeasure measure, const Evaluation& evaluation,
            const RepresentationSpread& representation) {
@@ -23,4 +23,4 @@ std::string to_string(const ErrorBudget& budget, ErrorMeasure measure) {
                      budget.no_false_negatives ? ", no contact missed" : "");
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -6,7 +6,7 @@
 #include "harness/trade/evaluation.h"
 #include "harness/trade/front.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct ErrorBudget {
   double most = 1e-3;               // of the request's measure
@@ -19,4 +19,4 @@ bool meets(const ErrorBudget& budget, ErrorMeasure measure, const Evaluation& ev
 // "verdicts at most 0.001, no contact missed"
 std::string to_string(const ErrorBudget& budget, ErrorMeasure measure);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

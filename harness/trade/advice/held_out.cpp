@@ -11,7 +11,7 @@
 #include "harness/files/toml_table.h"
 #include "harness/scene/kinematics.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t most_frames = 4;
@@ -20,31 +20,31 @@ constexpr std::size_t most_frames = 4;
 std::int64_t own_seed(const TradeRequest& request) {
   if (request.overrides.seed != -1) return request.overrides.seed;
   if (request.scene.extension() != ".toml") return 1;
-  return parse_toml(request.scene)["seed"].value<std::int64_t>().value_or(1);
+  return files::parse_toml(request.scene)["seed"].value<std::int64_t>().value_or(1);
 }
 
 // Empty where the scene has no seeds.
-std::optional<Scene> with_seed(const TradeRequest& request, std::int64_t seed) {
-  SceneOverrides overrides = request.overrides;
+std::optional<scene::Scene> with_seed(const TradeRequest& request, std::int64_t seed) {
+  scene::SceneOverrides overrides = request.overrides;
   overrides.seed = seed;
   try {
-    return load_scene(request.scene, overrides);
-  } catch (const InputError&) {
+    return scene::load_scene(request.scene, overrides);
+  } catch (const base::InputError&) {
     return {};  // without that seed it can be had: the caller has it
   }
 }
 
 // Empty where nothing moves.
-std::optional<Scene> begun_later(const TradeRequest& request, int number) {
-  Scene scene = load_scene(request.scene, request.overrides);
-  Random random(static_cast<std::uint64_t>(number));
-  Scene step = scene;
+std::optional<scene::Scene> begun_later(const TradeRequest& request, int number) {
+  scene::Scene scene = scene::load_scene(request.scene, request.overrides);
+  base::Random random(static_cast<std::uint64_t>(number));
+  scene::Scene step = scene;
   step.motion.time_step *= random.unit();
-  Kinematics kinematics(step);
+  scene::Kinematics kinematics(step);
   kinematics.next();
   bool moves = false;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    Body& body = scene.bodies[i];
+    scene::Body& body = scene.bodies[i];
     const Pose& pose = kinematics.poses()[i];
     moves =
         moves || pose.translation != body.pose.translation || pose.rotation != body.pose.rotation;
@@ -64,7 +64,7 @@ HeldOutScenes::HeldOutScenes(const TradeRequest& request, const Representing& re
   request_.seconds = std::numeric_limits<double>::infinity();
   const std::int64_t seed = own_seed(request);
   for (int number = first; number < first + count; ++number) {
-    std::optional<Scene> drawn = with_seed(request, seed + number);
+    std::optional<scene::Scene> drawn = with_seed(request, seed + number);
     kind_ = drawn ? "seed" : "start";
     const std::int64_t shown = drawn ? seed + number : number;
     if (!drawn) drawn = begun_later(request, number);
@@ -111,4 +111,4 @@ bool all_within(std::span<const HeldOutGrade> grades) {
   return std::ranges::all_of(grades, &HeldOutGrade::within);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

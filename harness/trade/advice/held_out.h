@@ -9,7 +9,7 @@
 #include "harness/trade/advice/error_budget.h"
 #include "harness/trade/trade_job.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct HeldOutGrade {
   std::string scene;             // "seed 5", "start 2"
@@ -30,7 +30,7 @@ class HeldOutScenes {
                 double seconds);
 
   bool empty() const { return scenes_.empty(); }
-  const Scene& scene(std::size_t i) const { return scenes_[i].scene->scene; }
+  const scene::Scene& scene(std::size_t i) const { return scenes_[i].scene->scene; }
   std::string name() const;  // "seeds 4 to 6", "start 1"; "nothing else: nothing moves"
 
   // A grade for each scene.
@@ -49,4 +49,4 @@ class HeldOutScenes {
 
 bool all_within(std::span<const HeldOutGrade> grades);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr double truth_share = 0.3;  // of the seconds, for all held-out scenes
@@ -142,4 +142,4 @@ Verification verify(const AdviceProblem& problem, const Configuration& choice, i
   return Verifier(problem).run(choice, first_draw, draws, folder);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

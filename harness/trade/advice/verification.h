@@ -10,7 +10,7 @@
 #include "harness/trade/advice/advice_problem.h"
 #include "harness/trade/advice/held_out.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 inline constexpr double allowed_ratio = 1.1;  // of the choice's time to that of the grid's best
 
@@ -48,4 +48,4 @@ struct Verification {
 Verification verify(const AdviceProblem& problem, const Configuration& choice, int first_draw,
                     int draws, const std::filesystem::path& folder);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -14,7 +14,7 @@
 #include "harness/record/row.h"
 #include "harness/trade/advice/verification.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 enum class YesNo : std::uint8_t { no, yes };
 inline std::string_view to_string(YesNo answer) { return answer == YesNo::yes ? "yes" : "no"; }
@@ -41,7 +41,7 @@ struct VerificationRow {
   TimeVerdict within_time = TimeVerdict::undecided;
   YesNo verified = YesNo::no;
 };
-template <row_of<VerificationRow> Row, class Visit>
+template <record::row_of<VerificationRow> Row, class Visit>
 void columns(Row& row, Visit visit, int held_out_scenes) {
   visit("scene", row.scene, "Name of the scene.");
   visit("scene_hash", row.scene_hash, "Fingerprint of the scene's content.");
@@ -76,4 +76,4 @@ void columns(Row& row, Visit visit, int held_out_scenes) {
   visit("verified", row.verified, "It is within the budget and within the time.");
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

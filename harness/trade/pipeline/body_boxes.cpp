@@ -5,7 +5,7 @@
 
 #include "algorithms/core/bounds.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t bodies_a_task = 256;
@@ -59,7 +59,7 @@ Aabb BodyBoxes::box_of(const SceneFrame& frame, std::uint32_t body) const {
   }
   if (stand_in.plain) return tight_box(stand_in.parts[0].shape, pose);
   Aabb all = Aabb::empty();
-  for (const Part& part : stand_in.outline) {
+  for (const proxies::Part& part : stand_in.outline) {
     include(all, tight_box(part.shape, placed(pose, part.pose)));
   }
   return all;
@@ -117,4 +117,4 @@ void BodyBoxes::advance(std::size_t number) {
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -9,7 +9,7 @@
 #include "algorithms/broad_phase.h"
 #include "harness/trade/pipeline/stand_ins.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 class BodyBoxes {
  public:
@@ -42,4 +42,4 @@ class BodyBoxes {
   std::int64_t computed_ = 0;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -6,7 +6,7 @@
 
 #include "harness/base/clock.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t queries_a_piece = 256;
@@ -41,7 +41,7 @@ FramePipeline::FramePipeline(const SceneFrames& frames, const StandIns& stand_in
           counters_.shapes_bound += static_cast<std::int64_t>(stand_ins.shapes.size());
         }
       }
-      takes_[PairGrouping::index(a, b)] = static_cast<std::uint8_t>(place[i]);
+      takes_[grade::PairGrouping::index(a, b)] = static_cast<std::uint8_t>(place[i]);
       break;
     }
   }
@@ -79,7 +79,7 @@ void FramePipeline::find_pairs(bool anew) {
     pairs_ = frames_->scene->pairs;
     return;
   }
-  Stopwatch watch;
+  base::Stopwatch watch;
   const bool changed = anew || boxes_.changed();
   if (anew) {
     broad_->build(boxes_.boxes());
@@ -128,7 +128,7 @@ void FramePipeline::place(std::uint32_t body, std::uint32_t part) {
 }
 
 void FramePipeline::split_into_parts() {
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   asked_.clear();
   reduced_ = false;
   for (const IndexPair& pair : pairs_) {
@@ -185,7 +185,7 @@ void FramePipeline::split_into_parts() {
 }
 
 void FramePipeline::solve() {
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   pieces_.clear();
   std::size_t total = 0;
   const auto batches = batches_.groups();
@@ -239,8 +239,8 @@ void FramePipeline::reduce() {
       if (std::isfinite(outcome.distance) && !(answer.distance <= outcome.distance)) {
         answer.distance = outcome.distance;
       }
-      if (is_contact(answer.answer)) continue;
-      if (is_contact(outcome.answer) || outcome.answer == Answer::unknown) {
+      if (grade::is_contact(answer.answer)) continue;
+      if (grade::is_contact(outcome.answer) || outcome.answer == Answer::unknown) {
         answer.answer = outcome.answer;
         answer.status = outcome.status;
       }
@@ -250,7 +250,7 @@ void FramePipeline::reduce() {
 
 void FramePipeline::start(std::size_t frame) {
   seconds_ = {};
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   prepare(frame, true);
   of(seconds_, Stage::boxes) = watch.seconds();
   find_pairs(true);
@@ -260,7 +260,7 @@ void FramePipeline::start(std::size_t frame) {
 
 void FramePipeline::advance() {
   seconds_ = {};
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   prepare(frame_ + 1, false);
   of(seconds_, Stage::boxes) = watch.seconds();
   find_pairs(false);
@@ -285,4 +285,4 @@ PipelineCounters FramePipeline::counters() const {
   return counters;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -15,7 +15,7 @@
 #include "harness/trade/pipeline/body_boxes.h"
 #include "harness/trade/pipeline/stand_ins.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // The stages of a frame in order: bodies' boxes and parts' poses; build or update; find_pairs; from
 // pairs of bodies to batches of pairs of parts; their answers.
@@ -92,16 +92,17 @@ class FramePipeline {
   PairSink sink_;
   // Narrow phases that are needed: one instance a worker; and which of them takes a pair of kinds.
   std::vector<std::vector<std::unique_ptr<NarrowPhase>>> narrow_;
-  std::array<std::uint8_t, PairGrouping::kinds * PairGrouping::kinds> takes_{};
+  std::array<std::uint8_t, grade::PairGrouping::kinds * grade::PairGrouping::kinds> takes_{};
 
   std::size_t frame_ = 0;
   std::vector<IndexPair> pairs_, asked_;
   std::vector<Pose> part_poses_;          // empty where parts are where bodies are
   std::vector<std::uint32_t> placed_at_;  // of each part: frame + 1 of its pose; several parts only
   std::vector<std::vector<PartPair>> part_pairs_;  // of each task
-  PairGrouping batches_;                           // of pairs of parts
+  grade::PairGrouping batches_;                    // of pairs of parts
   // The pair of bodies of each pair of parts: a place in asked_.
-  std::array<std::vector<std::uint32_t>, PairGrouping::kinds * PairGrouping::kinds> owners_;
+  std::array<std::vector<std::uint32_t>, grade::PairGrouping::kinds * grade::PairGrouping::kinds>
+      owners_;
   std::vector<Piece> pieces_;
   std::vector<Outcome> outcomes_;
   std::vector<PairAnswer> answers_;
@@ -110,4 +111,4 @@ class FramePipeline {
   PipelineCounters counters_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -6,7 +6,7 @@
 
 #include "algorithms/core/bounds.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 // Rotations are orthonormal to a thousandth at worst (of scene files); lengths across frames are
@@ -14,7 +14,7 @@ namespace {
 constexpr double length_slack = 4e-3;
 constexpr double rounding = 1e-12;  // of the numbers that a test adds
 
-Vec3d point_of(const Part& part) {
+Vec3d point_of(const proxies::Part& part) {
   return part.shape.kind == ShapeKind::hull ? part.pose(part.shape.hull->vertices.front())
                                             : part.pose.translation;
 }
@@ -108,8 +108,8 @@ void descend(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pos
 
 }  // namespace
 
-PartTree::PartTree(std::span<const Part> parts) {
-  for (const Part& part : parts) points_.push_back(point_of(part));
+PartTree::PartTree(std::span<const proxies::Part> parts) {
+  for (const proxies::Part& part : parts) points_.push_back(point_of(part));
   if (parts.size() == 1 && parts[0].shape.kind == ShapeKind::halfspace) {
     is_plane_ = true;
     const double length = parts[0].shape.normal.norm();
@@ -192,4 +192,4 @@ void nearest_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, con
   }
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

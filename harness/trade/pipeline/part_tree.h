@@ -13,11 +13,11 @@
 #include "algorithms/core/pose.h"
 #include "harness/proxies/representation.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 class PartTree {
  public:
-  explicit PartTree(std::span<const Part> parts);
+  explicit PartTree(std::span<const proxies::Part> parts);
 
   struct Node {
     Vec3d centre, half;         // metres, body frame; rounded outward
@@ -59,4 +59,4 @@ void meeting_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, con
 void nearest_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pose& pose_b,
                    std::vector<PartPair>& pairs);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -6,7 +6,7 @@
 #include "harness/scene/player.h"
 #include "harness/trade/configuration.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{256} << 20;
@@ -17,15 +17,15 @@ bool same(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-SceneFrames::SceneFrames(const Scene& from, int most_frames)
+SceneFrames::SceneFrames(const scene::Scene& from, int most_frames)
     : scene(&from), mesh_of(from.shapes.size(), nullptr), moves(from.bodies.size(), 0) {
   for (std::size_t i = 0; i < mesh_of.size(); ++i) mesh_of[i] = from.mesh_of(i);
   if (!from.recording.empty()) {
-    throw InputError(from.name + " is a recording of boxes; expected a scene with bodies");
+    throw base::InputError(from.name + " is a recording of boxes; expected a scene with bodies");
   }
   const std::size_t fit = most_bytes / (from.bodies.size() * sizeof(Pose));
   const std::size_t most = std::clamp(fit, std::size_t{2}, static_cast<std::size_t>(most_frames));
-  ScenePlayer player(from, BoxKind::tight);
+  scene::ScenePlayer player(from, scene::BoxKind::tight);
   do {
     SceneFrame& frame = frames.emplace_back();
     frame.poses.assign(player.poses().begin(), player.poses().end());
@@ -54,4 +54,4 @@ std::size_t SceneFrames::kind_of(std::size_t body) const {
                                    : static_cast<std::size_t>(scene->shapes[shape].kind);
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

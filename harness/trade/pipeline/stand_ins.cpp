@@ -11,7 +11,7 @@
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t most_error_bodies = 48;
@@ -21,7 +21,7 @@ bool is_plain(const Pose& pose) {
 }
 
 // The corners of a box or a hull, in the body's frame; none of others.
-bool append_corners(const Part& part, std::vector<Vec3d>& corners) {
+bool append_corners(const proxies::Part& part, std::vector<Vec3d>& corners) {
   if (part.shape.kind == ShapeKind::hull) {
     for (const Vec3d& vertex : part.shape.hull->vertices) corners.push_back(part.pose(vertex));
     return true;
@@ -38,24 +38,25 @@ bool append_corners(const Part& part, std::vector<Vec3d>& corners) {
 }
 
 // Many flat-sided parts become the hull of all, so that the body's box costs what a hull's does.
-std::vector<Part> outline_of(const std::vector<Part>& parts, std::int64_t& hulls) {
+std::vector<proxies::Part> outline_of(const std::vector<proxies::Part>& parts,
+                                      std::int64_t& hulls) {
   if (parts.size() == 1) return parts;
   std::vector<Vec3d> corners;
-  for (const Part& part : parts) {
+  for (const proxies::Part& part : parts) {
     if (!append_corners(part, corners)) return parts;
   }
   ++hulls;
-  Part outline;
+  proxies::Part outline;
   outline.shape.kind = ShapeKind::hull;
   outline.shape.hull = make_reduced_hull(corners);
   return {outline};
 }
 
-double reach_of(const std::vector<Part>& parts) {
+double reach_of(const std::vector<proxies::Part>& parts) {
   // Attitudes are orthonormal up to rounding only.
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   double reach = 0;
-  for (const Part& part : parts) {
+  for (const proxies::Part& part : parts) {
     const double from = parts.size() == 1 ? 0 : part.pose.translation.norm();
     reach = std::max(reach, from + loose_reach(part.shape, part.pose.rotation));
   }
@@ -70,9 +71,9 @@ bool same_shape(const Shape& a, const Shape& b) {
 
 }  // namespace
 
-StandIn::StandIn(std::vector<Part> from, const Shape& body)
+StandIn::StandIn(std::vector<proxies::Part> from, const Shape& body)
     : parts(std::move(from)), tree(parts), plain(parts.size() == 1 && is_plain(parts[0].pose)) {
-  for (const Part& part : parts) {
+  for (const proxies::Part& part : parts) {
     if (part.shape.kind == ShapeKind::hull && part.shape.hull != body.hull) ++hulls;
   }
   outline = outline_of(parts, hulls);
@@ -82,11 +83,11 @@ StandIn::StandIn(std::vector<Part> from, const Shape& body)
 StandInLibrary::StandInLibrary(const SceneFrames& frames, Representing representing, double seconds)
     : frames_(&frames), representing_(std::move(representing)), most_seconds_(seconds) {}
 
-Representation StandInLibrary::wanted(const Representations& representations,
-                                      std::size_t body) const {
+proxies::Representation StandInLibrary::wanted(const Representations& representations,
+                                               std::size_t body) const {
   const Shape& shape = frames_->scene->shapes[frames_->scene->bodies[body].shape];
   if (shape.kind == ShapeKind::halfspace) return {};
-  return representations.of[frames_->kind_of(body)].value_or(Representation{});
+  return representations.of[frames_->kind_of(body)].value_or(proxies::Representation{});
 }
 
 Representations StandInLibrary::complete(Representations representations) const {
@@ -96,7 +97,7 @@ Representations StandInLibrary::complete(Representations representations) const 
   }
   present[static_cast<std::size_t>(ShapeKind::halfspace)] = false;
   for (std::size_t kind = 0; kind < body_kinds; ++kind) {
-    std::optional<Representation>& of = representations.of[kind];
+    std::optional<proxies::Representation>& of = representations.of[kind];
     if (!present[kind]) of.reset();
     if (present[kind] && (!of || is_the_body(of->form, kind))) of.emplace();
   }
@@ -104,19 +105,19 @@ Representations StandInLibrary::complete(Representations representations) const 
 }
 
 StandInLibrary::Made& StandInLibrary::made(std::uint32_t shape,
-                                           const Representation& representation) {
+                                           const proxies::Representation& representation) {
   const auto [place, fresh] = made_.try_emplace({shape, to_string(representation)});
   Made& made = place->second;
   if (!fresh) return made;
   const Shape& given = frames_->scene->shapes[shape];
-  const Stopwatch watch;
+  const base::Stopwatch watch;
   try {
-    std::vector<Part> parts =
-        representation.form == Form::as_given
-            ? std::vector<Part>{{given, {}}}
+    std::vector<proxies::Part> parts =
+        representation.form == proxies::Form::as_given
+            ? std::vector<proxies::Part>{{given, {}}}
             : representing_.represent(given, frames_->mesh_of[shape], representation);
     made.stand_in = std::make_shared<StandIn>(std::move(parts), given);
-  } catch (const InputError& error) {
+  } catch (const base::InputError& error) {
     made.fault = error.what();
   }
   made.seconds = watch.seconds();
@@ -126,7 +127,7 @@ StandInLibrary::Made& StandInLibrary::made(std::uint32_t shape,
 std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& representations) {
   std::shared_ptr<const StandIns>& whole = whole_[representations.name()];
   if (whole != nullptr) return whole;
-  const Scene& scene = *frames_->scene;
+  const scene::Scene& scene = *frames_->scene;
   auto all = std::make_shared<StandIns>();
   all->first.push_back(0);
   std::map<const StandIn*, std::vector<std::uint32_t>> shapes_of;  // of the parts of each
@@ -134,17 +135,17 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
   double spent = 0;
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     const Made& one = made(scene.bodies[body].shape, wanted(representations, body));
-    if (one.stand_in == nullptr) throw InputError(one.fault);
+    if (one.stand_in == nullptr) throw base::InputError(one.fault);
     const StandIn& stand_in = *one.stand_in;
     auto [numbers, fresh] = shapes_of.try_emplace(&stand_in);
     if (fresh) {
       spent += one.seconds;
       if (spent > most_seconds_) {
-        throw InputError(fmt::format("takes more than {:.3g} s to make", most_seconds_));
+        throw base::InputError(fmt::format("takes more than {:.3g} s to make", most_seconds_));
       }
       all->kept_.push_back(one.stand_in);
       all->hulls += stand_in.hulls;
-      for (const Part& part : stand_in.parts) {
+      for (const proxies::Part& part : stand_in.parts) {
         // Parts of one body are often alike.
         const std::size_t from = all->shapes.size() - std::min<std::size_t>(all->shapes.size(), 4);
         std::size_t at = from;
@@ -159,7 +160,7 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
     all->shape_of.insert(all->shape_of.end(), numbers->second.begin(), numbers->second.end());
     all->first.push_back(static_cast<std::uint32_t>(all->shape_of.size()));
     std::set<ShapeKind> kinds;
-    for (const Part& part : stand_in.parts) kinds.insert(part.shape.kind);
+    for (const proxies::Part& part : stand_in.parts) kinds.insert(part.shape.kind);
     for (const ShapeKind kind : kinds) {
       // With each kind of the bodies before it.
       for (const ShapeKind other : all_shape_kinds) {
@@ -177,21 +178,22 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
   return whole;
 }
 
-std::vector<RepresentationError> StandInLibrary::errors(const Representations& representations) {
-  std::vector<RepresentationError> errors;
-  const Scene& scene = *frames_->scene;
-  const Stopwatch watch;
+std::vector<proxies::RepresentationError> StandInLibrary::errors(
+    const Representations& representations) {
+  std::vector<proxies::RepresentationError> errors;
+  const scene::Scene& scene = *frames_->scene;
+  const base::Stopwatch watch;
   const std::size_t step = (scene.bodies.size() + most_error_bodies - 1) / most_error_bodies;
   for (std::size_t body = 0; body < scene.bodies.size(); body += step) {
     const std::uint32_t shape = scene.bodies[body].shape;
     if (scene.shapes[shape].kind == ShapeKind::halfspace) continue;
-    const Representation representation = wanted(representations, body);
+    const proxies::Representation representation = wanted(representations, body);
     Made& one = made(shape, representation);
     if (!one.has_error) {
       if (!errors.empty() && watch.seconds() > most_seconds_) break;
-      const Mesh* mesh = frames_->mesh_of[shape];
+      const geometry::Mesh* mesh = frames_->mesh_of[shape];
       // The given shape stands for itself, unless there is a mesh, whose hull it is.
-      if (representation.form != Form::as_given || mesh != nullptr) {
+      if (representation.form != proxies::Form::as_given || mesh != nullptr) {
         one.error = representing_.error(scene.shapes[shape], mesh, one.stand_in->parts);
       }
       one.has_error = true;
@@ -221,4 +223,4 @@ std::int64_t StandInLibrary::hulls() const {
   return hulls;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

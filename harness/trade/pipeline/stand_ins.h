@@ -16,24 +16,28 @@
 #include "harness/trade/pipeline/part_tree.h"
 #include "harness/trade/pipeline/scene_frames.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // The functions that represent bodies: those of harness/proxies, or a test's own.
 struct Representing {
-  std::function<std::vector<Part>(const Shape&, const Mesh*, const Representation&)> represent;
-  std::function<RepresentationError(const Shape&, const Mesh*, const std::vector<Part>&)> error;
+  std::function<std::vector<proxies::Part>(const Shape&, const geometry::Mesh*,
+                                           const proxies::Representation&)>
+      represent;
+  std::function<proxies::RepresentationError(const Shape&, const geometry::Mesh*,
+                                             const std::vector<proxies::Part>&)>
+      error;
 };
 
 // The representation of the bodies of one shape.
 struct StandIn {
-  StandIn(std::vector<Part> from, const Shape& body);
+  StandIn(std::vector<proxies::Part> from, const Shape& body);
 
-  std::vector<Part> parts;
+  std::vector<proxies::Part> parts;
   PartTree tree;
   bool plain = false;      // one part, in the body's own frame
   std::int64_t hulls = 0;  // that were built for it: those of the scene's own shapes are not
   // Parts with the same tight box as all parts, in the body's frame; for one part that part.
-  std::vector<Part> outline;
+  std::vector<proxies::Part> outline;
   double reach = 0;  // metres: of loose boxes, from the only part's origin, or the body's
 };
 
@@ -70,7 +74,7 @@ class StandInLibrary {
   std::shared_ptr<const StandIns> get(const Representations& representations);
   // Errors of what stands for bodies: of all, or of about 48, evenly picked; half-spaces, which
   // have no size, are left out.
-  std::vector<RepresentationError> errors(const Representations& representations);
+  std::vector<proxies::RepresentationError> errors(const Representations& representations);
   // Seconds that it took to make them.
   double seconds(const Representations& representations) const;
   // Built so far, for whatever was asked for.
@@ -82,11 +86,11 @@ class StandInLibrary {
     std::string fault;
     double seconds = 0;
     bool has_error = false;
-    RepresentationError error;
+    proxies::RepresentationError error;
   };
   using Key = std::pair<std::uint32_t, std::string>;  // shape, representation
-  Representation wanted(const Representations& representations, std::size_t body) const;
-  Made& made(std::uint32_t shape, const Representation& representation);
+  proxies::Representation wanted(const Representations& representations, std::size_t body) const;
+  Made& made(std::uint32_t shape, const proxies::Representation& representation);
 
   const SceneFrames* frames_;
   Representing representing_;
@@ -95,4 +99,4 @@ class StandInLibrary {
   std::map<std::string, std::shared_ptr<const StandIns>> whole_;
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -9,31 +9,33 @@
 #include "algorithms/registry.h"
 #include "harness/grade/pair_groups.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 Representing triangles_for_meshes() {
-  return {
-      [](const Shape&, const Mesh* mesh, const Representation&) { return triangle_parts(*mesh); },
-      {}};
+  return {[](const Shape&, const geometry::Mesh* mesh, const proxies::Representation&) {
+            return triangle_parts(*mesh);
+          },
+          {}};
 }
 
 Representations meshes_as_they_are() {
   Representations representations;
-  representations.of[mesh_body] = Representation{Form::mesh, Side::outer, 0};
+  representations.of[mesh_body] =
+      proxies::Representation{proxies::Form::mesh, proxies::Side::outer, 0};
   return representations;
 }
 
 }  // namespace
 
-std::vector<Part> triangle_parts(const Mesh& mesh) {
-  std::vector<Part> parts;
+std::vector<proxies::Part> triangle_parts(const geometry::Mesh& mesh) {
+  std::vector<proxies::Part> parts;
   parts.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
     auto hull = std::make_shared<Hull>();
     for (const std::uint32_t vertex : triangle) hull->vertices.push_back(mesh.vertices[vertex]);
     hull->dimension = 2;
-    Part part;
+    proxies::Part part;
     part.shape.kind = ShapeKind::hull;
     part.shape.hull = std::move(hull);
     parts.push_back(std::move(part));
@@ -41,7 +43,7 @@ std::vector<Part> triangle_parts(const Mesh& mesh) {
   return parts;
 }
 
-bool is_inside(const Mesh& mesh, const Vec3d& point) {
+bool is_inside(const geometry::Mesh& mesh, const Vec3d& point) {
   double angle = 0;
   for (const auto& triangle : mesh.triangles) {
     const Vec3d a = mesh.vertices[triangle[0]] - point, b = mesh.vertices[triangle[1]] - point,
@@ -64,7 +66,7 @@ TrueMeshes::TrueMeshes(const SceneFrames& frames, Executor& executor)
 }
 
 bool TrueMeshes::has_inside(std::uint32_t body, const Pose& pose, const Vec3d& point) const {
-  const Mesh* mesh = frames_->mesh_of[frames_->scene->bodies[body].shape];
+  const geometry::Mesh* mesh = frames_->mesh_of[frames_->scene->bodies[body].shape];
   return mesh != nullptr && is_inside(*mesh, pose.rotation.inverse() * (point - pose.translation));
 }
 
@@ -88,13 +90,13 @@ std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& 
     }
     return place->second;
   };
-  PairGrouping batches;
+  grade::PairGrouping batches;
   for (const auto& [i, j] : found) {
     const std::uint32_t first = number(pair.a, a, i), second = number(pair.b, b, j);
     batches.add(first, a.parts[i].shape.kind, second, b.parts[j].shape.kind);
   }
   double gap = std::numeric_limits<double>::infinity();
-  for (const PairGroup& batch : batches.groups()) {
+  for (const grade::PairGroup& batch : batches.groups()) {
     if (batch.size() == 0) continue;
     std::vector<Outcome> outcomes(batch.size());
     certified_[static_cast<std::size_t>(worker)]->solve(
@@ -114,4 +116,4 @@ std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& 
   return {Answer::separated, gap};
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -9,15 +9,15 @@
 #include "algorithms/narrow_phase.h"
 #include "harness/trade/pipeline/stand_ins.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 // The mesh's triangles, each a flat hull, in the mesh's own frame.
-std::vector<Part> triangle_parts(const Mesh& mesh);
+std::vector<proxies::Part> triangle_parts(const geometry::Mesh& mesh);
 
 // Tells whether a point lies inside of a closed mesh (metres, its frame) by the winding number from
 // solid angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A mesh
 // with small holes still has an inside.
-bool is_inside(const Mesh& mesh, const Vec3d& point);
+bool is_inside(const geometry::Mesh& mesh, const Vec3d& point);
 
 class TrueMeshes {
  public:
@@ -37,4 +37,4 @@ class TrueMeshes {
   std::vector<std::unique_ptr<NarrowPhase>> certified_;  // one a worker
 };
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

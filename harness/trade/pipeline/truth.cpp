@@ -12,7 +12,7 @@
 #include "harness/process/isolate.h"
 #include "harness/trade/pipeline/true_meshes.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 namespace {
 
 struct TrueAnswer {
@@ -23,7 +23,7 @@ struct TrueAnswer {
 // The pairs to be answered in a frame.
 std::vector<IndexPair> near_pairs(const SceneFrames& frames, std::size_t number,
                                   std::span<const double> sizes) {
-  const Scene& scene = *frames.scene;
+  const scene::Scene& scene = *frames.scene;
   if (!scene.pairs.empty()) return scene.pairs;
   const SceneFrame& frame = frames.frames[number];
   std::vector<Aabb> boxes(scene.bodies.size(), Aabb::empty());
@@ -38,7 +38,7 @@ std::vector<IndexPair> near_pairs(const SceneFrames& frames, std::size_t number,
       boxes[i].max[axis] = round_up(static_cast<double>(boxes[i].max[axis]) + nearness * sizes[i]);
     }
   }
-  std::vector<IndexPair> pairs = overlapping_pairs(boxes);
+  std::vector<IndexPair> pairs = measure::overlapping_pairs(boxes);
   if (number > 0) {
     std::erase_if(pairs, [&](const IndexPair& pair) {
       return frames.moves[pair.a] == 0 && frames.moves[pair.b] == 0;
@@ -52,8 +52,9 @@ class TrueAnswers {
  public:
   TrueAnswers(const SceneFrames& frames, int threads)
       : frames_(&frames), executor_(threads), reference_(frames.scene->shapes, executor_) {
-    for (const Body& body : frames.scene->bodies) shape_of_.push_back(body.shape);
-    if (std::ranges::any_of(frames.mesh_of, [](const Mesh* mesh) { return mesh != nullptr; })) {
+    for (const scene::Body& body : frames.scene->bodies) shape_of_.push_back(body.shape);
+    if (std::ranges::any_of(frames.mesh_of,
+                            [](const geometry::Mesh* mesh) { return mesh != nullptr; })) {
       meshes_ = std::make_unique<TrueMeshes>(frames, executor_);
     }
   }
@@ -81,9 +82,11 @@ class TrueAnswers {
     }
     // Groups keep the order of the pairs, and come in the order of the kinds.
     auto group = by_kind.begin();
-    for (const PairGroup& of_kind : group_by_kind(convex, frames_->scene->shapes, shape_of_)) {
+    for (const grade::PairGroup& of_kind :
+         grade::group_by_kind(convex, frames_->scene->shapes, shape_of_)) {
       while (group->empty()) ++group;
-      const std::vector<ReferenceOutcome> found = reference_.solve(of_kind, shape_of_, poses);
+      const std::vector<grade::ReferenceOutcome> found =
+          reference_.solve(of_kind, shape_of_, poses);
       for (std::size_t i = 0; i < found.size(); ++i) {
         answers[(*group)[i]] = {found[i].answer, found[i].distance};
       }
@@ -102,7 +105,7 @@ class TrueAnswers {
   const SceneFrames* frames_;
   Executor executor_;
   std::vector<std::uint32_t> shape_of_;
-  Reference reference_;
+  grade::Reference reference_;
   std::unique_ptr<TrueMeshes> meshes_;
 };
 
@@ -140,7 +143,7 @@ std::vector<double> body_sizes(const SceneFrames& frames) {
     of_shape.push_back(longest);
   }
   std::vector<double> sizes;
-  for (const Body& body : frames.scene->bodies) sizes.push_back(of_shape[body.shape]);
+  for (const scene::Body& body : frames.scene->bodies) sizes.push_back(of_shape[body.shape]);
   return sizes;
 }
 
@@ -154,22 +157,24 @@ std::vector<FrameTruth> find_truth(const SceneFrames& frames, std::span<const st
     pairs.push_back(near_pairs(frames, frame, sizes));
     first.push_back(first.back() + pairs.back().size());
   }
-  SharedArray<TrueAnswer> answers(first.back());
-  SharedArray<char> answered(wanted.size());
-  const Stopwatch watch;
-  IsolationLimits limits;
+  process::SharedArray<TrueAnswer> answers(first.back());
+  process::SharedArray<char> answered(wanted.size());
+  const base::Stopwatch watch;
+  process::IsolationLimits limits;
   limits.item_seconds = std::max(600.0, 10 * seconds);
   limits.failures = 1;
-  const IsolationReport report = isolate(wanted.size(), limits, [&]() -> ItemWork {
-    auto solver = std::make_shared<TrueAnswers>(frames, threads);
-    return [&, solver](std::size_t i) {
-      if (i > 0 && watch.seconds() > seconds) return;
-      solver->solve(wanted[i], pairs[i], answers.span().subspan(first[i], first[i + 1] - first[i]));
-      answered[i] = 1;
-    };
-  });
+  const process::IsolationReport report =
+      process::isolate(wanted.size(), limits, [&]() -> process::ItemWork {
+        auto solver = std::make_shared<TrueAnswers>(frames, threads);
+        return [&, solver](std::size_t i) {
+          if (i > 0 && watch.seconds() > seconds) return;
+          solver->solve(wanted[i], pairs[i],
+                        answers.span().subspan(first[i], first[i + 1] - first[i]));
+          answered[i] = 1;
+        };
+      });
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (report.states[i] != ItemState::done || answered[i] == 0) break;
+    if (report.states[i] != process::ItemState::done || answered[i] == 0) break;
     FrameTruth& frame = truth.emplace_back();
     frame.frame = wanted[i];
     for (std::size_t k = 0; k < pairs[i].size(); ++k) {
@@ -188,4 +193,4 @@ std::vector<FrameTruth> find_truth(const SceneFrames& frames, std::span<const st
   return truth;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -9,7 +9,7 @@
 #include "algorithms/core/pair_sink.h"
 #include "harness/trade/pipeline/scene_frames.h"
 
-namespace touchstone {
+namespace touchstone::trade {
 
 struct TruePair {
   IndexPair pair;
@@ -42,4 +42,4 @@ std::vector<double> body_sizes(const SceneFrames& frames);
 std::vector<FrameTruth> find_truth(const SceneFrames& frames, std::span<const std::size_t> wanted,
                                    double seconds, int threads);
 
-}  // namespace touchstone
+}  // namespace touchstone::trade

@@ -21,18 +21,18 @@ namespace {
 
 constexpr std::array names = {"bullet-gjk-epa", "bullet-box-box", "bullet-sat", "bullet-mpr"};
 
-Shape box(Random& random) {
+Shape box(base::Random& random) {
   Shape shape;
   shape.kind = ShapeKind::box;
   for (double& half : shape.half_extents) half = random.uniform(0.3, 1);
   return shape;
 }
-Shape sphere(Random& random) {
+Shape sphere(base::Random& random) {
   Shape shape;
   shape.radius = random.uniform(0.3, 1);
   return shape;
 }
-Shape hull(Random& random) {
+Shape hull(base::Random& random) {
   std::vector<Vec3d> points;
   for (int i = 0; i < 16; ++i) points.push_back(random.on_sphere() + Vec3d(0.3, 0.1, 0.2));
   Shape shape;
@@ -49,8 +49,8 @@ struct Pairs {
   std::vector<Pose> poses;
   std::vector<std::uint32_t> first, second, shape_of;
 
-  explicit Pairs(Shape (*shape_a)(Random&), Shape (*shape_b)(Random&)) {
-    Random random(3);
+  explicit Pairs(Shape (*shape_a)(base::Random&), Shape (*shape_b)(base::Random&)) {
+    base::Random random(3);
     for (std::uint32_t i = 0; i < count; ++i) {
       shapes.push_back(shape_a(random));
       shapes.push_back(shape_b(random));
@@ -76,7 +76,7 @@ struct Pairs {
     make(entry, scalar)->solve(task, batch(), outcomes);
     return outcomes;
   }
-  Case as_case(std::size_t i) const {
+  files::Case as_case(std::size_t i) const {
     return {"", shapes[2 * i], shapes[2 * i + 1], poses[2 * i], poses[2 * i + 1]};
   }
 };
@@ -125,8 +125,8 @@ TEST_F(BulletDouble, NeitherBuildDisturbsTheOther) {
       for (const Precision scalar : {Precision::float32, Precision::float64}) {
         auto& outcomes = alone[scalar == Precision::float64];
         outcomes.resize(Pairs::count);
-        solve_guarded([&] { return pairs.make(*entry, scalar); }, task, pairs.batch(), outcomes, 60,
-                      std::size_t{4} << 30);
+        process::solve_guarded([&] { return pairs.make(*entry, scalar); }, task, pairs.batch(),
+                               outcomes, 60, std::size_t{4} << 30);
       }
       if (task != Task::intersect) {
         EXPECT_GT(differing(alone[0], alone[1]), Pairs::count / 4);
@@ -157,10 +157,10 @@ TEST_F(BulletDouble, DistancesAreDoubles) {
     const auto in_double = pairs.ask(entry, Precision::float64, Task::distance);
     int apart = 0, coarse = 0;
     for (std::size_t i = 0; i < Pairs::count; ++i) {
-      const Case c = pairs.as_case(i);
+      const files::Case c = pairs.as_case(i);
       const Encoding encoding =
           encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::distance, Precision::float64);
-      const EncodedPair given(c, encoding);
+      const grade::EncodedPair given(c, encoding);
       const double truth = oracle.measure(given.a(), given.b()).middle();
       if (truth < 1e-3) continue;
       ++apart;

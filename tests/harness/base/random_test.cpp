@@ -10,32 +10,32 @@ namespace touchstone {
 namespace {
 
 TEST(PortableMath, SineAndCosineAreRight) {
-  Random random(1);
+  base::Random random(1);
   for (int i = 0; i < 100'000; ++i) {
     const double turns = random.uniform(-3, 3);
     const long double angle =
         2 * std::numbers::pi_v<long double> * (static_cast<long double>(turns) - std::floor(turns));
-    EXPECT_NEAR(sin_cos_turns(turns).sin, static_cast<double>(std::sin(angle)), 1e-15);
-    EXPECT_NEAR(sin_cos_turns(turns).cos, static_cast<double>(std::cos(angle)), 1e-15);
+    EXPECT_NEAR(base::sin_cos_turns(turns).sin, static_cast<double>(std::sin(angle)), 1e-15);
+    EXPECT_NEAR(base::sin_cos_turns(turns).cos, static_cast<double>(std::cos(angle)), 1e-15);
   }
   const double quarters[][2] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}};
   for (int quarter = -8; quarter < 8; ++quarter) {
-    const SinCos turn = sin_cos_turns(0.25 * quarter);
+    const base::SinCos turn = base::sin_cos_turns(0.25 * quarter);
     EXPECT_EQ(turn.sin, quarters[(quarter + 8) % 4][0]);
     EXPECT_EQ(turn.cos, quarters[(quarter + 8) % 4][1]);
   }
 }
 
 TEST(PortableMath, CubeRootsAreRight) {
-  Random random(2);
+  base::Random random(2);
   for (int i = 0; i < 10'000; ++i) {
     const double x = random.magnitude(1e-300, 1e300);
-    EXPECT_NEAR(cube_root(x) / std::cbrt(x), 1, 1e-15);
+    EXPECT_NEAR(base::cube_root(x) / std::cbrt(x), 1, 1e-15);
   }
 }
 
-TEST(Random, NormalNumbersAreNormal) {
-  Random random(7);
+TEST(base::Random, NormalNumbersAreNormal) {
+  base::Random random(7);
   constexpr int count = 1'000'000;
   double sum = 0, squares = 0, fourths = 0;
   int beyond[4] = {};  // 0.5, 1, 2, 3 deviations
@@ -57,22 +57,22 @@ TEST(Random, NormalNumbersAreNormal) {
   }
 }
 
-TEST(Random, IsWhatItWas) {
-  Random random(42);
+TEST(base::Random, IsWhatItWas) {
+  base::Random random(42);
   EXPECT_EQ(random.next(), 11206042627743653740u);
-  EXPECT_NE(Random(42, 1).next(), Random(42, 0).next());
-  EXPECT_NE(Random(42, 1).next(), Random(1, 42).next());
+  EXPECT_NE(base::Random(42, 1).next(), base::Random(42, 0).next());
+  EXPECT_NE(base::Random(42, 1).next(), base::Random(1, 42).next());
 }
 
-TEST(Random, BelowIsEven) {
-  Random random(3);
+TEST(base::Random, BelowIsEven) {
+  base::Random random(3);
   int seen[7] = {};
   for (int i = 0; i < 70'000; ++i) ++seen[random.below(7)];
   for (const int count : seen) EXPECT_NEAR(count, 10'000, 500);
 }
 
-TEST(Random, MagnitudesAreEvenAndInside) {
-  Random random(4);
+TEST(base::Random, MagnitudesAreEvenAndInside) {
+  base::Random random(4);
   int seen[4] = {};
   for (int i = 0; i < 40'000; ++i) {
     const double x = random.magnitude(1, 10'000);
@@ -84,8 +84,8 @@ TEST(Random, MagnitudesAreEvenAndInside) {
   EXPECT_EQ(random.magnitude(3, 3), 3);
 }
 
-TEST(Random, RotationsAreOrthonormalAndEven) {
-  Random random(5);
+TEST(base::Random, RotationsAreOrthonormalAndEven) {
+  base::Random random(5);
   Vec3d sum = Vec3d::Zero();
   for (int i = 0; i < 20'000; ++i) {
     const Mat3d r = random.rotation();
@@ -96,8 +96,8 @@ TEST(Random, RotationsAreOrthonormalAndEven) {
   EXPECT_LT(sum.norm() / 20'000, 0.02);
 }
 
-TEST(Random, BallAndSphere) {
-  Random random(6);
+TEST(base::Random, BallAndSphere) {
+  base::Random random(6);
   int inner = 0;
   for (int i = 0; i < 16'000; ++i) {
     const double radius = random.in_ball().norm();

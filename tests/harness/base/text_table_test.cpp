@@ -4,10 +4,10 @@
 
 namespace {
 
-using touchstone::TextTable;
+using touchstone::base::TextTable;
 
-TEST(TextTable, AlignsTheFirstColumnLeftAndTheOthersRight) {
-  TextTable table({"", "a", "bb"});
+TEST(base::TextTable, AlignsTheFirstColumnLeftAndTheOthersRight) {
+  base::TextTable table({"", "a", "bb"});
   table.add({"row", "1.5", "2"});
   EXPECT_EQ(table.text(80),
             "       a  bb\n"
@@ -15,8 +15,8 @@ TEST(TextTable, AlignsTheFirstColumnLeftAndTheOthersRight) {
             "row  1.5   2\n");
 }
 
-TEST(TextTable, IsCutWhereThePageEnds) {
-  TextTable table({"", "aaaa", "bbbb"});
+TEST(base::TextTable, IsCutWhereThePageEnds) {
+  base::TextTable table({"", "aaaa", "bbbb"});
   table.add({"r", "1", "2"});
   EXPECT_EQ(table.text(8),
             "   aaaa\n"

@@ -46,15 +46,15 @@ std::set<std::string> listed() {
   return names;
 }
 
-TEST(PlacedPairs, StandAtTheDistanceOfTheirRegime) {
+TEST(bench::PlacedPairs, StandAtTheDistanceOfTheirRegime) {
   oracle::Oracle oracle;
   for (const char* name : {"sphere", "box", "cone", "hull-32", "icosphere-42"}) {
-    for (const PairRegime& regime : pair_regimes()) {
+    for (const bench::PairRegime& regime : bench::pair_regimes()) {
       SCOPED_TRACE(std::string(name) + " " + std::string(regime.name));
-      const PlacedPairs pairs({find_family(name), find_family(name)}, regime);
-      ASSERT_EQ(pairs.first.size(), PlacedPairs::count);
+      const bench::PlacedPairs pairs({bench::find_family(name), bench::find_family(name)}, regime);
+      ASSERT_EQ(pairs.first.size(), bench::PlacedPairs::count);
       std::set<std::array<double, 3>> places;
-      for (std::size_t i = 0; i < PlacedPairs::count; ++i) {
+      for (std::size_t i = 0; i < bench::PlacedPairs::count; ++i) {
         const std::uint32_t a = pairs.first[i], b = pairs.second[i];
         const oracle::Solid solid_a(pairs.shapes[pairs.shape_of[a]]);
         const oracle::Solid solid_b(pairs.shapes[pairs.shape_of[b]]);
@@ -64,15 +64,15 @@ TEST(PlacedPairs, StandAtTheDistanceOfTheirRegime) {
         const Vec3d& at = pairs.poses[b].translation;
         places.insert({at.x(), at.y(), at.z()});
       }
-      EXPECT_EQ(places.size(), PlacedPairs::count);
+      EXPECT_EQ(places.size(), bench::PlacedPairs::count);
     }
   }
 }
 
-TEST(PlacedPairs, HoldEveryTwoKindsAndEachFamilyOfHulls) {
+TEST(bench::PlacedPairs, HoldEveryTwoKindsAndEachFamilyOfHulls) {
   std::set<std::pair<ShapeKind, ShapeKind>> kinds;
   std::set<std::string> names;
-  for (const FamilyPair& pair : family_pairs()) {
+  for (const bench::FamilyPair& pair : bench::family_pairs()) {
     EXPECT_LE(pair.a->kind, pair.b->kind);
     kinds.insert({pair.a->kind, pair.b->kind});
     EXPECT_TRUE(names.insert(pair.name()).second) << pair.name();
@@ -96,10 +96,10 @@ TEST(Bench, ListsEveryRegisteredAlgorithm) {
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
     for (const Precision scalar : entry.scalars) {
       for (const Task task : entry.tasks) {
-        for (const FamilyPair& pair : family_pairs()) {
+        for (const bench::FamilyPair& pair : bench::family_pairs()) {
           const bool offered =
               is_built(entry.info) && offers(entry, pair.a->kind, pair.b->kind, task);
-          for (const PairRegime& regime : pair_regimes()) {
+          for (const bench::PairRegime& regime : bench::pair_regimes()) {
             const std::string name = "narrow/" + entry.info.name + "/" +
                                      std::string(to_string(scalar)) + "/" + pair.name() + "/" +
                                      std::string(to_string(task)) + "/" + std::string(regime.name);

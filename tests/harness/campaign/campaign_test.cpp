@@ -15,9 +15,9 @@ using namespace touchstone;
 
 class CampaignFile : public testing::Test {
  protected:
-  Campaign read(const std::string& text) {
+  campaign::Campaign read(const std::string& text) {
     std::ofstream(folder_.path() / "c.toml") << text;
-    return read_campaign(folder_.path() / "c.toml");
+    return campaign::read_campaign(folder_.path() / "c.toml");
   }
   std::string fault(const std::string& text) {
     return input_fault([&] { read(text); });
@@ -26,24 +26,25 @@ class CampaignFile : public testing::Test {
 };
 
 TEST_F(CampaignFile, HasDefaultsForEverythingButTheScenes) {
-  const Campaign campaign = read("scenes = 'a.toml'");
+  const campaign::Campaign campaign = read("scenes = 'a.toml'");
   EXPECT_EQ(campaign.name, "c");
   ASSERT_EQ(campaign.groups.size(), 1u);
-  const CampaignGroup& group = campaign.groups[0];
+  const campaign::CampaignGroup& group = campaign.groups[0];
   EXPECT_EQ(group.scenes, std::vector{folder_.path() / "a.toml"});
   EXPECT_EQ(group.threads, std::vector{2});
   EXPECT_EQ(group.tasks, std::vector{Task::intersect});
   EXPECT_GE(group.broad.size(), 5u);
-  for (const NarrowChoice& choice : group.narrow)
+  for (const measure::NarrowChoice& choice : group.narrow)
     EXPECT_TRUE(offers(*choice.entry, choice.settings.scalar));
 }
 
 TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
   const auto labels = [&](const std::string& warm) {
-    const Campaign campaign =
+    const campaign::Campaign campaign =
         read("scenes = 'a.toml'\nnarrow = ['gjk', 'mpr']\nscalars = 'double'\n" + warm);
     std::vector<std::string> all;
-    for (const NarrowChoice& choice : campaign.groups[0].narrow) all.push_back(choice.label());
+    for (const measure::NarrowChoice& choice : campaign.groups[0].narrow)
+      all.push_back(choice.label());
     return all;
   };
   using testing::ElementsAre;
@@ -53,14 +54,14 @@ TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
   EXPECT_THAT(labels("warm = [true, false]"),
               ElementsAre("gjk double", "gjk double warm", "mpr double"));
   EXPECT_THAT(fault("scenes = 'a.toml'\nwarm = 'yes'"), testing::HasSubstr("c.toml:2: warm"));
-  EXPECT_NE(description(read("scenes = 'a.toml'\nwarm = true")),
-            description(read("scenes = 'a.toml'")));
-  EXPECT_EQ(description(read("scenes = 'a.toml'\nwarm = false")),
-            description(read("scenes = 'a.toml'")));
+  EXPECT_NE(campaign::description(read("scenes = 'a.toml'\nwarm = true")),
+            campaign::description(read("scenes = 'a.toml'")));
+  EXPECT_EQ(campaign::description(read("scenes = 'a.toml'\nwarm = false")),
+            campaign::description(read("scenes = 'a.toml'")));
 
-  const Campaign ruled =
+  const campaign::Campaign ruled =
       read("scenes = 'a.toml'\nexclude = [{narrow = 'gjk', warm = true, task = 'distance'}]");
-  CampaignCell cell;
+  campaign::CampaignCell cell;
   cell.narrow = "gjk";
   cell.task = Task::distance;
   cell.warm = true;
@@ -71,9 +72,9 @@ TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
 
 TEST_F(CampaignFile, RulesNameAPlacedSceneWithOrWithoutItsGap) {
   const auto admits = [&](const std::string& named, const std::string& scene) {
-    const Campaign ruled =
+    const campaign::Campaign ruled =
         read("scenes = 'a.toml'\nexclude = [{scene = '" + named + "', narrow = 'gjk'}]");
-    CampaignCell cell;
+    campaign::CampaignCell cell;
     cell.scene = scene;
     cell.narrow = "gjk";
     return ruled.groups[0].admits(cell);
@@ -87,39 +88,40 @@ TEST_F(CampaignFile, RulesNameAPlacedSceneWithOrWithoutItsGap) {
 }
 
 TEST_F(CampaignFile, KeysOfLargeCells) {
-  const Campaign plain = read("scenes = 'a.toml'");
+  const campaign::Campaign plain = read("scenes = 'a.toml'");
   EXPECT_EQ(plain.groups[0].isa, std::vector<std::optional<Isa>>{std::nullopt});
   EXPECT_FALSE(plain.groups[0].limit);
   EXPECT_FALSE(plain.groups[0].rounds);
   EXPECT_EQ(plain.groups[0].processes, 3);
-  const Campaign campaign = read(
+  const campaign::Campaign campaign = read(
       "scenes = 'a.toml'\nisa = ['all', 'avx2', 'baseline']\nlimit = true\nrounds = 1\n"
       "processes = 2");
-  const CampaignGroup& group = campaign.groups[0];
+  const campaign::CampaignGroup& group = campaign.groups[0];
   EXPECT_EQ(group.isa, (std::vector<std::optional<Isa>>{std::nullopt, Isa::avx2, Isa::baseline}));
   EXPECT_TRUE(group.limit);
   EXPECT_EQ(group.rounds, 1);
   EXPECT_EQ(group.processes, 2);
-  EXPECT_NE(description(plain), description(campaign));
+  EXPECT_NE(campaign::description(plain), campaign::description(campaign));
   EXPECT_THAT(fault("scenes = 'a.toml'\nisa = 'sse'"), testing::HasSubstr("c.toml:2: isa"));
   EXPECT_THAT(fault("scenes = 'a.toml'\nrounds = 5"), testing::HasSubstr("c.toml:2: rounds"));
   EXPECT_THAT(fault("scenes = 'a.toml'\nprocesses = 0"), testing::HasSubstr("processes"));
 }
 
 TEST_F(CampaignFile, GapsAreNumbers) {
-  const Campaign plain = read("scenes = 'a.toml'");
+  const campaign::Campaign plain = read("scenes = 'a.toml'");
   EXPECT_EQ(plain.groups[0].gaps, std::vector<std::optional<double>>{std::nullopt});
-  const Campaign campaign = read("scenes = 'a.toml'\ngaps = [10, 1e-3, -0.2]");
+  const campaign::Campaign campaign = read("scenes = 'a.toml'\ngaps = [10, 1e-3, -0.2]");
   EXPECT_EQ(campaign.groups[0].gaps, (std::vector<std::optional<double>>{10, 1e-3, -0.2}));
-  EXPECT_NE(description(plain), description(campaign));
-  EXPECT_NE(description(campaign), description(read("scenes = 'a.toml'\ngaps = [10, 1e-3, 0.2]")));
+  EXPECT_NE(campaign::description(plain), campaign::description(campaign));
+  EXPECT_NE(campaign::description(campaign),
+            campaign::description(read("scenes = 'a.toml'\ngaps = [10, 1e-3, 0.2]")));
   EXPECT_THAT(fault("scenes = 'a.toml'\ngaps = ['x']"), testing::HasSubstr("c.toml:2: gaps"));
   EXPECT_THAT(fault("scenes = 'a.toml'\ngaps = nan"), testing::HasSubstr("c.toml:2: gaps"));
   EXPECT_THAT(fault("scenes = 'a.toml'\ngaps = 1e9"), testing::HasSubstr("c.toml:2: gaps"));
 }
 
 TEST_F(CampaignFile, GroupsInheritAndOverride) {
-  const Campaign campaign = read(R"(
+  const campaign::Campaign campaign = read(R"(
 name = "n"
 seed = 7
 threads = [1, 2]
@@ -149,7 +151,7 @@ time_limit = 0.5
   EXPECT_EQ(campaign.groups[0].threads, (std::vector{1, 2}));
   EXPECT_EQ(campaign.groups[0].counts, (std::vector<std::int64_t>{10, 20}));
   EXPECT_TRUE(campaign.groups[0].narrow.empty());
-  const CampaignGroup& second = campaign.groups[1];
+  const campaign::CampaignGroup& second = campaign.groups[1];
   EXPECT_EQ(second.threads, std::vector{3});
   ASSERT_EQ(second.broad.size(), 2u);
   EXPECT_EQ(second.broad[1]->info.name, "sweep-and-prune");
@@ -157,8 +159,8 @@ time_limit = 0.5
   EXPECT_EQ(second.narrow[1].settings.tolerance, 1e-6);
   EXPECT_EQ(second.narrow[1].settings.max_iterations, 9);
   EXPECT_EQ(second.tasks, (std::vector{Task::distance, Task::penetration}));
-  EXPECT_EQ(second.boxes, (std::vector{BoxKind::loose, BoxKind::tight}));
-  EXPECT_EQ(second.pairing, Pairing::product);
+  EXPECT_EQ(second.boxes, (std::vector{scene::BoxKind::loose, scene::BoxKind::tight}));
+  EXPECT_EQ(second.pairing, campaign::Pairing::product);
   EXPECT_TRUE(second.rebuild);
   EXPECT_EQ(second.frames, 4);
   EXPECT_EQ(second.seeds, std::vector<std::int64_t>{3});
@@ -243,7 +245,7 @@ TEST_F(CampaignFile, ADefaultThatIsWrongIsToldThoughEachGroupHasItsOwn) {
 }
 
 TEST_F(CampaignFile, TheMeasuringIsAsTheFileSays) {
-  const CampaignGroup group =
+  const campaign::CampaignGroup group =
       read(
           "scenes = 'a.toml'\nwidth = 0.5\nseconds = 3\nsquares = 6\nmemory_limit = 8\n"
           "time_limit = 0.25\ninclude = {task = 'distance'}\n"

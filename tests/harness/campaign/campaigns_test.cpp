@@ -23,9 +23,9 @@ TEST(Campaigns, AllAreReadAndTheirScenesAreThere) {
       std::filesystem::path(touchstone::project_folder) / "datasets/campaigns";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
-    const Campaign campaign = read_campaign(entry.path());
+    const campaign::Campaign campaign = campaign::read_campaign(entry.path());
     ++count;
-    for (const CampaignGroup& group : campaign.groups) {
+    for (const campaign::CampaignGroup& group : campaign.groups) {
       for (const auto& scene : group.scenes) {
         EXPECT_TRUE(std::filesystem::exists(scene)) << entry.path() << " names " << scene;
       }

@@ -33,8 +33,8 @@ void wait_a_little(long microseconds) {
 // Runs two good contestants and one that does harm in its n-th find_pairs.
 struct Harm {
   FakeCampaign fakes;
-  RunResult result;
-  std::vector<RawRow> lost;            // rows of the bad one without a good status
+  campaign::RunResult result;
+  std::vector<record::RawRow> lost;    // rows of the bad one without a good status
   std::map<std::string, int> samples;  // rows of find_pairs
 
   Harm(int when, const FakeBroadPhase::Hook& harm, std::string_view status,
@@ -47,21 +47,22 @@ struct Harm {
                           if (call == when) harm(call, sink);
                         }),
                    fake("fine", good)};
-    result = run_campaign(fakes.campaign(6), fakes.out());
-    for (const RawRow& row : result.findings.rows()) {
-      if (row.status != RowStatus::ok && row.broad == "bad") lost.push_back(row);
-      if (row.kind == RowKind::sample && row.phase == Phase::find_pairs && row.seconds > 0) {
+    result = campaign::run_campaign(fakes.campaign(6), fakes.out());
+    for (const record::RawRow& row : result.findings.rows()) {
+      if (row.status != record::RowStatus::ok && row.broad == "bad") lost.push_back(row);
+      if (row.kind == record::RowKind::sample && row.phase == record::Phase::find_pairs &&
+          row.seconds > 0) {
         ++samples[row.broad + (row.is_twin() ? " twin" : "")];
       }
       if (row.broad != "bad") {
-        EXPECT_EQ(row.status, RowStatus::ok) << row.broad;
+        EXPECT_EQ(row.status, record::RowStatus::ok) << row.broad;
       }
     }
     EXPECT_EQ(lost.size(), 1u);
     if (!lost.empty()) {
       EXPECT_EQ(to_string(*lost[0].status), status);
     }
-    EXPECT_EQ(result.findings.departures().size(), 1u) << departures_text(result.findings);
+    EXPECT_EQ(result.findings.departures().size(), 1u) << record::departures_text(result.findings);
     const int rounds = 6 * (when > FakeCampaign::frames ? 4 : 3);
     EXPECT_EQ(samples["good"], rounds);
     EXPECT_EQ(samples["good twin"], rounds);
@@ -146,43 +147,44 @@ TEST(Contestants, AnotherAnswerInAWorkerThanInTheCheckIsWrong) {
     });
   };
   fakes.fakes.push_back(wide);
-  Campaign campaign = fakes.campaign(6);
+  campaign::Campaign campaign = fakes.campaign(6);
   campaign.groups[0].threads = {2};
-  const RunResult result = run_campaign(campaign, fakes.out());
+  const campaign::RunResult result = campaign::run_campaign(campaign, fakes.out());
   EXPECT_TRUE(result.findings.ours_are_wrong());
   int wrong = 0;
-  for (const RawRow& row : result.findings.rows()) {
+  for (const record::RawRow& row : result.findings.rows()) {
     if (row.broad != "wide") continue;
-    wrong += row.status == RowStatus::wrong;
-    EXPECT_EQ(row.kind, RowKind::check);
+    wrong += row.status == record::RowStatus::wrong;
+    EXPECT_EQ(row.kind, record::RowKind::check);
   }
   EXPECT_EQ(wrong, 1);
 }
 
 TEST(Contestants, WhatARoundToldGoesWithItWhenItIsMeasuredAgain) {
   // Crashes once, whoever asks.
-  const auto crashes = std::make_shared<SharedArray<std::atomic<int>>>(1);
+  const auto crashes = std::make_shared<process::SharedArray<std::atomic<int>>>(1);
   FakeCampaign fakes;
   fakes.fakes = {fake("good", [](int, PairSink&) {}), fake("bad", [=](int call, PairSink&) {
                    if (call == in_samples && (*crashes)[0]++ == 0) std::raise(SIGSEGV);
                  })};
-  const RunResult first = run_campaign(fakes.campaign(6), fakes.out());
+  const campaign::RunResult first = campaign::run_campaign(fakes.campaign(6), fakes.out());
   ASSERT_EQ(first.findings.departures().size(), 1u);
   const auto row = static_cast<std::size_t>(first.findings.departures()[0].row);
   ASSERT_LT(row, first.findings.rows().size());
-  EXPECT_EQ(first.findings.rows()[row].status, RowStatus::crashed);
-  EXPECT_EQ(read_rows<Departure>(fakes.out() / "departures.csv").size(), 1u);
+  EXPECT_EQ(first.findings.rows()[row].status, record::RowStatus::crashed);
+  EXPECT_EQ(record::read_rows<record::Departure>(fakes.out() / "departures.csv").size(), 1u);
 
   // As if it had been stopped in that round.
   const std::string raw = fakes.folder.read("out/raw.csv");
   // It was the first round after the check.
   const std::size_t crash = raw.find(",crashed,");
-  stop_run(fakes.out(), raw.find('\n', raw.rfind(",check,", crash)) + 1,
-           raw.find('\n', crash) + 1);
-  const RunResult again = run_campaign(fakes.campaign(6), fakes.out(), FolderStart::resume);
-  for (const RawRow& one : again.findings.rows()) EXPECT_EQ(one.status, RowStatus::ok);
-  EXPECT_TRUE(again.findings.departures().empty()) << departures_text(again.findings);
-  EXPECT_TRUE(read_rows<Departure>(fakes.out() / "departures.csv").empty());
+  stop_run(fakes.out(), raw.find('\n', raw.rfind(",check,", crash)) + 1, raw.find('\n', crash) + 1);
+  const campaign::RunResult again =
+      campaign::run_campaign(fakes.campaign(6), fakes.out(), record::FolderStart::resume);
+  for (const record::RawRow& one : again.findings.rows())
+    EXPECT_EQ(one.status, record::RowStatus::ok);
+  EXPECT_TRUE(again.findings.departures().empty()) << record::departures_text(again.findings);
+  EXPECT_TRUE(record::read_rows<record::Departure>(fakes.out() / "departures.csv").empty());
 }
 
 TEST(Contestants, WhereAWholeGroupIsGoneTheOthersStopAllTheSame) {
@@ -194,15 +196,15 @@ TEST(Contestants, WhereAWholeGroupIsGoneTheOthersStopAllTheSame) {
   FakeCampaign fakes;
   fakes.fakes = {fake("baseline", crash), fake("a", good), fake("b", good), fake("c", crash),
                  fake("d", crash)};
-  const RunResult result = run_campaign(fakes.campaign(6), fakes.out());
+  const campaign::RunResult result = campaign::run_campaign(fakes.campaign(6), fakes.out());
   int stops = 0;
-  for (const RawRow& row : result.findings.rows()) stops += row.stop == "rounds";
+  for (const record::RawRow& row : result.findings.rows()) stops += row.stop == "rounds";
   EXPECT_EQ(stops, 1);
 }
 
-SetTimes times_of(const RunResult& result) {
-  SetTimes times;
-  for (const RawRow& row : result.findings.rows()) times.add(row);
+campaign::SetTimes times_of(const campaign::RunResult& result) {
+  campaign::SetTimes times;
+  for (const record::RawRow& row : result.findings.rows()) times.add(row);
   return times;
 }
 
@@ -210,7 +212,8 @@ TEST(Contestants, OneThatSleepsLongerIsSlower) {
   FakeCampaign fakes;
   fakes.fakes = {fake("first", [](int, PairSink&) { wait_a_little(1000); }),
                  fake("second", [](int, PairSink&) { wait_a_little(4000); })};
-  const SetTimes times = times_of(run_campaign(fakes.campaign(12), fakes.out()));
+  const campaign::SetTimes times =
+      times_of(campaign::run_campaign(fakes.campaign(12), fakes.out()));
   EXPECT_EQ(times.baseline(), "first");
   const auto ratio = stats::median_interval(times.log_ratios("second", "first", true), confidence);
   EXPECT_EQ(ratio.n, 12u);
@@ -219,7 +222,7 @@ TEST(Contestants, OneThatSleepsLongerIsSlower) {
 }
 
 // From here on times are exact: those of fakes on a clock of their own.
-double jittered(double seconds, Random& random) {
+double jittered(double seconds, base::Random& random) {
   return seconds * std::exp(random.uniform(-0.2, 0.2));
 }
 
@@ -228,19 +231,20 @@ class ExactTimes : public testing::Test {
   // Three contestants whose times are spread by a tenth: one, its like, and one that has 5 % more
   // to do.
   void fill() {
-    const auto like = [](int, Random& random) { return jittered(100e-6, random); };
-    fakes_.fakes = {
-        timed_fake("first", 1, like), timed_fake("like", 2, like),
-        timed_fake("slower", 3, [](int, Random& random) { return jittered(105e-6, random); })};
+    const auto like = [](int, base::Random& random) { return jittered(100e-6, random); };
+    fakes_.fakes = {timed_fake("first", 1, like), timed_fake("like", 2, like),
+                    timed_fake("slower", 3,
+                               [](int, base::Random& random) { return jittered(105e-6, random); })};
   }
   QuietMachine quiet_;
   FakeCampaign fakes_;
 };
 
 TEST_F(ExactTimes, TheClockTellsWhatTheWorkTook) {
-  fakes_.fakes = {timed_fake("first", 1, [](int, Random&) { return 100e-6; }),
-                  timed_fake("second", 2, [](int, Random&) { return 150e-6; })};
-  const SetTimes times = times_of(run_campaign(fakes_.campaign(6), fakes_.out()));
+  fakes_.fakes = {timed_fake("first", 1, [](int, base::Random&) { return 100e-6; }),
+                  timed_fake("second", 2, [](int, base::Random&) { return 150e-6; })};
+  const campaign::SetTimes times =
+      times_of(campaign::run_campaign(fakes_.campaign(6), fakes_.out()));
   for (const double seconds : times.times("first", false)) EXPECT_NEAR(seconds, 100e-6, 1e-12);
   for (const double seconds : times.times("second", false)) EXPECT_NEAR(seconds, 150e-6, 1e-12);
   for (const double ratio : times.log_ratios("second", "first", false)) {
@@ -250,7 +254,8 @@ TEST_F(ExactTimes, TheClockTellsWhatTheWorkTook) {
 
 TEST_F(ExactTimes, AFewPercentMoreToDoAreFoundAndTwinsAreNotToldApart) {
   fill();
-  const SetTimes times = times_of(run_campaign(fakes_.campaign(48), fakes_.out()));
+  const campaign::SetTimes times =
+      times_of(campaign::run_campaign(fakes_.campaign(48), fakes_.out()));
   const auto ratio = [&](const std::string& label) {
     return stats::median_interval(times.log_ratios(label, "first", false), confidence);
   };
@@ -259,7 +264,7 @@ TEST_F(ExactTimes, AFewPercentMoreToDoAreFoundAndTwinsAreNotToldApart) {
   EXPECT_GT(slower.low, 0);
   EXPECT_LT(slower.low, std::log(1.05));
   EXPECT_GT(slower.high, std::log(1.05));
-  for (const auto& same : {ratio("like"), ratio(SetTimes::twin_of("first"))}) {
+  for (const auto& same : {ratio("like"), ratio(campaign::SetTimes::twin_of("first"))}) {
     EXPECT_EQ(same.n, 48u);
     EXPECT_LT(same.low, 0);
     EXPECT_GT(same.high, 0);
@@ -267,33 +272,33 @@ TEST_F(ExactTimes, AFewPercentMoreToDoAreFoundAndTwinsAreNotToldApart) {
 }
 
 // The last row of the only set.
-RawRow last_row(const RunResult& result) { return result.findings.rows().back(); }
+record::RawRow last_row(const campaign::RunResult& result) { return result.findings.rows().back(); }
 
 TEST_F(ExactTimes, RepetitionEndsWhereTheIntervalIsNarrow) {
   fill();
-  Campaign campaign = fakes_.campaign({});
+  campaign::Campaign campaign = fakes_.campaign({});
   campaign.groups[0].seconds = 1e9;
   campaign.groups[0].width = 0.5;
-  const RunResult wide = run_campaign(campaign, fakes_.folder.path() / "wide");
+  const campaign::RunResult wide = campaign::run_campaign(campaign, fakes_.folder.path() / "wide");
   EXPECT_EQ(last_row(wide).stop, "width");
-  EXPECT_EQ(last_row(wide).square, first_look - 1);
+  EXPECT_EQ(last_row(wide).square, measure::first_look - 1);
 }
 
 TEST_F(ExactTimes, RepetitionEndsWithTheLastLook) {
   fill();
-  Campaign campaign = fakes_.campaign({});
+  campaign::Campaign campaign = fakes_.campaign({});
   campaign.groups[0].seconds = 1e9;
   campaign.groups[0].width = 1e-4;
-  const RunResult result = run_campaign(campaign, fakes_.out());
+  const campaign::RunResult result = campaign::run_campaign(campaign, fakes_.out());
   EXPECT_EQ(last_row(result).stop, "rounds");
   EXPECT_EQ(last_row(result).square, 47);
 }
 
 TEST_F(ExactTimes, RepetitionEndsWithTheBudget) {
   fill();
-  Campaign campaign = fakes_.campaign({});
+  campaign::Campaign campaign = fakes_.campaign({});
   campaign.groups[0].seconds = 1e-9;  // four times as much before there is an interval
-  const RunResult result = run_campaign(campaign, fakes_.out());
+  const campaign::RunResult result = campaign::run_campaign(campaign, fakes_.out());
   EXPECT_EQ(last_row(result).stop, "budget");
   EXPECT_EQ(last_row(result).square, 0);
 }
@@ -302,15 +307,15 @@ TEST_F(ExactTimes, ATwinThatTakesLongerMakesTheSetSuspect) {
   // The instances after the check's are the baseline and its twin in turn.
   fakes_.fakes = {
       timed_fake("first", 1,
-                 [](int instance, Random& random) {
+                 [](int instance, base::Random& random) {
                    const bool twin = instance > 0 && instance % 2 == 0;
                    return jittered(twin ? 130e-6 : 100e-6, random);
                  }),
-      timed_fake("second", 2, [](int, Random& random) { return jittered(100e-6, random); })};
-  const RunResult result = run_campaign(fakes_.campaign(12), fakes_.out());
+      timed_fake("second", 2, [](int, base::Random& random) { return jittered(100e-6, random); })};
+  const campaign::RunResult result = campaign::run_campaign(fakes_.campaign(12), fakes_.out());
   EXPECT_EQ(last_row(result).noise, "canary");
   int flagged = 0;
-  for (const RawRow& row : result.findings.rows()) flagged += !row.noise.empty();
+  for (const record::RawRow& row : result.findings.rows()) flagged += !row.noise.empty();
   EXPECT_EQ(flagged, 1);
   const stats::Results read = stats::read_results(fakes_.out());
   EXPECT_THAT(stats::summary(read, stats::make_tables(read, stats::Noise::left_out), {}, ""),
@@ -321,26 +326,25 @@ TEST_F(ExactTimes, ATwinThatTakesLongerMakesTheSetSuspect) {
 
 TEST_F(ExactTimes, ATwinThatIsOneMakesNoneSuspect) {
   fill();
-  const RunResult result = run_campaign(fakes_.campaign(12), fakes_.out());
-  for (const RawRow& row : result.findings.rows()) EXPECT_EQ(row.noise, "");
+  const campaign::RunResult result = campaign::run_campaign(fakes_.campaign(12), fakes_.out());
+  for (const record::RawRow& row : result.findings.rows()) EXPECT_EQ(row.noise, "");
   EXPECT_FALSE(stats::read_results(fakes_.out()).sets.at(0).suspect);
 }
 
 TEST_F(ExactTimes, ARoundThatWasDisturbedDoesNotCount) {
   // Every round: there is then no interval to end by, and none to make a set suspect.
-  noise_judge() = [](const NoiseReading&, const NoiseReading&, double, double) {
-    return std::string("steal");
-  };
+  measure::noise_judge() = [](const measure::NoiseReading&, const measure::NoiseReading&, double,
+                              double) { return std::string("steal"); };
   fill();
-  Campaign campaign = fakes_.campaign({});
+  campaign::Campaign campaign = fakes_.campaign({});
   campaign.groups[0].seconds = 1e9;
   campaign.groups[0].width = 10;
-  const RunResult result = run_campaign(campaign, fakes_.out());
+  const campaign::RunResult result = campaign::run_campaign(campaign, fakes_.out());
   EXPECT_EQ(last_row(result).stop, "rounds");
-  for (const RawRow& row : result.findings.rows()) {
-    EXPECT_EQ(row.noise, row.kind == RowKind::sample ? "steal" : "");
+  for (const record::RawRow& row : result.findings.rows()) {
+    EXPECT_EQ(row.noise, row.kind == record::RowKind::sample ? "steal" : "");
   }
-  const SetTimes times = times_of(result);
+  const campaign::SetTimes times = times_of(result);
   EXPECT_TRUE(times.log_ratios("slower", "first", false).empty());
   EXPECT_EQ(times.log_ratios("slower", "first", true).size(), 48u);
 }

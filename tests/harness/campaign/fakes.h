@@ -57,28 +57,28 @@ inline BroadPhaseEntry fake(const std::string& name, const FakeBroadPhase::Hook&
 class FakeClock {
  public:
   static void start() {
-    now_ = Stopwatch::Clock::now();
-    Stopwatch::use([] { return now_; });
+    now_ = base::Stopwatch::Clock::now();
+    base::Stopwatch::use([] { return now_; });
   }
   static void spend(double seconds) {
     now_ += std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
   }
 
  private:
-  inline static Stopwatch::Clock::time_point now_;
+  inline static base::Stopwatch::Clock::time_point now_;
 };
 
 // One that takes so many seconds for a frame by that clock. Its instances are numbered in the order
 // in which they are made: 0 is the check's; then each process of a campaign makes one, and where it
 // is the baseline two, itself and its twin.
-using Cost = std::function<double(int instance, Random& random)>;
+using Cost = std::function<double(int instance, base::Random& random)>;
 inline BroadPhaseEntry timed_fake(const std::string& name, std::uint64_t seed, const Cost& cost) {
   BroadPhaseEntry entry = fake(name, nullptr);
-  const auto instances = std::make_shared<SharedArray<std::atomic<int>>>(1);
+  const auto instances = std::make_shared<process::SharedArray<std::atomic<int>>>(1);
   entry.make = [=](Executor& executor) -> std::unique_ptr<BroadPhase> {
     const int instance = (*instances)[0]++;
     FakeClock::start();
-    const auto random = std::make_shared<Random>(seed, static_cast<std::uint64_t>(instance));
+    const auto random = std::make_shared<base::Random>(seed, static_cast<std::uint64_t>(instance));
     return std::make_unique<FakeBroadPhase>(
         executor, [=](int, PairSink&) { FakeClock::spend(cost(instance, *random)); });
   };
@@ -89,11 +89,10 @@ inline BroadPhaseEntry timed_fake(const std::string& name, std::uint64_t seed, c
 class QuietMachine {
  public:
   QuietMachine() {
-    noise_judge() = [](const NoiseReading&, const NoiseReading&, double, double) {
-      return std::string();
-    };
+    measure::noise_judge() = [](const measure::NoiseReading&, const measure::NoiseReading&, double,
+                                double) { return std::string(); };
   }
-  ~QuietMachine() { noise_judge() = &noise_flags; }
+  ~QuietMachine() { measure::noise_judge() = &noise_flags; }
   QuietMachine(const QuietMachine&) = delete;
   QuietMachine& operator=(const QuietMachine&) = delete;
 };
@@ -105,12 +104,12 @@ struct FakeCampaign {
   std::vector<BroadPhaseEntry> fakes;  // to be filled before campaign()
   double time_limit = 60;              // more than a frame takes on the busiest machine
 
-  Campaign campaign(std::optional<int> squares) const {
+  campaign::Campaign campaign(std::optional<int> squares) const {
     std::ofstream(folder.path() / "scene.toml")
         << "generator = 'uniform'\ncount = 40\noverlaps = 4\nframes = " << frames << "\n";
-    Campaign campaign;
+    campaign::Campaign campaign;
     campaign.name = "fakes";
-    CampaignGroup group;
+    campaign::CampaignGroup group;
     group.scenes = {folder.path() / "scene.toml"};
     group.threads = {1};
     for (const BroadPhaseEntry& entry : fakes) group.broad.push_back(&entry);

@@ -28,27 +28,29 @@ std::filesystem::path reference_folder() {
                           : std::filesystem::path(project_folder) / "results" / "reference";
 }
 
-Results answers_now(const Campaign& campaign, const std::filesystem::path& file) {
-  CsvWriter csv(file, header_of<RawRow>());
-  for (const RawRow& row : check_campaign(campaign).rows()) write_row(csv, row);
+stats::Results answers_now(const campaign::Campaign& campaign, const std::filesystem::path& file) {
+  files::CsvWriter csv(file, record::header_of<record::RawRow>());
+  for (const record::RawRow& row : campaign::check_campaign(campaign).rows())
+    record::write_row(csv, row);
   csv.close();
   return stats::read_results(file);
 }
 
 // Frames of algorithms of ours with another hash of their outcomes.
-std::vector<std::string> changed_outcomes(const Results& stated, const Results& here) {
+std::vector<std::string> changed_outcomes(const stats::Results& stated,
+                                          const stats::Results& here) {
   std::vector<std::string> changed;
-  for (const SampleSet& set : here.sets) {
-    const SampleSet* const there = stated.find(set.key);
+  for (const stats::SampleSet& set : here.sets) {
+    const stats::SampleSet* const there = stated.find(set.key);
     if (there == nullptr) continue;
-    for (const Contestant& contestant : set.contestants) {
-      const Contestant* const before = there->find(contestant.label);
+    for (const stats::Contestant& contestant : set.contestants) {
+      const stats::Contestant* const before = there->find(contestant.label);
       if (before == nullptr || !contestant.is_ours()) continue;
-      std::map<std::pair<std::int64_t, Phase>, std::string> hashes;
-      for (const Check& check : before->checks) {
+      std::map<std::pair<std::int64_t, record::Phase>, std::string> hashes;
+      for (const stats::Check& check : before->checks) {
         hashes[{check.frame, check.phase}] = check.outcome_hash;
       }
-      for (const Check& check : contestant.checks) {
+      for (const stats::Check& check : contestant.checks) {
         if (hashes[{check.frame, check.phase}] == check.outcome_hash) continue;
         changed.push_back(fmt::format("{} in {}, frame {}: outcome hash", contestant.label,
                                       set.key.words(), check.frame));
@@ -60,12 +62,13 @@ std::vector<std::string> changed_outcomes(const Results& stated, const Results& 
 }
 
 // Disabled while the committed reference is older than the program.
-TEST(Reference, DISABLED_HasTheAnswersOfThisProgram) {
-  const Results stated = stats::read_results(reference_folder());
-  const Campaign campaign = read_campaign(std::filesystem::path(project_folder) / "datasets" /
-                                          "campaigns" / (stated.campaign + ".toml"));
+TEST(grade::Reference, DISABLED_HasTheAnswersOfThisProgram) {
+  const stats::Results stated = stats::read_results(reference_folder());
+  const campaign::Campaign campaign =
+      campaign::read_campaign(std::filesystem::path(project_folder) / "datasets" / "campaigns" /
+                              (stated.campaign + ".toml"));
   const TemporaryFolder folder;
-  const Results here = answers_now(campaign, folder.path() / "raw.csv");
+  const stats::Results here = answers_now(campaign, folder.path() / "raw.csv");
   const stats::ResultNames names = {"the reference", "this program"};
   EXPECT_THAT(stats::missing(stated, here, names).scenes, testing::IsEmpty());
   EXPECT_THAT(stats::missing(here, stated, {"this program", "the reference"}).cells,

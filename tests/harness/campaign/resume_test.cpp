@@ -37,17 +37,18 @@ class Resume : public testing::Test {
                   "6\nseconds = 0.05\n"
                   "threads = 1\n");
   }
-  Campaign campaign() const { return read_campaign(folder_.path() / "c.toml"); }
+  campaign::Campaign campaign() const { return campaign::read_campaign(folder_.path() / "c.toml"); }
   std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
 
   // Rows by what tells them apart, with how often each is there.
-  using Key = std::tuple<RowKind, std::int64_t, std::string, std::optional<Task>, std::string, bool,
-                         std::int64_t, std::int64_t, std::int64_t, std::int64_t, Phase, bool>;
+  using Key =
+      std::tuple<record::RowKind, std::int64_t, std::string, std::optional<Task>, std::string, bool,
+                 std::int64_t, std::int64_t, std::int64_t, std::int64_t, record::Phase, bool>;
   static std::map<Key, int> keys(const std::filesystem::path& out) {
     std::map<Key, int> keys;
-    for (const RawRow& row : read_rows<RawRow>(out / "raw.csv")) {
-      const std::int64_t frame = row.kind == RowKind::check ? row.frame : -1;
-      ++keys[{row.kind, row.block, label_of(row), row.task, row.pair_kind, row.is_twin(),
+    for (const record::RawRow& row : record::read_rows<record::RawRow>(out / "raw.csv")) {
+      const std::int64_t frame = row.kind == record::RowKind::check ? row.frame : -1;
+      ++keys[{row.kind, row.block, record::label_of(row), row.task, row.pair_kind, row.is_twin(),
               row.process, row.square, row.round * 100 + row.position, frame, row.phase,
               row.stop.empty()}];
     }
@@ -56,13 +57,13 @@ class Resume : public testing::Test {
 
   // The run in a process of its own: its status as waitpid tells it. `seconds` < 0: not killed.
   int run_apart(
-      const std::string& name, FolderStart start, double seconds,
+      const std::string& name, record::FolderStart start, double seconds,
       const std::function<void()>& prepare = [] {}) const {
     const pid_t child = fork();
     if (child == 0) {
       prepare();
       try {
-        run_campaign(campaign(), out(name), start);
+        campaign::run_campaign(campaign(), out(name), start);
       } catch (const std::exception&) {
         _exit(2);
       }
@@ -80,16 +81,17 @@ class Resume : public testing::Test {
   }
 
   void kill_and_resume(int kills) {
-    ASSERT_EQ(run_apart("whole", FolderStart::fresh, -1), 0);
+    ASSERT_EQ(run_apart("whole", record::FolderStart::fresh, -1), 0);
     const auto expected = keys(out("whole"));
     ASSERT_GT(expected.size(), 400u);
-    Random random(7);
+    base::Random random(7);
     int killed = 0;
     int runs = 0;
     for (; killed < kills && runs < 10 * kills; ++runs) {
       const bool any = std::filesystem::exists(out("cut") / "machine.csv");
-      const int status = run_apart("cut", any ? FolderStart::resume : FolderStart::fresh,
-                                   random.uniform(0.01, 0.4));
+      const int status =
+          run_apart("cut", any ? record::FolderStart::resume : record::FolderStart::fresh,
+                    random.uniform(0.01, 0.4));
       if (WIFSIGNALED(status)) ++killed;
       if (status != 0) continue;
       EXPECT_EQ(keys(out("cut")), expected) << "after " << killed << " kills";
@@ -97,7 +99,7 @@ class Resume : public testing::Test {
     }
     EXPECT_EQ(killed, kills);
     if (std::filesystem::exists(out("cut") / "machine.csv")) {
-      ASSERT_EQ(run_apart("cut", FolderStart::resume, -1), 0);
+      ASSERT_EQ(run_apart("cut", record::FolderStart::resume, -1), 0);
       EXPECT_EQ(keys(out("cut")), expected);
     }
   }
@@ -108,7 +110,7 @@ class Resume : public testing::Test {
 TEST_F(Resume, AfterEveryKillAllRowsAreThereOnce) { kill_and_resume(10); }
 
 TEST_F(Resume, AfterAFullDiskAllRowsAreThereOnce) {
-  ASSERT_EQ(run_apart("whole", FolderStart::fresh, -1), 0);
+  ASSERT_EQ(run_apart("whole", record::FolderStart::fresh, -1), 0);
   const auto size = std::filesystem::file_size(out("whole") / "raw.csv");
   for (const double part : {0.02, 0.3, 0.8}) {
     const auto limit_files = [&] {
@@ -117,8 +119,8 @@ TEST_F(Resume, AfterAFullDiskAllRowsAreThereOnce) {
       const rlimit limit{most, most};
       setrlimit(RLIMIT_FSIZE, &limit);
     };
-    EXPECT_EQ(WEXITSTATUS(run_apart("full", FolderStart::overwrite, -1, limit_files)), 2);
-    ASSERT_EQ(run_apart("full", FolderStart::resume, -1), 0);
+    EXPECT_EQ(WEXITSTATUS(run_apart("full", record::FolderStart::overwrite, -1, limit_files)), 2);
+    ASSERT_EQ(run_apart("full", record::FolderStart::resume, -1), 0);
     EXPECT_EQ(keys(out("full")), keys(out("whole")));
   }
 }
@@ -127,7 +129,7 @@ class ResumeStopped : public Resume {
  protected:
   // Cuts a finished run back to an unfinished one.
   ResumeStopped() {
-    EXPECT_EQ(run_apart("out", FolderStart::fresh, -1), 0);
+    EXPECT_EQ(run_apart("out", record::FolderStart::fresh, -1), 0);
     expected_ = keys(out("out"));
     stop_run(out("out"), 0.6);
   }
@@ -135,23 +137,24 @@ class ResumeStopped : public Resume {
 };
 
 TEST_F(ResumeStopped, ALineThatWasCutOffIsDropped) {
-  run_campaign(campaign(), out("out"), FolderStart::resume);
+  campaign::run_campaign(campaign(), out("out"), record::FolderStart::resume);
   EXPECT_EQ(keys(out("out")), expected_);
 }
 
 TEST_F(ResumeStopped, AFreshRunDoesNotOverwriteIt) {
   const std::string before = folder_.read("out/raw.csv");
-  EXPECT_THAT(input_fault([&] { run_campaign(campaign(), out("out")); }),
+  EXPECT_THAT(input_fault([&] { campaign::run_campaign(campaign(), out("out")); }),
               testing::HasSubstr("--resume"));
   EXPECT_EQ(folder_.read("out/raw.csv"), before);
-  run_campaign(campaign(), out("out"), FolderStart::overwrite);
+  campaign::run_campaign(campaign(), out("out"), record::FolderStart::overwrite);
   EXPECT_EQ(keys(out("out")), expected_);
-  run_campaign(campaign(), out("out"));  // it was finished
+  campaign::run_campaign(campaign(), out("out"));  // it was finished
 }
 
 TEST_F(ResumeStopped, AnotherCampaignSceneOrMachineIsRefused) {
   const auto fault = [&] {
-    return input_fault([&] { run_campaign(campaign(), out("out"), FolderStart::resume); });
+    return input_fault(
+        [&] { campaign::run_campaign(campaign(), out("out"), record::FolderStart::resume); });
   };
   const std::string text = folder_.read("c.toml");
   folder_.write("c.toml", text + "width = 0.05\n");
@@ -171,16 +174,20 @@ TEST_F(ResumeStopped, AnotherCampaignSceneOrMachineIsRefused) {
 }
 
 TEST_F(Resume, AFolderWithoutARunIsRefused) {
-  EXPECT_THAT(input_fault([&] { run_campaign(campaign(), out("none"), FolderStart::resume); }),
+  EXPECT_THAT(input_fault([&] {
+                campaign::run_campaign(campaign(), out("none"), record::FolderStart::resume);
+              }),
               testing::HasSubstr("machine.csv"));
 }
 
 TEST_F(Resume, AFinishedRunIsLeftAsItIs) {
-  ASSERT_EQ(run_apart("out", FolderStart::fresh, -1), 0);
+  ASSERT_EQ(run_apart("out", record::FolderStart::fresh, -1), 0);
   const std::string before = folder_.read("out/raw.csv");
-  const RunResult result = run_campaign(campaign(), out("out"), FolderStart::resume);
+  const campaign::RunResult result =
+      campaign::run_campaign(campaign(), out("out"), record::FolderStart::resume);
   EXPECT_EQ(folder_.read("out/raw.csv"), before);
-  EXPECT_EQ(result.findings.rows().size(), read_rows<RawRow>(out("out") / "raw.csv").size());
+  EXPECT_EQ(result.findings.rows().size(),
+            record::read_rows<record::RawRow>(out("out") / "raw.csv").size());
 }
 
 }  // namespace

@@ -21,35 +21,35 @@ using namespace touchstone;
 
 class Runner : public testing::Test {
  protected:
-  Campaign campaign(const std::string& text) {
+  campaign::Campaign campaign(const std::string& text) {
     std::ofstream(folder_.path() / "scene.toml")
         << "generator = 'uniform'\ncount = 150\noverlaps = 4\n"
            "frames = 3\nshapes = ['box', 'sphere', 'hull']\n";
     std::ofstream(folder_.path() / "c.toml") << "scenes = 'scene.toml'\n" << text;
-    return read_campaign(folder_.path() / "c.toml");
+    return campaign::read_campaign(folder_.path() / "c.toml");
   }
   std::filesystem::path out() const { return folder_.path() / "out"; }
   TemporaryFolder folder_;
 };
 
 TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
-  const Campaign c = campaign(
+  const campaign::Campaign c = campaign(
       "broad = ['naive', 'uniform-grid']\nnarrow = ['gjk', 'sat']\n"
       "scalars = 'double'\ntasks = ['intersect', 'penetration']\nsquares = 6");
-  const RunResult result = run_campaign(c, out());
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
-  const std::vector<RawRow> rows = read_rows<RawRow>(out() / "raw.csv");
+  const campaign::RunResult result = campaign::run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << record::departures_text(result.findings);
+  const std::vector<record::RawRow> rows = record::read_rows<record::RawRow>(out() / "raw.csv");
   EXPECT_EQ(rows.size(), result.findings.rows().size());
-  std::map<Phase, int> checks, samples;
+  std::map<record::Phase, int> checks, samples;
   std::map<std::int64_t, std::set<std::string>> hashes;
   std::map<std::string, std::set<std::int64_t>> processes;
   int stops = 0;
-  for (const RawRow& row : rows) {
-    ++(row.kind == RowKind::check ? checks : samples)[row.phase];
-    EXPECT_TRUE(row.status == RowStatus::unsupported || row.seconds > 0);
-    EXPECT_EQ(row.kind == RowKind::sample, row.square >= 0);
-    if (row.kind == RowKind::sample) processes[label_of(row)].insert(row.process);
-    if (row.kind == RowKind::check && row.phase == Phase::find_pairs) {
+  for (const record::RawRow& row : rows) {
+    ++(row.kind == record::RowKind::check ? checks : samples)[row.phase];
+    EXPECT_TRUE(row.status == record::RowStatus::unsupported || row.seconds > 0);
+    EXPECT_EQ(row.kind == record::RowKind::sample, row.square >= 0);
+    if (row.kind == record::RowKind::sample) processes[record::label_of(row)].insert(row.process);
+    if (row.kind == record::RowKind::check && row.phase == record::Phase::find_pairs) {
       hashes[row.frame].insert(row.pair_hash);
     }
     if (!row.stop.empty()) {
@@ -57,16 +57,16 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
       EXPECT_EQ(row.stop, "rounds");
     }
   }
-  EXPECT_EQ(checks[Phase::build], 2);
-  EXPECT_EQ(checks[Phase::update], 4);
-  EXPECT_EQ(checks[Phase::find_pairs], 6);
+  EXPECT_EQ(checks[record::Phase::build], 2);
+  EXPECT_EQ(checks[record::Phase::update], 4);
+  EXPECT_EQ(checks[record::Phase::find_pairs], 6);
   // gjk and sat, two tasks, three frames, six kinds of pairs.
-  EXPECT_EQ(checks[Phase::narrow], 2 * 2 * 3 * 6);
+  EXPECT_EQ(checks[record::Phase::narrow], 2 * 2 * 3 * 6);
   ASSERT_EQ(hashes.size(), 3u);
   for (const auto& [frame, set] : hashes) EXPECT_EQ(set.size(), 1u);
   // Two contestants and the twin: squares of three rounds.
-  EXPECT_EQ(samples[Phase::update], 6 * 3 * 3);
-  EXPECT_EQ(samples[Phase::find_pairs], 6 * 3 * 3);
+  EXPECT_EQ(samples[record::Phase::update], 6 * 3 * 3);
+  EXPECT_EQ(samples[record::Phase::find_pairs], 6 * 3 * 3);
   EXPECT_EQ(processes["uniform-grid"], (std::set<std::int64_t>{0, 1, 2}));
   EXPECT_EQ(stops, 1 + 2 * 6);  // a set
   EXPECT_TRUE(std::filesystem::exists(out() / "machine.csv"));
@@ -74,23 +74,23 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
 
 // Every broad phase with some narrow phases, and every narrow phase with one broad phase.
 TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
-  const Campaign c = campaign(
+  const campaign::Campaign c = campaign(
       "threads = [1, 3]\npairing = 'product'\nframes = 2\n"
       "tasks = ['intersect', 'distance', 'penetration']\n"
       "seconds = 1e-6\nsquares = 6\nrounds = 1\nprocesses = 1\n"
       "[[group]]\nbroad = 'ours'\nnarrow = ['gjk', 'closed-form']\nscalars = 'double'\n"
       "[[group]]\nbroad = 'packed-rtree'\nnarrow = 'ours'\n");
-  const RunResult result = run_campaign(c, out());
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
+  const campaign::RunResult result = campaign::run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << record::departures_text(result.findings);
   std::map<std::string, std::set<std::string>> by_cell;
   std::set<std::string> combinations;
-  for (const RawRow& row : result.findings.rows()) {
-    EXPECT_NE(row.status, RowStatus::wrong) << label_of(row);
-    if (row.kind == RowKind::sample && row.phase == Phase::narrow) {
+  for (const record::RawRow& row : result.findings.rows()) {
+    EXPECT_NE(row.status, record::RowStatus::wrong) << record::label_of(row);
+    if (row.kind == record::RowKind::sample && row.phase == record::Phase::narrow) {
       combinations.insert(row.broad + " " + row.narrow);
     }
-    if (row.kind != RowKind::check || row.pair_hash.empty()) continue;
-    by_cell[row.broad + row.narrow + (row.is_narrow() ? label_of(row) : "") +
+    if (row.kind != record::RowKind::check || row.pair_hash.empty()) continue;
+    by_cell[row.broad + row.narrow + (row.is_narrow() ? record::label_of(row) : "") +
             std::string(row.task ? to_string(*row.task) : "") + row.pair_kind +
             std::to_string(row.frame)]
         .insert(row.pair_hash + row.outcome_hash);
@@ -101,18 +101,18 @@ TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
 
 // What comes and goes, jumps or moves is checked frame by frame like everything else.
 TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
-  const Campaign c =
+  const campaign::Campaign c =
       campaign("broad = ['ours', 'peers']\nnarrow = 'gjk'\nsquares = 6\nthreads = 2");
   std::ofstream(folder_.path() / "scene.toml")
       << "generator = 'uniform'\ncount = 120\noverlaps = 4\nframes = 7\nchurn = 0.1\n"
          "teleports = 0.1\nmoving = 0.5\n";
-  const RunResult result = run_campaign(c, out());
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
+  const campaign::RunResult result = campaign::run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << record::departures_text(result.findings);
   std::map<std::int64_t, std::set<std::string>> hashes;
   std::map<std::int64_t, std::set<std::string>> found_by;
-  for (const RawRow& row : result.findings.rows()) {
+  for (const record::RawRow& row : result.findings.rows()) {
     EXPECT_EQ(row.bodies, 120);
-    if (row.kind != RowKind::check || row.phase != Phase::find_pairs) continue;
+    if (row.kind != record::RowKind::check || row.phase != record::Phase::find_pairs) continue;
     const BroadPhaseEntry* const entry = find_broad_phase(row.broad);
     if (!entry->info.known_defect.empty()) continue;
     hashes[row.frame].insert(row.pair_hash);
@@ -129,23 +129,23 @@ TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
 }
 
 TEST_F(Runner, RebuildsHoldsInstructionsDownAndMeasuresTheLimit) {
-  const Campaign c = campaign(
+  const campaign::Campaign c = campaign(
       "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = 1\nlimit = true\n"
       "isa = ['all', 'baseline']\nsquares = 6\nrounds = 1\nprocesses = 1\n"
       "[[group]]\nrebuild = true\n[[group]]\n");
   const Isa before = isa();
-  const RunResult result = run_campaign(c, out());
+  const campaign::RunResult result = campaign::run_campaign(c, out());
   EXPECT_EQ(isa(), before);
-  EXPECT_FALSE(result.findings.ours_are_wrong()) << departures_text(result.findings);
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << record::departures_text(result.findings);
   std::map<std::string, std::map<std::string, int>> samples;
-  for (const RawRow& row : read_rows<RawRow>(out() / "raw.csv")) {
-    EXPECT_EQ(row.status, RowStatus::ok);
+  for (const record::RawRow& row : record::read_rows<record::RawRow>(out() / "raw.csv")) {
+    EXPECT_EQ(row.status, record::RowStatus::ok);
     EXPECT_EQ(row.isa, row.isa_limit ? Isa::baseline : before);
-    if (row.kind != RowKind::sample) continue;
+    if (row.kind != record::RowKind::sample) continue;
     EXPECT_EQ(row.process, 0);
     EXPECT_EQ(row.round, 0);
-    EXPECT_NE(row.phase, row.is_rebuilt() ? Phase::update : Phase::build);
-    if (row.phase != Phase::find_pairs || row.is_twin()) continue;
+    EXPECT_NE(row.phase, row.is_rebuilt() ? record::Phase::update : record::Phase::build);
+    if (row.phase != record::Phase::find_pairs || row.is_twin()) continue;
     ++samples[std::string(row.isa_limit ? "limited" : "") + (row.is_rebuilt() ? " rebuilt" : "")]
              [row.broad];
   }
@@ -172,14 +172,15 @@ TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
   const std::string text =
       "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = [1, 2]\nsquares = 6\n"
       "counts = [100, 200]\nframes = 2\n";
-  const RunResult all = run_campaign(campaign(text), out());
-  for (const RawRow& row : all.findings.rows()) EXPECT_FALSE(row.lost());
+  const campaign::RunResult all = campaign::run_campaign(campaign(text), out());
+  for (const record::RawRow& row : all.findings.rows()) EXPECT_FALSE(row.lost());
   // Nobody is so fast.
-  const RunResult none = run_campaign(campaign(text + "time_limit = 1e-9"), out());
+  const campaign::RunResult none =
+      campaign::run_campaign(campaign(text + "time_limit = 1e-9"), out());
   int tried = 0, left_out = 0;
-  for (const RawRow& row : none.findings.rows()) {
+  for (const record::RawRow& row : none.findings.rows()) {
     if (!row.lost()) continue;
-    EXPECT_EQ(row.status, RowStatus::timed_out);
+    EXPECT_EQ(row.status, record::RowStatus::timed_out);
     ++(row.words.empty() ? tried : left_out);
     if (row.words.empty()) continue;
     EXPECT_EQ(row.words, "not tried: over the limit of 1e-09 s with 100 bodies");
@@ -187,19 +188,19 @@ TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
   EXPECT_EQ(tried, 2);
   EXPECT_EQ(left_out, 2 * 3) << "the same at two threads, and with more bodies";
   // A limit that grows faster than the count is another question.
-  const RunResult more = run_campaign(
+  const campaign::RunResult more = campaign::run_campaign(
       campaign("broad = 'naive'\nnarrow = 'none'\nthreads = 1\nsquares = 6\nframes = 2\n"
                "[[group]]\ncounts = 100\ntime_limit = 1e-9\n"
                "[[group]]\ncounts = 200\ntime_limit = 10\n"),
       out());
   int lost = 0;
-  for (const RawRow& row : more.findings.rows()) lost += row.lost();
+  for (const record::RawRow& row : more.findings.rows()) lost += row.lost();
   EXPECT_EQ(lost, 1);
 }
 
 TEST_F(Runner, TablesNameEveryAlgorithm) {
-  const Campaign c = campaign("broad = 'ours'\nnarrow = 'ours'\nseconds = 0.5");
-  const RunResult result = run_campaign(c, out());
+  const campaign::Campaign c = campaign("broad = 'ours'\nnarrow = 'ours'\nseconds = 0.5");
+  const campaign::RunResult result = campaign::run_campaign(c, out());
   const stats::Results read = stats::read_results(out());
   const stats::Tables tables = stats::make_tables(read, stats::Noise::kept);
   const std::string text = stats::tables_markdown(tables);
@@ -208,7 +209,7 @@ TEST_F(Runner, TablesNameEveryAlgorithm) {
   }
   // Those that take a pair of kinds that the scene has.
   constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::box, ShapeKind::hull};
-  for (const NarrowChoice& choice : c.groups[0].narrow) {
+  for (const measure::NarrowChoice& choice : c.groups[0].narrow) {
     bool takes_some = false;
     for (const ShapeKind a : kinds) {
       for (const ShapeKind b : kinds) {
@@ -227,32 +228,33 @@ TEST_F(Runner, TablesNameEveryAlgorithm) {
 }
 
 TEST_F(Runner, LeavesNothingBehindWhenASceneIsWrong) {
-  Campaign c = campaign("");
+  campaign::Campaign c = campaign("");
   std::ofstream(folder_.path() / "scene.toml") << "generator = 'uniform'\ncount = -3\n";
-  EXPECT_THROW(run_campaign(c, out()), InputError);
+  EXPECT_THROW(campaign::run_campaign(c, out()), base::InputError);
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
 TEST_F(Runner, LeavesOutWhatIsTooSlowAndSaysSo) {
-  const Campaign c = campaign("broad = 'naive'\nnarrow = 'none'\ntime_limit = 1e-9");
-  const RunResult result = run_campaign(c, out());
+  const campaign::Campaign c = campaign("broad = 'naive'\nnarrow = 'none'\ntime_limit = 1e-9");
+  const campaign::RunResult result = campaign::run_campaign(c, out());
   int lost = 0;
-  for (const RawRow& row : result.findings.rows()) lost += row.status == RowStatus::timed_out;
+  for (const record::RawRow& row : result.findings.rows())
+    lost += row.status == record::RowStatus::timed_out;
   EXPECT_EQ(lost, 1);
   EXPECT_FALSE(result.findings.ours_are_wrong());
-  EXPECT_THAT(departures_text(result.findings), testing::HasSubstr("over the limit"));
+  EXPECT_THAT(record::departures_text(result.findings), testing::HasSubstr("over the limit"));
 }
 
 TEST_F(Runner, RulesLeaveCellsOut) {
-  const Campaign c = campaign(
+  const campaign::Campaign c = campaign(
       "broad = ['naive', 'uniform-grid']\nnarrow = ['gjk', 'sat']\ncounts = [30, 60]\n"
       "exclude = [{broad = 'naive', counts_above = 40}, {narrow = 'gjk', scalar = 'float'},\n"
       "           {narrow = 'sat', pair_kind = 'box-box'}]\nseconds = 0.05");
-  const RunResult result = run_campaign(c, out());
+  const campaign::RunResult result = campaign::run_campaign(c, out());
   std::set<std::string> cells;
-  for (const RawRow& row : result.findings.rows()) {
-    if (row.status == RowStatus::unsupported) continue;
-    cells.insert(label_of(row) + " " + std::to_string(row.bodies) + " " + row.pair_kind);
+  for (const record::RawRow& row : result.findings.rows()) {
+    if (row.status == record::RowStatus::unsupported) continue;
+    cells.insert(record::label_of(row) + " " + std::to_string(row.bodies) + " " + row.pair_kind);
   }
   EXPECT_TRUE(cells.contains("naive 30 "));
   EXPECT_FALSE(cells.contains("naive 60 "));
@@ -261,7 +263,7 @@ TEST_F(Runner, RulesLeaveCellsOut) {
   EXPECT_FALSE(cells.contains("gjk float 60 box-box"));
   EXPECT_FALSE(cells.contains("sat double 60 box-box"));
   EXPECT_TRUE(cells.contains("sat double 60 box-hull"));
-  const std::vector<PlannedBlock> plan = plan_campaign(c);
+  const std::vector<campaign::PlannedBlock> plan = campaign::plan_campaign(c);
   ASSERT_EQ(plan.size(), 2u);
   EXPECT_THAT(plan[1].sets[0].contestants, testing::ElementsAre("uniform-grid"));
 }

@@ -20,10 +20,10 @@ namespace {
 
 using testing::HasSubstr;
 
-NarrowSet random_set(Random& random, std::uint32_t bodies, std::size_t frames) {
-  NarrowSet set{"some", Task::intersect, ShapeKind::box, ShapeKind::hull, {}};
+measure::NarrowSet random_set(base::Random& random, std::uint32_t bodies, std::size_t frames) {
+  measure::NarrowSet set{"some", Task::intersect, ShapeKind::box, ShapeKind::hull, {}};
   for (std::size_t frame = 0; frame < frames; ++frame) {
-    PairGroup group{ShapeKind::box, ShapeKind::hull, {}, {}};
+    grade::PairGroup group{ShapeKind::box, ShapeKind::hull, {}, {}};
     for (std::uint32_t a = 0; a < bodies; ++a) {
       for (std::uint32_t b = 0; b < a; ++b) {
         if (random.below(3) != 0) continue;
@@ -38,16 +38,16 @@ NarrowSet random_set(Random& random, std::uint32_t bodies, std::size_t frames) {
   return set;
 }
 
-TEST(WarmPairs, APairHasOneSlotAndATaskItsOwn) {
-  Random random(3, 1);
-  const NarrowSet set = random_set(random, 30, 9);
+TEST(measure::WarmPairs, APairHasOneSlotAndATaskItsOwn) {
+  base::Random random(3, 1);
+  const measure::NarrowSet set = random_set(random, 30, 9);
   constexpr std::size_t slots_a_task = 16;
-  const WarmPairs warm(set, slots_a_task);
+  const measure::WarmPairs warm(set, slots_a_task);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> slot_of;
   bool some_in_another_order = false;
   for (std::size_t i = 0; i < set.frames.size(); ++i) {
-    const PairGroup& group = set.frames[i];
-    const WarmPairs::Frame& frame = warm.frame(i);
+    const grade::PairGroup& group = set.frames[i];
+    const measure::WarmPairs::Frame& frame = warm.frame(i);
     ASSERT_EQ(frame.pairs.size(), group.size());
     ASSERT_EQ(frame.slots.size(), group.size());
     ASSERT_EQ(frame.begins.size(), warm.tasks() + 1);
@@ -90,8 +90,8 @@ class Warm : public testing::Test {
                   "generator = 'uniform'\ncount = 60\noverlaps = 4\nframes = 6\nstep = 0.2\n"
                   "shapes = ['box', 'capsule']\n");
   }
-  Campaign campaign(const std::string& keys) {
-    return read_campaign(folder_.write(
+  campaign::Campaign campaign(const std::string& keys) {
+    return campaign::read_campaign(folder_.write(
         "c.toml", "broad = 'none'\nthreads = 1\nsquares = 6\nrounds = 1\nprocesses = 1\n" + keys));
   }
   TemporaryFolder folder_;
@@ -99,16 +99,17 @@ class Warm : public testing::Test {
 
 // Whatever windows are asked for, and by however many workers, a frame's answers are the same.
 TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
-  const Scene scene = load_scene(folder_.path() / "pairs.toml");
-  const BlockInput input(scene, BoxKind::tight, true);
+  const scene::Scene scene = scene::load_scene(folder_.path() / "pairs.toml");
+  const measure::BlockInput input(scene, scene::BoxKind::tight, true);
   std::vector<std::vector<IndexPair>> pairs(frames, scene.pairs);
   pairs[5].resize(300);
   std::ranges::reverse(pairs[7]);
   constexpr std::array tasks = {Task::distance, Task::intersect};
-  const std::vector<NarrowSet> sets = narrow_sets(input, "", pairs, tasks);
-  const NarrowChoice choice{.entry = find_narrow_phase("gjk"), .settings = {}, .warm = true};
+  const std::vector<measure::NarrowSet> sets = measure::narrow_sets(input, "", pairs, tasks);
+  const measure::NarrowChoice choice{
+      .entry = find_narrow_phase("gjk"), .settings = {}, .warm = true};
   Executor one(1), two(2);
-  NarrowSampler straight(choice, input, sets, one), narrow(choice, input, sets, one),
+  measure::NarrowSampler straight(choice, input, sets, one), narrow(choice, input, sets, one),
       wide(choice, input, sets, two);
   ASSERT_GE(sets.size(), 4u);
   for (std::uint32_t set = 0; set < sets.size(); ++set) {
@@ -118,12 +119,13 @@ TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
       hash[frame] = straight.sample({.set = set, .frame = frame}).outcome_hash;
       outcomes[frame].assign(straight.outcomes().begin(), straight.outcomes().end());
     }
-    Random random(9, set);
+    base::Random random(9, set);
     for (int n = 0; n < 20; ++n) {
-      const SampleRequest request{.set = set,
-                                  .frame = 1 + static_cast<std::uint32_t>(random.below(frames - 1)),
-                                  .frames = 1 + static_cast<std::uint32_t>(random.below(30)),
-                                  .skips_first = true};
+      const measure::SampleRequest request{
+          .set = set,
+          .frame = 1 + static_cast<std::uint32_t>(random.below(frames - 1)),
+          .frames = 1 + static_cast<std::uint32_t>(random.below(30)),
+          .skips_first = true};
       std::uint64_t expected = 0;
       std::size_t frame = request.frame;
       for (std::uint32_t i = 0; i < request.frames; ++i) {
@@ -147,25 +149,25 @@ TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
 }
 
 TEST_F(Warm, StandsBesideColdOnesInRowsAndTables) {
-  const Campaign c = campaign(
+  const campaign::Campaign c = campaign(
       "scenes = 'pairs.toml'\nnarrow = ['gjk', 'sat', 'mpr']\nscalars = 'double'\n"
       "warm = [false, true]\ntasks = ['intersect', 'distance']\n");
-  const RunResult result = run_campaign(c, folder_.path() / "out");
+  const campaign::RunResult result = campaign::run_campaign(c, folder_.path() / "out");
   EXPECT_TRUE(result.findings.departures().empty());
   std::map<std::string, std::int64_t> supports, queries;
   std::map<std::string, int> checks, samples;
-  for (const RawRow& row : result.findings.rows()) {
-    EXPECT_EQ(row.is_warm(), label_of(row).ends_with(" warm"));
-    EXPECT_NE(row.status, RowStatus::wrong);
+  for (const record::RawRow& row : result.findings.rows()) {
+    EXPECT_EQ(row.is_warm(), record::label_of(row).ends_with(" warm"));
+    EXPECT_NE(row.status, record::RowStatus::wrong);
     EXPECT_LE(row.disagreements, 0);
-    if (row.kind == RowKind::check) {
-      ++checks[label_of(row)];
+    if (row.kind == record::RowKind::check) {
+      ++checks[record::label_of(row)];
     } else {
-      ++samples[label_of(row)];
+      ++samples[record::label_of(row)];
       EXPECT_GE(row.frame, 1);
       if (row.task == Task::distance && row.pair_kind == "hull-hull") {
-        supports[label_of(row)] += row.support_calls;
-        queries[label_of(row)] += row.pair_count;
+        supports[record::label_of(row)] += row.support_calls;
+        queries[record::label_of(row)] += row.pair_count;
       }
     }
   }
@@ -188,7 +190,7 @@ TEST_F(Warm, StandsBesideColdOnesInRowsAndTables) {
     EXPECT_EQ(set.baseline().label, "gjk double");
   }
   std::vector<std::string> planned;
-  for (const PlannedBlock& block : plan_campaign(c)) {
+  for (const campaign::PlannedBlock& block : campaign::plan_campaign(c)) {
     for (const auto& set : block.sets) {
       planned.insert(planned.end(), set.contestants.begin(), set.contestants.end());
     }
@@ -198,15 +200,15 @@ TEST_F(Warm, StandsBesideColdOnesInRowsAndTables) {
 
 // Pairs that come and go, on what broad phases report.
 TEST_F(Warm, TakesPairsThatComeAndGo) {
-  const Campaign c = campaign(
+  const campaign::Campaign c = campaign(
       "scenes = 'moving.toml'\nnarrow = ['gjk']\nwarm = true\npairing = 'product'\n[[group]]\n"
       "broad = ['naive', 'uniform-grid']\n");
-  const RunResult result = run_campaign(c, folder_.path() / "out");
+  const campaign::RunResult result = campaign::run_campaign(c, folder_.path() / "out");
   int rows = 0;
-  for (const RawRow& row : result.findings.rows()) {
+  for (const record::RawRow& row : result.findings.rows()) {
     if (row.narrow.empty()) continue;
-    EXPECT_NE(row.status, RowStatus::wrong);
-    rows += row.is_warm() && row.kind == RowKind::sample;
+    EXPECT_NE(row.status, record::RowStatus::wrong);
+    rows += row.is_warm() && row.kind == record::RowKind::sample;
   }
   EXPECT_GT(rows, 0);
   EXPECT_TRUE(result.findings.departures().empty());
@@ -214,9 +216,9 @@ TEST_F(Warm, TakesPairsThatComeAndGo) {
 
 TEST_F(Warm, WantsAFrameBefore) {
   const std::string keys = "scenes = 'still.toml'\nnarrow = 'gjk'\nwarm = true\n";
-  EXPECT_THAT(input_fault([&] { run_campaign(campaign(keys), folder_.path() / "out"); }),
+  EXPECT_THAT(input_fault([&] { campaign::run_campaign(campaign(keys), folder_.path() / "out"); }),
               testing::AllOf(HasSubstr("still.toml"), HasSubstr("frames")));
-  EXPECT_NO_THROW(plan_campaign(campaign(keys + "frames = 2\n")));
+  EXPECT_NO_THROW(campaign::plan_campaign(campaign(keys + "frames = 2\n")));
 }
 
 }  // namespace

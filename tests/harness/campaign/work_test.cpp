@@ -50,34 +50,34 @@ class Counting final : public BroadPhase {
   bool warm_ = false;
 };
 
-RunResult run_counting(bool crash_when_warm) {
+campaign::RunResult run_counting(bool crash_when_warm) {
   FakeCampaign fakes;
   BroadPhaseEntry counting = fake("counting", [](int, PairSink&) {});
   counting.make = [](Executor& executor) { return std::make_unique<Counting>(executor); };
   fakes.fakes = {counting, fake("silent", [=](int call, PairSink&) {
                    if (crash_when_warm && call == 2 * FakeCampaign::frames) std::abort();
                  })};
-  return run_campaign(fakes.campaign(1), fakes.out());
+  return campaign::run_campaign(fakes.campaign(1), fakes.out());
 }
 
 TEST(WorkColumns, OfTheCheck) {
-  const RunResult result = run_counting(false);
+  const campaign::RunResult result = run_counting(false);
   int rows = 0;
-  for (const RawRow& row : result.findings.rows()) {
-    if (row.kind != RowKind::check || row.broad != "counting") continue;
+  for (const record::RawRow& row : result.findings.rows()) {
+    if (row.kind != record::RowKind::check || row.broad != "counting") continue;
     ++rows;
-    const bool query = row.phase == Phase::find_pairs;
+    const bool query = row.phase == record::Phase::find_pairs;
     EXPECT_EQ(row.box_tests, query ? 7 : -1);
     EXPECT_EQ(row.node_visits, query ? 0 : -1);
     EXPECT_EQ(row.candidates, query ? 3 : -1);
     EXPECT_EQ(row.bytes, query ? 1 << 20 : -1);
-    if (!can_count_allocations()) {
+    if (!measure::can_count_allocations()) {
       EXPECT_EQ(row.allocations, -1);
       EXPECT_EQ(row.allocated_bytes, -1);
       continue;
     }
     // Warm: the naive one below asks for nothing, and what is kept is there.
-    const bool update = row.phase == Phase::update;
+    const bool update = row.phase == record::Phase::update;
     EXPECT_EQ(row.allocations, query ? 2 : update ? 1 : 0) << row.frame;
     EXPECT_EQ(row.allocated_bytes, query ? 300 : update ? 10 : 0) << row.frame;
   }
@@ -108,13 +108,13 @@ TEST(Conversion, IsTimedApartInTheCheck) {
   BroadPhaseEntry converting = fake("converting", [](int, PairSink&) {});
   converting.make = [](Executor& executor) { return std::make_unique<Converting>(executor); };
   fakes.fakes = {converting, fake("silent", [](int, PairSink&) {})};
-  const RunResult result = run_campaign(fakes.campaign(1), fakes.out());
+  const campaign::RunResult result = campaign::run_campaign(fakes.campaign(1), fakes.out());
   int rows = 0;
-  for (const RawRow& row : result.findings.rows()) {
-    EXPECT_NE(row.status, RowStatus::wrong) << row.broad;
-    if (row.phase != Phase::convert) continue;
+  for (const record::RawRow& row : result.findings.rows()) {
+    EXPECT_NE(row.status, record::RowStatus::wrong) << row.broad;
+    if (row.phase != record::Phase::convert) continue;
     ++rows;
-    EXPECT_EQ(row.kind, RowKind::check);
+    EXPECT_EQ(row.kind, record::RowKind::check);
     EXPECT_EQ(row.broad, "converting");
     EXPECT_NEAR(row.seconds, 1e-6 * static_cast<double>(row.bodies), 1e-9);  // all of them move
   }
@@ -122,10 +122,10 @@ TEST(Conversion, IsTimedApartInTheCheck) {
 }
 
 TEST(WorkColumns, NothingIsCountedWhereTimeIsTaken) {
-  const RunResult result = run_counting(false);
+  const campaign::RunResult result = run_counting(false);
   int rows = 0;
-  for (const RawRow& row : result.findings.rows()) {
-    if (row.kind != RowKind::sample || row.phase != Phase::find_pairs) continue;
+  for (const record::RawRow& row : result.findings.rows()) {
+    if (row.kind != record::RowKind::sample || row.phase != record::Phase::find_pairs) continue;
     ++rows;
     EXPECT_EQ(row.box_tests, -1);
     EXPECT_EQ(row.allocations, -1);
@@ -137,13 +137,13 @@ TEST(WorkColumns, NothingIsCountedWhereTimeIsTaken) {
 // The pass that counts is apart: what goes wrong in it alone is not counted, and is no failure of
 // the check.
 TEST(WorkColumns, ACrashWhileCountingLeavesThemEmpty) {
-  const RunResult result = run_counting(true);
+  const campaign::RunResult result = run_counting(true);
   bool checked = false;
-  for (const RawRow& row : result.findings.rows()) {
-    if (row.kind != RowKind::check || row.broad != "silent" || row.process >= 0) continue;
+  for (const record::RawRow& row : result.findings.rows()) {
+    if (row.kind != record::RowKind::check || row.broad != "silent" || row.process >= 0) continue;
     checked = true;
-    if (row.phase != Phase::find_pairs) continue;
-    EXPECT_EQ(row.status, RowStatus::ok);
+    if (row.phase != record::Phase::find_pairs) continue;
+    EXPECT_EQ(row.status, record::RowStatus::ok);
     if (row.frame == FakeCampaign::frames - 1) {
       EXPECT_EQ(row.allocations, -1);
     }
@@ -152,10 +152,10 @@ TEST(WorkColumns, ACrashWhileCountingLeavesThemEmpty) {
 }
 
 // Takes so much in its frame 1, and gives it back.
-class Greedy final : public Sampler {
+class Greedy final : public measure::Sampler {
  public:
   explicit Greedy(std::size_t bytes) : bytes_(bytes) {}
-  SampleReply sample(const SampleRequest& request) override {
+  measure::SampleReply sample(const measure::SampleRequest& request) override {
     if (request.frame == 1) {
       void* const memory =
           mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -175,8 +175,8 @@ TEST(PeakMemory, IsWhatTheContestantTookBeyondTheHarness) {
 #endif
   const std::vector<char> harness(std::size_t{200} << 20, 'x');  // none of the worker's
   constexpr std::int64_t taken_kb = 64 << 10;
-  Worker worker([] { return std::make_unique<Greedy>(std::size_t{taken_kb} << 10); },
-                {.layout = 3});
+  measure::Worker worker([] { return std::make_unique<Greedy>(std::size_t{taken_kb} << 10); },
+                         {.layout = 3});
   ASSERT_FALSE(worker.wait_until_made(10));
   const auto peak = [&](std::uint32_t frame) {
     const auto reply = worker.ask({.frame = frame}, 10);

@@ -18,14 +18,14 @@
 namespace touchstone {
 namespace {
 
-const StressAxis& axis(const std::string& name) {
-  return *std::ranges::find(axes(), name, &StressAxis::name);
+const check::StressAxis& axis(const std::string& name) {
+  return *std::ranges::find(check::axes(), name, &check::StressAxis::name);
 }
 
 // What a cell has for each of its cases, and in how many they are apart and overlap.
 struct Drawn {
-  std::vector<TrueCase> cases;
-  CellSummary summary;
+  std::vector<grade::TrueCase> cases;
+  check::CellSummary summary;
   std::map<Answer, int> answers;
 };
 
@@ -35,20 +35,20 @@ class Axes : public ::testing::Test {
   template <class Visit>
   void for_each_value(const std::string& name, int cases, const Visit& visit,
                       double greatest = 1e300) {
-    const StressAxis& of = axis(name);
-    const std::vector<const StressAxis*> list = {&of};
-    StressRequest request;
-    request.cells = cells_of(list);
+    const check::StressAxis& of = axis(name);
+    const std::vector<const check::StressAxis*> list = {&of};
+    check::StressRequest request;
+    request.cells = check::cells_of(list);
     request.cases = cases;
-    for (std::size_t cell = 0; cell < request.cells.size(); ++cell) {
-      const AxisValue& value = request.cells[cell].value();
+    for (std::size_t cell = 0; base::cell < request.cells.size(); ++cell) {
+      const check::AxisValue& value = request.cells[cell].value();
       if (value.value > greatest) continue;
       SCOPED_TRACE(name + " " + value.name);
       EXPECT_EQ(std::stod(value.name), value.value);
       Drawn drawn;
-      drawn.cases = true_cases(request, cell, oracle, drawn.summary);
+      drawn.cases = check::true_cases(request, cell, oracle, drawn.summary);
       EXPECT_GT(drawn.cases.size(), 0u);
-      for (TrueCase& c : drawn.cases) {
+      for (grade::TrueCase& c : drawn.cases) {
         const Answer answer = c.truth(Encoding::as_given).measure.answer;
         ++drawn.answers[answer];
         ++all[answer];
@@ -80,18 +80,19 @@ TEST_F(Axes, HaveTheEndsThatTheyPromise) {
   EXPECT_EQ(ends("coplanar"), "1e-1 to 0");
   EXPECT_EQ(ends("parallel"), "1e0 to 0");
   std::set<std::string> names;
-  std::vector<const StressAxis*> list;
-  for (const StressAxis& one : axes()) list.push_back(&one);
-  for (const StressCell& cell : cells_of(list)) EXPECT_TRUE(names.insert(cell.regime.name).second);
+  std::vector<const check::StressAxis*> list;
+  for (const check::StressAxis& one : check::axes()) list.push_back(&one);
+  for (const check::StressCell& cell : check::cells_of(list))
+    EXPECT_TRUE(names.insert(cell.regime.name).second);
 }
 
 TEST_F(Axes, Scale) {
   for (const char* name : {"scale-down", "scale-up"}) {
     for_each_value(name, 16, [&](double value, const Drawn& drawn) {
-      for (const TrueCase& c : drawn.cases) {
+      for (const grade::TrueCase& c : drawn.cases) {
         for (const Shape* shape : {&c.pair().shape_a, &c.pair().shape_b}) {
           if (shape->kind == ShapeKind::halfspace) continue;
-          EXPECT_NEAR(shape_size(*shape) / value, 1, 1e-12) << c.pair().id;
+          EXPECT_NEAR(grade::shape_size(*shape) / value, 1, 1e-12) << c.pair().id;
         }
       }
     });
@@ -102,11 +103,11 @@ TEST_F(Axes, Scale) {
 TEST_F(Axes, Aspect) {
   for_each_value("aspect", 16, [&](double value, const Drawn& drawn) {
     int slender = 0;
-    for (const TrueCase& c : drawn.cases) {
+    for (const grade::TrueCase& c : drawn.cases) {
       for (const Shape* shape : {&c.pair().shape_a, &c.pair().shape_b}) {
         if (shape->kind == ShapeKind::halfspace || shape->kind == ShapeKind::sphere) continue;
-        EXPECT_NEAR(aspect_of(*shape) / value, 1, 1e-9) << c.pair().id;
-        EXPECT_NEAR(shape_size(*shape), 1, 1e-9) << c.pair().id;
+        EXPECT_NEAR(check::aspect_of(*shape) / value, 1, 1e-9) << c.pair().id;
+        EXPECT_NEAR(grade::shape_size(*shape), 1, 1e-9) << c.pair().id;
         ++slender;
       }
     }
@@ -117,11 +118,11 @@ TEST_F(Axes, Aspect) {
 
 TEST_F(Axes, Distance) {
   for_each_value("distance", 16, [&](double value, const Drawn& drawn) {
-    for (const TrueCase& c : drawn.cases) {
+    for (const grade::TrueCase& c : drawn.cases) {
       const Vec3d& at = c.pair().pose_a.translation;
-      EXPECT_NEAR(length(at), value, 1e-12 * value) << c.pair().id;
+      EXPECT_NEAR(base::length(at), value, 1e-12 * value) << c.pair().id;
       if (c.pair().shape_b.kind == ShapeKind::halfspace) continue;
-      EXPECT_LT(length(c.pair().pose_b.translation - at), 5 + 1e-12 * value) << c.pair().id;
+      EXPECT_LT(base::length(c.pair().pose_b.translation - at), 5 + 1e-12 * value) << c.pair().id;
     }
   });
   expect_both_outcomes();
@@ -129,8 +130,8 @@ TEST_F(Axes, Distance) {
 
 TEST_F(Axes, Ratio) {
   for_each_value("ratio", 16, [&](double value, const Drawn& drawn) {
-    for (const TrueCase& c : drawn.cases) {
-      const double a = shape_size(c.pair().shape_a), b = shape_size(c.pair().shape_b);
+    for (const grade::TrueCase& c : drawn.cases) {
+      const double a = grade::shape_size(c.pair().shape_a), b = grade::shape_size(c.pair().shape_b);
       if (a == 0 || b == 0) continue;  // a half-space
       EXPECT_NEAR(std::max(a, b) / std::min(a, b) / value, 1, 1e-9) << c.pair().id;
       EXPECT_NEAR(std::max(a, b), 1, 1e-12);
@@ -143,9 +144,9 @@ TEST_F(Axes, Gap) {
   for_each_value("gap", 16, [&](double value, Drawn& drawn) {
     EXPECT_LE(drawn.summary.dropped, 2);
     EXPECT_EQ(drawn.answers[Answer::separated], drawn.summary.cases);
-    for (TrueCase& c : drawn.cases) {
+    for (grade::TrueCase& c : drawn.cases) {
       const oracle::Measure& exact = c.truth(Encoding::as_given).measure;
-      EXPECT_NEAR(exact.middle() / pair_size(c.pair()) / value, 1, 0.1) << c.pair().id;
+      EXPECT_NEAR(exact.middle() / grade::pair_size(c.pair()) / value, 1, 0.1) << c.pair().id;
     }
   });
 }
@@ -154,9 +155,9 @@ TEST_F(Axes, Depth) {
   for_each_value("depth", 16, [&](double value, Drawn& drawn) {
     EXPECT_LE(drawn.summary.dropped, 8);
     EXPECT_EQ(drawn.answers[Answer::overlapping], drawn.summary.cases);
-    for (TrueCase& c : drawn.cases) {
+    for (grade::TrueCase& c : drawn.cases) {
       const oracle::Measure& exact = c.truth(Encoding::as_given).measure;
-      const double share = -exact.middle() / pair_size(c.pair()) / value;
+      const double share = -exact.middle() / grade::pair_size(c.pair()) / value;
       EXPECT_GT(share, 0.29) << c.pair().id;
       EXPECT_LT(share, 1.11) << c.pair().id;
     }
@@ -165,7 +166,7 @@ TEST_F(Axes, Depth) {
 
 TEST_F(Axes, Vertices) {
   const auto visit = [&](double value, const Drawn& drawn) {
-    for (const TrueCase& c : drawn.cases) {
+    for (const grade::TrueCase& c : drawn.cases) {
       const auto has = [&](const Shape& shape) {
         return shape.kind == ShapeKind::hull &&
                static_cast<double>(shape.hull->vertices.size()) == value;
@@ -181,11 +182,11 @@ TEST_F(Axes, Vertices) {
 TEST_F(Axes, Coplanar) {
   int caps = 0, beside = 0;
   for_each_value("coplanar", 16, [&](double value, const Drawn& drawn) {
-    for (const TrueCase& c : drawn.cases) {
+    for (const grade::TrueCase& c : drawn.cases) {
       if (c.pair().id.find("/side-by-side") != std::string::npos) {
         ++beside;
         const Vec3d between = c.pair().pose_b.translation - c.pair().pose_a.translation;
-        const Vec3d local = transposed_times(c.pair().pose_a.rotation, between);
+        const Vec3d local = base::transposed_times(c.pair().pose_a.rotation, between);
         EXPECT_EQ(local.z(), value) << c.pair().id;
         continue;
       }
@@ -207,12 +208,12 @@ TEST_F(Axes, Coplanar) {
 }
 
 // The least angle between an axis of one body and one of the other, but right angles and zero.
-double least_angle(const Case& c) {
+double least_angle(const files::Case& c) {
   double least = 10;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const Vec3d u = c.pose_a.rotation.col(i), v = c.pose_b.rotation.col(j);
-      const double angle = std::atan2(length(outer(u, v)), std::abs(inner(u, v)));
+      const double angle = std::atan2(base::length(base::outer(u, v)), std::abs(base::inner(u, v)));
       if (angle > 0) least = std::min(least, angle);
     }
   }
@@ -222,7 +223,7 @@ double least_angle(const Case& c) {
 TEST_F(Axes, Parallel) {
   std::set<std::string> features;
   for_each_value("parallel", 16, [&](double value, const Drawn& drawn) {
-    for (const TrueCase& c : drawn.cases) {
+    for (const grade::TrueCase& c : drawn.cases) {
       const std::string& id = c.pair().id;
       const std::size_t at = id.find('/', id.find('/') + 1) + 1;
       features.insert(id.substr(at, id.find("-gap") == std::string::npos ? id.find("-depth") - at
@@ -260,7 +261,7 @@ void expect_good_hull(const Hull& hull, std::size_t vertices) {
     const Hull::Face &left = hull.faces[edge.left], &right = hull.faces[edge.right];
     for (const std::uint32_t v : right.loop) {
       if (v == edge.tail || v == edge.head) continue;
-      if (!(inner(left.normal, hull.vertices[v] - hull.vertices[edge.tail]) < 0)) ++bad;
+      if (!(base::inner(left.normal, hull.vertices[v] - hull.vertices[edge.tail]) < 0)) ++bad;
     }
   }
   EXPECT_EQ(bad, 0u);
@@ -268,16 +269,16 @@ void expect_good_hull(const Hull& hull, std::size_t vertices) {
 }
 
 TEST(RingedHull, IsConvexAndClosedAtEveryCount) {
-  Random random(3);
+  base::Random random(3);
   for (const std::size_t count : {4, 10, 100, 1000, 10'000, 100'000}) {
     SCOPED_TRACE(count);
-    const Vec3d radii = compact_half(1, random);
-    const std::shared_ptr<const Hull> hull = ringed_hull(count, radii);
+    const Vec3d radii = check::compact_half(1, random);
+    const std::shared_ptr<const Hull> hull = check::ringed_hull(count, radii);
     expect_good_hull(*hull, count);
     if (count > 1000) continue;
     for (const Hull::Face& face : hull->faces) {
       for (const Vec3d& v : hull->vertices) {
-        EXPECT_LT(inner(face.normal, v - hull->vertices[face.loop[0]]), 1e-14);
+        EXPECT_LT(base::inner(face.normal, v - hull->vertices[face.loop[0]]), 1e-14);
       }
     }
   }
@@ -286,12 +287,12 @@ TEST(RingedHull, IsConvexAndClosedAtEveryCount) {
 // Instead of taking seconds.
 TEST(RingedHull, TwoLargeOnesAreMoreThanSatWillLookAt) {
   const auto solved = [](std::size_t vertices, double apart, const char* name) {
-    Case c;
+    files::Case c;
     c.shape_a.kind = ShapeKind::hull;
-    c.shape_a.hull = ringed_hull(vertices, Vec3d(1, 0.75, 0.5));
+    c.shape_a.hull = check::ringed_hull(vertices, Vec3d(1, 0.75, 0.5));
     c.shape_b = c.shape_a;
     c.pose_b.translation = {apart, 0.25, 0.125};
-    return solve_case(*find_narrow_phase(name), {}, c, Task::penetration);
+    return process::solve_case(*find_narrow_phase(name), {}, c, Task::penetration);
   };
   for (const char* name : {"sat", "sat-faces"}) {
     EXPECT_EQ(solved(1000, 1, name).status, Status::ok);

@@ -83,7 +83,7 @@ inline long double distance_to_faces(const WideBox& box, const WideVector& p) {
 }
 
 // Of boxes that are apart.
-inline long double box_distance(const Case& c) {
+inline long double box_distance(const files::Case& c) {
   const WideBox a(c.shape_a, c.pose_a), b(c.shape_b, c.pose_b);
   long double least = std::numeric_limits<long double>::infinity();
   for (const WideSegment& s : edges_of(a)) {
@@ -95,7 +95,7 @@ inline long double box_distance(const Case& c) {
 }
 
 // The least overlap of the shadows on the normals of faces and of pairs of edges.
-inline long double box_depth(const Case& c) {
+inline long double box_depth(const files::Case& c) {
   const WideBox a(c.shape_a, c.pose_a), b(c.shape_b, c.pose_b);
   std::vector<WideVector> axes;
   for (std::size_t i = 0; i < 3; ++i) {

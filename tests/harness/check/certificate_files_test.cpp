@@ -18,15 +18,15 @@ using ::testing::StartsWith;
 
 TEST(CertificateFiles, WhatIsSavedIsVerified) {
   const TemporaryFolder folder;
-  const Regime balls = balls_regime();
-  CheckRequest request;
-  request.regimes = {&balls, find_regime("gap-1e-9"), find_regime("depth-1e-3"),
-                     find_regime("touching-grid"), find_regime("degenerate-flat")};
+  const check::Regime balls = balls_regime();
+  check::CheckRequest request;
+  request.regimes = {&balls, check::find_regime("gap-1e-9"), check::find_regime("depth-1e-3"),
+                     check::find_regime("touching-grid"), check::find_regime("degenerate-flat")};
   ASSERT_EQ(std::ranges::count(request.regimes, nullptr), 0);
   request.cases = 8;
   const auto file = folder.path() / "proofs.jsonl";
-  EXPECT_EQ(save_certificates(request, file), 40);
-  const CertificateVerdicts verdicts = verify_certificates(file);
+  EXPECT_EQ(check::save_certificates(request, file), 40);
+  const check::CertificateVerdicts verdicts = check::verify_certificates(file);
   EXPECT_EQ(verdicts.verified, 40);
   EXPECT_EQ(verdicts.refused_count, 0);
 
@@ -46,7 +46,7 @@ TEST(CertificateFiles, WhatIsSavedIsVerified) {
   replace(2, "\"radius\":1.0", "\"radius\":0.5");
   folder.write("spoilt.jsonl", text);
   const auto spoilt = folder.path() / "spoilt.jsonl";
-  const CertificateVerdicts found = verify_certificates(spoilt);
+  const check::CertificateVerdicts found = check::verify_certificates(spoilt);
   EXPECT_EQ(found.verified, 38);
   EXPECT_EQ(found.refused_count, 2);
   EXPECT_THAT(found.refused, ElementsAre(StartsWith(spoilt.string() + ":1: balls/"),
@@ -56,14 +56,14 @@ TEST(CertificateFiles, WhatIsSavedIsVerified) {
 TEST(CertificateFiles, BadFiles) {
   const TemporaryFolder folder;
   const auto bad = folder.write("bad.jsonl", "{}\n");
-  EXPECT_THAT(input_fault([&] { verify_certificates(bad); }), HasSubstr("bad.jsonl:1: "));
-  EXPECT_THAT(input_fault([&] { verify_certificates(folder.path() / "none.jsonl"); }),
+  EXPECT_THAT(input_fault([&] { check::verify_certificates(bad); }), HasSubstr("bad.jsonl:1: "));
+  EXPECT_THAT(input_fault([&] { check::verify_certificates(folder.path() / "none.jsonl"); }),
               HasSubstr("none.jsonl: "));
-  CheckRequest request;
-  const Regime balls = balls_regime();
+  check::CheckRequest request;
+  const check::Regime balls = balls_regime();
   request.regimes = {&balls};
   request.cases = 1;
-  EXPECT_THAT(input_fault([&] { save_certificates(request, folder.path() / "no/x.jsonl"); }),
+  EXPECT_THAT(input_fault([&] { check::save_certificates(request, folder.path() / "no/x.jsonl"); }),
               HasSubstr("cannot be written"));
 }
 

@@ -26,8 +26,8 @@ using ::testing::SizeIs;
 
 class CheckRun : public ::testing::Test {
  protected:
-  CheckRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
-    CheckRequest request;
+  check::CheckRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
+    check::CheckRequest request;
     request.narrow = narrow;
     request.scalars = {Precision::float64};
     request.regimes = {&balls};
@@ -45,18 +45,18 @@ class CheckRun : public ::testing::Test {
     return all;
   }
   // Of the only algorithm in the only regime.
-  static const AnswerCount& count(const CheckResult& result) {
+  static const grade::AnswerCount& count(const check::CheckResult& result) {
     return result.tally.answers().begin()->second;
   }
 
   TemporaryFolder folder;
-  Regime balls = balls_regime();
+  check::Regime balls = balls_regime();
 };
 
 TEST_F(CheckRun, AnAlgorithmThatIsRight) {
   const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
-  const CheckRequest request = request_for({&entry});
-  const auto result = run_check(request);
+  const check::CheckRequest request = request_for({&entry});
+  const auto result = check::run_check(request);
   EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
   EXPECT_EQ(count(*result).answers, 8 * 3);
   EXPECT_EQ(count(*result).silent, 0);
@@ -72,14 +72,14 @@ TEST_F(CheckRun, AnAlgorithmThatIsRight) {
        {"grades.csv", "variants.csv", "jobs.csv", "progress.csv", "summary.csv", "machine.csv"}) {
     EXPECT_THAT(names(), Contains(name));
   }
-  EXPECT_THAT(summary_text(result->report, 120),
+  EXPECT_THAT(check::summary_text(result->report, 120),
               HasSubstr("None of our own algorithms is wrong beyond its margin."));
 }
 
 struct HarmCase {
   Harm harm;
   NarrowPhaseEntry (*entry)(const std::string&, Origin);
-  std::int64_t AnswerCount::*counted;  // what it shows in
+  std::int64_t grade::AnswerCount::*counted;  // what it shows in
   std::int64_t expected;
   bool is_fault;      // of ours
   std::string words;  // in the report
@@ -95,8 +95,8 @@ TEST_P(CheckRunHarm, IsFoundInOursAndInAPeers) {
   const HarmCase& harm = GetParam();
   for (const Origin origin : {Origin::ours, Origin::peer}) {
     const NarrowPhaseEntry entry = harm.entry("bad", origin);
-    const CheckRequest request = request_for({&entry});
-    const auto result = run_check(request);
+    const check::CheckRequest request = request_for({&entry});
+    const auto result = check::run_check(request);
     if (harm.counted != nullptr) {
       EXPECT_EQ(count(*result).*harm.counted, harm.expected);
     }
@@ -105,15 +105,15 @@ TEST_P(CheckRunHarm, IsFoundInOursAndInAPeers) {
     EXPECT_EQ(!wrong.empty(), ours && harm.is_fault);
     if (!harm.is_fault) continue;
     ASSERT_THAT(result->report.failures, Not(IsEmpty()));
-    const FailureCase& failure = result->report.failures.front();
+    const check::FailureCase& failure = result->report.failures.front();
     EXPECT_THAT(failure.what,
                 HasSubstr(ours || harm.words != "does not separate" ? harm.words : ""));
     if (ours) {
       EXPECT_THAT(wrong, Contains(HasSubstr(failure.what)));
-      EXPECT_THAT(summary_text(result->report, 120), HasSubstr(failure.command(request)));
+      EXPECT_THAT(check::summary_text(result->report, 120), HasSubstr(failure.command(request)));
     }
     // The case file shows it, and is a case.
-    const std::vector<Case> cases = read_cases(failure.file);
+    const std::vector<files::Case> cases = files::read_cases(failure.file);
     ASSERT_THAT(cases, Not(IsEmpty()));
     EXPECT_THAT(failure.command(request), HasSubstr("--narrow bad --task "));
   }
@@ -121,22 +121,25 @@ TEST_P(CheckRunHarm, IsFoundInOursAndInAPeers) {
 
 INSTANTIATE_TEST_SUITE_P(
     Harms, CheckRunHarm,
-    ::testing::Values(
-        HarmCase{Harm::wrong_side, planted<Harm::wrong_side>, &AnswerCount::silent, 12, true,
-                 "called"},
-        HarmCase{Harm::wrong_depth, planted<Harm::wrong_depth>, nullptr, 0, true, "by"},
-        HarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>, &AnswerCount::bounds, 12, true,
-                 "bounds miss"},
-        HarmCase{Harm::gives_up, planted<Harm::gives_up>, &AnswerCount::honest, 12, false, ""},
-        HarmCase{Harm::crashes, planted<Harm::crashes>, &AnswerCount::crashed, 12, true, "crashed"},
-        HarmCase{Harm::nan, planted<Harm::nan>, &AnswerCount::not_a_number, 4, true, "NaN"}));
+    ::testing::Values(HarmCase{Harm::wrong_side, planted<Harm::wrong_side>,
+                               &grade::AnswerCount::silent, 12, true, "called"},
+                      HarmCase{Harm::wrong_depth, planted<Harm::wrong_depth>, nullptr, 0, true,
+                               "by"},
+                      HarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>,
+                               &grade::AnswerCount::bounds, 12, true, "bounds miss"},
+                      HarmCase{Harm::gives_up, planted<Harm::gives_up>, &grade::AnswerCount::honest,
+                               12, false, ""},
+                      HarmCase{Harm::crashes, planted<Harm::crashes>, &grade::AnswerCount::crashed,
+                               12, true, "crashed"},
+                      HarmCase{Harm::nan, planted<Harm::nan>, &grade::AnswerCount::not_a_number, 4,
+                               true, "NaN"}));
 
 TEST_F(CheckRun, AHangIsARow) {
   const NarrowPhaseEntry entry = planted<Harm::hangs>("bad", Origin::ours);
-  CheckRequest request = request_for({&entry});
+  check::CheckRequest request = request_for({&entry});
   request.cases = 2;
   request.time_limit = 0.1;
-  const auto result = run_check(request);
+  const auto result = check::run_check(request);
   EXPECT_EQ(count(*result).timed_out, 6);
   EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("no answer in time")));
   EXPECT_THAT(read("grades.csv"), HasSubstr("timed_out"));
@@ -145,27 +148,27 @@ TEST_F(CheckRun, AHangIsARow) {
 // Wrong on one side only, so it answers the swapped pair otherwise.
 TEST_F(CheckRun, AnotherFormOfAPairHasTheSameAnswer) {
   const NarrowPhaseEntry entry = planted<Harm::wrong_side>("bad", Origin::ours);
-  const CheckRequest request = request_for({&entry});
-  const auto result = run_check(request);
-  const FlipCount& flips = result->tally.flips().begin()->second;
+  const check::CheckRequest request = request_for({&entry});
+  const auto result = check::run_check(request);
+  const check::FlipCount& flips = result->tally.flips().begin()->second;
   EXPECT_GT(flips.compared, 0);
   EXPECT_GT(flips.flips, 0);
   EXPECT_GT(flips.beyond, 0);
   EXPECT_NEAR(flips.worst_flip, 0.25, 0.02);
   EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("in another form differ")));
   ASSERT_THAT(result->report.variant_failures, Not(IsEmpty()));
-  EXPECT_GE(read_cases(result->report.variant_failures[0].file).size(), 2u);
+  EXPECT_GE(files::read_cases(result->report.variant_failures[0].file).size(), 2u);
   EXPECT_THAT(read("variants.csv"), HasSubstr(",swap,"));
 }
 
 TEST_F(CheckRun, TheRowsSayWhatTheSummarySays) {
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
   const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
-  const CheckRequest request = request_for({&good, &bad});
-  run_check(request);
+  const check::CheckRequest request = request_for({&good, &bad});
+  check::run_check(request);
   std::map<std::string, std::map<std::string, int>> verdicts;
-  CsvReader(request.out / "grades.csv", {"algorithm", "verdict", "margin", "size", "group"})
-      .read([&](const CsvReader::Row& row) {
+  files::CsvReader(request.out / "grades.csv", {"algorithm", "verdict", "margin", "size", "group"})
+      .read([&](const files::CsvReader::Row& row) {
         ++verdicts[std::string(row.text(0))][std::string(row.text(1))];
         EXPECT_EQ(row.text(1) == "silent_error", !row.text(2).empty());
         EXPECT_EQ(row.number(3), 2);
@@ -175,8 +178,9 @@ TEST_F(CheckRun, TheRowsSayWhatTheSummarySays) {
   EXPECT_EQ(verdicts["bad"]["right"], 12);
   EXPECT_EQ(verdicts["bad"]["silent_error"], 12);
   int rows = 0;
-  CsvReader(request.out / "summary.csv", {"algorithm", "regime", "answers", "silent", "margin"})
-      .read([&](const CsvReader::Row& row) {
+  files::CsvReader(request.out / "summary.csv",
+                   {"algorithm", "regime", "answers", "silent", "margin"})
+      .read([&](const files::CsvReader::Row& row) {
         ++rows;
         EXPECT_EQ(row.text(1), "balls");
         EXPECT_EQ(row.integer(2), 24);
@@ -188,9 +192,9 @@ TEST_F(CheckRun, TheRowsSayWhatTheSummarySays) {
 TEST_F(CheckRun, ThePage) {
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
   const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
-  const CheckRequest request = request_for({&good, &bad});
-  const auto result = run_check(request);
-  const std::string page = page_text(result->report, "touchstone check --cases 8");
+  const check::CheckRequest request = request_for({&good, &bad});
+  const auto result = check::run_check(request);
+  const std::string page = check::page_text(result->report, "touchstone check --cases 8");
   EXPECT_THAT(page, HasSubstr("# Who is wrong where"));
   EXPECT_THAT(page, HasSubstr("`touchstone check --cases 8` (seed 1, 8 cases"));
   EXPECT_THAT(page, HasSubstr("| good double | 24 | 0 | - | 0 | - |"));
@@ -202,12 +206,12 @@ TEST_F(CheckRun, ThePage) {
 
 TEST_F(CheckRun, ShrunkCasesStillFail) {
   const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::ours);
-  const CheckRequest request = request_for({&bad});
-  const auto result = run_check(request);
+  const check::CheckRequest request = request_for({&bad});
+  const auto result = check::run_check(request);
   ASSERT_THAT(result->report.failures, Not(IsEmpty()));
-  for (const FailureCase& failure : result->report.failures) {
-    EXPECT_EQ(failure.answer.given.verdict, Verdict::silent_error);
-    for (const Case& c : read_cases(failure.file)) {
+  for (const check::FailureCase& failure : result->report.failures) {
+    EXPECT_EQ(failure.answer.given.verdict, grade::Verdict::silent_error);
+    for (const files::Case& c : files::read_cases(failure.file)) {
       EXPECT_GT((c.pose_b.translation - c.pose_a.translation).x(), 0);
     }
   }
@@ -215,12 +219,12 @@ TEST_F(CheckRun, ShrunkCasesStillFail) {
 
 TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
   const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
-  CheckRequest request = request_for({&entry});
-  const Regime other = balls_regime("more-balls");
+  check::CheckRequest request = request_for({&entry});
+  const check::Regime other = balls_regime("more-balls");
   request.regimes = {&balls, &other};
   request.seconds = 0.5;
-  const Stopwatch watch;
-  const auto result = run_check(request);
+  const base::Stopwatch watch;
+  const auto result = check::run_check(request);
   EXPECT_GE(watch.seconds(), 0.5);
   EXPECT_GE(result->tally.jobs().size(), 3u);
   for (std::size_t i = 0; i < result->tally.jobs().size(); ++i) {
@@ -229,8 +233,8 @@ TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
   }
   // No case twice.
   std::map<std::string, int> seen;
-  CsvReader(request.out / "grades.csv", {"regime", "index", "task"})
-      .read([&](const CsvReader::Row& row) {
+  files::CsvReader(request.out / "grades.csv", {"regime", "index", "task"})
+      .read([&](const files::CsvReader::Row& row) {
         ++seen[fmt::format("{} {} {}", row.text(0), row.text(1), row.text(2))];
       });
   EXPECT_EQ(seen.size(), result->tally.jobs().size() * 8 * 3);
@@ -238,13 +242,14 @@ TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
 
 TEST_F(CheckRun, BoxesOfBodiesAreChecked) {
   const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
-  Regime all{.name = "mixed", .group = "test", .what = "any", .draw = [](RegimeDraw& draw) {
-               return find_regime("random-mixed")->draw(draw);
-             }};
-  CheckRequest request = request_for({&entry});
+  check::Regime all{
+      .name = "mixed", .group = "test", .what = "any", .draw = [](check::RegimeDraw& draw) {
+        return check::find_regime("random-mixed")->draw(draw);
+      }};
+  check::CheckRequest request = request_for({&entry});
   request.regimes = {&all};
   request.cases = 20;
-  const auto result = run_check(request);
+  const auto result = check::run_check(request);
   EXPECT_EQ(result->tally.jobs()[0].boxes, 80);
   EXPECT_EQ(result->tally.jobs()[0].boxes_broken, 0);
 }

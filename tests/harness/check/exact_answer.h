@@ -6,12 +6,12 @@
 
 namespace touchstone {
 
-inline oracle::ExactMeasure exact_measure(oracle::Oracle& oracle, const Case& c) {
+inline oracle::ExactMeasure exact_measure(oracle::Oracle& oracle, const files::Case& c) {
   const oracle::Solid a(c.shape_a), b(c.shape_b);
   return oracle.measure_exactly(oracle::Body(a, c.pose_a), oracle::Body(b, c.pose_b));
 }
 
-inline Answer exact_verdict(oracle::Oracle& oracle, const Case& c) {
+inline Answer exact_verdict(oracle::Oracle& oracle, const files::Case& c) {
   const oracle::Solid a(c.shape_a), b(c.shape_b);
   return oracle.verdict(oracle::Body(a, c.pose_a), oracle::Body(b, c.pose_b));
 }

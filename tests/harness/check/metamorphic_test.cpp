@@ -28,9 +28,9 @@ bool is_curved(const Shape& shape) {
          shape.kind == ShapeKind::ellipsoid;
 }
 
-TEST(SignedPermutation, IsEachRotationOfTheCubeOnce) {
+TEST(geometry::SignedPermutation, IsEachRotationOfTheCubeOnce) {
   std::set<std::string> names;
-  for (const SignedPermutation& turn : signed_permutations()) {
+  for (const geometry::SignedPermutation& turn : geometry::signed_permutations()) {
     EXPECT_TRUE(names.insert(turn.name()).second);
     EXPECT_EQ(turn.matrix().determinant(), 1);
     const Vec3d v(1, 2, 3);
@@ -39,7 +39,7 @@ TEST(SignedPermutation, IsEachRotationOfTheCubeOnce) {
     EXPECT_FALSE(std::signbit(turn(Vec3d(0, 0, 0)).sum()));
   }
   EXPECT_EQ(names.size(), 24u);
-  EXPECT_EQ(signed_permutations().front().matrix(), Mat3d::Identity());
+  EXPECT_EQ(geometry::signed_permutations().front().matrix(), Mat3d::Identity());
 }
 
 // The exact answers of all variants are the original's, to the last bit.
@@ -47,13 +47,13 @@ TEST(Metamorphic, VariantsHaveTheSameExactAnswer) {
   oracle::Oracle oracle;
   std::map<std::string, int> kinds;
   std::map<Answer, int> answers;
-  for (const Regime& regime : regimes()) {
+  for (const check::Regime& regime : check::regimes()) {
     for (std::uint64_t i = 0; i < 8; ++i) {
-      const Case c = make(regime, 21, i);
+      const files::Case c = make(regime, 21, i);
       const oracle::ExactMeasure exact = exact_measure(oracle, c);
       ++answers[exact.answer];
-      Random random(5, i);
-      for (const Variant& variant : variants(c, random)) {
+      base::Random random(5, i);
+      for (const check::Variant& variant : check::variants(c, random)) {
         ++kinds[variant.name.substr(0, 5)];
         const oracle::ExactMeasure measure = exact_measure(oracle, variant.transformed);
         const std::string& id = variant.transformed.id;
@@ -97,7 +97,7 @@ TEST(Metamorphic, OutcomesComeBackExactly) {
   outcome.witness_a = {0.1, 0.2, 0.3};
   outcome.witness_b = {-0.4, 0.5, 1.0 / 3};
   outcome.iterations = 3;
-  const Case c = make(regimes().front(), 1, 0);
+  const files::Case c = make(check::regimes().front(), 1, 0);
   const auto expect_same = [&](const Outcome& back) {
     EXPECT_EQ(back.answer, outcome.answer);
     EXPECT_EQ(back.status, outcome.status);
@@ -112,14 +112,14 @@ TEST(Metamorphic, OutcomesComeBackExactly) {
   Outcome swapped = outcome;
   swapped.normal = Vec3d::Zero() - swapped.normal;
   std::swap(swapped.witness_a, swapped.witness_b);
-  expect_same(to_original(swap_variant(c), swapped));
-  for (const SignedPermutation& turn : signed_permutations()) {
+  expect_same(check::to_original(check::swap_variant(c), swapped));
+  for (const geometry::SignedPermutation& turn : geometry::signed_permutations()) {
     Outcome turned = outcome;
     for (Vec3d* v : {&turned.normal, &turned.witness_a, &turned.witness_b}) *v = turn(*v);
-    expect_same(to_original(rotation_variant(c, turn), turned));
+    expect_same(check::to_original(check::rotation_variant(c, turn), turned));
   }
   for (const int exponent : {-30, 17}) {
-    const auto scales = scale_variants(c, exponent);
+    const auto scales = check::scale_variants(c, exponent);
     ASSERT_EQ(scales.size(), 1u);
     Outcome large = outcome;
     large.distance = std::ldexp(large.distance, exponent);
@@ -127,15 +127,15 @@ TEST(Metamorphic, OutcomesComeBackExactly) {
     for (Vec3d* v : {&large.witness_a, &large.witness_b}) {
       for (double& x : *v) x = std::ldexp(x, exponent);
     }
-    expect_same(to_original(scales[0], large));
+    expect_same(check::to_original(scales[0], large));
   }
 }
 
 TEST(Metamorphic, ScalesHullsAsIfTheyWereBuiltAgain) {
   int hulls = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
-    const Case c = make(*find_regime("random-polytopes"), 3, i);
-    for (const Variant& variant : scale_variants(c, -13)) {
+    const files::Case c = make(*check::find_regime("random-polytopes"), 3, i);
+    for (const check::Variant& variant : check::scale_variants(c, -13)) {
       const Shape& shape = variant.transformed.shape_a;
       if (shape.kind != ShapeKind::hull) continue;
       const auto again = make_hull(shape.hull->vertices);
@@ -152,14 +152,14 @@ TEST(Metamorphic, ScalesHullsAsIfTheyWereBuiltAgain) {
 }
 
 TEST(Metamorphic, RefusesWhatIsNotExact) {
-  Case c = make(regimes().front(), 1, 0);
-  EXPECT_TRUE(scale_variants(c, 1100).empty());
-  EXPECT_TRUE(scale_variants(c, -1074).empty());
+  files::Case c = make(check::regimes().front(), 1, 0);
+  EXPECT_TRUE(check::scale_variants(c, 1100).empty());
+  EXPECT_TRUE(check::scale_variants(c, -1074).empty());
   // Nothing can be added to both of these without rounding.
   c.pose_a.translation = Vec3d::Constant(1e-300);
   c.pose_b.translation = Vec3d::Constant(1e300);
-  Random random(1);
-  EXPECT_TRUE(translation_variants(c, random).empty());
+  base::Random random(1);
+  EXPECT_TRUE(check::translation_variants(c, random).empty());
 }
 
 }  // namespace

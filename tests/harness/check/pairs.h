@@ -20,8 +20,8 @@ inline Shape cube(double half) {
 }
 
 // Two bodies of these shapes, the second moved along x.
-inline Case along_x(const Shape& a, const Shape& b, double x) {
-  Case c;
+inline files::Case along_x(const Shape& a, const Shape& b, double x) {
+  files::Case c;
   c.id = "along-x";
   c.shape_a = a;
   c.shape_b = b;

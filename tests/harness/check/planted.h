@@ -74,11 +74,12 @@ NarrowPhaseEntry planted(const std::string& name, Origin origin) {
 }
 
 // Balls of radius 1, apart and overlapping in turn, on both sides of each other.
-inline Regime balls_regime(const std::string& name = "balls", const std::string& group = "test") {
-  return {.name = name, .group = group, .what = "two balls", .draw = [](RegimeDraw& draw) {
+inline check::Regime balls_regime(const std::string& name = "balls",
+                                  const std::string& group = "test") {
+  return {.name = name, .group = group, .what = "two balls", .draw = [](check::RegimeDraw& draw) {
             const double gap = draw.index % 2 == 0 ? 0.5 : -0.5;
             const double side = draw.index / 2 % 2 == 0 ? 1 : -1;
-            RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
+            check::RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
             c.pair.pose_b.translation.y() = draw.random.uniform(-0.25, 0.25);
             return c;
           }};
@@ -87,17 +88,17 @@ inline Regime balls_regime(const std::string& name = "balls", const std::string&
 // Balls of radius 1, apart and overlapping in turn, on both sides of each other. From the value 2
 // on the second is further to the right, where the planted algorithms do harm, in half of the
 // slots.
-inline RegimeCase draw_balls(RegimeDraw& draw) {
-  const std::uint64_t slot = slot_of(draw.index);
+inline check::RegimeCase draw_balls(check::RegimeDraw& draw) {
+  const std::uint64_t slot = check::slot_of(draw.index);
   const double gap = slot % 2 == 0 ? 0.5 : -0.5;
   const double side = draw.regime.parameter >= 2 && slot / 2 % 2 == 0 ? 1 : -1;
-  RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
+  check::RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
   c.pair.pose_b.translation.y() = draw.random.uniform(-0.25, 0.25);
   return c;
 }
 
-inline StressAxis balls_axis(int values) {
-  StressAxis axis;
+inline check::StressAxis balls_axis(int values) {
+  check::StressAxis axis;
   axis.name = axis.what = "balls";
   axis.unit = "steps";
   axis.draw = draw_balls;

@@ -62,9 +62,9 @@ void expect_good_pose(const Pose& pose, const std::string& id) {
 TEST(Regimes, HaveUniqueNamesInGroups) {
   std::set<std::string> names, groups;
   std::string group;
-  for (const Regime& regime : regimes()) {
+  for (const check::Regime& regime : check::regimes()) {
     EXPECT_TRUE(names.insert(regime.name).second) << regime.name;
-    EXPECT_EQ(find_regime(regime.name), &regime);
+    EXPECT_EQ(check::find_regime(regime.name), &regime);
     EXPECT_FALSE(regime.what.empty());
     if (regime.group != group) {
       EXPECT_TRUE(groups.insert(regime.group).second) << "group in two places: " << regime.group;
@@ -74,14 +74,14 @@ TEST(Regimes, HaveUniqueNamesInGroups) {
   EXPECT_THAT(groups,
               testing::UnorderedElementsAre("gap", "depth", "touching", "coincident", "degenerate",
                                             "aspect", "scale", "far", "ratio", "random"));
-  EXPECT_EQ(find_regime("gap"), nullptr);
+  EXPECT_EQ(check::find_regime("gap"), nullptr);
 }
 
 TEST(Regimes, MakeGoodCasesWithUniqueIds) {
   std::set<std::string> ids;
-  for (const Regime& regime : regimes()) {
+  for (const check::Regime& regime : check::regimes()) {
     for (std::uint64_t i = 0; i < count; ++i) {
-      const Case c = make(regime, 7, i);
+      const files::Case c = make(regime, 7, i);
       EXPECT_TRUE(ids.insert(c.id).second) << c.id;
       const std::vector<std::string> parts = parts_of(c.id);
       ASSERT_EQ(parts.size(), 4u) << c.id;
@@ -102,32 +102,34 @@ TEST(Regimes, MakeGoodCasesWithUniqueIds) {
 
 TEST(Regimes, MakeTheSameCaseAgainInAnyOrderAndFromAnyThread) {
   std::vector<std::string> forward, backward;
-  for (const Regime& regime : regimes()) {
-    for (std::uint64_t i = 0; i < 12; ++i) forward.push_back(to_json(make(regime, 3, i)));
+  for (const check::Regime& regime : check::regimes()) {
+    for (std::uint64_t i = 0; i < 12; ++i) forward.push_back(files::to_json(make(regime, 3, i)));
   }
   std::thread([&] {
-    for (std::size_t r = regimes().size(); r-- > 0;) {
-      for (std::uint64_t i = 12; i-- > 0;) backward.push_back(to_json(make(regimes()[r], 3, i)));
+    for (std::size_t r = check::regimes().size(); r-- > 0;) {
+      for (std::uint64_t i = 12; i-- > 0;)
+        backward.push_back(files::to_json(make(check::regimes()[r], 3, i)));
     }
   }).join();
   std::ranges::reverse(backward);
   EXPECT_EQ(forward, backward);
-  const Regime& regime = regimes().front();
-  EXPECT_NE(to_json(make(regime, 3, 1)), to_json(make(regime, 4, 1)));
+  const check::Regime& regime = check::regimes().front();
+  EXPECT_NE(files::to_json(make(regime, 3, 1)), files::to_json(make(regime, 4, 1)));
 }
 
 // The same bits on every platform: whoever changes the generators changes this number. Without
 // hulls, whose faces come in Qhull's order.
 TEST(Regimes, MakeTheSameCasesEverywhere) {
   std::uint64_t hash = 0;
-  for (const Regime& regime : regimes()) {
+  for (const check::Regime& regime : check::regimes()) {
     for (std::uint64_t i = 0; i < 40; ++i) {
-      const Case c = make(regime, 1, i);
+      const files::Case c = make(regime, 1, i);
       if (c.shape_a.kind == ShapeKind::hull || c.shape_b.kind == ShapeKind::hull) continue;
-      for (const char letter : to_json(c)) hash = mix(hash ^ static_cast<unsigned char>(letter));
+      for (const char letter : files::to_json(c))
+        hash = base::mix(hash ^ static_cast<unsigned char>(letter));
     }
   }
-  EXPECT_EQ(hash, 0xba5687c80d0cb0ab) << to_hex(hash);
+  EXPECT_EQ(hash, 0xba5687c80d0cb0ab) << base::to_hex(hash);
 }
 
 TEST(Regimes, AreReadBackAsTheyWere) {
@@ -136,21 +138,21 @@ TEST(Regimes, AreReadBackAsTheyWere) {
   std::vector<std::string> lines;
   {
     std::ofstream stream(file);
-    for (const Regime& regime : regimes()) {
+    for (const check::Regime& regime : check::regimes()) {
       for (std::uint64_t i = 0; i < 10; ++i) {
-        lines.push_back(to_json(make(regime, 5, i)));
+        lines.push_back(files::to_json(make(regime, 5, i)));
         stream << lines.back() << "\n";
       }
     }
   }
-  const std::vector<Case> cases = read_cases(file);
+  const std::vector<files::Case> cases = files::read_cases(file);
   ASSERT_EQ(cases.size(), lines.size());
-  for (std::size_t i = 0; i < cases.size(); ++i) EXPECT_EQ(to_json(cases[i]), lines[i]);
+  for (std::size_t i = 0; i < cases.size(); ++i) EXPECT_EQ(files::to_json(cases[i]), lines[i]);
 }
 
 TEST(Regimes, ProduceEveryPairOfFeaturesAndOfKinds) {
   std::set<std::string> details, kinds;
-  const Regime* const regime = find_regime("gap-1e-9");
+  const check::Regime* const regime = check::find_regime("gap-1e-9");
   ASSERT_NE(regime, nullptr);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const std::vector<std::string> parts = parts_of(make(*regime, 1, i).id);
@@ -174,17 +176,18 @@ TEST(Regimes, ProduceEveryPairOfFeaturesAndOfKinds) {
 
 TEST(Regimes, HaveTheSizesTheyName) {
   const auto sizes = [](const std::string& name, std::uint64_t i) {
-    const Case c = make(*find_regime(name), 2, i);
-    return std::pair(shape_size(c.shape_a), shape_size(c.shape_b));
+    const files::Case c = make(*check::find_regime(name), 2, i);
+    return std::pair(grade::shape_size(c.shape_a), grade::shape_size(c.shape_b));
   };
   for (std::uint64_t i = 0; i < count; ++i) {
     for (const char* name : {"gap-1e-3", "depth-1e-12", "random-mixed", "aspect-1e8", "far-1e8"}) {
-      const Case c = make(*find_regime(name), 2, i);
-      EXPECT_GT(pair_size(c), 0.3) << c.id;
-      EXPECT_LE(pair_size(c), 4) << c.id;
-      EXPECT_EQ(pair_size(c), std::max(shape_size(c.shape_a), shape_size(c.shape_b)));
+      const files::Case c = make(*check::find_regime(name), 2, i);
+      EXPECT_GT(grade::pair_size(c), 0.3) << c.id;
+      EXPECT_LE(grade::pair_size(c), 4) << c.id;
+      EXPECT_EQ(grade::pair_size(c),
+                std::max(grade::shape_size(c.shape_a), grade::shape_size(c.shape_b)));
       const double away = std::min(c.pose_a.translation.norm(), c.pose_b.translation.norm());
-      if (find_regime(name)->group == "far") {
+      if (check::find_regime(name)->group == "far") {
         EXPECT_GT(away, 0.9e8) << c.id;
       } else {
         EXPECT_LT(away, 20) << c.id;
@@ -205,7 +208,7 @@ TEST(Regimes, HaveTheSizesTheyName) {
 TEST(Regimes, HaveNeedlesAndPlates) {
   int needles = 0, plates = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const Case c = make(*find_regime("aspect-1e6"), 2, i);
+    const files::Case c = make(*check::find_regime("aspect-1e6"), 2, i);
     for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
       if (shape->kind != ShapeKind::box) continue;
       Vec3d h = shape->half_extents;
@@ -223,11 +226,11 @@ TEST(Regimes, HaveNeedlesAndPlates) {
 TEST(Regimes, AchieveTheirGapsBetweenBoxes) {
   int checked = 0;
   for (const char* name : {"1e0", "1e-1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-14", "1e-15"}) {
-    const Regime& regime = *find_regime(std::string("gap-") + name);
+    const check::Regime& regime = *check::find_regime(std::string("gap-") + name);
     for (std::uint64_t i = 0; i < 400; ++i) {
-      const Case c = make(regime, 11, i);
+      const files::Case c = make(regime, 11, i);
       if (c.shape_a.kind != ShapeKind::box || c.shape_b.kind != ShapeKind::box) continue;
-      const double size = pair_size(c);
+      const double size = grade::pair_size(c);
       const double asked = regime.parameter * size;
       const double error = static_cast<double>(box_distance(c) - asked);
       EXPECT_LT(std::abs(error), 8e-16 * (size + asked)) << c.id;
@@ -242,12 +245,12 @@ TEST(Regimes, AchieveTheirGapsBetweenBoxes) {
 TEST(Regimes, AchieveTheirDepthsBetweenBoxes) {
   int checked = 0, exact = 0;
   for (const char* name : {"1e-3", "1e-6", "1e-9", "1e-12", "1e-14", "1e-15"}) {
-    const Regime& regime = *find_regime(std::string("depth-") + name);
+    const check::Regime& regime = *check::find_regime(std::string("depth-") + name);
     for (std::uint64_t i = 0; i < 400; ++i) {
-      const Case c = make(regime, 11, i);
+      const files::Case c = make(regime, 11, i);
       if (c.shape_a.kind != ShapeKind::box || c.shape_b.kind != ShapeKind::box) continue;
       const std::string detail = parts_of(c.id)[2];
-      const double size = pair_size(c);
+      const double size = grade::pair_size(c);
       const double asked = -regime.parameter * size;
       const auto depth = static_cast<double>(box_depth(c));
       if (detail.starts_with("vertex-vertex") || detail.starts_with("vertex-edge") ||

@@ -27,7 +27,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 struct CheckWork {
-  using Request = CheckRequest;
+  using Request = check::CheckRequest;
   static constexpr std::size_t units = 7;
   static constexpr const char* rows = "grades.csv";
   static constexpr const char* subject = "regimes";
@@ -35,11 +35,11 @@ struct CheckWork {
   CheckWork() {
     for (int i = 0; i < 7; ++i) regimes.push_back(balls_regime("balls-" + std::to_string(i)));
   }
-  void set_subject(CheckRequest& request) const {
-    for (const Regime& regime : regimes) request.regimes.push_back(&regime);
+  void set_subject(check::CheckRequest& request) const {
+    for (const check::Regime& regime : regimes) request.regimes.push_back(&regime);
   }
-  static void run(const CheckRequest& request) { run_check(request); }
-  static void shorten(CheckRequest& request) { request.regimes.pop_back(); }
+  static void run(const check::CheckRequest& request) { check::run_check(request); }
+  static void shorten(check::CheckRequest& request) { request.regimes.pop_back(); }
   static std::vector<std::string> files() {
     return {"grades.csv", "variants.csv", "jobs.csv", "summary.csv"};
   }
@@ -48,31 +48,31 @@ struct CheckWork {
     return {{"grades.csv", "balls-6,3,sphere,sph"}, {"jobs.csv", "balls-6,test,0,8,0,0,0,0,0,0\n"}};
   }
 
-  std::vector<Regime> regimes;
+  std::vector<check::Regime> regimes;
 };
 
 struct StressWork {
-  using Request = StressRequest;
+  using Request = check::StressRequest;
   static constexpr std::size_t units = 8;
   static constexpr const char* rows = "stress.csv";
   static constexpr const char* subject = "axes";
 
-  void set_subject(StressRequest& request) const { request.cells = cells_of(axes); }
-  static void run(const StressRequest& request) { run_stress(request); }
-  static void shorten(StressRequest& request) { request.cells.erase(request.cells.begin()); }
+  void set_subject(check::StressRequest& request) const { request.cells = check::cells_of(axes); }
+  static void run(const check::StressRequest& request) { check::run_stress(request); }
+  static void shorten(check::StressRequest& request) { request.cells.erase(request.cells.begin()); }
   static std::vector<std::string> files() { return {"stress.csv", "cells.csv", "envelope.csv"}; }
   static std::map<std::string, std::string> leftovers() {
     return {{"stress.csv", "balls,7,bad,dou"}, {"cells.csv", "balls,7,8,0,0\n"}};
   }
 
-  StressAxis balls = balls_axis(8);
-  std::vector<const StressAxis*> axes = {&balls};
+  check::StressAxis balls = balls_axis(8);
+  std::vector<const check::StressAxis*> axes = {&balls};
 };
 
-template <class Work>
+template <class stats::Work>
 class Resume : public ::testing::Test {
  protected:
-  using Request = typename Work::Request;
+  using Request = typename stats::Work::Request;
 
   Resume() {
     request.narrow = {&slow, &bad};
@@ -84,7 +84,7 @@ class Resume : public ::testing::Test {
   }
   std::string read(const std::string& name) const { return folder.read("out/" + name); }
   std::string fault() const {
-    return input_fault([&] { Work::run(request); });
+    return input_fault([&] { stats::Work::run(request); });
   }
 
   // Kills the work when so many units are done.
@@ -92,11 +92,11 @@ class Resume : public ::testing::Test {
     const pid_t child = fork();
     if (child == 0) {
       std::freopen("/dev/null", "w", stderr);
-      Work::run(request);
+      stats::Work::run(request);
       _exit(0);
     }
     const std::string wanted = "\nunits,";
-    const Stopwatch watch;
+    const base::Stopwatch watch;
     while (watch.seconds() < 60) {
       const std::string progress = read("progress.csv");
       const auto at = progress.find(wanted);
@@ -111,7 +111,7 @@ class Resume : public ::testing::Test {
   }
 
   TemporaryFolder folder;
-  Work work;
+  stats::Work work;
   NarrowPhaseEntry slow = planted<Harm::none, 300>("slow", Origin::ours);
   NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
   Request request;
@@ -184,17 +184,17 @@ TYPED_TEST(Resume, AnotherProgramAndShortFilesAreRefused) {
 TEST(ResumeCheck, RoundsMayBeAdded) {
   TemporaryFolder folder;
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
-  const Regime balls = balls_regime();
-  CheckRequest request;
+  const check::Regime balls = balls_regime();
+  check::CheckRequest request;
   request.narrow = {&good};
   request.regimes = {&balls};
   request.cases = 8;
   request.out = folder.path() / "out";
-  run_check(request);
+  check::run_check(request);
   const std::string before = folder.read("out/grades.csv");
   request.resume = true;
   request.seconds = 0.1;
-  run_check(request);
+  check::run_check(request);
   EXPECT_TRUE(folder.read("out/grades.csv").starts_with(before));
   EXPECT_GT(folder.read("out/grades.csv").size(), before.size());
 }

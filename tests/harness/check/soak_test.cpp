@@ -16,8 +16,8 @@ using ::testing::HasSubstr;
 
 class SoakRun : public ::testing::Test {
  protected:
-  SoakRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
-    SoakRequest request;
+  check::SoakRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
+    check::SoakRequest request;
     request.narrow = narrow;
     request.regimes = {&balls, &others};
     request.pairs = 4000;
@@ -27,19 +27,19 @@ class SoakRun : public ::testing::Test {
   }
 
   TemporaryFolder folder;
-  Regime balls = balls_regime(), others = balls_regime("others");
+  check::Regime balls = balls_regime(), others = balls_regime("others");
 };
 
 TEST_F(SoakRun, CountsWhatIsTrueAndWhoIsWrong) {
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
   const NarrowPhaseEntry wrong = planted<Harm::wrong_side>("wrong", Origin::ours);
   const NarrowPhaseEntry shy = planted<Harm::gives_up>("shy", Origin::ours);
-  const SoakRequest request = request_for({&good, &wrong, &shy});
-  const SoakResult result = run_soak(request);
+  const check::SoakRequest request = request_for({&good, &wrong, &shy});
+  const check::SoakResult result = check::run_soak(request);
   EXPECT_EQ(result.drawn, 4000);
   ASSERT_EQ(result.counts.size(), 6u);
   for (std::size_t regime = 0; regime < 2; ++regime) {
-    const auto& count = [&](std::size_t entry) -> const SoakCount& {
+    const auto& count = [&](std::size_t entry) -> const check::SoakCount& {
       return result.counts.at({entry, Precision::float64, regime});
     };
     for (std::size_t entry = 0; entry < 3; ++entry) {
@@ -62,9 +62,9 @@ TEST_F(SoakRun, CountsWhatIsTrueAndWhoIsWrong) {
 
 TEST_F(SoakRun, ACrashIsLostAndTheRestGoesOn) {
   const NarrowPhaseEntry entry = planted<Harm::crashes>("crashes", Origin::peer);
-  SoakRequest request = request_for({&entry});
+  check::SoakRequest request = request_for({&entry});
   request.pairs = 1;  // a whole job is the least
-  const SoakResult result = run_soak(request);
+  const check::SoakResult result = check::run_soak(request);
   EXPECT_EQ(result.drawn, 1000);
   EXPECT_GT(result.counts.begin()->second.lost, 0);
   EXPECT_FALSE(result.ours_are_wrong(request));
@@ -72,39 +72,41 @@ TEST_F(SoakRun, ACrashIsLostAndTheRestGoesOn) {
 
 TEST_F(SoakRun, GoesOnWhereItEnded) {
   const NarrowPhaseEntry wrong = planted<Harm::wrong_side>("wrong", Origin::ours);
-  SoakRequest request = request_for({&wrong});
+  check::SoakRequest request = request_for({&wrong});
   request.pairs = 3000;
-  run_soak(request);
+  check::run_soak(request);
   request.pairs = 4000;
   request.resume = true;
-  EXPECT_EQ(run_soak(request).drawn, 4000);
+  EXPECT_EQ(check::run_soak(request).drawn, 4000);
   const std::string resumed = folder.read("soak.csv");
   request.resume = false;
-  run_soak(request);
+  check::run_soak(request);
   EXPECT_EQ(folder.read("soak.csv"), resumed);
 }
 
 TEST_F(SoakRun, OnlyGoesOnWithItsOwn) {
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
   const NarrowPhaseEntry other = planted<Harm::none>("other", Origin::ours);
-  SoakRequest request = request_for({&good});
+  check::SoakRequest request = request_for({&good});
   request.resume = true;
-  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("no such file"));
+  EXPECT_THAT(input_fault([&] { check::run_soak(request); }), HasSubstr("no such file"));
   request.resume = false;
-  run_soak(request);
+  check::run_soak(request);
   request.resume = true;
   request.seed = 2;
-  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("seed 1; this request has 2"));
+  EXPECT_THAT(input_fault([&] { check::run_soak(request); }),
+              HasSubstr("seed 1; this request has 2"));
   request.seed = 1;
   request.narrow = {&other};
-  EXPECT_THAT(input_fault([&] { run_soak(request); }),
+  EXPECT_THAT(input_fault([&] { check::run_soak(request); }),
               HasSubstr("one of the names of this request"));
   request.narrow = {&good, &other};
-  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("expected the same request"));
+  EXPECT_THAT(input_fault([&] { check::run_soak(request); }),
+              HasSubstr("expected the same request"));
   request.narrow = {&good};
   request.out = "/dev/null/x";
   request.resume = false;
-  EXPECT_THAT(input_fault([&] { run_soak(request); }), HasSubstr("cannot be made"));
+  EXPECT_THAT(input_fault([&] { check::run_soak(request); }), HasSubstr("cannot be made"));
 }
 
 }  // namespace

@@ -42,11 +42,11 @@ NarrowPhaseEntry busy(const std::string& name, Origin origin) {
 
 class StressRun : public ::testing::Test {
  protected:
-  StressRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
-    StressRequest request;
+  check::StressRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
+    check::StressRequest request;
     request.narrow = narrow;
     request.scalars = {Precision::float64};
-    request.cells = cells_of(list);
+    request.cells = check::cells_of(list);
     request.cases = 8;
     request.time_limit = 0.02;
     request.out = folder.path() / "out";
@@ -54,32 +54,32 @@ class StressRun : public ::testing::Test {
   }
   std::string read(const std::string& name) const { return folder.read("out/" + name); }
   // Over all tasks and values.
-  static std::int64_t count(const StressResult& result, AnswerClass outcome) {
+  static std::int64_t count(const check::StressResult& result, grade::AnswerClass outcome) {
     return result.reaches.at(0).counts[static_cast<std::size_t>(outcome)];
   }
 
   TemporaryFolder folder;
-  StressAxis balls = balls_axis(3);
-  std::vector<const StressAxis*> list = {&balls};
+  check::StressAxis balls = balls_axis(3);
+  std::vector<const check::StressAxis*> list = {&balls};
 };
 
 TEST_F(StressRun, AnAlgorithmThatIsRight) {
   const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
-  const StressRequest request = request_for({&entry});
-  const StressResult result = run_stress(request);
+  const check::StressRequest request = request_for({&entry});
+  const check::StressResult result = check::run_stress(request);
   EXPECT_THAT(result.broken, IsEmpty());
-  EXPECT_EQ(count(result, AnswerClass::right), 3 * 3 * 8);
+  EXPECT_EQ(count(result, grade::AnswerClass::right), 3 * 3 * 8);
   EXPECT_EQ(result.reaches.at(0).answers, 3 * 3 * 8);
   EXPECT_THAT(result.reaches.at(0).first, Each(std::nullopt));
   EXPECT_THAT(result.failures, IsEmpty());
-  EXPECT_THAT(stress_text(request, result, 120),
+  EXPECT_THAT(check::stress_text(request, result, 120),
               HasSubstr("none of our own algorithms is silently wrong, crashes or hangs"));
 }
 
 struct HarmCase {
   Harm harm;
   NarrowPhaseEntry (*entry)(const std::string&, Origin);
-  AnswerClass outcome;
+  grade::AnswerClass outcome;
   std::int64_t counted;  // of the four harmed slots in two values: all tasks, or some
   std::int64_t skipped;
 
@@ -94,29 +94,30 @@ TEST_P(StressHarm, IsToldApart) {
   const HarmCase& harm = GetParam();
   for (const Origin origin : {Origin::ours, Origin::peer}) {
     const NarrowPhaseEntry entry = harm.entry("bad", origin);
-    const StressRequest request = request_for({&entry});
-    const StressResult result = run_stress(request);
+    const check::StressRequest request = request_for({&entry});
+    const check::StressResult result = check::run_stress(request);
     EXPECT_EQ(count(result, harm.outcome), harm.counted);
     EXPECT_EQ(result.reaches[0].skipped, harm.skipped);
-    EXPECT_EQ(count(result, AnswerClass::right), 3 * 3 * 8 - harm.counted - harm.skipped);
+    EXPECT_EQ(count(result, grade::AnswerClass::right), 3 * 3 * 8 - harm.counted - harm.skipped);
     // The first value is mild.
     EXPECT_EQ(result.reaches[0].first_of(harm.outcome), 1u);
-    const bool is_fault = harm.outcome != AnswerClass::honest;
+    const bool is_fault = harm.outcome != grade::AnswerClass::honest;
     EXPECT_EQ(!result.broken.empty(), is_fault && origin == Origin::ours);
     EXPECT_EQ(!result.failures.empty(), is_fault);
-    for (const FailureCase& failure : result.failures) {
-      EXPECT_THAT(read_cases(failure.file), Not(IsEmpty()));
+    for (const check::FailureCase& failure : result.failures) {
+      EXPECT_THAT(files::read_cases(failure.file), Not(IsEmpty()));
       EXPECT_THAT(failure.id, HasSubstr("/sphere-sphere/ball/"));
     }
-    const EnvelopeTable which = is_fault ? EnvelopeTable::wrong : EnvelopeTable::honest;
-    const std::string word = harm.outcome == AnswerClass::crashed ? " crashes" : "";
+    const check::EnvelopeTable which =
+        is_fault ? check::EnvelopeTable::wrong : check::EnvelopeTable::honest;
+    const std::string word = harm.outcome == grade::AnswerClass::crashed ? " crashes" : "";
     EXPECT_THAT(
-        table(request, result.reaches, which),
+        check::table(request, result.reaches, which),
         ElementsAre(ElementsAre("algorithm", "balls"), ElementsAre("bad double", "2" + word)));
     const bool other_side = harm.harm == Harm::wrong_side || !word.empty();
-    EXPECT_THAT(table(request, result.reaches, EnvelopeTable::side).at(1),
+    EXPECT_THAT(check::table(request, result.reaches, check::EnvelopeTable::side).at(1),
                 ElementsAre("bad double", other_side ? "2" + word : "-"));
-    EXPECT_THAT(stress_page(request, result, "touchstone stress", "figures"),
+    EXPECT_THAT(check::stress_page(request, result, "touchstone stress", "figures"),
                 HasSubstr("| bad double | 2" + word + " |"));
     EXPECT_THAT(read("envelope.csv"), HasSubstr(to_string(harm.outcome)));
   }
@@ -125,22 +126,22 @@ TEST_P(StressHarm, IsToldApart) {
 INSTANTIATE_TEST_SUITE_P(
     Harms, StressHarm,
     ::testing::Values(
-        HarmCase{Harm::wrong_side, planted<Harm::wrong_side>, AnswerClass::silent, 24, 0},
-        HarmCase{Harm::wrong_depth, planted<Harm::wrong_depth>, AnswerClass::silent, 8, 0},
-        HarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>, AnswerClass::silent, 24, 0},
-        HarmCase{Harm::nan, planted<Harm::nan>, AnswerClass::silent, 8, 0},
-        HarmCase{Harm::gives_up, planted<Harm::gives_up>, AnswerClass::honest, 24, 0},
+        HarmCase{Harm::wrong_side, planted<Harm::wrong_side>, grade::AnswerClass::silent, 24, 0},
+        HarmCase{Harm::wrong_depth, planted<Harm::wrong_depth>, grade::AnswerClass::silent, 8, 0},
+        HarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>, grade::AnswerClass::silent, 24, 0},
+        HarmCase{Harm::nan, planted<Harm::nan>, grade::AnswerClass::silent, 8, 0},
+        HarmCase{Harm::gives_up, planted<Harm::gives_up>, grade::AnswerClass::honest, 24, 0},
         // After three in a task and value the rest is skipped: of slots 0, 1, 4 those from 5 on.
-        HarmCase{Harm::crashes, planted<Harm::crashes>, AnswerClass::crashed, 18, 18}));
+        HarmCase{Harm::crashes, planted<Harm::crashes>, grade::AnswerClass::crashed, 18, 18}));
 
 TEST_F(StressRun, AHangThatIsBusyOrAsleepEndsAtItsLimit) {
   for (const NarrowPhaseEntry& entry :
        {busy("busy", Origin::ours), planted<Harm::hangs>("asleep", Origin::ours)}) {
-    StressRequest request = request_for({&entry});
-    request.cells = {cells_of(list)[1]};
+    check::StressRequest request = request_for({&entry});
+    request.cells = {check::cells_of(list)[1]};
     request.cases = 1;
-    const StressResult result = run_stress(request);
-    EXPECT_EQ(count(result, AnswerClass::hung), 3) << entry.info.name;
+    const check::StressResult result = check::run_stress(request);
+    EXPECT_EQ(count(result, grade::AnswerClass::hung), 3) << entry.info.name;
     EXPECT_THAT(result.broken, Contains(HasSubstr("1 of 1 hung at balls 2")));
   }
 }
@@ -148,13 +149,13 @@ TEST_F(StressRun, AHangThatIsBusyOrAsleepEndsAtItsLimit) {
 TEST_F(StressRun, ApproximateAndBoundsAreJudgedAsTheyState) {
   NarrowPhaseEntry approximate = planted<Harm::wrong_side>("bad", Origin::ours);
   approximate.traits.approximate = true;
-  const StressRequest request = request_for({&approximate});
+  const check::StressRequest request = request_for({&approximate});
   // Those that are apart and called overlapping are excused; the others are not.
-  EXPECT_EQ(count(run_stress(request), AnswerClass::silent), 12);
+  EXPECT_EQ(count(check::run_stress(request), grade::AnswerClass::silent), 12);
   NarrowPhaseEntry bound = planted<Harm::wrong_depth>("bad", Origin::ours);
   bound.traits.depth_is_bound = true;
-  const StressRequest with_bound = request_for({&bound});
-  EXPECT_EQ(count(run_stress(with_bound), AnswerClass::silent), 4);  // the distances
+  const check::StressRequest with_bound = request_for({&bound});
+  EXPECT_EQ(count(check::run_stress(with_bound), grade::AnswerClass::silent), 4);  // the distances
 }
 
 }  // namespace

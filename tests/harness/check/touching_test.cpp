@@ -14,7 +14,7 @@ constexpr std::uint64_t count = 200;
 Vec3d to_float(const Vec3d& v) { return v.cast<float>().cast<double>(); }
 
 // The case with every number rounded to float; no length of these regimes changes by it.
-Case in_float(Case c) {
+files::Case in_float(files::Case c) {
   for (Pose* pose : {&c.pose_a, &c.pose_b}) {
     pose->rotation = pose->rotation.cast<float>().cast<double>();
     pose->translation = to_float(pose->translation);
@@ -23,7 +23,7 @@ Case in_float(Case c) {
 }
 
 // The rotations of both bodies as quaternions, exactly orthonormal.
-Answer answer_with_quaternions(oracle::Oracle& oracle, const Case& c) {
+Answer answer_with_quaternions(oracle::Oracle& oracle, const files::Case& c) {
   const auto body = [](const oracle::Solid& solid, const Pose& pose) {
     const Eigen::Quaterniond q(pose.rotation);
     return oracle::Body(solid, {q.w(), q.x(), q.y(), q.z()}, pose.translation);
@@ -37,8 +37,8 @@ TEST(TouchingRegimes, TouchExactlyInEveryEncoding) {
   for (const char* name :
        {"touching-baked", "touching-origin", "touching-grid", "touching-pythagorean"}) {
     for (std::uint64_t i = 0; i < count; ++i) {
-      const Case c = make(*find_regime(name), 9, i);
-      EXPECT_EQ(exact_verdict(oracle, c), Answer::touching) << c.id << "\n" << to_json(c);
+      const files::Case c = make(*check::find_regime(name), 9, i);
+      EXPECT_EQ(exact_verdict(oracle, c), Answer::touching) << c.id << "\n" << files::to_json(c);
       for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
         if (shape->kind != ShapeKind::hull) continue;
         for (const Vec3d& v : shape->hull->vertices) EXPECT_EQ(v, to_float(v)) << c.id;
@@ -56,11 +56,11 @@ TEST(TouchingRegimes, TouchExactlyInEveryEncoding) {
 TEST(TouchingRegimes, AreAnUlpApartOrAnUlpDeepWhereTheySaySo) {
   oracle::Oracle oracle;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const Case less = make(*find_regime("touching-less-an-ulp"), 9, i);
+    const files::Case less = make(*check::find_regime("touching-less-an-ulp"), 9, i);
     const oracle::Measure apart = exact_measure(oracle, less);
     EXPECT_EQ(apart.answer, Answer::separated) << less.id;
     EXPECT_LT(apart.upper, 5e-16) << less.id;
-    const Case more = make(*find_regime("touching-plus-an-ulp"), 9, i);
+    const files::Case more = make(*check::find_regime("touching-plus-an-ulp"), 9, i);
     const oracle::Measure deep = exact_measure(oracle, more);
     EXPECT_EQ(deep.answer, Answer::overlapping) << more.id;
     EXPECT_GT(deep.lower, -5e-16) << more.id;
@@ -70,7 +70,7 @@ TEST(TouchingRegimes, AreAnUlpApartOrAnUlpDeepWhereTheySaySo) {
 TEST(TouchingRegimes, CurvedBodiesTouchAsFarAsCanBeTold) {
   oracle::Oracle oracle;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const Case c = make(*find_regime("touching-curved"), 9, i);
+    const files::Case c = make(*check::find_regime("touching-curved"), 9, i);
     const oracle::Measure m = exact_measure(oracle, c);
     EXPECT_TRUE(m.answer == Answer::touching || m.answer == Answer::unknown) << c.id;
     EXPECT_LE(m.lower, 0) << c.id;
@@ -82,7 +82,7 @@ TEST(TouchingRegimes, CurvedBodiesTouchAsFarAsCanBeTold) {
 // What each regime is for comes about.
 TEST(Regimes, HaveBothOutcomes) {
   oracle::Oracle oracle;
-  for (const Regime& regime : regimes()) {
+  for (const check::Regime& regime : check::regimes()) {
     std::map<Answer, int> answers;
     constexpr std::uint64_t some = 60;
     for (std::uint64_t i = 0; i < some; ++i) {

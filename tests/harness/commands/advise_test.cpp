@@ -16,9 +16,9 @@ TEST(AdviseCommand, WritesAFileThatMeasuresItsChoiceAgain) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", spheres).string();
   const std::string out = (folder.path() / "out").string();
-  const Ran ran =
-      run_program("advise " + scene +
-                  " --max-error 0 --no-false-negatives --threads 1 --seconds 1 --out " + out);
+  const Ran ran = commands::run_program(
+      "advise " + scene + " --max-error 0 --no-false-negatives --threads 1 --seconds 1 --out " +
+      out);
   ASSERT_EQ(ran.status, 0) << ran.text;
   const std::string advice = folder.read("out/advice.txt");
   EXPECT_THAT(ran.text, HasSubstr(advice));
@@ -30,10 +30,10 @@ TEST(AdviseCommand, WritesAFileThatMeasuresItsChoiceAgain) {
   EXPECT_THAT(advice, HasSubstr(" queries, 0 witness points"));
   EXPECT_THAT(advice, HasSubstr("0 missed"));
 
-  const Ran again = run_program("run " + out + "/advice.toml --out " + out + "/again");
+  const Ran again = commands::run_program("run " + out + "/advice.toml --out " + out + "/again");
   ASSERT_EQ(again.status, 0) << again.text;
-  const auto rows = read_rows(folder.path() / "out/again/points.csv",
-                              {"point", "error", "false_negatives", "hulls_built"});
+  const auto rows = record::read_rows(folder.path() / "out/again/points.csv",
+                                      {"point", "error", "false_negatives", "hulls_built"});
   ASSERT_FALSE(rows.empty());
   EXPECT_THAT(advice, HasSubstr("Cheapest: " + rows[0][0] + "\n"));
   EXPECT_EQ(rows[0][1], "0");
@@ -45,7 +45,7 @@ TEST(AdviseCommand, WhatRestsIsNotUpdatedAndDistancesHaveWitnessPoints) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", still).string();
   const std::string out = (folder.path() / "out").string();
-  const Ran ran = run_program(
+  const Ran ran = commands::run_program(
       "advise " + scene + " --task distance --max-error 1e-6 --threads 1 --seconds 1 --out " + out);
   ASSERT_EQ(ran.status, 0) << ran.text;
   const std::string advice = folder.read("out/advice.txt");
@@ -64,13 +64,14 @@ TEST(AdviseCommand, VerifiesAListOfScenes) {
                                       "max_error = 1\n")
                                .string();
   const std::string out = (folder.path() / "out").string();
-  const Ran ran = run_program("advise --list " + list +
-                              " --verify --seeds 2 --threads 1 --seconds 1 --out " + out);
+  const Ran ran = commands::run_program("advise --list " + list +
+                                        " --verify --seeds 2 --threads 1 --seconds 1 --out " + out);
   // Whether its time is within 10 % a busy machine may leave open.
   ASSERT_TRUE(ran.status == 0 || ran.status == 1) << ran.text;
-  const auto rows = read_rows(folder.path() / "out/verification.csv",
-                              {"scene", "max_error", "error", "held_out", "error_1", "error_2",
-                               "within_budget", "verified", "within_time", "choice"});
+  const auto rows =
+      record::read_rows(folder.path() / "out/verification.csv",
+                        {"scene", "max_error", "error", "held_out", "error_1", "error_2",
+                         "within_budget", "verified", "within_time", "choice"});
   ASSERT_EQ(rows.size(), 2u);
   bool all = true;
   for (const auto& row : rows) {

@@ -9,13 +9,14 @@ namespace touchstone {
 namespace {
 
 enum class Colour { red, green };
-const Arguments::Choices<Colour> colours = {{"red", Colour::red}, {"green", Colour::green}};
+const commands::Arguments::Choices<Colour> colours = {{"red", Colour::red},
+                                                      {"green", Colour::green}};
 
 // A command with an option of each kind.
 class TheCommandLine : public testing::Test {
  protected:
   TheCommandLine() {
-    Arguments command = line_.add_command("paint", "Paints");
+    commands::Arguments command = line_.add_command("paint", "Paints");
     command.text("file", file_, "A file");
     command.texts("--names", names_, "Names").separated_by_commas();
     command.flag("--wet", wet_, "Wet paint");
@@ -41,7 +42,7 @@ class TheCommandLine : public testing::Test {
     return status;
   }
 
-  CommandLine line_{"A program"};
+  commands::CommandLine line_{"A program"};
   std::string file_, alone_, shell_line_, error_;
   std::vector<std::string> names_;
   bool wet_ = false;

@@ -28,7 +28,7 @@ const std::vector<std::string> columns = {"frame",      "algorithm", "threads", 
 // Some frames in which boxes move, come and go.
 std::string random_boxes(unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<float> place(0, 10), size(0, 3);
+  std::uniform_real_distribution<float> check::place(0, 10), size(0, 3);
   std::string text = header;
   std::vector<std::array<float, 6>> boxes;
   for (int frame = 0; frame < 6; ++frame) {
@@ -38,7 +38,7 @@ std::string random_boxes(unsigned seed) {
       auto& box = boxes[id];
       if (box[5] == 0 || random() % 3 == 0) {
         for (std::size_t i = 0; i < 3; ++i) {
-          box[i] = place(random);
+          box[i] = check::place(random);
           box[i + 3] = box[i] + size(random);
         }
       }
@@ -53,7 +53,7 @@ std::string random_boxes(unsigned seed) {
 // By the definition, one list a frame.
 std::vector<std::vector<IndexPair>> all_pairs(const std::filesystem::path& file) {
   std::vector<std::vector<IndexPair>> lists;
-  for (const BoxFrame& frame : read_box_frames(file)) {
+  for (const scene::BoxFrame& frame : scene::read_box_frames(file)) {
     std::vector<IndexPair>& list = lists.emplace_back();
     for (std::uint32_t a = 0; a < frame.count; ++a) {
       for (std::uint32_t b = a + 1; b < frame.count; ++b) {
@@ -77,10 +77,10 @@ TEST_F(PairsCommand, EveryBroadPhaseGivesTheRowsOfTheContract) {
   const auto file = folder.write("in.csv", random_boxes(1));
   const auto expected = all_pairs(file);
   for (const char* how : {"", " --rebuild", " --threads 1", " --threads 3"}) {
-    const Ran ran =
-        run_program("pairs " + file.string() + " --broad all --out " + path("out.csv") + how);
+    const Ran ran = commands::run_program("pairs " + file.string() + " --broad all --out " +
+                                          path("out.csv") + how);
     ASSERT_EQ(ran.status, 0) << ran.text;
-    const auto rows = read_rows(folder.path() / "out.csv", columns);
+    const auto rows = record::read_rows(folder.path() / "out.csv", columns);
     std::size_t next = 0;
     for (std::size_t frame = 0; frame < expected.size(); ++frame) {
       for (const BroadPhaseEntry& entry : broad_phases()) {
@@ -96,7 +96,7 @@ TEST_F(PairsCommand, EveryBroadPhaseGivesTheRowsOfTheContract) {
         if (!entry.info.known_defect.empty()) continue;
         EXPECT_TRUE(row[3] == "ok" || row[3] == "not_reported") << row[3];
         EXPECT_EQ(row[4], std::to_string(expected[frame].size())) << entry.info.name;
-        EXPECT_EQ(row[5], to_hex(pair_hash(expected[frame]))) << entry.info.name;
+        EXPECT_EQ(row[5], base::to_hex(base::pair_hash(expected[frame]))) << entry.info.name;
       }
     }
     EXPECT_EQ(next, rows.size());
@@ -108,8 +108,10 @@ TEST_F(PairsCommand, TheHashIsTheContracts) {
   const auto file = folder.write(
       "in.csv", std::string(header) + "0,0,0,0,0,9,9,9\n0,1,1,1,1,2,2,2\n0,2,9,9,9,9,9,9\n");
   ASSERT_EQ(
-      run_program("pairs " + file.string() + " --broad naive --out " + path("out.csv")).status, 0);
-  const auto rows = read_rows(folder.path() / "out.csv", columns);
+      commands::run_program("pairs " + file.string() + " --broad naive --out " + path("out.csv"))
+          .status,
+      0);
+  const auto rows = record::read_rows(folder.path() / "out.csv", columns);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0][4], "2");
   EXPECT_EQ(rows[0][5], "286263caa599b38f");
@@ -118,8 +120,8 @@ TEST_F(PairsCommand, TheHashIsTheContracts) {
 TEST_F(PairsCommand, WritesThePairsInOrder) {
   const auto file = folder.write("in.csv", random_boxes(2));
   const auto expected = all_pairs(file);
-  const Ran ran = run_program("pairs " + file.string() + " --broad naive --out " + path("out.csv") +
-                              " --pairs " + path("pairs.csv"));
+  const Ran ran = commands::run_program("pairs " + file.string() + " --broad naive --out " +
+                                        path("out.csv") + " --pairs " + path("pairs.csv"));
   ASSERT_EQ(ran.status, 0) << ran.text;
   std::vector<std::vector<std::string>> wanted;
   for (std::size_t frame = 0; frame < expected.size(); ++frame) {
@@ -129,18 +131,20 @@ TEST_F(PairsCommand, WritesThePairsInOrder) {
     }
   }
   EXPECT_GT(wanted.size(), 20u);
-  EXPECT_EQ(read_rows(folder.path() / "pairs.csv", {"frame", "algorithm", "a", "b"}), wanted);
+  EXPECT_EQ(record::read_rows(folder.path() / "pairs.csv", {"frame", "algorithm", "a", "b"}),
+            wanted);
   EXPECT_THAT(folder.names(), ElementsAre("in.csv", "out.csv", "pairs.csv"));
 }
 
 TEST_F(PairsCommand, ReadsRecordings) {
   const Aabb near = {{0, 0, 0}, {1, 1, 1}}, far = {{8, 8, 8}, {9, 9, 9}};
-  write_aabbs({"scene", "cubes", {{0, 0, 0}, {9, 9, 9}}, {{near, far}, {near, near}}},
-              folder.path() / "in.aabbs");
+  scene::write_aabbs({"scene", "cubes", {{0, 0, 0}, {9, 9, 9}}, {{near, far}, {near, near}}},
+                     folder.path() / "in.aabbs");
   ASSERT_EQ(
-      run_program("pairs " + path("in.aabbs") + " --broad naive --out " + path("out.csv")).status,
+      commands::run_program("pairs " + path("in.aabbs") + " --broad naive --out " + path("out.csv"))
+          .status,
       0);
-  const auto rows = read_rows(folder.path() / "out.csv", {"frame", "pair_count"});
+  const auto rows = record::read_rows(folder.path() / "out.csv", {"frame", "pair_count"});
   EXPECT_THAT(rows, ElementsAre(ElementsAre("0", "0"), ElementsAre("1", "1")));
 }
 
@@ -149,15 +153,16 @@ TEST_F(PairsCommand, WhatTakesTooLongIsARowOfItsOwn) {
   for (int id = 0; id < 100000; ++id) text += fmt::format("0,{0},{0},0,0,{0}.5,1,1\n", id);
   text += "1,0,0,0,0,1,1,1\n1,1,1,1,1,1,1,1\n";
   const auto file = folder.write("in.csv", text);
-  const Ran ran = run_program("pairs " + file.string() + " --broad naive --time-limit 0.05 --out " +
-                              path("out.csv") + " --pairs " + path("pairs.csv"));
+  const Ran ran =
+      commands::run_program("pairs " + file.string() + " --broad naive --time-limit 0.05 --out " +
+                            path("out.csv") + " --pairs " + path("pairs.csv"));
   ASSERT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("naive, frame 0: no answer in time"));
-  const auto rows = read_rows(folder.path() / "out.csv",
-                              {"frame", "status", "pair_count", "pair_hash", "seconds"});
+  const auto rows = record::read_rows(folder.path() / "out.csv",
+                                      {"frame", "status", "pair_count", "pair_hash", "seconds"});
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_THAT(rows[0], ElementsAre("0", "timed_out", "", "", ""));
-  EXPECT_THAT(read_rows(folder.path() / "pairs.csv", {"frame", "a", "b"}),
+  EXPECT_THAT(record::read_rows(folder.path() / "pairs.csv", {"frame", "a", "b"}),
               ElementsAre(ElementsAre("1", "0", "1")));
 }
 

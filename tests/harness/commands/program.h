@@ -55,7 +55,7 @@ inline void expect_refusal(const std::string& arguments, const std::string& text
 inline std::vector<std::vector<std::string>> read_rows(const std::filesystem::path& file,
                                                        const std::vector<std::string>& columns) {
   std::vector<std::vector<std::string>> rows;
-  CsvReader(file, columns).read([&](const CsvReader::Row& row) {
+  files::CsvReader(file, columns).read([&](const files::CsvReader::Row& row) {
     std::vector<std::string>& texts = rows.emplace_back();
     for (std::size_t i = 0; i < columns.size(); ++i) texts.emplace_back(row.text(i));
   });

@@ -17,8 +17,8 @@ class Record : public testing::Test {
   Record() : scene_(folder_.write("s.toml", "generator = \"uniform\"\ncount = 30\nframes = 4\n")) {}
 
   static int status_of(std::vector<std::string> arguments) {
-    CommandLine line("");
-    add_record(line.add_command("record", ""));
+    commands::CommandLine line("");
+    commands::add_record(line.add_command("record", ""));
     arguments.insert(arguments.begin(), "record");
     return line.run(arguments);
   }
@@ -34,28 +34,30 @@ class Record : public testing::Test {
 TEST_F(Record, RecordingsAreTheSceneBoxes) {
   run({scene_.string(), "--out", path("r.aabbs")});
   run({scene_.string(), "--out", path("r.csv")});
-  const Scene scene = load_scene(scene_), recorded = load_scene(path("r.aabbs"));
-  const std::vector<BoxFrame> frames = read_box_frames(path("r.csv"));
+  const scene::Scene scene = scene::load_scene(scene_),
+                     recorded = scene::load_scene(path("r.aabbs"));
+  const std::vector<scene::BoxFrame> frames = scene::read_box_frames(path("r.csv"));
   ASSERT_EQ(recorded.recording.size(), 4u);
   ASSERT_EQ(frames.size(), 4u);
-  ScenePlayer player(scene, BoxKind::tight), replayed(recorded, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight),
+      replayed(recorded, scene::BoxKind::tight);
   do {
     const std::vector<Aabb> boxes(player.boxes().begin(), player.boxes().end());
     EXPECT_EQ(recorded.recording[static_cast<std::size_t>(player.frame())], boxes);
     EXPECT_EQ(frames[static_cast<std::size_t>(player.frame())].boxes, boxes);
     EXPECT_EQ(player.change().moved.size(), replayed.change().moved.size());
   } while (player.next() && replayed.next());
-  EXPECT_EQ(read_aabbs(path("r.aabbs")).scene, "s");
+  EXPECT_EQ(scene::read_aabbs(path("r.aabbs")).scene, "s");
 }
 
 TEST_F(Record, BodiesThatComeAndGoAreRowsWithoutABox) {
   const auto scene =
       folder_.write("churn.toml", "generator = \"uniform\"\ncount = 30\nframes = 5\nchurn = 0.2\n");
   run({scene.string(), "--out", path("r.csv")});
-  const std::vector<BoxFrame> frames = read_box_frames(path("r.csv"));
-  const Scene played = load_scene(scene);
-  ScenePlayer player(played, BoxKind::tight);
-  for (const BoxFrame& frame : frames) {
+  const std::vector<scene::BoxFrame> frames = scene::read_box_frames(path("r.csv"));
+  const scene::Scene played = scene::load_scene(scene);
+  scene::ScenePlayer player(played, scene::BoxKind::tight);
+  for (const scene::BoxFrame& frame : frames) {
     const FrameChange change = player.change();
     EXPECT_TRUE(std::ranges::equal(frame.boxes, change.boxes));
     EXPECT_TRUE(std::ranges::equal(frame.moved, change.moved));
@@ -63,15 +65,15 @@ TEST_F(Record, BodiesThatComeAndGoAreRowsWithoutABox) {
     EXPECT_TRUE(std::ranges::equal(frame.removed, change.removed));
     player.next();
   }
-  EXPECT_THROW(run({scene.string(), "--out", path("r.aabbs")}), InputError);
+  EXPECT_THROW(run({scene.string(), "--out", path("r.aabbs")}), base::InputError);
 }
 
 TEST_F(Record, TakesOverrides) {
   run({scene_.string(), "--out", path("r.aabbs"), "--count", "12", "--frames", "2", "--seed", "9",
        "--boxes", "loose"});
-  const Scene scene = load_scene(scene_, {.count = 12, .seed = 9, .frames = 2});
-  const ScenePlayer player(scene, BoxKind::loose);
-  const BoxRecording recording = read_aabbs(path("r.aabbs"));
+  const scene::Scene scene = scene::load_scene(scene_, {.count = 12, .seed = 9, .frames = 2});
+  const scene::ScenePlayer player(scene, scene::BoxKind::loose);
+  const scene::BoxRecording recording = scene::read_aabbs(path("r.aabbs"));
   ASSERT_EQ(recording.frames.size(), 2u);
   EXPECT_EQ(recording.frames[0], std::vector<Aabb>(player.boxes().begin(), player.boxes().end()));
   for (const auto& frame : recording.frames) {
@@ -85,10 +87,10 @@ TEST_F(Record, TakesOverrides) {
 }
 
 TEST_F(Record, LeavesNothingBehindWhereItFails) {
-  EXPECT_THROW(run({path("none.toml"), "--out", path("r.aabbs")}), InputError);
-  EXPECT_THROW(run({scene_.string(), "--out", path("r.txt")}), InputError);
-  EXPECT_THROW(run({scene_.string(), "--out", path("none/r.aabbs")}), InputError);
-  EXPECT_THROW(run({scene_.string(), "--out", path("none/r.csv")}), InputError);
+  EXPECT_THROW(run({path("none.toml"), "--out", path("r.aabbs")}), base::InputError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("r.txt")}), base::InputError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("none/r.aabbs")}), base::InputError);
+  EXPECT_THROW(run({scene_.string(), "--out", path("none/r.csv")}), base::InputError);
   EXPECT_EQ(status_of({scene_.string(), "--out", path("r.csv"), "--count", "0"}), exit_bad_request);
   EXPECT_EQ(status_of({scene_.string(), "--out", path("r.csv"), "--boxes", "round"}),
             exit_bad_request);

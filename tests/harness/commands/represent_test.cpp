@@ -29,16 +29,16 @@ class Represent : public testing::Test {
   };
   std::string out() const { return (folder_.path() / "errors.csv").string(); }
   int status_of(std::vector<std::string> arguments) {
-    CommandLine line("");
-    add_represent(line.add_command("represent", ""));
+    commands::CommandLine line("");
+    commands::add_represent(line.add_command("represent", ""));
     arguments.insert(arguments.begin(), {"represent", scene_.string(), "--out", out()});
     return line.run(arguments);
   }
   std::vector<Row> run(const std::vector<std::string>& arguments) {
     EXPECT_EQ(status_of(arguments), exit_done);
     std::vector<Row> rows;
-    CsvReader(out(), {"kind", "form", "status", "bodies", "triangles", "parts"})
-        .read([&](const CsvReader::Row& row) {
+    files::CsvReader(out(), {"kind", "form", "status", "bodies", "triangles", "parts"})
+        .read([&](const files::CsvReader::Row& row) {
           rows.push_back({std::string(row.text(0)), std::string(row.text(1)),
                           std::string(row.text(2)), row.number(3), row.number(4), row.number(5)});
         });
@@ -73,8 +73,8 @@ TEST_F(Represent, ASideIsForAllForms) {
 }
 
 TEST_F(Represent, RefusesWhatIsNone) {
-  EXPECT_THROW(run({"--forms", "ball"}), InputError);
-  EXPECT_THROW(run({"--forms", "sphere inner"}), InputError);
+  EXPECT_THROW(run({"--forms", "ball"}), base::InputError);
+  EXPECT_THROW(run({"--forms", "sphere inner"}), base::InputError);
   EXPECT_EQ(status_of({"--side", "left"}), exit_bad_request);
 }
 

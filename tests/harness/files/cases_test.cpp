@@ -28,12 +28,12 @@ std::string with_shape(const std::string& shape, const std::string& pose = "") {
 
 class Cases : public ::testing::Test {
  protected:
-  std::vector<Case> read(const std::string& content) {
-    return read_cases(folder.write("in.jsonl", content));
+  std::vector<files::Case> read(const std::string& content) {
+    return files::read_cases(folder.write("in.jsonl", content));
   }
   // The first body of the only case.
   std::pair<Shape, Pose> body(const std::string& shape, const std::string& pose = "") {
-    const std::vector<Case> cases = read(with_shape(shape, pose));
+    const std::vector<files::Case> cases = read(with_shape(shape, pose));
     EXPECT_EQ(cases.size(), 1u);
     return {cases.at(0).shape_a, cases.at(0).pose_a};
   }
@@ -117,7 +117,7 @@ TEST_F(Cases, AnotherAxisIsTurnedIntoZ) {
 TEST_F(Cases, LinesAndUnknownKeys) {
   const std::string line =
       with_shape(R"({"type":"sphere","radius":1,"colour":"red"})", R"(,"mass":3)");
-  const std::vector<Case> cases = read("\xef\xbb\xbf" + line + "\r\n\n  \n" + line);
+  const std::vector<files::Case> cases = read("\xef\xbb\xbf" + line + "\r\n\n  \n" + line);
   ASSERT_EQ(cases.size(), 2u);
   EXPECT_EQ(cases[1].id, "x");
   EXPECT_EQ(read(R"({"tags":["a"],"expect":null,"source":{},"id":"","a":)" + std::string(sphere) +
@@ -141,11 +141,11 @@ TEST_F(Cases, MalformedJson) {
 }
 
 TEST_F(Cases, FilesThatCannotBeRead) {
-  EXPECT_THROW(read_cases(folder.path()), InputError);
+  EXPECT_THROW(files::read_cases(folder.path()), base::InputError);
   try {
-    read_cases(folder.path() / "none.jsonl");
+    files::read_cases(folder.path() / "none.jsonl");
     FAIL();
-  } catch (const InputError& e) {
+  } catch (const base::InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("none.jsonl: No such file or directory"));
   }
 }
@@ -233,7 +233,7 @@ TEST_F(Cases, WhatIsWrittenComesBackBitForBit) {
   };
   std::uniform_real_distribution<double> moderate(-1, 1);
   for (int i = 0; i < 400; ++i) {
-    Case c;
+    files::Case c;
     c.id = "quote \" and \xc3\xa9";
     c.shape_a.kind = all_shape_kinds[static_cast<std::size_t>(i) % all_shape_kinds.size()];
     c.shape_a.radius = std::abs(any());
@@ -251,7 +251,7 @@ TEST_F(Cases, WhatIsWrittenComesBackBitForBit) {
     for (int k = 0; k < 9; ++k) c.pose_b.rotation(k) = any();
     c.pose_b.translation = vector();
     c.pose_a.translation = -Vec3d::Zero();
-    const Case back = read(to_json(c)).at(0);
+    const files::Case back = read(files::to_json(c)).at(0);
     EXPECT_EQ(back.id, c.id);
     ASSERT_EQ(back.shape_a.kind, c.shape_a.kind);
     EXPECT_TRUE(same(back.pose_a.rotation, c.pose_a.rotation));

@@ -32,14 +32,14 @@ constexpr const char* plain =
 
 class Certificates : public ::testing::Test {
  protected:
-  std::vector<StoredCertificate> read(const std::string& content) {
-    std::vector<StoredCertificate> all;
+  std::vector<files::StoredCertificate> read(const std::string& content) {
+    std::vector<files::StoredCertificate> all;
     lines.clear();
-    read_certificates(folder.write("in.jsonl", content),
-                      [&](const StoredCertificate& stored, std::int64_t line) {
-                        all.push_back(stored);
-                        lines.push_back(line);
-                      });
+    files::read_certificates(folder.write("in.jsonl", content),
+                             [&](const files::StoredCertificate& stored, std::int64_t line) {
+                               all.push_back(stored);
+                               lines.push_back(line);
+                             });
     return all;
   }
   // The message for the plain certificate with one part of its text replaced.
@@ -58,7 +58,7 @@ TEST_F(Certificates, EveryPart) {
   const auto all = read(std::string(plain) + "\n\n" + plain + "\n");
   EXPECT_THAT(lines, ElementsAre(1, 3));
   ASSERT_EQ(all.size(), 2u);
-  const StoredCertificate& stored = all[1];
+  const files::StoredCertificate& stored = all[1];
   EXPECT_EQ(stored.id, "x");
   EXPECT_EQ(stored.encoding, "matrix64");
   EXPECT_EQ(stored.shape_a.kind, ShapeKind::sphere);
@@ -194,7 +194,7 @@ TEST_F(Certificates, WhatIsWrittenComesBackBitForBit) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
   };
   for (int i = 0; i < 300; ++i) {
-    StoredCertificate stored;
+    files::StoredCertificate stored;
     stored.id = "\xe2\x82\xac \"";
     stored.encoding = "quat64";
     stored.shape_a.radius = std::abs(any());
@@ -208,17 +208,17 @@ TEST_F(Certificates, WhatIsWrittenComesBackBitForBit) {
     c.answer = static_cast<Answer>(below(4));
     c.lower = {static_cast<int>(below(3)) - 1, integer(), integer()};
     c.upper = oracle::SignedRoot::infinity(1);
-    c.a = generators();
-    c.b = generators();
+    c.a = scene::generators();
+    c.b = scene::generators();
     c.direction = {integer(), integer(), integer()};
     for (std::uint64_t k = below(4); k > 0; --k) {
       c.closest.push_back({{index(), index()}, integer()});
       c.surface.points.push_back({index(), index()});
       c.surface.triangles.push_back({index(), index(), index()});
     }
-    const auto all = read(to_json(stored));
+    const auto all = read(files::to_json(stored));
     ASSERT_EQ(all.size(), 1u);
-    const StoredCertificate& back = all[0];
+    const files::StoredCertificate& back = all[0];
     EXPECT_EQ(back.id, stored.id);
     EXPECT_EQ(back.encoding, stored.encoding);
     EXPECT_TRUE(same(back.shape_a.radius, stored.shape_a.radius));
@@ -253,7 +253,7 @@ TEST_F(Certificates, WhatIsWrittenComesBackBitForBit) {
     }
     EXPECT_EQ(d.surface.points, c.surface.points);
     EXPECT_EQ(d.surface.triangles, c.surface.triangles);
-    EXPECT_EQ(to_json(back), to_json(stored));
+    EXPECT_EQ(files::to_json(back), files::to_json(stored));
   }
 }
 

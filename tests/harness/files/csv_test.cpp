@@ -31,11 +31,11 @@ class Csv : public ::testing::Test {
     const auto file = folder.write("in.csv", content);
     std::string seen;
     try {
-      CsvReader(file, {"a", "b"}).read([&](const CsvReader::Row& row) {
+      files::CsvReader(file, {"a", "b"}).read([&](const files::CsvReader::Row& row) {
         seen += std::to_string(row.line()) + "[" + std::string(row.text(0)) + "|" +
                 std::string(row.text(1)) + "]";
       });
-    } catch (const InputError& error) {
+    } catch (const base::InputError& error) {
       return folder.without_path(error.what());
     }
     return seen;
@@ -44,7 +44,7 @@ class Csv : public ::testing::Test {
     const auto file = folder.write("in.csv", content);
     std::string seen;
     try {
-      CsvReader(file, {"x"}).read([&](const CsvReader::Row& row) {
+      files::CsvReader(file, {"x"}).read([&](const files::CsvReader::Row& row) {
         std::ostringstream out;
         if (integers) {
           out << row.integer(0) << ' ';
@@ -53,17 +53,17 @@ class Csv : public ::testing::Test {
         }
         seen += out.str();
       });
-    } catch (const InputError& error) {
+    } catch (const base::InputError& error) {
       return folder.without_path(error.what());
     }
     return seen;
   }
   std::string error_of_writing(const std::filesystem::path& file, int rows = 1) {
     try {
-      CsvWriter writer(file, {"a", "b"});
+      files::CsvWriter writer(file, {"a", "b"});
       for (int i = 0; i < rows; ++i) writer.field(i).field("text").end_row();
       writer.close();
-    } catch (const InputError& error) {
+    } catch (const base::InputError& error) {
       return folder.without_path(error.what());
     }
     return "written";
@@ -80,8 +80,8 @@ TEST_F(Csv, ReadsColumnsByName) {
 TEST_F(Csv, OptionalColumnsAreEmptyWhereThereAreNone) {
   const auto seen = [&](const std::string& content) {
     std::string text;
-    CsvReader(folder.write("in.csv", content), {"b"}, {"c", "a"})
-        .read([&](const CsvReader::Row& row) {
+    files::CsvReader(folder.write("in.csv", content), {"b"}, {"c", "a"})
+        .read([&](const files::CsvReader::Row& row) {
           text += fmt::format("[{}|{}|{}]", row.text(0), row.text(1), row.text(2));
         });
     return text;
@@ -126,8 +126,8 @@ TEST_F(Csv, BadFilesAreToldWithTheirLine) {
 TEST_F(Csv, FilesThatCannotBeRead) {
   const auto error = [&](const std::filesystem::path& file) -> std::string {
     try {
-      CsvReader(file, {"a"}).read([](const CsvReader::Row&) {});
-    } catch (const InputError& e) {
+      files::CsvReader(file, {"a"}).read([](const files::CsvReader::Row&) {});
+    } catch (const base::InputError& e) {
       return folder.without_path(e.what());
     }
     return "read";
@@ -165,11 +165,11 @@ TEST_F(Csv, EveryDoubleComesBack) {
     if (!std::isnan(value)) values.push_back(value);
   }
   const auto file = folder.path() / "doubles.csv";
-  CsvWriter writer(file, {"n", "x"});
+  files::CsvWriter writer(file, {"n", "x"});
   for (std::size_t i = 0; i < values.size(); ++i) writer.field(i).field(values[i]).end_row();
   writer.close();
   std::size_t next = 0;
-  CsvReader(file, {"x", "n"}).read([&](const CsvReader::Row& row) {
+  files::CsvReader(file, {"x", "n"}).read([&](const files::CsvReader::Row& row) {
     ASSERT_EQ(row.integer(1), static_cast<std::int64_t>(next));
     ASSERT_EQ(std::bit_cast<std::uint64_t>(row.number(0)),
               std::bit_cast<std::uint64_t>(values[next]));
@@ -180,7 +180,7 @@ TEST_F(Csv, EveryDoubleComesBack) {
 
 TEST_F(Csv, WritesShortestNumbersAndQuotesWhatNeedsIt) {
   const auto file = folder.path() / "out.csv";
-  CsvWriter writer(file, {"a", "b, c"});
+  files::CsvWriter writer(file, {"a", "b, c"});
   writer.field(0.1).field(std::nan("")).end_row();
   writer.field(-3).field("say \"x\"\ny").end_row();
   writer.field(" edge").field("").end_row();
@@ -191,7 +191,7 @@ TEST_F(Csv, WritesShortestNumbersAndQuotesWhatNeedsIt) {
 TEST_F(Csv, WholeOrNotThere) {
   folder.write("out.csv", "old");
   {
-    CsvWriter writer(folder.path() / "out.csv", {"a"});
+    files::CsvWriter writer(folder.path() / "out.csv", {"a"});
     writer.field(1).end_row();
     writer.flush();
     EXPECT_EQ(folder.read("out.csv"), "old");
@@ -199,8 +199,8 @@ TEST_F(Csv, WholeOrNotThere) {
   EXPECT_EQ(folder.read("out.csv"), "old");
   EXPECT_THAT(folder.names(), ElementsAre("out.csv"));
   {
-    CsvWriter first(folder.path() / "out.csv", {"a"});
-    CsvWriter second(folder.path() / "out.csv", {"b"});
+    files::CsvWriter first(folder.path() / "out.csv", {"a"});
+    files::CsvWriter second(folder.path() / "out.csv", {"b"});
     first.close();
     second.close();
   }
@@ -209,7 +209,7 @@ TEST_F(Csv, WholeOrNotThere) {
 }
 
 TEST_F(Csv, RowsOfAnotherWidthAreAFaultOfTheProgram) {
-  CsvWriter writer(folder.path() / "out.csv", {"a", "b"});
+  files::CsvWriter writer(folder.path() / "out.csv", {"a", "b"});
   writer.field(1);
   EXPECT_THROW(writer.end_row(), std::logic_error);
 }
@@ -247,16 +247,16 @@ TEST_F(Csv, ALinkIsFollowed) {
 }
 
 TEST_F(Csv, CheckOutputLeavesNothing) {
-  check_output(folder.path() / "out.csv");
+  files::check_output(folder.path() / "out.csv");
   EXPECT_THAT(folder.names(), IsEmpty());
-  EXPECT_THROW(check_output(folder.path() / "none" / "out.csv"), InputError);
-  EXPECT_THROW(check_output(folder.path()), InputError);
+  EXPECT_THROW(files::check_output(folder.path() / "none" / "out.csv"), base::InputError);
+  EXPECT_THROW(files::check_output(folder.path()), base::InputError);
 }
 
 TEST_F(Csv, AWriterThatKeepsRowsLeavesThoseThatWereFlushed) {
   const auto file = folder.path() / "raw.csv";
   {
-    CsvWriter writer(file, {"a"}, CsvWriter::Keep::flushed_rows);
+    files::CsvWriter writer(file, {"a"}, files::CsvWriter::Keep::flushed_rows);
     writer.field(1).end_row();
     writer.flush();
     EXPECT_EQ(folder.read("raw.csv"), "a\n1\n");
@@ -264,7 +264,7 @@ TEST_F(Csv, AWriterThatKeepsRowsLeavesThoseThatWereFlushed) {
     writer.field("half a row");
   }
   EXPECT_EQ(folder.read("raw.csv"), "a\n1\n");
-  CsvWriter again(file, {"b"}, CsvWriter::Keep::flushed_rows);
+  files::CsvWriter again(file, {"b"}, files::CsvWriter::Keep::flushed_rows);
   again.close();
   EXPECT_EQ(folder.read("raw.csv"), "b\n");
 }

@@ -18,8 +18,8 @@ namespace {
 
 class MeshTest : public testing::Test {
  protected:
-  Mesh read(const std::string& name, const std::string& content) {
-    return read_mesh(folder_.write(name, content));
+  geometry::Mesh read(const std::string& name, const std::string& content) {
+    return geometry::read_mesh(folder_.write(name, content));
   }
   std::string error(const std::string& name, const std::string& content) {
     return input_fault([&] { read(name, content); });
@@ -151,7 +151,7 @@ end_header
 1 3 2 0 3
 )";
 
-void expect_tetrahedron(const Mesh& mesh) {
+void expect_tetrahedron(const geometry::Mesh& mesh) {
   EXPECT_EQ(mesh.vertices, tetrahedron);
   EXPECT_EQ(mesh.triangles, sides);
 }
@@ -168,11 +168,11 @@ TEST_F(MeshTest, ReadsEachFormat) {
   expect_tetrahedron(read("a.ply", ply));
   expect_tetrahedron(read("b.ply", binary_ply(false)));
   expect_tetrahedron(read("c.ply", binary_ply(true)));
-  const Mesh text = read("a.stl", stl);
+  const geometry::Mesh text = read("a.stl", stl);
   EXPECT_EQ(text.vertices.size(), 4u);
   EXPECT_EQ(text.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   for (const char* title : {"made up", "solid that is none"}) {
-    const Mesh mesh = read("b.stl", binary_stl(title));
+    const geometry::Mesh mesh = read("b.stl", binary_stl(title));
     EXPECT_THAT(mesh.vertices, testing::UnorderedElementsAreArray(tetrahedron));
     EXPECT_EQ(mesh.triangles.size(), 4u);
   }
@@ -256,8 +256,8 @@ TEST_F(MeshTest, ErrorsNameFileAndLine) {
   expect("a.ply", binary.substr(0, binary.size() - 1), "",
          "byte " + std::to_string(binary.size() - 2));
   expect("a.xyz", "0 0 0\n", "", "unknown mesh format");
-  EXPECT_THROW(read_mesh(folder_.path() / "absent.obj"), InputError);
-  EXPECT_THROW(read_mesh(folder_.path()), InputError);
+  EXPECT_THROW(geometry::read_mesh(folder_.path() / "absent.obj"), base::InputError);
+  EXPECT_THROW(geometry::read_mesh(folder_.path()), base::InputError);
 }
 
 // Whatever is done to a file, it is read, with finite vertices and indices in range, or refused.
@@ -281,13 +281,13 @@ TEST(MeshFormat, BrokenFilesAreReadOrRefused) {
           random() % 2 ? likely[random() % 20] : static_cast<char>(random() % 256);
     }
     try {
-      const Mesh mesh = reader("file", broken);
+      const geometry::Mesh mesh = reader("file", broken);
       for (const Vec3d& v : mesh.vertices) ASSERT_TRUE(v.allFinite());
       for (const auto& t : mesh.triangles) {
         for (std::uint32_t v : t) ASSERT_LT(v, mesh.vertices.size());
       }
       ++read_count;
-    } catch (const InputError& e) {
+    } catch (const base::InputError& e) {
       EXPECT_NE(std::string(e.what()), "");
       ++refused;
     }

@@ -10,8 +10,8 @@
 namespace touchstone {
 
 // A torus around z with the radii of ring and tube, in n by m quadrangles.
-inline Mesh torus(double ring, double tube, int n, int m) {
-  Mesh mesh;
+inline geometry::Mesh torus(double ring, double tube, int n, int m) {
+  geometry::Mesh mesh;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < m; ++j) {
       const double u = 2 * std::numbers::pi * i / n, v = 2 * std::numbers::pi * j / m;
@@ -30,9 +30,9 @@ inline Mesh torus(double ring, double tube, int n, int m) {
 }
 
 // An L of volume 3, two long each way and one thick.
-inline Mesh angle_bracket() {
+inline geometry::Mesh angle_bracket() {
   const double outline[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-  Mesh mesh;
+  geometry::Mesh mesh;
   for (double z : {0.0, 1.0}) {
     for (const auto& p : outline) mesh.vertices.emplace_back(p[0], p[1], z);
   }
@@ -49,7 +49,7 @@ inline Mesh angle_bracket() {
   return mesh;
 }
 
-inline Shape hull_of(const Mesh& mesh) {
+inline Shape hull_of(const geometry::Mesh& mesh) {
   Shape shape;
   shape.kind = ShapeKind::hull;
   shape.hull = make_reduced_hull(mesh.vertices);

@@ -52,7 +52,7 @@ TEST(Polytope, CountsOfEachKindAndLevel) {
   };
   for (const auto& [kind, counts] : expected) {
     for (int level = 0; level < 3; ++level) {
-      const auto polytope = as_polytope(make(kind), level).hull;
+      const auto polytope = geometry::as_polytope(make(kind), level).hull;
       const Hull& hull = *polytope;
       SCOPED_TRACE(testing::Message() << to_string(kind) << " level " << level);
       const auto at = static_cast<std::size_t>(level);
@@ -61,8 +61,8 @@ TEST(Polytope, CountsOfEachKindAndLevel) {
       EXPECT_EQ(hull.vertices.size() + hull.faces.size(), hull.edges.size() + 2);
     }
   }
-  EXPECT_EQ(as_polytope(make(ShapeKind::sphere), 3).hull->faces.size(), 1280u);
-  const auto finest = as_polytope(make(ShapeKind::sphere), 5).hull;
+  EXPECT_EQ(geometry::as_polytope(make(ShapeKind::sphere), 3).hull->faces.size(), 1280u);
+  const auto finest = geometry::as_polytope(make(ShapeKind::sphere), 5).hull;
   EXPECT_EQ(finest->vertices.size(), 10242u);
   EXPECT_EQ(finest->faces.size(), 20480u);
 }
@@ -72,7 +72,7 @@ TEST(Polytope, EveryVertexIsACornerOnTheSurface) {
                          ShapeKind::cone, ShapeKind::ellipsoid}) {
     for (int level = 0; level <= 3; ++level) {
       const Shape shape = make(kind);
-      const Shape polytope = as_polytope(shape, level);
+      const Shape polytope = geometry::as_polytope(shape, level);
       ASSERT_EQ(polytope.kind, ShapeKind::hull);
       const Hull& hull = *polytope.hull;
       ASSERT_FALSE(hull.faces.empty());
@@ -89,7 +89,7 @@ TEST(Polytope, CapsuleIsASphereDrawnApart) {
   for (int level = 0; level <= 3; ++level) {
     double top = 0;
     int rim = 0;
-    const Shape polytope = as_polytope(capsule, level);
+    const Shape polytope = geometry::as_polytope(capsule, level);
     for (const Vec3d& p : polytope.hull->vertices) {
       EXPECT_GE(std::abs(p.z()), capsule.half_length);
       top = std::max(top, p.z());
@@ -101,7 +101,7 @@ TEST(Polytope, CapsuleIsASphereDrawnApart) {
   }
   Shape round = capsule;
   round.half_length = 0;
-  EXPECT_EQ(as_polytope(round, 1).hull->vertices.size(), 42u);
+  EXPECT_EQ(geometry::as_polytope(round, 1).hull->vertices.size(), 42u);
 }
 
 // Literal bits: the same on every platform, or this fails there.
@@ -117,35 +117,36 @@ TEST(Polytope, BitsArePortable) {
     }
     return sum;
   };
-  EXPECT_EQ(digest(*as_polytope(make(ShapeKind::sphere), 2).hull), 7836294144567020780u);
-  EXPECT_EQ(digest(*as_polytope(make(ShapeKind::cylinder), 3).hull), 16200604233875031776u);
+  EXPECT_EQ(digest(*geometry::as_polytope(make(ShapeKind::sphere), 2).hull), 7836294144567020780u);
+  EXPECT_EQ(digest(*geometry::as_polytope(make(ShapeKind::cylinder), 3).hull),
+            16200604233875031776u);
 }
 
 TEST(Polytope, FlatAndEmptySizes) {
   Shape shape = make(ShapeKind::sphere);
   shape.radius = 0;
-  EXPECT_EQ(as_polytope(shape, 1).hull->dimension, 0);
+  EXPECT_EQ(geometry::as_polytope(shape, 1).hull->dimension, 0);
   shape = make(ShapeKind::cylinder);
   shape.half_length = 0;
-  EXPECT_EQ(as_polytope(shape, 1).hull->dimension, 2);
+  EXPECT_EQ(geometry::as_polytope(shape, 1).hull->dimension, 2);
   shape = make(ShapeKind::cone);
   shape.radius = 0;
-  EXPECT_EQ(as_polytope(shape, 1).hull->dimension, 1);
+  EXPECT_EQ(geometry::as_polytope(shape, 1).hull->dimension, 1);
   shape = make(ShapeKind::ellipsoid);
   shape.radii.z() = 0;
-  EXPECT_EQ(as_polytope(shape, 1).hull->dimension, 2);
+  EXPECT_EQ(geometry::as_polytope(shape, 1).hull->dimension, 2);
   shape.radii.z() = 1e-8;
-  const auto lens = as_polytope(shape, 2).hull;
+  const auto lens = geometry::as_polytope(shape, 2).hull;
   EXPECT_EQ(lens->dimension, 3);
   EXPECT_EQ(lens->faces.size(), 320u);
 }
 
 TEST(Polytope, RefusesHalfSpacesAndLevels) {
-  EXPECT_THROW(as_polytope(make(ShapeKind::halfspace), 1), InputError);
-  EXPECT_THROW(as_polytope(make(ShapeKind::sphere), -1), InputError);
-  EXPECT_THROW(as_polytope(make(ShapeKind::box), 6), InputError);
-  Shape hull = as_polytope(make(ShapeKind::box), 0);
-  EXPECT_EQ(as_polytope(hull, 3).hull, hull.hull);
+  EXPECT_THROW(geometry::as_polytope(make(ShapeKind::halfspace), 1), base::InputError);
+  EXPECT_THROW(geometry::as_polytope(make(ShapeKind::sphere), -1), base::InputError);
+  EXPECT_THROW(geometry::as_polytope(make(ShapeKind::box), 6), base::InputError);
+  Shape hull = geometry::as_polytope(make(ShapeKind::box), 0);
+  EXPECT_EQ(geometry::as_polytope(hull, 3).hull, hull.hull);
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ namespace {
 
 double as_float(double x) { return static_cast<double>(static_cast<float>(x)); }
 
-Case turned_pair() {
-  Random random(5);
-  Case c = along_x(cube(0.1), ball(0.3), 0.7);
+files::Case turned_pair() {
+  base::Random random(5);
+  files::Case c = along_x(cube(0.1), ball(0.3), 0.7);
   c.pose_a.rotation = random.rotation();
   c.pose_a.translation = {100.1, 200.2, 300.3};
   c.pose_b.rotation = random.rotation();
@@ -27,8 +27,8 @@ Case turned_pair() {
 }
 
 TEST(Encoding, AsGivenIsTheCaseItself) {
-  const Case c = turned_pair();
-  const EncodedPair pair(c, Encoding::as_given);
+  const files::Case c = turned_pair();
+  const grade::EncodedPair pair(c, Encoding::as_given);
   EXPECT_EQ(pair.a().matrix, c.pose_a.rotation);
   EXPECT_EQ(pair.b().translation, c.pose_b.translation);
   EXPECT_EQ(pair.b().solid->radius, 0.3);
@@ -37,8 +37,8 @@ TEST(Encoding, AsGivenIsTheCaseItself) {
 }
 
 TEST(Encoding, FloatsAreRoundedOneByOne) {
-  const Case c = turned_pair();
-  const EncodedPair pair(c, Encoding::float32);
+  const files::Case c = turned_pair();
+  const grade::EncodedPair pair(c, Encoding::float32);
   EXPECT_EQ(pair.a().translation.x(), as_float(100.1));
   EXPECT_EQ(pair.a().matrix(1, 2), as_float(c.pose_a.rotation(1, 2)));
   EXPECT_EQ(pair.a().solid->vertices[7].x(), as_float(0.1));
@@ -47,13 +47,13 @@ TEST(Encoding, FloatsAreRoundedOneByOne) {
 }
 
 TEST(Encoding, RelativeFloatsAreAboutTheFirstBody) {
-  Case c = turned_pair();
+  files::Case c = turned_pair();
   auto hull = std::make_shared<Hull>();
   hull->vertices = {{10, 0, 0}, {11, 0, 0}, {10, 1, 0}, {10.1, 0.2, 0.7}};
   c.shape_b = Shape();
   c.shape_b.kind = ShapeKind::hull;
   c.shape_b.hull = hull;
-  const EncodedPair pair(c, Encoding::float32_relative);
+  const grade::EncodedPair pair(c, Encoding::float32_relative);
   EXPECT_EQ(pair.a().translation, Vec3d::Zero());
   const Vec3d centre = encoding_centre(c.shape_b);
   EXPECT_NEAR(centre.x(), 10.275, 1e-12);
@@ -62,19 +62,19 @@ TEST(Encoding, RelativeFloatsAreAboutTheFirstBody) {
   EXPECT_EQ(pair.b().solid->vertices[3].x(), as_float(10.1 - centre.x()));
   // The same pair up to the rounding of small numbers, far away as it is.
   oracle::Oracle oracle;
-  const EncodedPair exact(c, Encoding::as_given);
+  const grade::EncodedPair exact(c, Encoding::as_given);
   EXPECT_NEAR(oracle.measure(pair.a(), pair.b()).middle(),
               oracle.measure(exact.a(), exact.b()).middle(), 1e-5);
 }
 
 TEST(Encoding, QuaternionsStandForTheSameRotation) {
-  const Case c = turned_pair();
+  const files::Case c = turned_pair();
   oracle::Oracle oracle;
-  const EncodedPair exact(c, Encoding::as_given);
+  const grade::EncodedPair exact(c, Encoding::as_given);
   const double distance = oracle.measure(exact.a(), exact.b()).middle();
   for (const Encoding encoding : {Encoding::quaternion, Encoding::quaternion_float32}) {
     const bool single = encoding == Encoding::quaternion_float32;
-    const EncodedPair pair(c, encoding);
+    const grade::EncodedPair pair(c, encoding);
     ASSERT_TRUE(pair.a().quaternion && pair.b().quaternion);
     for (const double part : *pair.a().quaternion) {
       if (single) {
@@ -87,39 +87,39 @@ TEST(Encoding, QuaternionsStandForTheSameRotation) {
 }
 
 TEST(Encoding, HalfspacesAreMadeUnitBeforeTheyAreRounded) {
-  Case c = turned_pair();
+  files::Case c = turned_pair();
   c.shape_b = Shape();
   c.shape_b.kind = ShapeKind::halfspace;
   c.shape_b.normal = {3, 0, 4};
   c.shape_b.offset = 1;
-  const EncodedPair pair(c, Encoding::float32);
+  const grade::EncodedPair pair(c, Encoding::float32);
   EXPECT_EQ(pair.b().solid->normal, Vec3d(as_float(0.6), 0, as_float(0.8)));
   EXPECT_EQ(pair.b().solid->offset, as_float(0.2));
 }
 
 TEST(Encoding, BeyondTheRangeOfFloatsThereIsNoPair) {
-  const Case c = along_x(cube(1), cube(1), 1e39);
-  EXPECT_TRUE(EncodedPair(c, Encoding::as_given).is_finite());
-  EXPECT_TRUE(EncodedPair(c, Encoding::quaternion).is_finite());
-  EXPECT_FALSE(EncodedPair(c, Encoding::float32).is_finite());
-  EXPECT_FALSE(EncodedPair(c, Encoding::float32_relative).is_finite());
+  const files::Case c = along_x(cube(1), cube(1), 1e39);
+  EXPECT_TRUE(grade::EncodedPair(c, Encoding::as_given).is_finite());
+  EXPECT_TRUE(grade::EncodedPair(c, Encoding::quaternion).is_finite());
+  EXPECT_FALSE(grade::EncodedPair(c, Encoding::float32).is_finite());
+  EXPECT_FALSE(grade::EncodedPair(c, Encoding::float32_relative).is_finite());
 }
 
 TEST(Encoding, RelativeKeepsDoubles) {
-  Case c = turned_pair();
+  files::Case c = turned_pair();
   auto hull = std::make_shared<Hull>();
   hull->vertices = {{10, 0, 0}, {11, 0, 0}, {10, 1, 0}, {10.1, 0.2, 0.7}};
   c.shape_b = Shape();
   c.shape_b.kind = ShapeKind::hull;
   c.shape_b.hull = hull;
-  const EncodedPair pair(c, Encoding::relative);
+  const grade::EncodedPair pair(c, Encoding::relative);
   const Vec3d centre = encoding_centre(c.shape_b);
   EXPECT_EQ(pair.a().translation, Vec3d::Zero());
   EXPECT_EQ(pair.a().matrix, c.pose_a.rotation);
   EXPECT_EQ(pair.b().translation, c.pose_b(centre) - c.pose_a.translation);
   EXPECT_EQ(pair.b().solid->vertices[3], hull->vertices[3] - centre);
   oracle::Oracle oracle;
-  const EncodedPair exact(c, Encoding::as_given);
+  const grade::EncodedPair exact(c, Encoding::as_given);
   EXPECT_NEAR(oracle.measure(pair.a(), pair.b()).middle(),
               oracle.measure(exact.a(), exact.b()).middle(), 1e-12);
 }
@@ -128,7 +128,7 @@ TEST(Encoding, RelativeKeepsDoubles) {
 // where the conversion has moved the bodies by much more.
 TEST(Encoding, WhatTheEntriesSayIsWhatTheLibrariesGet) {
   oracle::Oracle oracle;
-  Random random(11);
+  base::Random random(11);
   int compared = 0;
   int moved = 0;  // the conversion did more than the library
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
@@ -136,7 +136,7 @@ TEST(Encoding, WhatTheEntriesSayIsWhatTheLibrariesGet) {
     for (const Precision scalar : entry.scalars) {
       for (int i = 0; i < 20; ++i) {
         // Balls: exact for every library, so that the conversion alone is seen.
-        Case c = along_x(ball(0.3), ball(0.4), 0);
+        files::Case c = along_x(ball(0.3), ball(0.4), 0);
         c.pose_a.rotation = random.rotation();
         c.pose_b.rotation = random.rotation();
         c.pose_a.translation = 1e5 * random.in_ball();
@@ -144,10 +144,10 @@ TEST(Encoding, WhatTheEntriesSayIsWhatTheLibrariesGet) {
         if (!offers(entry, c.shape_a.kind, c.shape_b.kind, Task::distance)) continue;
         const Encoding encoding =
             encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::distance, scalar);
-        const EncodedPair given(c, encoding), exact(c, Encoding::as_given);
+        const grade::EncodedPair given(c, encoding), exact(c, Encoding::as_given);
         const double expected = oracle.measure(given.a(), given.b()).middle();
         const double end = oracle.measure(exact.a(), exact.b()).middle();
-        const Outcome o = solve_case(entry, {.scalar = scalar}, c, Task::distance);
+        const Outcome o = process::solve_case(entry, {.scalar = scalar}, c, Task::distance);
         ASSERT_EQ(o.answer, Answer::separated) << entry.info.name;
         EXPECT_NEAR(o.distance, expected, 2e-5) << entry.info.name << to_string(encoding);
         moved += std::abs(expected - end) > 1e-3 ? 1 : 0;

@@ -16,17 +16,17 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 // A pair of unit cubes (half extents 1) with the second at x, and its exact answer.
 struct Cubes {
   oracle::Oracle oracle;
-  EncodedPair pair;
+  grade::EncodedPair pair;
   oracle::Measure exact;
 
   explicit Cubes(double x, const Shape& b = cube(1))
       : pair(along_x(cube(1), b, x), Encoding::as_given),
         exact(oracle.measure(pair.a(), pair.b())) {}
-  Grade grade(const Outcome& outcome, Task task) const {
+  grade::Grade grade(const Outcome& outcome, Task task) const {
     return touchstone::grade(outcome, task, exact, pair.a(), pair.b());
   }
-  WitnessGrade witnesses(const Outcome& outcome, Task task) {
-    return grade_witnesses(outcome, task, pair.a(), pair.b(), oracle);
+  grade::WitnessGrade witnesses(const Outcome& outcome, Task task) {
+    return grade::grade_witnesses(outcome, task, pair.a(), pair.b(), oracle);
   }
 };
 
@@ -38,70 +38,73 @@ Outcome outcome(Answer answer, Status status = Status::ok, double distance = Out
   return outcome;
 }
 
-TEST(Grade, EveryVerdict) {
+TEST(grade::Grade, EveryVerdict) {
   using enum Answer;
-  const Cubes apart(3), touch(2), meet(1.5);
+  const Cubes apart(3), touch(2), scene::meet(1.5);
   const auto verdict = [](const Cubes& cubes, Answer answer, Status status = Status::ok) {
     return cubes.grade(outcome(answer, status), Task::intersect).verdict;
   };
   for (const Status status : {Status::ok, Status::not_reported}) {
-    EXPECT_EQ(verdict(apart, separated, status), Verdict::right);
-    EXPECT_EQ(verdict(apart, overlapping, status), Verdict::silent_error);
-    EXPECT_EQ(verdict(apart, touching, status), Verdict::silent_error);
-    EXPECT_EQ(verdict(meet, overlapping, status), Verdict::right);
-    EXPECT_EQ(verdict(meet, touching, status), Verdict::right);
-    EXPECT_EQ(verdict(meet, separated, status), Verdict::silent_error);
-    EXPECT_EQ(verdict(touch, separated, status), Verdict::unscored);
-    EXPECT_EQ(verdict(touch, overlapping, status), Verdict::unscored);
-    EXPECT_EQ(verdict(apart, unknown, status), Verdict::honest_failure);
-    EXPECT_EQ(verdict(touch, unknown, status), Verdict::honest_failure);
+    EXPECT_EQ(stats::verdict(apart, separated, status), grade::Verdict::right);
+    EXPECT_EQ(stats::verdict(apart, overlapping, status), grade::Verdict::silent_error);
+    EXPECT_EQ(stats::verdict(apart, touching, status), grade::Verdict::silent_error);
+    EXPECT_EQ(stats::verdict(meet, overlapping, status), grade::Verdict::right);
+    EXPECT_EQ(stats::verdict(meet, touching, status), grade::Verdict::right);
+    EXPECT_EQ(stats::verdict(meet, separated, status), grade::Verdict::silent_error);
+    EXPECT_EQ(stats::verdict(touch, separated, status), grade::Verdict::unscored);
+    EXPECT_EQ(stats::verdict(touch, overlapping, status), grade::Verdict::unscored);
+    EXPECT_EQ(stats::verdict(apart, unknown, status), grade::Verdict::honest_failure);
+    EXPECT_EQ(stats::verdict(touch, unknown, status), grade::Verdict::honest_failure);
   }
   for (const Status status : {Status::not_converged, Status::degenerate, Status::capacity}) {
-    EXPECT_EQ(verdict(apart, overlapping, status), Verdict::honest_failure);
-    EXPECT_EQ(verdict(apart, separated, status), Verdict::honest_failure);
+    EXPECT_EQ(stats::verdict(apart, overlapping, status), grade::Verdict::honest_failure);
+    EXPECT_EQ(stats::verdict(apart, separated, status), grade::Verdict::honest_failure);
   }
-  EXPECT_EQ(verdict(apart, unknown, Status::crashed), Verdict::crashed);
-  EXPECT_EQ(verdict(apart, unknown, Status::timed_out), Verdict::timed_out);
-  EXPECT_EQ(verdict(apart, unknown, Status::unsupported), Verdict::unsupported);
+  EXPECT_EQ(stats::verdict(apart, unknown, Status::crashed), grade::Verdict::crashed);
+  EXPECT_EQ(stats::verdict(apart, unknown, Status::timed_out), grade::Verdict::timed_out);
+  EXPECT_EQ(stats::verdict(apart, unknown, Status::unsupported), grade::Verdict::unsupported);
 }
 
-TEST(Grade, TheOracleMayNotTell) {
+TEST(grade::Grade, TheOracleMayNotTell) {
   Cubes cubes(3);
   cubes.exact.answer = Answer::unknown;
   cubes.exact.lower = -1;
   cubes.exact.upper = 1;
-  const Grade grade = cubes.grade(outcome(Answer::overlapping), Task::intersect);
-  EXPECT_EQ(grade.verdict, Verdict::unscored);
+  const grade::Grade grade = cubes.grade(outcome(Answer::overlapping), Task::intersect);
+  EXPECT_EQ(grade.verdict, grade::Verdict::unscored);
   EXPECT_TRUE(std::isnan(grade.margin));
 }
 
-TEST(Grade, NamesOfVerdictsDiffer) {
+TEST(grade::Grade, NamesOfVerdictsDiffer) {
   std::set<std::string_view> names;
-  for (int i = 0; i < 7; ++i) names.insert(to_string(static_cast<Verdict>(i)));
+  for (int i = 0; i < 7; ++i) names.insert(to_string(static_cast<grade::Verdict>(i)));
   EXPECT_EQ(names.size(), 7u);
 }
 
-TEST(Grade, BodiesThatTouchAreUnscoredOrInContact) {
+TEST(grade::Grade, BodiesThatTouchAreUnscoredOrInContact) {
   Outcome outcome;
   outcome.status = Status::ok;
   outcome.answer = Answer::separated;
-  EXPECT_EQ(judge(outcome, Answer::touching), Verdict::unscored);
-  EXPECT_EQ(judge(outcome, Answer::touching, Touching::contact), Verdict::silent_error);
-  EXPECT_EQ(judge(outcome, Answer::unknown, Touching::contact), Verdict::unscored);
+  EXPECT_EQ(grade::judge(outcome, Answer::touching), grade::Verdict::unscored);
+  EXPECT_EQ(grade::judge(outcome, Answer::touching, grade::Touching::contact),
+            grade::Verdict::silent_error);
+  EXPECT_EQ(grade::judge(outcome, Answer::unknown, grade::Touching::contact),
+            grade::Verdict::unscored);
   outcome.answer = Answer::overlapping;
-  EXPECT_EQ(judge(outcome, Answer::touching, Touching::contact), Verdict::right);
+  EXPECT_EQ(grade::judge(outcome, Answer::touching, grade::Touching::contact),
+            grade::Verdict::right);
 }
 
-TEST(Grade, MarginIsTheExactDistanceThatWasCalledWrongly) {
+TEST(grade::Grade, MarginIsTheExactDistanceThatWasCalledWrongly) {
   EXPECT_EQ(Cubes(3).grade(outcome(Answer::overlapping), Task::intersect).margin, 1);
   EXPECT_EQ(Cubes(1.5).grade(outcome(Answer::separated), Task::intersect).margin, 0.5);
   EXPECT_TRUE(std::isnan(Cubes(3).grade(outcome(Answer::separated), Task::intersect).margin));
-  const Grade honest =
+  const grade::Grade honest =
       Cubes(3).grade(outcome(Answer::overlapping, Status::not_converged), Task::intersect);
   EXPECT_TRUE(std::isnan(honest.margin));
 }
 
-TEST(Grade, ErrorsOfDistances) {
+TEST(grade::Grade, ErrorsOfDistances) {
   const Cubes apart(3);
   const auto error = [&](double distance) {
     return apart.grade(outcome(Answer::separated, Status::ok, distance), Task::distance)
@@ -122,24 +125,24 @@ TEST(Grade, ErrorsOfDistances) {
   EXPECT_EQ(Cubes(2).grade(far, Task::distance).distance_error, 2);
 }
 
-TEST(Grade, ErrorsOfDepthsAndTheirTranslations) {
+TEST(grade::Grade, ErrorsOfDepthsAndTheirTranslations) {
   const Cubes meet(1.5);
   const auto grade = [&](double depth, const Vec3d& normal) {
     Outcome o = outcome(Answer::overlapping, Status::ok, -depth);
     o.normal = normal;
     return meet.grade(o, Task::penetration);
   };
-  const Grade right = grade(0.5, {1, 0, 0});
+  const grade::Grade right = grade(0.5, {1, 0, 0});
   EXPECT_EQ(right.depth_error, 0);
   EXPECT_EQ(right.separation_error, 0);
   EXPECT_EQ(right.excess, 0);
   // Too shallow: its translation leaves a quarter.
-  const Grade shallow = grade(0.25, {1, 0, 0});
+  const grade::Grade shallow = grade(0.25, {1, 0, 0});
   EXPECT_EQ(shallow.depth_error, -0.25);
   EXPECT_EQ(shallow.separation_error, 0.25);
   EXPECT_EQ(shallow.excess, 0);
   // Another axis, and what it takes along it; a normal of any length states the direction.
-  const Grade side = grade(2, {0, 5, 0});
+  const grade::Grade side = grade(2, {0, 5, 0});
   EXPECT_EQ(side.depth_error, 1.5);
   EXPECT_EQ(side.separation_error, 0);
   EXPECT_EQ(side.excess, 1.5);
@@ -151,7 +154,7 @@ TEST(Grade, ErrorsOfDepthsAndTheirTranslations) {
   EXPECT_EQ(grade(0.75, Vec3d::Zero()).depth_error, 0.25);
 }
 
-TEST(Grade, NormalOfAGap) {
+TEST(grade::Grade, NormalOfAGap) {
   const Cubes apart(3);
   Outcome o = outcome(Answer::separated, Status::ok, 1);
   o.normal = {1, 0, 0};
@@ -161,12 +164,12 @@ TEST(Grade, NormalOfAGap) {
   EXPECT_EQ(apart.grade(o, Task::distance).excess, 3);
 }
 
-TEST(Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
-  Case c;
+TEST(grade::Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
+  files::Case c;
   c.shape_a = cube(1);
   c.shape_b.kind = ShapeKind::halfspace;
   c.pose_a.translation = {0, 0, 0.5};
-  const EncodedPair pair(c, Encoding::as_given);
+  const grade::EncodedPair pair(c, Encoding::as_given);
   oracle::Oracle oracle;
   const oracle::Measure exact = oracle.measure(pair.a(), pair.b());
   EXPECT_EQ(exact.lower, -0.5);
@@ -182,11 +185,11 @@ TEST(Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
   EXPECT_EQ(grade({0, 0, 1}).separation_error, inf);
 }
 
-TEST(Grade, TwoHalfspacesOverlapForEver) {
-  Case c;
+TEST(grade::Grade, TwoHalfspacesOverlapForEver) {
+  files::Case c;
   c.shape_a.kind = c.shape_b.kind = ShapeKind::halfspace;
   c.shape_b.normal = {0, 1, 1};
-  const EncodedPair pair(c, Encoding::as_given);
+  const grade::EncodedPair pair(c, Encoding::as_given);
   oracle::Oracle oracle;
   const oracle::Measure exact = oracle.measure(pair.a(), pair.b());
   const auto error = [&](double distance) {
@@ -198,7 +201,7 @@ TEST(Grade, TwoHalfspacesOverlapForEver) {
   EXPECT_EQ(error(-5), -inf);
 }
 
-TEST(Grade, CertifiedBounds) {
+TEST(grade::Grade, CertifiedBounds) {
   const Cubes apart(3);
   const auto error = [&](double lower, double upper, Status status = Status::ok) {
     Outcome o = outcome(Answer::separated, status);
@@ -220,13 +223,13 @@ TEST(Grade, CertifiedBounds) {
   EXPECT_TRUE(std::isnan(error(1.25, 2, Status::crashed)));
 }
 
-TEST(Grade, WitnessPoints) {
+TEST(grade::Grade, WitnessPoints) {
   Cubes apart(3);
   Outcome o = outcome(Answer::separated, Status::ok, 1);
   o.normal = {1, 0, 0};
   o.witness_a = {1, 0.5, 0.5};
   o.witness_b = {2, 0.5, 0.5};
-  WitnessGrade grade = apart.witnesses(o, Task::distance);
+  grade::WitnessGrade grade = apart.witnesses(o, Task::distance);
   EXPECT_EQ(grade.off_body, 0);
   EXPECT_EQ(grade.length_error, 0);
   EXPECT_EQ(grade.normal_error, 0);
@@ -252,7 +255,7 @@ TEST(Grade, WitnessPoints) {
   EXPECT_TRUE(std::isnan(grade.normal_error));
 }
 
-TEST(Grade, WitnessPointsOfRoundBodies) {
+TEST(grade::Grade, WitnessPointsOfRoundBodies) {
   Cubes ball_beside(3, ball(1));
   Outcome o = outcome(Answer::separated, Status::ok, 1);
   o.witness_a = {1, 0, 0};
@@ -260,8 +263,8 @@ TEST(Grade, WitnessPointsOfRoundBodies) {
   EXPECT_EQ(ball_beside.witnesses(o, Task::distance).off_body, 0.5);
 }
 
-TEST(Grade, NotANumber) {
-  Cubes apart(3), meet(1.5);
+TEST(grade::Grade, NotANumber) {
+  Cubes apart(3), scene::meet(1.5);
   const auto bad = [](Cubes& cubes, const Outcome& o, Task task) {
     return cubes.witnesses(o, task).not_a_number;
   };

@@ -13,9 +13,9 @@ using Pairs = std::vector<IndexPair>;
 TEST(PairCheck, AcceptsTheSetInAnyOrder) {
   const Pairs truth = {{0, 1}, {0, 2}, {3, 4}};
   Pairs found = {{3, 4}, {0, 1}, {0, 2}};
-  EXPECT_TRUE(check_pairs(found, truth, {}).none());
+  EXPECT_TRUE(grade::check_pairs(found, truth, {}).none());
   Pairs nothing;
-  EXPECT_TRUE(check_pairs(nothing, {}, {}).none());
+  EXPECT_TRUE(grade::check_pairs(nothing, {}, {}).none());
 }
 
 TEST(PairCheck, TellsTheKindsApart) {
@@ -26,7 +26,7 @@ TEST(PairCheck, TellsTheKindsApart) {
                                     away, unit, unit, {{5, 5, 5}, {6, 6, 6}}};
   const Pairs truth = {{0, 1}, {0, 2}, {3, 4}};
   Pairs found = {{5, 6}, {0, 2}, {0, 2}, {4, 3}, {5, 7}, {0, 1}};
-  const PairFaults faults = check_pairs(found, truth, before);
+  const grade::PairFaults faults = grade::check_pairs(found, truth, before);
   EXPECT_EQ(faults.missing, 1);    // 3-4: it was reported the wrong way round
   EXPECT_EQ(faults.duplicate, 2);  // 0-2 twice, 4-3
   EXPECT_EQ(faults.stale, 1);
@@ -38,12 +38,12 @@ TEST(PairCheck, TellsTheKindsApart) {
 
 TEST(PairHash, IsTheContracts) {
   // mix(1) of SplitMix64, and the sum over a set, in any order.
-  EXPECT_EQ(mix(0), 0xe220a8397b1dcdafu);
+  EXPECT_EQ(base::mix(0), 0xe220a8397b1dcdafu);
   const Pairs some = {{0, 1}, {2, 3}};
   const Pairs turned = {{2, 3}, {0, 1}};
-  EXPECT_EQ(pair_hash(some), mix(1) + mix((2ull << 32) + 3));
-  EXPECT_EQ(pair_hash(some), pair_hash(turned));
-  EXPECT_EQ(to_hex(0x1f), "000000000000001f");
+  EXPECT_EQ(base::pair_hash(some), base::mix(1) + base::mix((2ull << 32) + 3));
+  EXPECT_EQ(base::pair_hash(some), base::pair_hash(turned));
+  EXPECT_EQ(base::to_hex(0x1f), "000000000000001f");
 }
 
 }  // namespace

@@ -15,17 +15,19 @@ class Beyond : public ::testing::Test {
     answer.task = Task::penetration;
     answer.answer = Answer::overlapping;
     answer.scale = 10;
-    answer.end_to_end.verdict = Verdict::right;
+    answer.end_to_end.verdict = grade::Verdict::right;
   }
-  std::string beyond(bool extreme = false) const { return beyond_margins(entry, answer, extreme); }
+  std::string beyond(bool extreme = false) const {
+    return grade::beyond_margins(entry, answer, extreme);
+  }
 
   NarrowPhaseEntry entry;
-  GradedAnswer answer;
+  grade::GradedAnswer answer;
 };
 
 TEST_F(Beyond, SidesOfContact) {
   EXPECT_EQ(beyond(), "");
-  answer.end_to_end.verdict = Verdict::silent_error;
+  answer.end_to_end.verdict = grade::Verdict::silent_error;
   answer.end_to_end.margin = 0.9e-11;
   EXPECT_EQ(beyond(), "");
   answer.end_to_end.margin = 1.1e-11;
@@ -45,7 +47,7 @@ TEST_F(Beyond, SidesOfContact) {
 
 TEST_F(Beyond, AnApproximateAlgorithmMaySayOverlappingOnly) {
   entry.traits.approximate = true;
-  answer.end_to_end.verdict = Verdict::silent_error;
+  answer.end_to_end.verdict = grade::Verdict::silent_error;
   answer.end_to_end.margin = 1;
   EXPECT_EQ(beyond(), "");
   answer.answer = Answer::separated;
@@ -83,11 +85,11 @@ TEST_F(Beyond, BoundsNumbersAndLosses) {
   answer.witnesses.not_a_number = true;
   EXPECT_THAT(beyond(), HasSubstr("NaN"));
   answer.witnesses.not_a_number = false;
-  answer.end_to_end.verdict = Verdict::crashed;
+  answer.end_to_end.verdict = grade::Verdict::crashed;
   EXPECT_EQ(beyond(), "crashed");
-  answer.end_to_end.verdict = Verdict::timed_out;
+  answer.end_to_end.verdict = grade::Verdict::timed_out;
   EXPECT_EQ(beyond(), "no answer in time");
-  answer.end_to_end.verdict = Verdict::honest_failure;
+  answer.end_to_end.verdict = grade::Verdict::honest_failure;
   EXPECT_EQ(beyond(), "");
 }
 

@@ -15,7 +15,7 @@ namespace {
 class Counted : public testing::Test {
  protected:
   void SetUp() override {
-    if (!can_count_allocations()) GTEST_SKIP() << "not counted in this build";
+    if (!measure::can_count_allocations()) GTEST_SKIP() << "not counted in this build";
   }
 };
 
@@ -23,7 +23,7 @@ class Counted : public testing::Test {
 void* volatile kept = nullptr;
 
 TEST_F(Counted, WhatIsAskedFor) {
-  const AllocationCount count;
+  const measure::AllocationCount count;
   const auto expect = [&](std::int64_t calls, std::int64_t bytes) {
     EXPECT_EQ(count.so_far().calls, calls);
     EXPECT_EQ(count.so_far().bytes, bytes);
@@ -53,7 +53,7 @@ TEST_F(Counted, WhatIsAskedFor) {
 }
 
 TEST_F(Counted, WhatOperatorNewAndTheCLibraryAskFor) {
-  const AllocationCount count;
+  const measure::AllocationCount count;
   kept = operator new(40);
   operator delete(kept);
   EXPECT_EQ(count.so_far().calls, 1);
@@ -71,7 +71,7 @@ TEST_F(Counted, WhatOperatorNewAndTheCLibraryAskFor) {
 }
 
 TEST_F(Counted, OtherThreadsToo) {
-  const AllocationCount count;
+  const measure::AllocationCount count;
   std::thread([] {
     for (int i = 0; i < 1000; ++i) {
       kept = std::malloc(1 << 10);
@@ -84,16 +84,16 @@ TEST_F(Counted, OtherThreadsToo) {
 }
 
 TEST_F(Counted, OnlyWhileItIsAskedTo) {
-  { const AllocationCount count; }
+  { const measure::AllocationCount count; }
   kept = std::malloc(1);
   std::free(kept);
-  const AllocationCount count;
+  const measure::AllocationCount count;
   EXPECT_EQ(count.so_far().calls, 0);
 }
 
-TEST(Allocations, AreUnknownWhereNothingCounts) {
-  const AllocationCount count;
-  EXPECT_EQ(count.so_far().calls >= 0, can_count_allocations());
+TEST(measure::Allocations, AreUnknownWhereNothingCounts) {
+  const measure::AllocationCount count;
+  EXPECT_EQ(count.so_far().calls >= 0, measure::can_count_allocations());
 }
 
 }  // namespace

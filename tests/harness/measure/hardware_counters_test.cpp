@@ -29,11 +29,11 @@ double spin() {
   return sum;
 }
 
-TEST(HardwareCounters, CountOrSayThatTheyDoNot) {
-  HardwareCounters counters;
+TEST(measure::HardwareCounters, CountOrSayThatTheyDoNot) {
+  measure::HardwareCounters counters;
   counters.start();
   EXPECT_GT(spin(), 1);
-  const HardwareCounts counts = counters.counts();
+  const measure::HardwareCounts counts = counters.counts();
   for (const std::int64_t count : {counts.cycles, counts.instructions}) {
     EXPECT_TRUE(count == -1 || count > 1'000'000) << count;
   }
@@ -42,16 +42,16 @@ TEST(HardwareCounters, CountOrSayThatTheyDoNot) {
   }
 }
 
-TEST(HardwareCounters, AnUnknownEventIsEmpty) {
-  EventCounter event(PERF_TYPE_HARDWARE, 0xffff);
+TEST(measure::HardwareCounters, AnUnknownEventIsEmpty) {
+  measure::EventCounter event(PERF_TYPE_HARDWARE, 0xffff);
   EXPECT_FALSE(event.is_open());
   event.start();
   EXPECT_EQ(event.count(), -1);
 }
 
 // The same machinery with an event that the kernel counts itself, where it lets us.
-TEST(HardwareCounters, TakeInTheThreadsThatComeLater) {
-  EventCounter event(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS);
+TEST(measure::HardwareCounters, TakeInTheThreadsThatComeLater) {
+  measure::EventCounter event(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS);
   if (!event.is_open()) GTEST_SKIP() << "the kernel allows no counters";
   event.start();
   touch_pages(100);

@@ -7,11 +7,11 @@
 namespace touchstone {
 namespace {
 
-TEST(LatinSquare, EachIsOnceInEveryRoundAndEveryPosition) {
+TEST(measure::LatinSquare, EachIsOnceInEveryRoundAndEveryPosition) {
   for (std::size_t size = 1; size <= 6; ++size) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-      Random random(seed);
-      const LatinSquare square = latin_square(size, random);
+      base::Random random(seed);
+      const measure::LatinSquare square = measure::latin_square(size, random);
       ASSERT_EQ(square.size(), size);
       for (std::size_t i = 0; i < size; ++i) {
         std::set<std::size_t> round, position;
@@ -27,12 +27,12 @@ TEST(LatinSquare, EachIsOnceInEveryRoundAndEveryPosition) {
   }
 }
 
-TEST(LatinSquare, TheSeedDecidesAndEveryOrderComes) {
+TEST(measure::LatinSquare, TheSeedDecidesAndEveryOrderComes) {
   std::set<std::vector<std::size_t>> first_rounds;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    Random random(seed), again(seed);
-    const LatinSquare square = latin_square(4, random);
-    EXPECT_EQ(square, latin_square(4, again));
+    base::Random random(seed), again(seed);
+    const measure::LatinSquare square = measure::latin_square(4, random);
+    EXPECT_EQ(square, measure::latin_square(4, again));
     first_rounds.insert(square[0]);
   }
   EXPECT_EQ(first_rounds.size(), 24u);

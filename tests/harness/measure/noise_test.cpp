@@ -16,11 +16,11 @@ using testing::HasSubstr;
 // A second in which so many seconds were waited and stolen.
 std::string flags(std::optional<double> waited, std::optional<double> stolen,
                   double preempted = 0) {
-  NoiseReading before{.waited = 100, .stolen = 7};
-  NoiseReading after;
+  measure::NoiseReading before{.waited = 100, .stolen = 7};
+  measure::NoiseReading after;
   if (waited) after.waited = 100 + *waited;
   if (stolen) after.stolen = 7 + *stolen;
-  return noise_flags(before, after, 1, preempted);
+  return measure::noise_flags(before, after, 1, preempted);
 }
 
 TEST(NoiseFlags, EachBeyondItsLimit) {
@@ -36,17 +36,20 @@ TEST(NoiseFlags, EachBeyondItsLimit) {
 }
 
 TEST(NoiseFlags, LimitsGrowWithTheTime) {
-  EXPECT_EQ(noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 10, 0.1), "");
-  EXPECT_EQ(noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 0.1, 0.1),
-            "pressure+steal+preempted");
+  EXPECT_EQ(
+      measure::noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 10, 0.1),
+      "");
+  EXPECT_EQ(
+      measure::noise_flags({.waited = 0, .stolen = 0}, {.waited = 0.5, .stolen = 0.05}, 0.1, 0.1),
+      "pressure+steal+preempted");
 }
 
 TEST(NoiseFlags, WhatIsUnknownRaisesNone) {
   EXPECT_EQ(flags({}, {}), "");
   EXPECT_EQ(flags({}, 1), "steal");
   EXPECT_EQ(flags(1, {}), "pressure");
-  EXPECT_EQ(noise_flags({}, {.waited = 1e9, .stolen = 1e9}, 1, 0), "");
-  EXPECT_EQ(noise_flags({}, {}, 1, 0.06), "preempted");
+  EXPECT_EQ(measure::noise_flags({}, {.waited = 1e9, .stolen = 1e9}, 1, 0), "");
+  EXPECT_EQ(measure::noise_flags({}, {}, 1, 0.06), "preempted");
 }
 
 class NoiseFiles : public testing::Test {
@@ -57,7 +60,7 @@ class NoiseFiles : public testing::Test {
     proc_.write("loadavg", load);
     proc_.write("stat", stat);
   }
-  std::string objection() const { return MachineLoad::now(proc_.path()).objection(); }
+  std::string objection() const { return measure::MachineLoad::now(proc_.path()).objection(); }
 
   static constexpr const char* quiet_pressure =
       "some avg10=1.50 avg60=0.88 avg300=0.77 total=2500000\n"
@@ -69,26 +72,26 @@ class NoiseFiles : public testing::Test {
 
 TEST_F(NoiseFiles, AreReadAsTheSystemWritesThem) {
   write(quiet_pressure, quiet_load, some_stat);
-  const NoiseReading reading = NoiseReading::now(proc_.path());
+  const measure::NoiseReading reading = measure::NoiseReading::now(proc_.path());
   EXPECT_EQ(reading.waited, 2.5);
   EXPECT_EQ(reading.stolen, 300.0 / static_cast<double>(sysconf(_SC_CLK_TCK)));
-  const MachineLoad load = MachineLoad::now(proc_.path());
+  const measure::MachineLoad load = measure::MachineLoad::now(proc_.path());
   EXPECT_EQ(load.pressure, 1.5);
   EXPECT_EQ(load.running, 1);
   EXPECT_EQ(load.objection(), "");
 }
 
 TEST_F(NoiseFiles, ThatAreNotThereOrOddAreUnknown) {
-  EXPECT_FALSE(NoiseReading::now(proc_.path()).waited);
-  EXPECT_FALSE(NoiseReading::now(proc_.path()).stolen);
+  EXPECT_FALSE(measure::NoiseReading::now(proc_.path()).waited);
+  EXPECT_FALSE(measure::NoiseReading::now(proc_.path()).stolen);
   EXPECT_THAT(objection(), HasSubstr("/proc/pressure/cpu cannot be read"));
   write("", "", "");
-  EXPECT_FALSE(NoiseReading::now(proc_.path()).waited);
-  EXPECT_FALSE(NoiseReading::now(proc_.path()).stolen);
+  EXPECT_FALSE(measure::NoiseReading::now(proc_.path()).waited);
+  EXPECT_FALSE(measure::NoiseReading::now(proc_.path()).stolen);
   EXPECT_THAT(objection(), HasSubstr("unknown"));
   write("some avg10=x total=\n", "none\n", "cpu 1 2 3\n");
-  EXPECT_FALSE(NoiseReading::now(proc_.path()).waited);
-  EXPECT_FALSE(NoiseReading::now(proc_.path()).stolen);
+  EXPECT_FALSE(measure::NoiseReading::now(proc_.path()).waited);
+  EXPECT_FALSE(measure::NoiseReading::now(proc_.path()).stolen);
   EXPECT_THAT(objection(), HasSubstr("/proc/pressure/cpu cannot be read"));
   write(quiet_pressure, "0.20 0.18\n", some_stat);
   EXPECT_THAT(objection(), HasSubstr("/proc/loadavg cannot be read"));
@@ -106,8 +109,8 @@ TEST_F(NoiseFiles, ABusyMachineIsObjectedTo) {
 }
 
 TEST(NoiseReadings, OfThisMachineNeverGoBack) {
-  const NoiseReading first = NoiseReading::now();
-  const NoiseReading second = NoiseReading::now();
+  const measure::NoiseReading first = measure::NoiseReading::now();
+  const measure::NoiseReading second = measure::NoiseReading::now();
   EXPECT_GE(second.waited.value_or(0), first.waited.value_or(0));
   EXPECT_GE(second.stolen.value_or(0), first.stolen.value_or(0));
 }

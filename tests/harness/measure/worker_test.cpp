@@ -20,12 +20,12 @@ namespace touchstone {
 namespace {
 
 // Answers with the frame; at frame 3 it does harm.
-class Fake final : public Sampler {
+class Fake final : public measure::Sampler {
  public:
   explicit Fake(std::function<void()> harm) : harm_(std::move(harm)) {}
-  SampleReply sample(const SampleRequest& request) override {
+  measure::SampleReply sample(const measure::SampleRequest& request) override {
     if (request.frame == 3) harm_();
-    SampleReply reply;
+    measure::SampleReply reply;
     reply.pairs = request.frame;
     return reply;
   }
@@ -34,9 +34,9 @@ class Fake final : public Sampler {
   std::function<void()> harm_;
 };
 
-IsolationFailure failure_of(const std::function<void()>& harm, double seconds = 60) {
-  Worker worker([&] { return std::make_unique<Fake>(harm); },
-                {.memory = std::size_t{256} << 20, .layout = 1});
+process::IsolationFailure failure_of(const std::function<void()>& harm, double seconds = 60) {
+  measure::Worker worker([&] { return std::make_unique<Fake>(harm); },
+                         {.memory = std::size_t{256} << 20, .layout = 1});
   EXPECT_FALSE(worker.wait_until_made(60));
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     const auto reply = worker.ask({.frame = frame}, 60);
@@ -53,36 +53,37 @@ void expect_no_child_is_left() {
   EXPECT_EQ(errno, ECHILD);
 }
 
-TEST(Worker, ACrashIsTold) {
-  const IsolationFailure failure = failure_of([] {
+TEST(measure::Worker, ACrashIsTold) {
+  const process::IsolationFailure failure = failure_of([] {
     std::fputs("the last words\n", stderr);
     std::raise(SIGSEGV);
   });
-  EXPECT_EQ(failure.state, ItemState::crashed);
+  EXPECT_EQ(failure.state, process::ItemState::crashed);
   EXPECT_EQ(failure.signal, SIGSEGV);
   EXPECT_EQ(failure.words, "the last words");
   expect_no_child_is_left();
 }
 
-TEST(Worker, AHangIsEnded) {
-  EXPECT_EQ(failure_of([] { pause(); }, 0.3).state, ItemState::timed_out);
+TEST(measure::Worker, AHangIsEnded) {
+  EXPECT_EQ(failure_of([] { pause(); }, 0.3).state, process::ItemState::timed_out);
   expect_no_child_is_left();
 }
 
-TEST(Worker, WhatIsThrownIsTold) {
-  const IsolationFailure failure = failure_of([] { throw std::runtime_error("no such luck"); });
-  EXPECT_EQ(failure.state, ItemState::threw);
+TEST(measure::Worker, WhatIsThrownIsTold) {
+  const process::IsolationFailure failure =
+      failure_of([] { throw std::runtime_error("no such luck"); });
+  EXPECT_EQ(failure.state, process::ItemState::threw);
   EXPECT_EQ(failure.words, "no such luck");
 }
 
-TEST(Worker, LeavingIsTold) {
-  const IsolationFailure failure = failure_of([] { _exit(7); });
-  EXPECT_EQ(failure.state, ItemState::crashed);
+TEST(measure::Worker, LeavingIsTold) {
+  const process::IsolationFailure failure = failure_of([] { _exit(7); });
+  EXPECT_EQ(failure.state, process::ItemState::crashed);
   EXPECT_EQ(failure.exit_code, 7);
 }
 
-TEST(Worker, WhatPrintsALotIsHeardAndNotStopped) {
-  const IsolationFailure failure = failure_of([] {
+TEST(measure::Worker, WhatPrintsALotIsHeardAndNotStopped) {
+  const process::IsolationFailure failure = failure_of([] {
     for (int i = 0; i < 100'000; ++i) std::fputs("talk talk talk\n", stderr);
     std::abort();
   });
@@ -91,20 +92,21 @@ TEST(Worker, WhatPrintsALotIsHeardAndNotStopped) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST(Worker, ALeakEndsAtTheLimit) {
-  const IsolationFailure failure = failure_of([] {
+TEST(measure::Worker, ALeakEndsAtTheLimit) {
+  const process::IsolationFailure failure = failure_of([] {
     for (;;) {
       volatile char* const lost = new char[1 << 20];
       lost[0] = 1;
     }
   });
-  EXPECT_EQ(failure.state, ItemState::threw);
+  EXPECT_EQ(failure.state, process::ItemState::threw);
   EXPECT_THAT(failure.words, testing::HasSubstr("bad_alloc"));
 }
 #endif
 
-TEST(Worker, AFailureBeforeTheFirstSampleIsTold) {
-  Worker worker([]() -> std::unique_ptr<Sampler> { throw std::runtime_error("not today"); }, {});
+TEST(measure::Worker, AFailureBeforeTheFirstSampleIsTold) {
+  measure::Worker worker(
+      []() -> std::unique_ptr<measure::Sampler> { throw std::runtime_error("not today"); }, {});
   const auto failure = worker.wait_until_made(60);
   ASSERT_TRUE(failure);
   EXPECT_TRUE(failure->in_setup);
@@ -117,7 +119,7 @@ bool refuses_to_fork_after(const std::function<void()>& use) {
   if (child == 0) {
     use();
     try {
-      Worker worker([] { return std::make_unique<Fake>([] {}); }, {});
+      measure::Worker worker([] { return std::make_unique<Fake>([] {}); }, {});
       _exit(worker.wait_until_made(60) ? 2 : 0);
     } catch (const std::logic_error&) {
       _exit(1);
@@ -129,7 +131,7 @@ bool refuses_to_fork_after(const std::function<void()>& use) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 1;
 }
 
-TEST(Worker, IsNotForkedByAProcessOfSeveralThreads) {
+TEST(measure::Worker, IsNotForkedByAProcessOfSeveralThreads) {
   const auto use = [](int width) {
     Executor executor(width);
     std::atomic<int> sum = 0;
@@ -146,11 +148,11 @@ TEST(Worker, IsNotForkedByAProcessOfSeveralThreads) {
 #endif
 }
 
-TEST(Worker, LayoutsDiffer) {
+TEST(measure::Worker, LayoutsDiffer) {
   // Where a new piece of memory lies tells where the heap was.
-  struct Where final : Sampler {
-    SampleReply sample(const SampleRequest&) override {
-      SampleReply reply;
+  struct Where final : measure::Sampler {
+    measure::SampleReply sample(const measure::SampleRequest&) override {
+      measure::SampleReply reply;
       char here = 0;
       const auto heap = std::make_unique<char[]>(5000);
       reply.pairs = static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(heap.get()));
@@ -160,7 +162,7 @@ TEST(Worker, LayoutsDiffer) {
   };
   std::set<std::int64_t> heaps, stacks;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    Worker worker([] { return std::make_unique<Where>(); }, {.layout = seed});
+    measure::Worker worker([] { return std::make_unique<Where>(); }, {.layout = seed});
     EXPECT_FALSE(worker.wait_until_made(60));
     const auto reply = worker.ask({}, 60);
     ASSERT_TRUE(reply);

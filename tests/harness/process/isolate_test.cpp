@@ -22,16 +22,17 @@ namespace {
 using ::testing::HasSubstr;
 
 // For what ends by itself, on the busiest machine too, and for what does not.
-constexpr IsolationLimits patient = {.item_seconds = 60, .setup_seconds = 60};
-constexpr IsolationLimits quick = {.item_seconds = 1, .setup_seconds = 1};
+constexpr process::IsolationLimits patient = {.item_seconds = 60, .setup_seconds = 60};
+constexpr process::IsolationLimits quick = {.item_seconds = 1, .setup_seconds = 1};
 
 // Seven items that write their squares, but for item 3, which does `harm`.
 struct SevenItems {
-  SharedArray<int> squares{7};
-  IsolationReport report;
+  process::SharedArray<int> squares{7};
+  process::IsolationReport report;
 
-  explicit SevenItems(const std::function<void()>& harm, const IsolationLimits& limits = patient) {
-    report = isolate(squares.size(), limits, [&] {
+  explicit SevenItems(const std::function<void()>& harm,
+                      const process::IsolationLimits& limits = patient) {
+    report = process::isolate(squares.size(), limits, [&] {
       return [&](std::size_t item) {
         if (item == 3) harm();
         squares[item] = static_cast<int>(item * item);
@@ -39,13 +40,13 @@ struct SevenItems {
     });
   }
 
-  void expect_only_item_3_lost(ItemState state) const {
+  void expect_only_item_3_lost(process::ItemState state) const {
     ASSERT_EQ(report.failures.size(), 1u);
     EXPECT_EQ(report.failures[0].item, 3u);
     EXPECT_EQ(report.failures[0].state, state);
     EXPECT_FALSE(report.failures[0].in_setup);
     for (std::size_t i = 0; i < 7; ++i) {
-      EXPECT_EQ(report.states[i], i == 3 ? state : ItemState::done) << i;
+      EXPECT_EQ(report.states[i], i == 3 ? state : process::ItemState::done) << i;
       EXPECT_EQ(squares[i], i == 3 ? 0 : static_cast<int>(i * i)) << i;
     }
   }
@@ -57,16 +58,16 @@ void expect_no_child_is_left() {
 }
 
 TEST(Isolate, DoesTheWorkInAnotherProcess) {
-  SharedArray<pid_t> pids(100);
+  process::SharedArray<pid_t> pids(100);
   int here = 0;
-  const IsolationReport report = isolate(pids.size(), patient, [&] {
+  const process::IsolationReport report = process::isolate(pids.size(), patient, [&] {
     return [&](std::size_t item) {
       pids[item] = getpid();
       ++here;
     };
   });
   EXPECT_TRUE(report.failures.empty());
-  EXPECT_EQ(std::ranges::count(report.states, ItemState::done), 100);
+  EXPECT_EQ(std::ranges::count(report.states, process::ItemState::done), 100);
   EXPECT_EQ(here, 0);
   EXPECT_NE(pids[0], getpid());
   EXPECT_EQ(std::ranges::count(pids.span(), pids[0]), 100) << "one child for all";
@@ -74,7 +75,8 @@ TEST(Isolate, DoesTheWorkInAnotherProcess) {
 }
 
 TEST(Isolate, NothingToDo) {
-  const IsolationReport report = isolate(0, patient, []() -> ItemWork { std::abort(); });
+  const process::IsolationReport report =
+      process::isolate(0, patient, []() -> process::ItemWork { std::abort(); });
   EXPECT_TRUE(report.states.empty());
   EXPECT_TRUE(report.failures.empty());
 }
@@ -84,7 +86,7 @@ TEST(Isolate, Crash) {
     std::fputs("the last words\n", stderr);
     std::raise(SIGSEGV);
   });
-  run.expect_only_item_3_lost(ItemState::crashed);
+  run.expect_only_item_3_lost(process::ItemState::crashed);
   EXPECT_EQ(run.report.failures[0].signal, SIGSEGV);
   EXPECT_EQ(run.report.failures[0].reason(),
             "killed by signal 11 (Segmentation fault): the last words");
@@ -93,7 +95,7 @@ TEST(Isolate, Crash) {
 
 TEST(Isolate, AbortAsOfAnAssertion) {
   const SevenItems run([] { std::abort(); });
-  run.expect_only_item_3_lost(ItemState::crashed);
+  run.expect_only_item_3_lost(process::ItemState::crashed);
   EXPECT_EQ(run.report.failures[0].signal, SIGABRT);
 }
 
@@ -103,7 +105,7 @@ TEST(Isolate, HangAsleepAndBusy) {
         for (;;) pause();
       },
       quick);
-  asleep.expect_only_item_3_lost(ItemState::timed_out);
+  asleep.expect_only_item_3_lost(process::ItemState::timed_out);
   EXPECT_EQ(asleep.report.failures[0].reason(), "no answer in time");
   volatile bool forever = true;
   const SevenItems busy(
@@ -112,7 +114,7 @@ TEST(Isolate, HangAsleepAndBusy) {
         }
       },
       quick);
-  busy.expect_only_item_3_lost(ItemState::timed_out);
+  busy.expect_only_item_3_lost(process::ItemState::timed_out);
   expect_no_child_is_left();
 }
 
@@ -123,25 +125,25 @@ TEST(Isolate, HangWithEveryFileClosed) {
         for (;;) pause();
       },
       quick);
-  run.expect_only_item_3_lost(ItemState::timed_out);
+  run.expect_only_item_3_lost(process::ItemState::timed_out);
 }
 
 TEST(Isolate, Throw) {
   const SevenItems run([] { throw std::runtime_error("too thin"); });
-  run.expect_only_item_3_lost(ItemState::threw);
+  run.expect_only_item_3_lost(process::ItemState::threw);
   EXPECT_EQ(run.report.failures[0].reason(), "threw: too thin");
   const SevenItems number([] { throw 3; });
-  number.expect_only_item_3_lost(ItemState::threw);
+  number.expect_only_item_3_lost(process::ItemState::threw);
   const SevenItems wordy([] { throw std::runtime_error(std::string(100000, 'x')); });
-  wordy.expect_only_item_3_lost(ItemState::threw);
+  wordy.expect_only_item_3_lost(process::ItemState::threw);
 }
 
 TEST(Isolate, Exit) {
   const SevenItems run([] { _exit(7); });
-  run.expect_only_item_3_lost(ItemState::crashed);
+  run.expect_only_item_3_lost(process::ItemState::crashed);
   EXPECT_EQ(run.report.failures[0].exit_code, 7);
   const SevenItems success([] { _exit(0); });
-  success.expect_only_item_3_lost(ItemState::crashed);
+  success.expect_only_item_3_lost(process::ItemState::crashed);
   EXPECT_EQ(success.report.failures[0].reason(), "left by exit(0)");
 }
 
@@ -149,7 +151,7 @@ TEST(Isolate, AllocatesWithoutEnd) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the limit is not kept under a sanitizer";
 #else
-  IsolationLimits limits = patient;
+  process::IsolationLimits limits = patient;
   limits.memory = std::size_t{64} << 20;
   const SevenItems run(
       [] {
@@ -157,7 +159,7 @@ TEST(Isolate, AllocatesWithoutEnd) {
         for (;;) all.emplace_back(1 << 20, 'x');
       },
       limits);
-  run.expect_only_item_3_lost(ItemState::threw);
+  run.expect_only_item_3_lost(process::ItemState::threw);
   EXPECT_THAT(run.report.failures[0].words, HasSubstr("bad_alloc"));
 #endif
 }
@@ -170,7 +172,7 @@ int recurse(int depth) {
 
 TEST(Isolate, RecursesWithoutEnd) {
   const SevenItems run([] { recurse(0); });
-  run.expect_only_item_3_lost(ItemState::crashed);
+  run.expect_only_item_3_lost(process::ItemState::crashed);
 }
 
 TEST(Isolate, PrintsWithoutEnd) {
@@ -179,53 +181,56 @@ TEST(Isolate, PrintsWithoutEnd) {
         for (;;) std::fputs("noise\n", stderr);
       },
       quick);
-  run.expect_only_item_3_lost(ItemState::timed_out);
+  run.expect_only_item_3_lost(process::ItemState::timed_out);
   EXPECT_LE(run.report.failures[0].words.size(), 400u);
 }
 
 TEST(Isolate, EveryItemCrashes) {
-  const IsolationReport report =
-      isolate(20, patient, [] { return [](std::size_t) { std::abort(); }; });
+  const process::IsolationReport report =
+      process::isolate(20, patient, [] { return [](std::size_t) { std::abort(); }; });
   EXPECT_EQ(report.failures.size(), 20u);
-  EXPECT_EQ(std::ranges::count(report.states, ItemState::crashed), 20);
+  EXPECT_EQ(std::ranges::count(report.states, process::ItemState::crashed), 20);
 }
 
 TEST(Isolate, GivesUpAfterTooManyFailures) {
-  IsolationLimits limits = patient;
+  process::IsolationLimits limits = patient;
   limits.failures = 2;
-  const IsolationReport report = isolate(9, limits, [] {
+  const process::IsolationReport report = process::isolate(9, limits, [] {
     return [](std::size_t item) {
       if (item % 2 == 1) std::abort();
     };
   });
   EXPECT_EQ(report.failures.size(), 2u);
   EXPECT_THAT(report.states,
-              ::testing::ElementsAre(ItemState::done, ItemState::crashed, ItemState::done,
-                                     ItemState::crashed, ItemState::not_run, ItemState::not_run,
-                                     ItemState::not_run, ItemState::not_run, ItemState::not_run));
+              ::testing::ElementsAre(process::ItemState::done, process::ItemState::crashed,
+                                     process::ItemState::done, process::ItemState::crashed,
+                                     process::ItemState::not_run, process::ItemState::not_run,
+                                     process::ItemState::not_run, process::ItemState::not_run,
+                                     process::ItemState::not_run));
 }
 
 TEST(Isolate, FailureOfTheSetupEndsIt) {
-  const auto states = [](const std::function<ItemWork()>& setup,
-                         const IsolationLimits& limits = patient) {
-    const IsolationReport report = isolate(3, limits, setup);
+  const auto states = [](const std::function<process::ItemWork()>& setup,
+                         const process::IsolationLimits& limits = patient) {
+    const process::IsolationReport report = process::isolate(3, limits, setup);
     EXPECT_EQ(report.failures.size(), 1u);
     EXPECT_TRUE(report.failures.at(0).in_setup);
     EXPECT_EQ(std::ranges::count(report.states, report.states[0]), 3);
     return report.states[0];
   };
-  EXPECT_EQ(states([]() -> ItemWork { std::abort(); }), ItemState::crashed);
-  EXPECT_EQ(states([]() -> ItemWork { throw std::runtime_error("no"); }), ItemState::threw);
+  EXPECT_EQ(states([]() -> process::ItemWork { std::abort(); }), process::ItemState::crashed);
+  EXPECT_EQ(states([]() -> process::ItemWork { throw std::runtime_error("no"); }),
+            process::ItemState::threw);
   EXPECT_EQ(states(
-                []() -> ItemWork {
+                []() -> process::ItemWork {
                   for (;;) pause();
                 },
                 quick),
-            ItemState::timed_out);
+            process::ItemState::timed_out);
 }
 
 TEST(Isolate, ManySlowItemsAreNotOneHang) {
-  const IsolationReport report = isolate(12, quick, [] {
+  const process::IsolationReport report = process::isolate(12, quick, [] {
     return [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(120)); };
   });
   EXPECT_TRUE(report.failures.empty());
@@ -236,7 +241,7 @@ TEST(Isolate, WhatIsBufferedIsWrittenOnce) {
   std::FILE* const file = std::fopen(name.c_str(), "w");
   ASSERT_NE(file, nullptr);
   std::fputs("before ", file);
-  isolate(3, patient, [] {
+  process::isolate(3, patient, [] {
     return [](std::size_t item) {
       if (item == 1) std::exit(1);
     };
@@ -251,8 +256,8 @@ TEST(Isolate, WhatIsBufferedIsWrittenOnce) {
 
 TEST(Isolate, ManyItemsCostLittle) {
   constexpr std::size_t count = 200000;
-  SharedArray<std::uint32_t> out(count);
-  const IsolationReport report = isolate(count, patient, [&] {
+  process::SharedArray<std::uint32_t> out(count);
+  const process::IsolationReport report = process::isolate(count, patient, [&] {
     return [&](std::size_t item) { out[item] = static_cast<std::uint32_t>(item) + 1; };
   });
   EXPECT_TRUE(report.failures.empty());

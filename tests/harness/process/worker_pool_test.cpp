@@ -25,9 +25,9 @@ void expect_no_child_is_left() {
 TEST(WorkerPool, ResultsComeInOrderFromAllWorkers) {
   std::vector<std::size_t> order;
   std::set<std::string> pids;
-  run_jobs(
+  process::run_jobs(
       5, 105, 3,
-      []() -> JobWork {
+      []() -> process::JobWork {
         return [](std::size_t job) {
           usleep(static_cast<useconds_t>(job % 7 * 300));
           return std::to_string(getpid()) + std::string(job * 1000, '.');
@@ -49,9 +49,9 @@ TEST(WorkerPool, ResultsComeInOrderFromAllWorkers) {
 
 TEST(WorkerPool, EndsWhenItIsTold) {
   std::size_t last = 0;
-  run_jobs(
+  process::run_jobs(
       0, static_cast<std::size_t>(-1), 2,
-      []() -> JobWork { return [](std::size_t) { return std::string(); }; },
+      []() -> process::JobWork { return [](std::size_t) { return std::string(); }; },
       [&](std::size_t job, const std::string&) {
         last = job;
         return job < 50;
@@ -61,15 +61,15 @@ TEST(WorkerPool, EndsWhenItIsTold) {
 }
 
 TEST(WorkerPool, NoJobs) {
-  run_jobs(
-      3, 3, 2, []() -> JobWork { throw std::logic_error("not to be called"); },
+  process::run_jobs(
+      3, 3, 2, []() -> process::JobWork { throw std::logic_error("not to be called"); },
       [](std::size_t, const std::string&) { return true; });
 }
 
 void run_with_harm(const std::function<void()>& harm) {
-  run_jobs(
+  process::run_jobs(
       0, 10, 2,
-      [&]() -> JobWork {
+      [&]() -> process::JobWork {
         return [&](std::size_t job) {
           if (job == 4) harm();
           return std::string();

@@ -36,7 +36,7 @@ inline Shape round_shape(ShapeKind kind, double radius, double half_length, cons
   return shape;
 }
 
-inline std::vector<Vec3d> random_points(Random& random, int count, const Vec3d& scale,
+inline std::vector<Vec3d> random_points(base::Random& random, int count, const Vec3d& scale,
                                         const Vec3d& at) {
   std::vector<Vec3d> points;
   for (int i = 0; i < count; ++i) points.push_back(at + scale.cwiseProduct(random.in_ball()));
@@ -63,7 +63,7 @@ inline std::vector<NamedShape> round_shapes() {
 }
 
 inline std::vector<NamedShape> hulls() {
-  Random random(7);
+  base::Random random(7);
   std::vector<NamedShape> shapes;
   const auto add = [&](const std::string& name, const std::vector<Vec3d>& points,
                        bool flat = false) {
@@ -96,7 +96,7 @@ inline std::vector<NamedShape> hulls() {
 // The vertices, or points of the surface, which rounding may have put outside by its last digits.
 inline std::vector<Vec3d> points_of(const Shape& shape) {
   if (shape.kind == ShapeKind::hull) return shape.hull->vertices;
-  std::vector<Vec3d> points = as_polytope(shape, 3).hull->vertices;
+  std::vector<Vec3d> points = geometry::as_polytope(shape, 3).hull->vertices;
   for (Vec3d& p : points) p *= 1 - 1e-14;
   return points;
 }
@@ -105,7 +105,7 @@ inline std::vector<Vec3d> points_of(const Shape& shape) {
 class Exact {
  public:
   // The point is in a frame of its own.
-  bool holds(const Part& part, const Vec3d& point, const Pose& frame = {}) {
+  bool holds(const proxies::Part& part, const Vec3d& point, const Pose& frame = {}) {
     const oracle::Solid solid(part.shape), at(hull_shape({point}));
     return oracle_.verdict({solid, part.pose}, {at, frame}) != Answer::separated;
   }

@@ -8,16 +8,18 @@
 namespace touchstone {
 namespace {
 
-const std::vector<Representation>& forms(Side side) {
-  static std::vector<Representation> lists[3];
-  std::vector<Representation>& list = lists[static_cast<std::size_t>(side)];
+const std::vector<proxies::Representation>& forms(proxies::Side side) {
+  static std::vector<proxies::Representation> lists[3];
+  std::vector<proxies::Representation>& list = lists[static_cast<std::size_t>(side)];
   if (list.empty()) {
-    for (Form form : {Form::sphere, Form::box, Form::oriented_box, Form::dop14, Form::dop18,
-                      Form::dop26, Form::capsule, Form::hull, Form::parts}) {
+    for (proxies::Form form :
+         {proxies::Form::sphere, proxies::Form::box, proxies::Form::oriented_box,
+          proxies::Form::dop14, proxies::Form::dop18, proxies::Form::dop26, proxies::Form::capsule,
+          proxies::Form::hull, proxies::Form::parts}) {
       list.push_back({form, side, 0});
     }
-    for (int k : {8, 16, 40}) list.push_back({Form::reduced_hull, side, k});
-    for (int level : {0, 2}) list.push_back({Form::icosphere, side, level});
+    for (int k : {8, 16, 40}) list.push_back({proxies::Form::reduced_hull, side, k});
+    for (int level : {0, 2}) list.push_back({proxies::Form::icosphere, side, level});
   }
   return list;
 }
@@ -28,7 +30,7 @@ std::vector<NamedShape> all_bodies() {
   return all;
 }
 
-bool same(const Shape& a, const Part& part) {
+bool same(const Shape& a, const proxies::Part& part) {
   return part.shape.kind == a.kind && part.shape.hull == a.hull && part.shape.radius == a.radius &&
          part.pose.translation == Vec3d::Zero();
 }
@@ -36,10 +38,10 @@ bool same(const Shape& a, const Part& part) {
 TEST(Outer, HoldsEveryPointOfTheBody) {
   Exact exact;
   for (const NamedShape& body : all_bodies()) {
-    for (const Representation& r : forms(Side::outer)) {
+    for (const proxies::Representation& r : forms(proxies::Side::outer)) {
       SCOPED_TRACE(body.name + ", " + to_string(r));
-      std::vector<Part> parts;
-      EXPECT_NO_THROW(parts = represent(body.shape, nullptr, r));
+      std::vector<proxies::Part> parts;
+      EXPECT_NO_THROW(parts = proxies::represent(body.shape, nullptr, r));
       if (parts.empty()) continue;
       const std::vector<Vec3d> points = points_of(body.shape);
       const std::size_t step = points.size() / 60 + 1;
@@ -53,12 +55,14 @@ TEST(Outer, HoldsEveryPointOfTheBody) {
 TEST(Inner, IsInsideTheBody) {
   Exact exact;
   for (const NamedShape& body : all_bodies()) {
-    for (const Representation& r : forms(Side::inner)) {
-      if (body.flat && r.form != Form::hull && r.form != Form::parts && r.form != Form::icosphere) {
-        EXPECT_THROW(represent(body.shape, nullptr, r), InputError) << body.name << to_string(r);
+    for (const proxies::Representation& r : forms(proxies::Side::inner)) {
+      if (body.flat && r.form != proxies::Form::hull && r.form != proxies::Form::parts &&
+          r.form != proxies::Form::icosphere) {
+        EXPECT_THROW(proxies::represent(body.shape, nullptr, r), base::InputError)
+            << body.name << to_string(r);
         continue;
       }
-      const Part part = represent(body.shape, nullptr, r).at(0);
+      const proxies::Part part = proxies::represent(body.shape, nullptr, r).at(0);
       if (same(body.shape, part)) continue;
       const Shape& s = part.shape;
       if (s.kind == ShapeKind::sphere || s.kind == ShapeKind::capsule) {
@@ -74,7 +78,7 @@ TEST(Inner, IsInsideTheBody) {
         }
         continue;
       }
-      const Shape polytope = s.kind == ShapeKind::box ? as_polytope(s, 0) : s;
+      const Shape polytope = s.kind == ShapeKind::box ? geometry::as_polytope(s, 0) : s;
       for (const Vec3d& p : polytope.hull->vertices) {
         ASSERT_TRUE(exact.holds({body.shape, {}}, p, part.pose))
             << body.name << ", " << to_string(r);

@@ -10,12 +10,12 @@ namespace {
 
 struct NamedMesh {
   std::string name;
-  Mesh mesh;
+  geometry::Mesh mesh;
 };
 
 std::vector<NamedMesh> meshes() {
   std::vector<NamedMesh> all = {{"torus", torus(1, 0.3, 24, 12)}, {"angle", angle_bracket()}};
-  Random random(3);
+  base::Random random(3);
   const Mat3d turn = random.rotation();
   for (std::size_t i : {0, 1}) {
     NamedMesh turned = all[i];
@@ -28,19 +28,19 @@ std::vector<NamedMesh> meshes() {
 
 // Samples points of the mesh's box: returns those around which it winds, and the others in
 // `outside`.
-std::vector<Vec3d> sample(const Mesh& mesh, std::vector<Vec3d>& outside) {
+std::vector<Vec3d> sample(const geometry::Mesh& mesh, std::vector<Vec3d>& outside) {
   Vec3d low = mesh.vertices.front(), high = low;
   for (const Vec3d& v : mesh.vertices) {
     low = low.cwiseMin(v);
     high = high.cwiseMax(v);
   }
-  Random random(5);
+  base::Random random(5);
   std::vector<Vec3d> inside;
-  const std::vector<Triangle> surface = triangles_of(mesh);
+  const std::vector<geometry::Triangle> surface = geometry::triangles_of(mesh);
   for (int i = 0; i < 400; ++i) {
     const Vec3d u(random.unit(), random.unit(), random.unit());
     const Vec3d x = low + u.cwiseProduct(high - low);
-    (std::abs(winding_number(surface, x)) > 0.5 ? inside : outside).push_back(x);
+    (std::abs(geometry::winding_number(surface, x)) > 0.5 ? inside : outside).push_back(x);
   }
   return inside;
 }
@@ -58,10 +58,11 @@ TEST(Meshes, OuterOnesHoldTheSolid) {
     for (const char* form : {"sphere", "box", "oriented-box", "dop-26", "capsule", "hull-12",
                              "hull", "parts", "parts-2", "parts-5", "icosphere-1"}) {
       SCOPED_TRACE(m.name + ", " + form);
-      const auto parts = represent(hull_of(m.mesh), &m.mesh, parse_representation(form));
+      const auto parts =
+          proxies::represent(check::hull_of(m.mesh), &m.mesh, proxies::parse_representation(form));
       for (const Vec3d& p : points) {
         EXPECT_TRUE(std::any_of(parts.begin(), parts.end(),
-                                [&](const Part& part) { return exact.holds(part, p); }));
+                                [&](const proxies::Part& part) { return exact.holds(part, p); }));
       }
     }
   }
@@ -70,11 +71,12 @@ TEST(Meshes, OuterOnesHoldTheSolid) {
 TEST(Meshes, InnerOnesTouchNoTriangleAndAreInside) {
   oracle::Oracle exact;
   for (const NamedMesh& m : meshes()) {
-    const std::vector<Triangle> surface = triangles_of(m.mesh);
+    const std::vector<geometry::Triangle> surface = geometry::triangles_of(m.mesh);
     for (const char* form : {"sphere inner", "box inner", "oriented-box inner", "dop-14 inner",
                              "capsule inner", "hull-12 inner", "hull inner", "parts inner"}) {
       SCOPED_TRACE(m.name + ", " + form);
-      for (const Part& part : represent(hull_of(m.mesh), &m.mesh, parse_representation(form))) {
+      for (const proxies::Part& part : proxies::represent(check::hull_of(m.mesh), &m.mesh,
+                                                          proxies::parse_representation(form))) {
         const oracle::Solid solid(part.shape);
         Vec3d middle = part.pose.translation;
         if (part.shape.hull != nullptr) {
@@ -82,8 +84,8 @@ TEST(Meshes, InnerOnesTouchNoTriangleAndAreInside) {
             middle += v / static_cast<double>(part.shape.hull->vertices.size());
           }
         }
-        EXPECT_GT(std::abs(winding_number(surface, middle)), 0.9);
-        for (const Triangle& t : surface) {
+        EXPECT_GT(std::abs(geometry::winding_number(surface, middle)), 0.9);
+        for (const geometry::Triangle& t : surface) {
           const oracle::Solid flat(hull_shape({t.a, t.b, t.c}));
           ASSERT_NE(exact.verdict({solid, part.pose}, {flat, Pose{}}), Answer::overlapping);
         }
@@ -93,27 +95,32 @@ TEST(Meshes, InnerOnesTouchNoTriangleAndAreInside) {
 }
 
 TEST(Meshes, PartsComeNearTheSolid) {
-  const Mesh mesh = angle_bracket();
-  const auto parts = represent(hull_of(mesh), &mesh, {Form::parts, Side::outer, 0});
+  const geometry::Mesh mesh = angle_bracket();
+  const auto parts = proxies::represent(check::hull_of(mesh), &mesh,
+                                        {proxies::Form::parts, proxies::Side::outer, 0});
   EXPECT_EQ(parts.size(), 2u);
-  const RepresentationError error = representation_error(hull_of(mesh), &mesh, parts);
+  const proxies::RepresentationError error =
+      proxies::representation_error(check::hull_of(mesh), &mesh, parts);
   EXPECT_NEAR(error.added, 0, 1e-4);
   EXPECT_NEAR(error.lost, 0, 1e-4);
   EXPECT_NEAR(error.hausdorff, 0, error.hausdorff_deviation);
-  const RepresentationError hull =
-      representation_error(hull_of(mesh), &mesh, represent(hull_of(mesh), &mesh, {Form::hull}));
+  const proxies::RepresentationError hull = proxies::representation_error(
+      check::hull_of(mesh), &mesh,
+      proxies::represent(check::hull_of(mesh), &mesh, {proxies::Form::hull}));
   EXPECT_NEAR(hull.added, 0.5 / 3, 4 * hull.volume_deviation);
   EXPECT_NEAR(hull.lost, 0, 1e-9);
   EXPECT_NEAR(hull.hausdorff, 0.5, hull.hausdorff_deviation);
   EXPECT_GT(hull.volume_deviation, 0);
   EXPECT_LT(hull.volume_deviation, 1e-3);
 
-  const Mesh ring = torus(1, 0.2, 32, 16);
+  const geometry::Mesh ring = torus(1, 0.2, 32, 16);
   double before = 10;
   for (int most : {1, 4, 8, 16}) {
-    const auto pieces = represent(hull_of(ring), &ring, {Form::parts, Side::outer, most});
+    const auto pieces = proxies::represent(check::hull_of(ring), &ring,
+                                           {proxies::Form::parts, proxies::Side::outer, most});
     EXPECT_LE(pieces.size(), static_cast<std::size_t>(most));
-    const RepresentationError e = representation_error(hull_of(ring), &ring, pieces);
+    const proxies::RepresentationError e =
+        proxies::representation_error(check::hull_of(ring), &ring, pieces);
     EXPECT_LT(e.added, before) << most;
     EXPECT_LT(e.lost, 1e-9);
     before = e.added;
@@ -122,36 +129,42 @@ TEST(Meshes, PartsComeNearTheSolid) {
 }
 
 TEST(Meshes, AsTrianglesTheyAreTheSurface) {
-  const Mesh mesh = angle_bracket();
-  const auto parts = represent(hull_of(mesh), &mesh, parse_representation("mesh"));
+  const geometry::Mesh mesh = angle_bracket();
+  const auto parts =
+      proxies::represent(check::hull_of(mesh), &mesh, proxies::parse_representation("mesh"));
   EXPECT_EQ(parts.size(), mesh.triangles.size());
-  const RepresentationError error = representation_error(hull_of(mesh), &mesh, parts);
+  const proxies::RepresentationError error =
+      proxies::representation_error(check::hull_of(mesh), &mesh, parts);
   EXPECT_EQ(error.added, 0);
   EXPECT_EQ(error.lost, 1);
   EXPECT_LT(error.hausdorff, 1e-12);
 }
 
 TEST(Meshes, PiecesThatShareAFaceStayTwoAndATriangleSoupIsOne) {
-  Mesh two = angle_bracket();
-  const Mesh one = two;  // another, on top
+  geometry::Mesh two = angle_bracket();
+  const geometry::Mesh one = two;  // another, on top
   for (const Vec3d& v : one.vertices) two.vertices.push_back(v + Vec3d::UnitZ());
   for (const auto& [a, b, c] : one.triangles) two.triangles.push_back({a + 12, b + 12, c + 12});
-  EXPECT_EQ(pieces_of(two).size(), 2u);
-  Mesh soup;
-  for (const Triangle& t : triangles_of(angle_bracket())) {
+  EXPECT_EQ(geometry::pieces_of(two).size(), 2u);
+  geometry::Mesh soup;
+  for (const geometry::Triangle& t : geometry::triangles_of(angle_bracket())) {
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
     soup.vertices.insert(soup.vertices.end(), {t.a, t.b, t.c});
     soup.triangles.push_back({first, first + 1, first + 2});
   }
-  ASSERT_EQ(pieces_of(soup).size(), 1u);
-  EXPECT_TRUE(pieces_of(soup)[0].closed);
+  ASSERT_EQ(geometry::pieces_of(soup).size(), 1u);
+  EXPECT_TRUE(geometry::pieces_of(soup)[0].closed);
 }
 
 TEST(Meshes, OpenOnesHaveNothingInside) {
-  Mesh mesh = angle_bracket();
+  geometry::Mesh mesh = angle_bracket();
   mesh.triangles.pop_back();
-  EXPECT_THROW(represent(hull_of(mesh), &mesh, parse_representation("sphere inner")), InputError);
-  EXPECT_EQ(represent(hull_of(mesh), &mesh, parse_representation("parts")).size(), 1u);
+  EXPECT_THROW(proxies::represent(check::hull_of(mesh), &mesh,
+                                  proxies::parse_representation("sphere inner")),
+               base::InputError);
+  EXPECT_EQ(proxies::represent(check::hull_of(mesh), &mesh, proxies::parse_representation("parts"))
+                .size(),
+            1u);
 }
 
 }  // namespace

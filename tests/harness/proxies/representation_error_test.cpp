@@ -11,22 +11,22 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-RepresentationError error_of(const Shape& shape, const std::string& form) {
-  return representation_error(shape, nullptr,
-                              represent(shape, nullptr, parse_representation(form)));
+proxies::RepresentationError error_of(const Shape& shape, const std::string& form) {
+  return proxies::representation_error(
+      shape, nullptr, proxies::represent(shape, nullptr, proxies::parse_representation(form)));
 }
 
 Shape ball(double radius) { return round_shape(ShapeKind::sphere, radius, 0, Vec3d::Zero()); }
 Shape box(const Vec3d& half) { return round_shape(ShapeKind::box, 0, 0, half); }
 
-TEST(RepresentationError, IsKnownForABall) {
-  const RepresentationError outer = error_of(ball(2), "box");
+TEST(proxies::RepresentationError, IsKnownForABall) {
+  const proxies::RepresentationError outer = error_of(ball(2), "box");
   EXPECT_NEAR(outer.added, 6 / pi - 1, 1e-12);
   EXPECT_EQ(outer.lost, 0);
   EXPECT_NEAR(outer.hausdorff, 2 * (std::sqrt(3) - 1), 1e-12);
   EXPECT_NEAR(outer.size, 4, 1e-12);
   EXPECT_EQ(outer.volume_deviation, 0);
-  const RepresentationError inner = error_of(ball(2), "box inner");
+  const proxies::RepresentationError inner = error_of(ball(2), "box inner");
   EXPECT_EQ(inner.added, 0);
   EXPECT_NEAR(inner.lost, 1 - 2 / (std::sqrt(3) * pi), 1e-9);
   EXPECT_NEAR(inner.hausdorff, 2 - 2 / std::sqrt(3), 1e-9);
@@ -36,23 +36,24 @@ TEST(RepresentationError, IsKnownForABall) {
   }
 }
 
-TEST(RepresentationError, FallsWithTheLevelOfAnIcosphere) {
+TEST(proxies::RepresentationError, FallsWithTheLevelOfAnIcosphere) {
   double before[3] = {1e9, 1e9, 1e9};
   for (int level = 0; level <= 5; ++level) {
-    for (Side side : {Side::outer, Side::inner, Side::nearest}) {
-      const Representation r{Form::icosphere, side, level};
-      const RepresentationError e =
-          representation_error(ball(0.5), nullptr, represent(ball(0.5), nullptr, r));
+    for (proxies::Side side :
+         {proxies::Side::outer, proxies::Side::inner, proxies::Side::nearest}) {
+      const proxies::Representation r{proxies::Form::icosphere, side, level};
+      const proxies::RepresentationError e = proxies::representation_error(
+          ball(0.5), nullptr, proxies::represent(ball(0.5), nullptr, r));
       double& last = before[static_cast<int>(side)];
       EXPECT_LT(e.volume_error(), last) << level;
       last = e.volume_error();
-      if (side == Side::outer) {
+      if (side == proxies::Side::outer) {
         EXPECT_EQ(e.lost, 0);
       }
-      if (side == Side::inner) {
+      if (side == proxies::Side::inner) {
         EXPECT_EQ(e.added, 0);
       }
-      if (side == Side::nearest) {
+      if (side == proxies::Side::nearest) {
         EXPECT_NEAR(e.added, e.lost, 6 * e.volume_deviation + 1e-12);
       }
     }
@@ -62,27 +63,28 @@ TEST(RepresentationError, FallsWithTheLevelOfAnIcosphere) {
   EXPECT_LT(before[0], 2e-3);
 }
 
-TEST(RepresentationError, IsExactBetweenPolytopesThatCross) {
-  Part turned;
+TEST(proxies::RepresentationError, IsExactBetweenPolytopesThatCross) {
+  proxies::Part turned;
   turned.shape = box(Vec3d::Constant(0.5));
   const double c = std::sqrt(0.5);
   turned.pose.rotation << c, -c, 0, c, c, 0, 0, 0, 1;
-  const RepresentationError e = representation_error(box(Vec3d::Constant(0.5)), nullptr, {turned});
+  const proxies::RepresentationError e =
+      proxies::representation_error(box(Vec3d::Constant(0.5)), nullptr, {turned});
   EXPECT_NEAR(e.lost, 1 - 2 * (std::sqrt(2) - 1), 1e-12);
   EXPECT_NEAR(e.added, e.lost, 1e-12);
   EXPECT_NEAR(e.hausdorff, (std::sqrt(2) - 1) / 2, 1e-12);
   // Two halves make the same body; lines through it tell.
-  Part half[2];
+  proxies::Part half[2];
   for (int i : {0, 1}) {
     half[i].shape = box({0.25, 0.5, 0.5});
     half[i].pose.translation.x() = i == 0 ? -0.25 : 0.25;
   }
-  const RepresentationError halves =
-      representation_error(box(Vec3d::Constant(0.5)), nullptr, {half[0], half[1]});
+  const proxies::RepresentationError halves =
+      proxies::representation_error(box(Vec3d::Constant(0.5)), nullptr, {half[0], half[1]});
   EXPECT_NEAR(halves.volume_error(), 0, 1e-9);
   EXPECT_LE(halves.hausdorff, halves.hausdorff_deviation);
-  const RepresentationError one =
-      representation_error(box(Vec3d::Constant(0.5)), nullptr, {half[0]});
+  const proxies::RepresentationError one =
+      proxies::representation_error(box(Vec3d::Constant(0.5)), nullptr, {half[0]});
   EXPECT_NEAR(one.lost, 0.5, 1e-12);
   EXPECT_NEAR(one.hausdorff, 0.5, 1e-12);
 }
@@ -111,7 +113,7 @@ bool is_in(const Shape& s, const Pose& pose, const Vec3d& point) {
     case ShapeKind::sphere: return x.norm() <= s.radius;
     case ShapeKind::capsule:
       return std::hypot(beside, std::max(0.0, z - s.half_length)) <= s.radius;
-    case ShapeKind::cylinder: return beside <= s.radius && z <= s.half_length;
+    case ShapeKind::cylinder: return base::beside <= s.radius && z <= s.half_length;
     case ShapeKind::cone:
       return z <= s.half_length && beside * 2 * s.half_length <= s.radius * (s.half_length - x.z());
     case ShapeKind::box: return (x.cwiseAbs().array() <= s.half_extents.array()).all();
@@ -125,8 +127,8 @@ bool is_in(const Shape& s, const Pose& pose, const Vec3d& point) {
 
 // The Hausdorff distance of convex bodies is the greatest difference of their supports; volumes by
 // points at random.
-TEST(RepresentationError, AgreesWithPlainSampling) {
-  Random random(11);
+TEST(proxies::RepresentationError, AgreesWithPlainSampling) {
+  base::Random random(11);
   std::vector<NamedShape> bodies;
   for (NamedShape& b : round_shapes()) {
     if (b.name.find(' ') == std::string::npos) bodies.push_back(std::move(b));
@@ -136,8 +138,10 @@ TEST(RepresentationError, AgreesWithPlainSampling) {
   for (const NamedShape& body : bodies) {
     for (const char* form : {"sphere nearest", "box nearest", "capsule nearest", "dop-14 nearest",
                              "hull-8 nearest", "sphere inner", "oriented-box", "capsule"}) {
-      const auto parts = represent(body.shape, nullptr, parse_representation(form));
-      const RepresentationError e = representation_error(body.shape, nullptr, parts);
+      const auto parts =
+          proxies::represent(body.shape, nullptr, proxies::parse_representation(form));
+      const proxies::RepresentationError e =
+          proxies::representation_error(body.shape, nullptr, parts);
       SCOPED_TRACE(body.name + ", " + form);
       double far = 0;
       for (int i = 0; i < 3000; ++i) {
@@ -167,7 +171,7 @@ TEST(RepresentationError, AgreesWithPlainSampling) {
   EXPECT_GT(crossing, 20);
 }
 
-TEST(RepresentationError, OfBoxesAroundAndInsideHullsIsTheirVolume) {
+TEST(proxies::RepresentationError, OfBoxesAroundAndInsideHullsIsTheirVolume) {
   for (const NamedShape& body : hulls()) {
     if (body.flat) continue;
     SCOPED_TRACE(body.name);
@@ -181,41 +185,43 @@ TEST(RepresentationError, OfBoxesAroundAndInsideHullsIsTheirVolume) {
       }
     }
     for (const char* form : {"box", "oriented-box", "box inner"}) {
-      const auto parts = represent(body.shape, nullptr, parse_representation(form));
+      const auto parts =
+          proxies::represent(body.shape, nullptr, proxies::parse_representation(form));
       const double part = 8 * parts[0].shape.half_extents.prod();
-      const RepresentationError e = representation_error(body.shape, nullptr, parts);
+      const proxies::RepresentationError e =
+          proxies::representation_error(body.shape, nullptr, parts);
       EXPECT_NEAR(e.added - e.lost, part / volume - 1, 1e-6 * (1 + part / volume)) << form;
       EXPECT_TRUE(e.added == 0 || e.lost == 0) << form;
     }
   }
 }
 
-TEST(RepresentationError, OfAFlatBodyIsInfinite) {
+TEST(proxies::RepresentationError, OfAFlatBodyIsInfinite) {
   const Shape flat = hull_shape({{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}});
   EXPECT_TRUE(std::isinf(error_of(flat, "sphere").added));
   EXPECT_EQ(error_of(flat, "hull").volume_error(), 0);
-  EXPECT_THROW(error_of(flat, "sphere nearest"), InputError);
+  EXPECT_THROW(error_of(flat, "sphere nearest"), base::InputError);
 }
 
-TEST(Representation, NamesAreReadBack) {
+TEST(proxies::Representation, NamesAreReadBack) {
   for (const char* text : {"as-given", "sphere", "box inner", "oriented-box nearest", "dop-14",
                            "dop-18 inner", "dop-26", "capsule", "hull-16 inner", "hull", "parts",
                            "parts-12 inner", "mesh", "icosphere-0", "icosphere-5 nearest"}) {
-    EXPECT_EQ(to_string(parse_representation(text)), text);
+    EXPECT_EQ(to_string(proxies::parse_representation(text)), text);
   }
   for (const char* text :
        {"", "ball", "hull-7", "hull-", "hull-9x", "icosphere-6", "icosphere", "parts-0",
         "sphere outside", "mesh inner", "as-given nearest", "dop-16"}) {
-    EXPECT_THROW(parse_representation(text), InputError) << text;
+    EXPECT_THROW(proxies::parse_representation(text), base::InputError) << text;
   }
 }
 
-TEST(Representation, RefusesWhatThereIsNot) {
+TEST(proxies::Representation, RefusesWhatThereIsNot) {
   Shape halfspace;
   halfspace.kind = ShapeKind::halfspace;
-  EXPECT_EQ(represent(halfspace, nullptr, {}).size(), 1u);
-  EXPECT_THROW(represent(halfspace, nullptr, {Form::sphere}), InputError);
-  EXPECT_THROW(represent(ball(1), nullptr, {Form::mesh}), InputError);
+  EXPECT_EQ(proxies::represent(halfspace, nullptr, {}).size(), 1u);
+  EXPECT_THROW(proxies::represent(halfspace, nullptr, {proxies::Form::sphere}), base::InputError);
+  EXPECT_THROW(proxies::represent(ball(1), nullptr, {proxies::Form::mesh}), base::InputError);
 }
 
 }  // namespace

@@ -6,11 +6,11 @@ namespace touchstone {
 namespace {
 
 TEST(Columns, OfMeasurementsAreDocumented) {
-  expect_documented("raw.csv", column_docs<RawRow>());
+  expect_documented("raw.csv", record::column_docs<record::RawRow>());
 }
 
 TEST(Columns, OfDiscrepanciesAreDocumented) {
-  expect_documented("departures.csv", column_docs<Departure>());
+  expect_documented("departures.csv", record::column_docs<record::Departure>());
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 std::map<std::string, std::string> facts() {
   std::map<std::string, std::string> all;
-  for (const auto& [name, value] : machine_facts()) {
+  for (const auto& [name, value] : record::machine_facts()) {
     EXPECT_TRUE(all.emplace(name, value).second) << name << " twice";
   }
   return all;
@@ -86,7 +86,7 @@ TEST(Machine, AffinityIsThatOfTheProcess) {
 }
 
 // Facts decide whether a run may go on: they must not change by themselves.
-TEST(Machine, SaysTheSameTwice) { EXPECT_EQ(machine_facts(), machine_facts()); }
+TEST(Machine, SaysTheSameTwice) { EXPECT_EQ(record::machine_facts(), record::machine_facts()); }
 
 }  // namespace
 }  // namespace touchstone

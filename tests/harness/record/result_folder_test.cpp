@@ -22,7 +22,7 @@ struct Count {
   std::int64_t unit = 0, value = 0;
   bool operator==(const Count&) const = default;
 };
-template <row_of<Count> Row, class Visit>
+template <record::row_of<Count> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("unit", row.unit, "The unit of work.");
   visit("value", row.value, "A count.");
@@ -32,15 +32,15 @@ constexpr std::size_t first = 0, second = 1;
 
 class ResultFolderTest : public testing::Test {
  protected:
-  ResultFolderPlan plan(FolderStart start, const std::string& seed = "1") const {
+  record::ResultFolderPlan plan(record::FolderStart start, const std::string& seed = "1") const {
     return {.folder = folder_.path() / "out",
-            .files = {{"a.csv", header_of<Count>()}, {"b.csv", header_of<Count>()}},
+            .files = {{"a.csv", record::header_of<Count>()}, {"b.csv", record::header_of<Count>()}},
             .identity = {{"seed", seed}, {"commit", "abc" + seed}, {"command_line", "run " + seed}},
             .notes = {{"processor", "P" + seed}},
             .start = start,
             .removed = {"reproductions"}};
   }
-  static void write_unit(ResultFolder& folder, bool commit = true) {
+  static void write_unit(record::ResultFolder& folder, bool commit = true) {
     for (std::int64_t i = 0; i < 3; ++i) folder.write(first, Count{folder.units(), i});
     folder.write(second, Count{folder.units(), 9});
     if (commit) folder.commit();
@@ -51,7 +51,7 @@ class ResultFolderTest : public testing::Test {
     if (child == 0) {
       try {
         action();
-      } catch (const InputError&) {
+      } catch (const base::InputError&) {
         _exit(2);
       }
       _exit(0);
@@ -60,8 +60,8 @@ class ResultFolderTest : public testing::Test {
     waitpid(child, &status, 0);
     return WEXITSTATUS(status);
   }
-  std::string fault(const ResultFolderPlan& wanted) const {
-    return folder_.without_path(input_fault([&] { ResultFolder folder(wanted); }));
+  std::string fault(const record::ResultFolderPlan& wanted) const {
+    return folder_.without_path(input_fault([&] { record::ResultFolder folder(wanted); }));
   }
 
   TemporaryFolder folder_;
@@ -69,7 +69,7 @@ class ResultFolderTest : public testing::Test {
 
 TEST_F(ResultFolderTest, GoesOnBehindTheLastWholeUnit) {
   apart([&] {
-    ResultFolder folder(plan(FolderStart::fresh));
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
     write_unit(folder);
     write_unit(folder);
     write_unit(folder, false);
@@ -77,7 +77,7 @@ TEST_F(ResultFolderTest, GoesOnBehindTheLastWholeUnit) {
     _exit(0);
   });
   EXPECT_THAT(folder_.read("out/a.csv"), HasSubstr("2,0"));
-  ResultFolder folder(plan(FolderStart::resume));
+  record::ResultFolder folder(plan(record::FolderStart::resume));
   EXPECT_EQ(folder.units(), 2);
   EXPECT_FALSE(folder.was_finished());
   EXPECT_EQ(folder.rows<Count>(first).size(), 6u);
@@ -91,103 +91,103 @@ TEST_F(ResultFolderTest, GoesOnBehindTheLastWholeUnit) {
 
 TEST_F(ResultFolderTest, HalfALineIsCutOff) {
   apart([&] {
-    ResultFolder folder(plan(FolderStart::fresh));
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
     write_unit(folder);
     _exit(0);
   });
   folder_.write("out/a.csv", folder_.read("out/a.csv") + "1,");
-  EXPECT_EQ(ResultFolder(plan(FolderStart::resume)).rows<Count>(first).size(), 3u);
+  EXPECT_EQ(record::ResultFolder(plan(record::FolderStart::resume)).rows<Count>(first).size(), 3u);
 }
 
 TEST_F(ResultFolderTest, AKillBeforeTheFirstUnitLosesNothing) {
   apart([&] {
-    ResultFolder folder(plan(FolderStart::fresh));
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
     _exit(0);
   });
   std::filesystem::remove(folder_.path() / "out/progress.csv");
-  ResultFolder folder(plan(FolderStart::resume));
+  record::ResultFolder folder(plan(record::FolderStart::resume));
   EXPECT_EQ(folder.units(), 0);
   EXPECT_EQ(folder_.read("out/a.csv"), "unit,value\n");
 }
 
 TEST_F(ResultFolderTest, UnfinishedWorkIsNotOverwrittenUnasked) {
   {
-    ResultFolder folder(plan(FolderStart::fresh));
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
     write_unit(folder);
   }
   folder_.write("out/other", "kept");
   std::filesystem::create_directories(folder_.path() / "out/reproductions");
-  EXPECT_EQ(fault(plan(FolderStart::fresh)),
+  EXPECT_EQ(fault(plan(record::FolderStart::fresh)),
             "out/a.csv: is of a run that was not finished; expected --resume to go on with it, "
             "--overwrite to lose it, or another --out");
   EXPECT_THAT(folder_.read("out/a.csv"), HasSubstr("0,2"));
-  ResultFolder(plan(FolderStart::overwrite)).finish();
+  record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
   EXPECT_EQ(folder_.read("out/a.csv"), "unit,value\n");
   EXPECT_EQ(folder_.read("out/other"), "kept");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/reproductions"));
-  EXPECT_EQ(fault(plan(FolderStart::fresh)), "");  // it was finished
+  EXPECT_EQ(fault(plan(record::FolderStart::fresh)), "");  // it was finished
 }
 
 TEST_F(ResultFolderTest, OtherWorkIsNotResumed) {
-  EXPECT_EQ(fault(plan(FolderStart::resume)),
+  EXPECT_EQ(fault(plan(record::FolderStart::resume)),
             "out/machine.csv: is not there; expected the folder of a run to resume");
-  { ResultFolder folder(plan(FolderStart::fresh)); }
-  EXPECT_EQ(fault(plan(FolderStart::resume, "2")),
+  { record::ResultFolder folder(plan(record::FolderStart::fresh)); }
+  EXPECT_EQ(fault(plan(record::FolderStart::resume, "2")),
             "out/machine.csv: seed was '1' and is '2' now; expected the same to resume");
-  ResultFolderPlan more = plan(FolderStart::resume);
+  record::ResultFolderPlan more = plan(record::FolderStart::resume);
   more.identity.emplace_back("cases", "5");
   EXPECT_EQ(fault(more),
             "out/machine.csv: cases was '' and is '5' now; expected the same to resume");
-  ResultFolderPlan less = plan(FolderStart::resume);
+  record::ResultFolderPlan less = plan(record::FolderStart::resume);
   less.identity.erase(less.identity.begin());
   EXPECT_EQ(fault(less),
             "out/machine.csv: seed was '1' and is not known now; expected the same to resume");
-  ResultFolderPlan columns = plan(FolderStart::resume);
+  record::ResultFolderPlan columns = plan(record::FolderStart::resume);
   columns.files[0].header = {"unit", "number"};
   EXPECT_THAT(fault(columns), HasSubstr("out/a.csv:1: other columns than this program writes"));
 }
 
 TEST_F(ResultFolderTest, TheSourceAndTheCommandMayDiffer) {
-  { ResultFolder folder(plan(FolderStart::fresh)); }
-  ResultFolderPlan again = plan(FolderStart::resume);
+  { record::ResultFolder folder(plan(record::FolderStart::fresh)); }
+  record::ResultFolderPlan again = plan(record::FolderStart::resume);
   again.identity = {{"seed", "1"}, {"commit", "xyz"}, {"command_line", "run --resume"}};
   again.notes = {{"processor", "Q"}};
-  ResultFolder(again).finish();
+  record::ResultFolder(again).finish();
   EXPECT_EQ(folder_.read("out/machine.csv"),
             "name,value\nseed,1\ncommit,abc1\ncommand_line,run 1 && run --resume\nprocessor,Q\n"
             "finished,yes\n");
-  EXPECT_TRUE(ResultFolder(again).was_finished());
+  EXPECT_TRUE(record::ResultFolder(again).was_finished());
 }
 
 TEST_F(ResultFolderTest, ARowFileThatLostRowsIsRefused) {
   {
-    ResultFolder folder(plan(FolderStart::fresh));
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
     write_unit(folder);
   }
   folder_.write("out/b.csv", "unit,value\n");
-  EXPECT_EQ(fault(plan(FolderStart::resume)),
+  EXPECT_EQ(fault(plan(record::FolderStart::resume)),
             "out/b.csv: 11 bytes; expected at least 15, as progress.csv says");
   std::filesystem::remove(folder_.path() / "out/progress.csv");
-  EXPECT_THAT(fault(plan(FolderStart::resume)),
+  EXPECT_THAT(fault(plan(record::FolderStart::resume)),
               HasSubstr("out/progress.csv: is not there, beside rows in a.csv"));
 }
 
 TEST_F(ResultFolderTest, IsForOneProcess) {
-  ResultFolder folder(plan(FolderStart::fresh));
-  EXPECT_EQ(fault(plan(FolderStart::overwrite)),
+  record::ResultFolder folder(plan(record::FolderStart::fresh));
+  EXPECT_EQ(fault(plan(record::FolderStart::overwrite)),
             "out: another run is at work in it; expected a folder for each");
 }
 
 TEST_F(ResultFolderTest, AFullDiskLosesTheUnitAtHandAlone) {
   const int status = apart([&] {
-    ResultFolder folder(plan(FolderStart::fresh));
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{1000, 1000};
     setrlimit(RLIMIT_FSIZE, &limit);
     for (int i = 0; i < 1000; ++i) write_unit(folder);
   });
   EXPECT_EQ(status, 2);
-  ResultFolder folder(plan(FolderStart::resume));
+  record::ResultFolder folder(plan(record::FolderStart::resume));
   EXPECT_GT(folder.units(), 40);
   EXPECT_EQ(static_cast<std::int64_t>(folder.rows<Count>(first).size()), 3 * folder.units());
   EXPECT_EQ(static_cast<std::int64_t>(folder.rows<Count>(second).size()), folder.units());

@@ -36,7 +36,7 @@ struct Basket {
   std::string note = "none";
 };
 
-template <row_of<Basket> Row, class Visit>
+template <record::row_of<Basket> Row, class Visit>
 void columns(Row& row, Visit visit) {
   visit("owner", row.owner, "The basket's owner.");
   visit("number", row.number, "Its place in the list.");
@@ -46,13 +46,13 @@ void columns(Row& row, Visit visit) {
   visit("fruit", row.fruit, "What is in it.");
   visit("other", row.other, "What else is in it.");
   visit("shelf", row.shelf, "Where it stands.");
-  for (const Fruit fruit : enumerators<Fruit>) {
+  for (const Fruit fruit : base::enumerators<Fruit>) {
     visit(to_string(fruit), row.counts[static_cast<std::size_t>(fruit)], "A count of one fruit.");
   }
-  visit("estimate", rounded(row.estimate, 3), "Roughly.");
-  visit("balance", with_sign(row.balance), "Cents.");
+  visit("estimate", record::rounded(row.estimate, 3), "Roughly.");
+  visit("balance", record::with_sign(row.balance), "Cents.");
   visit("code", row.code, "A short text.");
-  visit("note", newer(row.note), "A remark.");
+  visit("note", record::newer(row.note), "A remark.");
 }
 
 constexpr const char* header =
@@ -79,14 +79,15 @@ Basket full_basket() {
 class RowFileTest : public testing::Test {
  protected:
   std::filesystem::path write(const std::vector<Basket>& baskets) const {
-    CsvWriter file(folder_.path() / "b.csv", header_of<Basket>());
-    for (const Basket& basket : baskets) write_row(file, basket);
+    files::CsvWriter file(folder_.path() / "b.csv", record::header_of<Basket>());
+    for (const Basket& basket : baskets) record::write_row(file, basket);
     file.close();
     return folder_.path() / "b.csv";
   }
   std::string fault(const std::string& line) const {
     folder_.write("f.csv", header + line + "\n");
-    return folder_.without_path(input_fault([&] { read_rows<Basket>(folder_.path() / "f.csv"); }));
+    return folder_.without_path(
+        input_fault([&] { record::read_rows<Basket>(folder_.path() / "f.csv"); }));
   }
   TemporaryFolder folder_;
 };
@@ -99,7 +100,7 @@ TEST_F(RowFileTest, FieldsAreWrittenInTheirOrder) {
 }
 
 TEST_F(RowFileTest, WhatWasWrittenIsReadBack) {
-  const std::vector<Basket> rows = read_rows<Basket>(write({full_basket(), {}}));
+  const std::vector<Basket> rows = record::read_rows<Basket>(write({full_basket(), {}}));
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].owner, "a, b");
   EXPECT_EQ(rows[0].weight, 0.1);
@@ -134,16 +135,16 @@ TEST_F(RowFileTest, ANewerColumnMayBeAbsent) {
   std::string old = header;
   old.replace(old.find(",note"), 5, "");
   const auto file = folder_.write("old.csv", old + "a,,0,,0,apple,,,0,0,0,,0,\n");
-  EXPECT_EQ(read_rows<Basket>(file).at(0).note, "none");
+  EXPECT_EQ(record::read_rows<Basket>(file).at(0).note, "none");
   std::string older = old;
   older.replace(older.find(",code"), 5, "");
   folder_.write("older.csv", older + "a,,0,,0,apple,,,0,0,0,,0\n");
-  EXPECT_THAT(input_fault([&] { read_rows<Basket>(folder_.path() / "older.csv"); }),
+  EXPECT_THAT(input_fault([&] { record::read_rows<Basket>(folder_.path() / "older.csv"); }),
               HasSubstr("older.csv:1: no column 'code'"));
 }
 
 TEST(Row, ItsColumnsAreDocumented) {
-  const std::string docs = column_docs<Basket>();
+  const std::string docs = record::column_docs<Basket>();
   EXPECT_THAT(docs, HasSubstr("| `weight` | number | Kilograms. |\n"));
   EXPECT_THAT(docs, HasSubstr("| `other` | apple, pear, plum, or empty | What else is in it. |\n"));
   EXPECT_THAT(docs, HasSubstr("| `plum` | whole number | A count of one fruit. |\n"));
@@ -157,26 +158,26 @@ struct Sale {
   std::uint32_t owner = 0;
   double price = 0;
 };
-template <row_of<Sale> Row, class Visit>
+template <record::row_of<Sale> Row, class Visit>
 void columns(Row& row, Visit visit, const Owners& owners) {
   const auto name = [&](std::size_t i) { return owners.names[i]; };
-  visit("owner", place_in(row.owner, owners.names.size(), name), "The seller.");
-  visit("town", derived([&] { return owners.towns[row.owner]; }), "The seller's town.");
+  visit("owner", record::place_in(row.owner, owners.names.size(), name), "The seller.");
+  visit("town", record::derived([&] { return owners.towns[row.owner]; }), "The seller's town.");
   visit("price", row.price, "Euros.");
 }
 
 TEST_F(RowFileTest, PlacesInListsAreWrittenAsNames) {
   const Owners owners{{"Ann", "Bob"}, {"Ulm", "Bonn"}};
   const auto path = folder_.path() / "s.csv";
-  CsvWriter file(path, header_of<Sale>(owners));
-  write_row(file, Sale{1, 2.5}, owners);
+  files::CsvWriter file(path, record::header_of<Sale>(owners));
+  record::write_row(file, Sale{1, 2.5}, owners);
   file.close();
   EXPECT_EQ(folder_.read("s.csv"), "owner,town,price\nBob,Bonn,2.5\n");
-  EXPECT_EQ(read_rows<Sale>(path, owners).at(0).owner, 1u);
+  EXPECT_EQ(record::read_rows<Sale>(path, owners).at(0).owner, 1u);
   const Owners others{{"Ann"}, {"Ulm"}};
-  EXPECT_EQ(folder_.without_path(input_fault([&] { read_rows<Sale>(path, others); })),
+  EXPECT_EQ(folder_.without_path(input_fault([&] { record::read_rows<Sale>(path, others); })),
             "s.csv:2: column owner: found 'Bob'; expected one of the names of this request");
-  EXPECT_THAT(column_docs<Sale>(Owners{}), HasSubstr("| `owner` | name | The seller. |\n"));
+  EXPECT_THAT(record::column_docs<Sale>(Owners{}), HasSubstr("| `owner` | name | The seller. |\n"));
 }
 
 }  // namespace

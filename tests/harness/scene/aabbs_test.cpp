@@ -19,8 +19,8 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-BoxRecording example() {
-  BoxRecording recording{"Brownian", "Cubes", {{-8, -8, -8}, {8, 8, 8}}, {}};
+scene::BoxRecording example() {
+  scene::BoxRecording recording{"Brownian", "Cubes", {{-8, -8, -8}, {8, 8, 8}}, {}};
   for (int frame = 0; frame < 3; ++frame) {
     auto& boxes = recording.frames.emplace_back();
     for (int i = 0; i < 5; ++i) {
@@ -46,7 +46,7 @@ std::string padded(std::string text) {
   text.resize(128, '\0');
   return text;
 }
-std::string file_of(const BoxRecording& r, std::uint32_t count, std::uint32_t steps) {
+std::string file_of(const scene::BoxRecording& r, std::uint32_t count, std::uint32_t steps) {
   std::string bytes = padded(r.scene) + padded(r.type) + word(count) + word(steps) + word(0) +
                       word(0) + box(r.world);
   for (const auto& frame : r.frames) {
@@ -55,7 +55,7 @@ std::string file_of(const BoxRecording& r, std::uint32_t count, std::uint32_t st
   return bytes;
 }
 
-void expect_same(const BoxRecording& a, const BoxRecording& b) {
+void expect_same(const scene::BoxRecording& a, const scene::BoxRecording& b) {
   EXPECT_EQ(a.scene, b.scene);
   EXPECT_EQ(a.type, b.type);
   EXPECT_EQ(a.world, b.world);
@@ -66,7 +66,7 @@ class Aabbs : public testing::Test {
  protected:
   std::string fault(const std::string& content) {
     const auto file = folder_.write("x.aabbs", content);
-    const std::string text = input_fault([&] { read_aabbs(file); });
+    const std::string text = input_fault([&] { scene::read_aabbs(file); });
     EXPECT_THAT(text, AnyOf("", StartsWith(file.string() + ": ")));
     return text;
   }
@@ -74,33 +74,33 @@ class Aabbs : public testing::Test {
 };
 
 TEST_F(Aabbs, WritesBroadmarksBytes) {
-  write_aabbs(example(), folder_.path() / "out.aabbs");
+  scene::write_aabbs(example(), folder_.path() / "out.aabbs");
   EXPECT_EQ(folder_.read("out.aabbs"), file_of(example(), 5, 2));
   EXPECT_EQ(folder_.read("out.aabbs").size(), 304u + 3 * 5 * 32);
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"out.aabbs"});
 }
 
 TEST_F(Aabbs, ReadsBroadmarksBytes) {
-  expect_same(read_aabbs(folder_.write("in.aabbs", file_of(example(), 5, 2))), example());
+  expect_same(scene::read_aabbs(folder_.write("in.aabbs", file_of(example(), 5, 2))), example());
 }
 
 TEST_F(Aabbs, RoundTripKeepsTheBits) {
   const auto file = folder_.path() / "a.aabbs";
-  write_aabbs(example(), file);
-  const BoxRecording read = read_aabbs(file);
+  scene::write_aabbs(example(), file);
+  const scene::BoxRecording read = scene::read_aabbs(file);
   expect_same(read, example());
   EXPECT_TRUE(std::signbit(read.frames[0][0].min[2]));
-  BoxRecording single = example();
+  scene::BoxRecording single = example();
   single.frames.resize(1);
-  write_aabbs(single, file);
-  expect_same(read_aabbs(file), single);
+  scene::write_aabbs(single, file);
+  expect_same(scene::read_aabbs(file), single);
 }
 
 TEST_F(Aabbs, LongNamesAreCut) {
-  BoxRecording recording = example();
+  scene::BoxRecording recording = example();
   recording.scene = std::string(300, 'x');
-  write_aabbs(recording, folder_.path() / "a.aabbs");
-  EXPECT_EQ(read_aabbs(folder_.path() / "a.aabbs").scene, std::string(127, 'x'));
+  scene::write_aabbs(recording, folder_.path() / "a.aabbs");
+  EXPECT_EQ(scene::read_aabbs(folder_.path() / "a.aabbs").scene, std::string(127, 'x'));
 }
 
 TEST_F(Aabbs, RefusesFilesOfTheWrongSize) {
@@ -128,14 +128,14 @@ TEST_F(Aabbs, RefusesBadBoxes) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();
   for (const float bad : {nan, inf, -inf}) {
-    BoxRecording recording = example();
+    scene::BoxRecording recording = example();
     recording.frames[1][3].max[2] = bad;
     EXPECT_THAT(fault(file_of(recording, 5, 2)), HasSubstr("frame 1, box 3: z"));
     recording = example();
     recording.world.min[0] = bad;
     EXPECT_THAT(fault(file_of(recording, 5, 2)), HasSubstr("world"));
   }
-  BoxRecording recording = example();
+  scene::BoxRecording recording = example();
   recording.frames[2][4] = {{0, 1, 0}, {1, 0, 1}};
   EXPECT_THAT(fault(file_of(recording, 5, 2)), HasSubstr("frame 2, box 4: y"));
 }
@@ -147,14 +147,15 @@ TEST_F(Aabbs, RefusesTextsWithoutAnEnd) {
 }
 
 TEST_F(Aabbs, RefusesWhatTheFormatCannotHold) {
-  BoxRecording recording = example();
+  scene::BoxRecording recording = example();
   recording.frames[1].pop_back();
-  EXPECT_THROW(write_aabbs(recording, folder_.path() / "a.aabbs"), InputError);
+  EXPECT_THROW(scene::write_aabbs(recording, folder_.path() / "a.aabbs"), base::InputError);
   recording.frames.clear();
-  EXPECT_THROW(write_aabbs(recording, folder_.path() / "a.aabbs"), InputError);
-  EXPECT_THROW(write_aabbs(example(), folder_.path() / "none" / "a.aabbs"), InputError);
-  EXPECT_THROW(read_aabbs(folder_.path() / "none.aabbs"), InputError);
-  EXPECT_THROW(read_aabbs(folder_.path()), InputError);
+  EXPECT_THROW(scene::write_aabbs(recording, folder_.path() / "a.aabbs"), base::InputError);
+  EXPECT_THROW(scene::write_aabbs(example(), folder_.path() / "none" / "a.aabbs"),
+               base::InputError);
+  EXPECT_THROW(scene::read_aabbs(folder_.path() / "none.aabbs"), base::InputError);
+  EXPECT_THROW(scene::read_aabbs(folder_.path()), base::InputError);
   EXPECT_TRUE(folder_.names().empty());
 }
 

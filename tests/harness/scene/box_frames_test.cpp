@@ -19,8 +19,8 @@ constexpr const char* header = "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n";
 
 class BoxFrames : public ::testing::Test {
  protected:
-  std::vector<BoxFrame> read(const std::string& rows) {
-    return read_box_frames(folder.write("in.csv", header + rows));
+  std::vector<scene::BoxFrame> read(const std::string& rows) {
+    return scene::read_box_frames(folder.write("in.csv", header + rows));
   }
   std::string error(const std::string& rows) {
     return folder.without_path(input_fault([&] { read(rows); }));
@@ -71,8 +71,8 @@ TEST_F(BoxFrames, IdsMayHaveNoBody) {
   EXPECT_THAT(error("0,0,,,,1,1,1\n"), StartsWith("in.csv:2: column min_x"));
   const std::vector<std::vector<Aabb>> written = {{Aabb::empty(), {{0, 0, 0}, {1, 1, 1}}},
                                                   {{{0, 0, 0}, {1, 1, 1}}, Aabb::empty()}};
-  write_box_frames(written, folder.path() / "out.csv");
-  const auto again = read_box_frames(folder.path() / "out.csv");
+  scene::write_box_frames(written, folder.path() / "out.csv");
+  const auto again = scene::read_box_frames(folder.path() / "out.csv");
   ASSERT_EQ(again.size(), 2u);
   EXPECT_EQ(again[0].boxes, written[0]);
   EXPECT_EQ(again[1].boxes, written[1]);
@@ -119,14 +119,14 @@ TEST_F(BoxFrames, IdsAndFramesOutOfOrder) {
 TEST_F(BoxFrames, Recordings) {
   const Aabb near = {{0, 0, 0}, {1, 1, 1}}, far = {{8, 8, 8}, {9, 9, 9}};
   const auto file = folder.path() / "in.aabbs";
-  write_aabbs({"scene", "cubes", {{0, 0, 0}, {9, 9, 9}}, {{near, far}, {near, near}}}, file);
-  const auto frames = read_box_frames(file);
+  scene::write_aabbs({"scene", "cubes", {{0, 0, 0}, {9, 9, 9}}, {{near, far}, {near, near}}}, file);
+  const auto frames = scene::read_box_frames(file);
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[1].number, 1);
   EXPECT_EQ(frames[1].count, 2u);
   EXPECT_THAT(frames[1].boxes, ElementsAre(near, near));
   EXPECT_THAT(frames[1].moved, ElementsAre(1));
-  EXPECT_THROW(read_box_frames(folder.write("bad.aabbs", "short")), InputError);
+  EXPECT_THROW(scene::read_box_frames(folder.write("bad.aabbs", "short")), base::InputError);
 }
 
 }  // namespace

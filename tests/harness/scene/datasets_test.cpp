@@ -20,7 +20,7 @@ const std::filesystem::path datasets =
     std::filesystem::path(touchstone::project_folder) / "datasets";
 
 TEST(Home, IsAFurnishedFlat) {
-  const Scene scene = load_scene(datasets / "home.toml");
+  const scene::Scene scene = scene::load_scene(datasets / "home.toml");
   EXPECT_EQ(scene.name, "home");
   EXPECT_GT(scene.bodies.size(), 1000u);
   std::size_t moving = 0;
@@ -31,7 +31,7 @@ TEST(Home, IsAFurnishedFlat) {
     EXPECT_TRUE(shape.kind == ShapeKind::box || shape.hull->dimension < 3 ||
                 !shape.hull->faces.empty());
   }
-  const ScenePlayer player(scene, BoxKind::tight);
+  const scene::ScenePlayer player(scene, scene::BoxKind::tight);
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const Aabb& box = player.boxes()[i];
@@ -55,10 +55,10 @@ TEST(MadeScenes, AreThereAndMoveALittle) {
        {MadeScene{"rock_pile.toml", 251, 500, 3000}, MadeScene{"crowd.toml", 1025, 700, 5000},
         MadeScene{"arch.toml", 118, 100, 400}, MadeScene{"chain_net.toml", 2800, 3000, 30000}}) {
     SCOPED_TRACE(made.file);
-    const Scene scene = load_scene(datasets / made.file);
+    const scene::Scene scene = scene::load_scene(datasets / made.file);
     EXPECT_EQ(scene.bodies.size(), made.bodies);
     EXPECT_GE(scene.frames, 16);
-    ScenePlayer player(scene, BoxKind::tight);
+    scene::ScenePlayer player(scene, scene::BoxKind::tight);
     std::size_t pairs = 0, moved = 0;
     const std::vector<Aabb> first(player.boxes().begin(), player.boxes().end());
     for (std::size_t i = 0; i < scene.size(); ++i) {
@@ -92,12 +92,12 @@ TEST(Home, EachPieceIsOneFileUnderAMegabyteInAll) {
 
 class Parts : public testing::Test {
  protected:
-  Scene load(const std::string& body) {
+  scene::Scene load(const std::string& body) {
     folder_.write("two.obj",
                   "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
                   "v 10 0 0\nv 14 0 0\nv 10 4 0\nv 10 0 4\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n");
     folder_.write("points.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n");
-    return load_scene(folder_.write("scene.toml", body));
+    return scene::load_scene(folder_.write("scene.toml", body));
   }
   std::string fault(const std::string& body) {
     return input_fault([&] { load(body); });
@@ -106,7 +106,7 @@ class Parts : public testing::Test {
 };
 
 TEST_F(Parts, AreBodiesWhereTheyAreInTheWhole) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "body = [{mesh = \"two.obj\", parts = true, scale = 0.5, translation = [0, 0, 1],"
       "         quaternion_wxyz = [1, 0, 0, 1], velocity = [1, 0, 0]},\n"
       "        {mesh = \"two.obj\", parts = true, scale = 0.5, moving = false},\n"
@@ -156,14 +156,14 @@ TEST_F(Parts, MissingFilesSayHowToGetThem) {
 TEST(CgalMeshes, LoadOrSayHowToGetThem) {
   const bool present = std::filesystem::exists(datasets / "local" / "cgal" / "elephant.off");
   try {
-    const Scene scene = load_scene(datasets / "cgal_meshes.toml", {.count = 100});
+    const scene::Scene scene = scene::load_scene(datasets / "cgal_meshes.toml", {.count = 100});
     EXPECT_TRUE(present);
     EXPECT_EQ(scene.bodies.size(), 100u);
     for (const Shape& shape : scene.shapes) {
       EXPECT_FALSE(shape.hull->faces.empty());
       EXPECT_GT(loose_reach(shape, Mat3d::Identity()), 0);
     }
-  } catch (const InputError& error) {
+  } catch (const base::InputError& error) {
     EXPECT_FALSE(present) << error.what();
     EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("libcgal-demo"),
                                              testing::HasSubstr("get_cgal_meshes.sh")));

@@ -20,9 +20,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Scene load(const std::string& content) {
+scene::Scene load(const std::string& content) {
   const TemporaryFolder folder;
-  return load_scene(folder.write("scene.toml", content));
+  return scene::load_scene(folder.write("scene.toml", content));
 }
 
 std::string error(const std::string& content) {
@@ -31,7 +31,7 @@ std::string error(const std::string& content) {
 
 bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof(Aabb)) == 0; }
 
-std::vector<Vec3d> sorted_places(const Kinematics& kinematics, std::size_t bodies) {
+std::vector<Vec3d> sorted_places(const scene::Kinematics& kinematics, std::size_t bodies) {
   std::vector<Vec3d> places;
   for (std::size_t i = 0; i < bodies; ++i) {
     if (kinematics.is_present(i)) places.push_back(kinematics.poses()[i].translation);
@@ -44,10 +44,11 @@ std::vector<Vec3d> sorted_places(const Kinematics& kinematics, std::size_t bodie
 
 TEST(Step, IsTheGreatestDisplacementInMedianSizes) {
   for (const char* generator : {"uniform", "clustered", "ground", "stack", "brownian"}) {
-    const Scene scene = load(std::string("generator = \"") + generator +
-                             "\"\ncount = 400\nmoving = 1\nframes = 3\nstep = 0.05\n" +
-                             (generator == std::string("stack") ? "size = 2" : "size = [2, 2]"));
-    Kinematics kinematics(scene);
+    const scene::Scene scene =
+        load(std::string("generator = \"") + generator +
+             "\"\ncount = 400\nmoving = 1\nframes = 3\nstep = 0.05\n" +
+             (generator == std::string("stack") ? "size = 2" : "size = [2, 2]"));
+    scene::Kinematics kinematics(scene);
     double greatest = 0;
     for (int frame = 1; frame < scene.frames; ++frame) {
       std::vector<Vec3d> before;
@@ -74,11 +75,11 @@ TEST(Order, ShufflingKeepsTheBodies) {
   for (const char* generator : {"city", "ground", "uniform"}) {
     const std::string content =
         std::string("generator = \"") + generator + "\"\ncount = 300\nframes = 2\n";
-    const Scene plain = load(content), shuffled = load(content + "shuffled = true\n");
-    EXPECT_NE(scene_hash(plain), scene_hash(shuffled));
-    EXPECT_EQ(scene_hash(plain), scene_hash(load(content + "shuffled = false\n")));
-    const auto boxes = [](const Scene& scene) {
-      const ScenePlayer player(scene, BoxKind::tight);
+    const scene::Scene plain = load(content), shuffled = load(content + "shuffled = true\n");
+    EXPECT_NE(scene::scene_hash(plain), scene::scene_hash(shuffled));
+    EXPECT_EQ(scene::scene_hash(plain), scene::scene_hash(load(content + "shuffled = false\n")));
+    const auto boxes = [](const scene::Scene& scene) {
+      const scene::ScenePlayer player(scene, scene::BoxKind::tight);
       std::vector<Aabb> all(player.boxes().begin(), player.boxes().end());
       std::ranges::sort(all, [](const Aabb& a, const Aabb& b) {
         return std::pair(a.min, a.max) < std::pair(b.min, b.max);
@@ -92,11 +93,11 @@ TEST(Order, ShufflingKeepsTheBodies) {
 }
 
 TEST(Exchange, TeleportsPermuteThePlacesOfThoseThatMove) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "generator = \"clustered\"\ncount = 300\nframes = 6\nmoving = 0.5\nspeed = 0\nspin = 0\n"
       "teleports = 0.1\n");
   EXPECT_EQ(scene.motion.teleports, 15u);
-  Kinematics kinematics(scene);
+  scene::Kinematics kinematics(scene);
   const auto start = sorted_places(kinematics, scene.bodies.size());
   std::set<std::size_t> jumped;
   for (int frame = 1; frame < scene.frames; ++frame) {
@@ -118,12 +119,12 @@ TEST(Exchange, TeleportsPermuteThePlacesOfThoseThatMove) {
 
 // Checks the promises of FrameChange and of the file's format.
 TEST(Exchange, ChurnKeepsTheContractOfFrameChange) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "generator = \"uniform\"\ncount = 400\nframes = 12\nmoving = 0.5\nchurn = 0.1\n"
       "teleports = 0.05\n");
   EXPECT_EQ(scene.size(), 400u);
   EXPECT_EQ(scene.motion.churn, 20u);
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   EXPECT_EQ(player.boxes().size(), 400u);
   EXPECT_TRUE(player.change().inserted.empty());
   std::vector<Aabb> before(player.boxes().begin(), player.boxes().end());
@@ -167,9 +168,9 @@ TEST(Exchange, ChurnKeepsTheContractOfFrameChange) {
 }
 
 TEST(Exchange, ThoseThatComeTakeThePlacesLeft) {
-  const Scene scene =
+  const scene::Scene scene =
       load("generator = \"uniform\"\ncount = 200\nframes = 8\nspeed = 0\nspin = 0\nchurn = 0.25\n");
-  Kinematics kinematics(scene);
+  scene::Kinematics kinematics(scene);
   const auto start = sorted_places(kinematics, scene.bodies.size());
   for (int frame = 1; frame < scene.frames; ++frame) {
     kinematics.next();
@@ -178,15 +179,16 @@ TEST(Exchange, ThoseThatComeTakeThePlacesLeft) {
 }
 
 TEST(Exchange, ShareOfOneAndOneBody) {
-  Scene scene = load("generator = \"uniform\"\ncount = 50\nframes = 4\nchurn = 1\nteleports = 1\n");
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::Scene scene =
+      load("generator = \"uniform\"\ncount = 50\nframes = 4\nchurn = 1\nteleports = 1\n");
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.next()) {
     EXPECT_TRUE(player.change().moved.empty());
     EXPECT_EQ(player.change().removed.size(), 50u);
   }
   scene = load("generator = \"uniform\"\ncount = 1\nframes = 3\nchurn = 1\nteleports = 1\n");
   EXPECT_EQ(scene.motion.teleports, 0u);
-  ScenePlayer alone(scene, BoxKind::tight);
+  scene::ScenePlayer alone(scene, scene::BoxKind::tight);
   while (alone.next()) EXPECT_EQ(alone.change().inserted.size(), 1u);
 }
 
@@ -195,17 +197,17 @@ TEST(Exchange, HashAndFramesAreTheSameEachTimeAndTellTheKeysApart) {
   std::set<std::string> hashes;
   for (const char* more : {"", "churn = 0.1", "churn = 0.2", "teleports = 0.1", "teleports = 0.2",
                            "churn = 0.1\nteleports = 0.1"}) {
-    const Scene a = load(content + more), b = load(content + more);
-    EXPECT_EQ(scene_hash(a), scene_hash(b));
-    EXPECT_TRUE(hashes.insert(scene_hash(a)).second) << more;
-    ScenePlayer first(a, BoxKind::tight), second(b, BoxKind::tight);
+    const scene::Scene a = load(content + more), b = load(content + more);
+    EXPECT_EQ(scene::scene_hash(a), scene::scene_hash(b));
+    EXPECT_TRUE(hashes.insert(scene::scene_hash(a)).second) << more;
+    scene::ScenePlayer first(a, scene::BoxKind::tight), second(b, scene::BoxKind::tight);
     do {
       EXPECT_TRUE(std::ranges::equal(first.boxes(), second.boxes(), same_bits));
       second.next();
     } while (first.next());
   }
   // Zero is equal to a missing key.
-  EXPECT_TRUE(hashes.contains(scene_hash(load(content + "churn = 0\nteleports = 0\n"))));
+  EXPECT_TRUE(hashes.contains(scene::scene_hash(load(content + "churn = 0\nteleports = 0\n"))));
 }
 
 TEST(Exchange, FaultsAreTold) {

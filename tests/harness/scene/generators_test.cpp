@@ -15,9 +15,9 @@
 namespace touchstone {
 namespace {
 
-Scene load(const std::string& content) {
+scene::Scene load(const std::string& content) {
   const TemporaryFolder folder;
-  return load_scene(folder.write("scene.toml", content));
+  return scene::load_scene(folder.write("scene.toml", content));
 }
 
 std::filesystem::path dataset(const std::string& name) {
@@ -46,10 +46,10 @@ TEST(Generators, DatasetsAreWhatTheyWere) {
       {"rotating_gravity", "a02e74b6eb64068f"},
   };
   for (const auto& [name, hash] : golden) {
-    const Scene scene = load_scene(dataset(name), {.count = 200, .frames = 5});
+    const scene::Scene scene = scene::load_scene(dataset(name), {.count = 200, .frames = 5});
     EXPECT_EQ(scene.size(), 200u) << name;
     EXPECT_EQ(scene.name, name);
-    EXPECT_EQ(scene_hash(scene), hash) << name;
+    EXPECT_EQ(scene::scene_hash(scene), hash) << name;
   }
 }
 
@@ -58,16 +58,16 @@ TEST(Generators, EveryDatasetLoadsAsItStands) {
   for (const auto& entry : std::filesystem::directory_iterator(dataset("x").parent_path())) {
     if (entry.path().extension() != ".toml") continue;
     try {
-      const Scene scene = load_scene(entry.path());
+      const scene::Scene scene = scene::load_scene(entry.path());
       EXPECT_GT(scene.size(), 0u) << entry.path();
-    } catch (const InputError& error) {
+    } catch (const base::InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("To get it: "));
     }
   }
 }
 
 TEST(Generators, ShapesDatasetHasEveryKind) {
-  const Scene scene = load_scene(dataset("shapes"));
+  const scene::Scene scene = scene::load_scene(dataset("shapes"));
   for (const ShapeKind kind : all_shape_kinds) {
     EXPECT_TRUE(std::any_of(scene.shapes.begin(), scene.shapes.end(), [kind](const Shape& shape) {
       return shape.kind == kind;
@@ -79,7 +79,7 @@ TEST(Generators, TheSeedDecides) {
   for (const std::string name :
        {"uniform", "clustered", "mixed", "city", "ground", "brownian", "rotating_gravity"}) {
     const auto hash = [&](int seed) {
-      return scene_hash(
+      return scene::scene_hash(
           load("count = 50\ngenerator = \"" + name + "\"\nseed = " + std::to_string(seed) + "\n"));
     };
     EXPECT_EQ(hash(1), hash(1)) << name;
@@ -101,10 +101,10 @@ TEST_P(Overlaps, AreAboutWhatWasAsked) {
   double sum = 0;
   constexpr int seeds = 3;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Scene scene =
+    const scene::Scene scene =
         load("count = 1000\nframes = 1\nseed = " + std::to_string(seed) +
              "\noverlaps = " + std::to_string(asked.overlaps) + "\n" + asked.options);
-    const ScenePlayer player(scene, BoxKind::tight);
+    const scene::ScenePlayer player(scene, scene::BoxKind::tight);
     sum += mean_overlaps(player.boxes().subspan(asked.first)) / seeds;
   }
   EXPECT_NEAR(sum / asked.overlaps, 1, 0.25) << asked.options;
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
         Asked{"generator = \"brownian\"\n", 1, 0}, Asked{"generator = \"free_fall\"\n", 10, 0}));
 
 TEST(Generators, DensityIsBroadmarks) {
-  const Scene scene = load("generator = \"brownian\"\ncount = 1000\ndensity = 0.125\n");
+  const scene::Scene scene = load("generator = \"brownian\"\ncount = 1000\ndensity = 0.125\n");
   EXPECT_NEAR(scene.motion.wall_max.x() - scene.motion.wall_min.x(), 20, 1e-3);
   for (const Body& body : scene.bodies) {
     EXPECT_LE(body.pose.translation.norm(), 9);
@@ -133,7 +133,7 @@ TEST(Generators, DensityIsBroadmarks) {
   EXPECT_NEAR(
       load("generator = \"free_fall\"\ncount = 1000\ndensity = 0.125\n").motion.acceleration, 1.962,
       1e-3);
-  const Motion turning =
+  const scene::Motion turning =
       load("generator = \"rotating_gravity\"\ncount = 1000\ndensity = 0.125\n").motion;
   EXPECT_NEAR(turning.acceleration, 7.848, 1e-2);
   EXPECT_EQ(turning.period, 6.2);
@@ -142,13 +142,13 @@ TEST(Generators, DensityIsBroadmarks) {
 TEST(Generators, ExactlyTheAskedShareMoves) {
   for (const std::string share : {"0", "0.25", "0.5", "1"}) {
     for (const std::string name : {"uniform", "ground", "stack", "city"}) {
-      const Scene scene =
+      const scene::Scene scene =
           load("count = 81\nwalls = true\ngenerator = \"" + name + "\"\nmoving = " + share + "\n");
       const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                         [](const Body& body) { return body.moving; });
       const double of = name == "ground" || name == "city" ? 80 : 81;
       EXPECT_EQ(moving, static_cast<long>(std::floor(of * std::stod(share) + 0.5))) << name;
-      ScenePlayer player(scene, BoxKind::tight);
+      scene::ScenePlayer player(scene, scene::BoxKind::tight);
       ASSERT_TRUE(player.next());
       EXPECT_EQ(player.change().moved.size(), static_cast<std::size_t>(moving)) << name << share;
     }
@@ -156,7 +156,7 @@ TEST(Generators, ExactlyTheAskedShareMoves) {
 }
 
 TEST(Generators, MixedSizesCoverThreeMagnitudes) {
-  const Scene scene =
+  const scene::Scene scene =
       load("generator = \"mixed\"\ncount = 2000\ndistinct = 2000\nshapes = [\"sphere\"]\n");
   ASSERT_EQ(scene.shapes.size(), 2000u);
   int in_decade[3] = {};
@@ -170,7 +170,7 @@ TEST(Generators, MixedSizesCoverThreeMagnitudes) {
 }
 
 TEST(Generators, MixFollowsTheWeights) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "generator = \"uniform\"\ncount = 4000\ndistinct = 4000\n"
       "shapes = [{type = \"box\", weight = 3}, {type = \"sphere\", radius = 0.5}]\n");
   const auto spheres = std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) {
@@ -184,7 +184,7 @@ TEST(Generators, MixFollowsTheWeights) {
 }
 
 TEST(Generators, SizesAndAspectAreKept) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "generator = \"uniform\"\ncount = 500\nsize = [1, 2]\naspect = 0.25\n"
       "shapes = [\"box\", \"ellipsoid\"]\n");
   for (const Shape& shape : scene.shapes) {
@@ -196,24 +196,24 @@ TEST(Generators, SizesAndAspectAreKept) {
 }
 
 TEST(Generators, StacksTouchFaceToFace) {
-  const Scene scene = load("generator = \"stack\"\ncount = 30\nheight = 10\nmoving = 0\n");
+  const scene::Scene scene = load("generator = \"stack\"\ncount = 30\nheight = 10\nmoving = 0\n");
   for (std::size_t i = 0; i + 1 < scene.bodies.size(); ++i) {
     if (i % 10 == 9) continue;
     const Vec3d step = scene.bodies[i + 1].pose.translation - scene.bodies[i].pose.translation;
     EXPECT_EQ(step, Vec3d(0, 0, 1));
   }
-  const ScenePlayer player(scene, BoxKind::tight);
+  const scene::ScenePlayer player(scene, scene::BoxKind::tight);
   EXPECT_EQ(mean_overlaps(player.boxes()), 2 * 27.0 / 30);
 }
 
 TEST(Generators, ACityStandsOnTheGround) {
-  const Scene scene = load("generator = \"city\"\ncount = 101\n");
+  const scene::Scene scene = load("generator = \"city\"\ncount = 101\n");
   ASSERT_EQ(scene.shapes[scene.bodies[0].shape].kind, ShapeKind::halfspace);
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     EXPECT_EQ(body.pose.translation.z(), scene.shapes[body.shape].half_extents.z());
   }
-  const ScenePlayer player(scene, BoxKind::tight);
+  const scene::ScenePlayer player(scene, scene::BoxKind::tight);
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     EXPECT_TRUE(overlap(player.boxes()[0], player.boxes()[i]));
   }
@@ -222,9 +222,9 @@ TEST(Generators, ACityStandsOnTheGround) {
 TEST(Generators, OneBodyIsAScene) {
   for (const std::string name : {"uniform", "clustered", "mixed", "city", "stack", "ground",
                                  "brownian", "free_fall", "rotating_gravity"}) {
-    const Scene scene = load("generator = \"" + name + "\"\ncount = 1\n");
+    const scene::Scene scene = load("generator = \"" + name + "\"\ncount = 1\n");
     ASSERT_EQ(scene.size(), 1u) << name;
-    ScenePlayer player(scene, BoxKind::loose);
+    scene::ScenePlayer player(scene, scene::BoxKind::loose);
     while (player.next()) {
     }
     EXPECT_EQ(player.frame(), 9) << name;

@@ -13,12 +13,13 @@
 namespace touchstone {
 namespace {
 
-Scene load(const std::string& content, const SceneOverrides& overrides = {}) {
+scene::Scene load(const std::string& content, const scene::SceneOverrides& overrides = {}) {
   const TemporaryFolder folder;
-  return load_scene(folder.write("scene.toml", "generator = \"pairs\"\n" + content), overrides);
+  return scene::load_scene(folder.write("scene.toml", "generator = \"pairs\"\n" + content),
+                           overrides);
 }
 
-oracle::Enclosure exact_distance(const Scene& scene, const IndexPair& pair) {
+oracle::Enclosure exact_distance(const scene::Scene& scene, const IndexPair& pair) {
   const Body& a = scene.bodies[pair.a];
   const Body& b = scene.bodies[pair.b];
   const oracle::Solid solid_a(scene.shapes[a.shape]), solid_b(scene.shapes[b.shape]);
@@ -30,8 +31,9 @@ oracle::Enclosure exact_distance(const Scene& scene, const IndexPair& pair) {
 TEST(Pairs, GapsAreExactForEveryKind) {
   const double gaps[] = {1e-4, 0.01, 0.5, 20};
   for (const char* kind : {"sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "hull"}) {
-    const Scene scene = load(std::string("count = 48\ngaps = [1e-4, 0.01, 0.5, 20]\nshapes = [\"") +
-                             kind + "\", \"box\"]\n");
+    const scene::Scene scene =
+        load(std::string("count = 48\ngaps = [1e-4, 0.01, 0.5, 20]\nshapes = [\"") + kind +
+             "\", \"box\"]\n");
     ASSERT_EQ(scene.pairs.size(), 24u) << kind;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       EXPECT_EQ(scene.pairs[i], (IndexPair{static_cast<std::uint32_t>(2 * i),
@@ -45,7 +47,8 @@ TEST(Pairs, GapsAreExactForEveryKind) {
 }
 
 TEST(Pairs, DepthsAreAtMostWhatIsAsked) {
-  const Scene scene = load("count = 200\ngaps = [-0.001, -0.05]\nshapes = [\"ellipsoid\"]\n");
+  const scene::Scene scene =
+      load("count = 200\ngaps = [-0.001, -0.05]\nshapes = [\"ellipsoid\"]\n");
   int overlapping = 0;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const double depth = i % 2 == 0 ? 0.001 : 0.05;
@@ -58,7 +61,7 @@ TEST(Pairs, DepthsAreAtMostWhatIsAsked) {
 
 TEST(Pairs, SettledOnesAreAsFarApartOrAsDeepAsAsked) {
   for (const double gap : {0.1, 1e-3, -1e-3, -0.1}) {
-    const Scene scene = load(
+    const scene::Scene scene = load(
         "count = 60\nshapes = [\"sphere\", \"box\", \"capsule\", \"hull\"]\nsize = [0.5, 1.0]\n"
         "aspect = 0.5\nplacement = \"settled\"\n",
         {.gap = gap});
@@ -73,28 +76,28 @@ TEST(Pairs, SettledOnesAreAsFarApartOrAsDeepAsAsked) {
 
 TEST(Pairs, AGapFromOutsideReplacesThoseOfTheFileAndIsInTheName) {
   const std::string content = "count = 20\ngaps = [0.5, 20]\n";
-  const Scene near = load(content, {.gap = 0.25}), deep = load(content, {.gap = -0.01});
+  const scene::Scene near = load(content, {.gap = 0.25}), deep = load(content, {.gap = -0.01});
   EXPECT_EQ(load(content).name, "scene");
   EXPECT_EQ(near.name, "scene gap 0.25");
   EXPECT_EQ(deep.name, "scene depth 0.01");
   for (const IndexPair& pair : near.pairs) {
     EXPECT_NEAR(exact_distance(near, pair).lower, 0.25, 1e-12);
   }
-  EXPECT_NE(scene_hash(near), scene_hash(deep));
+  EXPECT_NE(scene::scene_hash(near), scene::scene_hash(deep));
 }
 
 TEST(Pairs, ListedPairsAreOfTheSceneAndItsHash) {
-  const Scene scene = load("count = 20\n");
+  const scene::Scene scene = load("count = 20\n");
   EXPECT_EQ(scene.frames, 1);
-  Scene other = scene;
+  scene::Scene other = scene;
   other.pairs.pop_back();
-  EXPECT_NE(scene_hash(scene), scene_hash(other));
-  EXPECT_EQ(scene_hash(scene), scene_hash(load("count = 20\n")));
-  EXPECT_NE(scene_hash(scene), scene_hash(load("count = 20\n", {.seed = 9})));
+  EXPECT_NE(scene::scene_hash(scene), scene::scene_hash(other));
+  EXPECT_EQ(scene::scene_hash(scene), scene::scene_hash(load("count = 20\n")));
+  EXPECT_NE(scene::scene_hash(scene), scene::scene_hash(load("count = 20\n", {.seed = 9})));
 }
 
 TEST(Pairs, RadiiAreDrawnFromANormalDistribution) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "count = 4000\ndistinct = 4000\n"
       "shapes = [{type = \"ellipsoid\", radii_normal = {mean = 0.1, deviation = 0.025}}]\n");
   double sum = 0, squares = 0;
@@ -130,7 +133,7 @@ TEST(Pairs, BadRequestsAreRefused) {
               HasSubstr("radii_normal"));
   const TemporaryFolder folder;
   const auto without_gaps = [&](const std::string& other) {
-    return input_fault([&] { load_scene(folder.write("other.toml", other), {.gap = 0.1}); });
+    return input_fault([&] { scene::load_scene(folder.write("other.toml", other), {.gap = 0.1}); });
   };
   EXPECT_THAT(without_gaps("generator = \"uniform\"\n"), HasSubstr("a gap of 0.1 was asked for"));
   EXPECT_THAT(without_gaps("[[body]]\nshape = {type = \"sphere\", radius = 1}\n"),
@@ -139,12 +142,12 @@ TEST(Pairs, BadRequestsAreRefused) {
 
 TEST(Pairs, SwayingOnesStayAboutAsFarApart) {
   for (const double gap : {0.1, 1e-3, 1e-6, -1e-3, -0.1}) {
-    const Scene scene = load(
+    const scene::Scene scene = load(
         "count = 40\nshapes = [\"box\", \"ellipsoid\", {type = \"hull\", points = 30}]\n"
         "placement = \"meeting\"\nsway = 0.2\nframes = 21\n",
         {.gap = gap});
     oracle::Oracle oracle;
-    ScenePlayer player(scene, BoxKind::tight);
+    scene::ScenePlayer player(scene, scene::BoxKind::tight);
     std::vector<Pose> before(player.poses().begin(), player.poses().end());
     int near = 0, all = 0, on_its_side = 0, moved = 0;
     do {
@@ -177,7 +180,8 @@ TEST(Pairs, SwayIsRefusedWhereItMakesNoSense) {
   EXPECT_THAT(fault("count = 2\nsway = 0.1\nmotion = \"brownian\"\n"),
               testing::HasSubstr("motion"));
   EXPECT_THAT(fault("count = 2\nsway = 0.1\nframes = 3\nstep = 0.1\n"), testing::HasSubstr("step"));
-  const Scene still = load("count = 4\nframes = 5\n"), swaying = load("count = 4\nsway = 0.1\n");
+  const scene::Scene still = load("count = 4\nframes = 5\n"),
+                     swaying = load("count = 4\nsway = 0.1\n");
   for (const Body& body : still.bodies) EXPECT_FALSE(body.moving);
   for (const Body& body : swaying.bodies) EXPECT_FALSE(body.moving);  // of one frame
 }

@@ -31,8 +31,8 @@ Shape halfspace(const Vec3d& normal, double offset) {
   return shape;
 }
 
-Scene scene_of(const Shape& shape, const Body& body, int frames) {
-  Scene scene;
+scene::Scene scene_of(const Shape& shape, const Body& body, int frames) {
+  scene::Scene scene;
   scene.shapes = {shape};
   scene.bodies = {body};
   scene.frames = frames;
@@ -40,7 +40,7 @@ Scene scene_of(const Shape& shape, const Body& body, int frames) {
 }
 
 // A point of the shape's boundary, or near it.
-Vec3l boundary_point(const Shape& shape, Random& random) {
+Vec3l boundary_point(const Shape& shape, base::Random& random) {
   const Vec3l direction = random.on_sphere().cast<long double>();
   const long double sign = random.below(2) == 0 ? 1 : -1;
   const auto rim = [&]() -> Vec3l {
@@ -77,17 +77,17 @@ std::string every_kind(const std::string& motion) {
          motion + "\"\n";
 }
 
-Scene load(const std::string& content) {
+scene::Scene load(const std::string& content) {
   const TemporaryFolder folder;
-  return load_scene(folder.write("scene.toml", content));
+  return scene::load_scene(folder.write("scene.toml", content));
 }
 
 TEST(Player, BoxesHoldAllPointsInAllFrames) {
   for (const std::string motion : {"inertial", "brownian", "free_fall", "rotating_gravity"}) {
-    const Scene scene = load(every_kind(motion));
-    Random random(7);
-    for (const BoxKind kind : {BoxKind::tight, BoxKind::loose}) {
-      ScenePlayer player(scene, kind);
+    const scene::Scene scene = load(every_kind(motion));
+    base::Random random(7);
+    for (const scene::BoxKind kind : {scene::BoxKind::tight, scene::BoxKind::loose}) {
+      scene::ScenePlayer player(scene, kind);
       do {
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
           const Shape& shape = scene.shapes[scene.bodies[i].shape];
@@ -105,7 +105,7 @@ TEST(Player, BoxesHoldAllPointsInAllFrames) {
             // The sampled points of curved shapes are not exact extremes in long double either.
             EXPECT_LE(box.min[a], low[axis] + 1e-15L * std::abs(low[axis]));
             EXPECT_GE(box.max[a], high[axis] - 1e-15L * std::abs(high[axis]));
-            if (kind == BoxKind::tight && shape.kind == ShapeKind::hull) {
+            if (kind == scene::BoxKind::tight && shape.kind == ShapeKind::hull) {
               EXPECT_NEAR(static_cast<double>(box.max[a] - box.min[a]),
                           static_cast<double>(high[axis] - low[axis]), 1.0);
             }
@@ -118,8 +118,8 @@ TEST(Player, BoxesHoldAllPointsInAllFrames) {
 }
 
 TEST(Player, LooseBoxesHoldTightOnesAndKeepTheirSize) {
-  const Scene scene = load(every_kind("inertial"));
-  ScenePlayer tight(scene, BoxKind::tight), loose(scene, BoxKind::loose);
+  const scene::Scene scene = load(every_kind("inertial"));
+  scene::ScenePlayer tight(scene, scene::BoxKind::tight), loose(scene, scene::BoxKind::loose);
   const std::vector<Aabb> first(loose.boxes().begin(), loose.boxes().end());
   do {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -134,8 +134,9 @@ TEST(Player, LooseBoxesHoldTightOnesAndKeepTheirSize) {
 }
 
 TEST(Player, MovedListsExactlyWhatChanged) {
-  const Scene scene = load("generator = \"uniform\"\ncount = 200\nmoving = 0.3\nframes = 8\n");
-  ScenePlayer player(scene, BoxKind::tight);
+  const scene::Scene scene =
+      load("generator = \"uniform\"\ncount = 200\nmoving = 0.3\nframes = 8\n");
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   EXPECT_TRUE(player.change().moved.empty());
   std::vector<Aabb> before(player.boxes().begin(), player.boxes().end());
   while (player.next()) {
@@ -154,8 +155,8 @@ TEST(Player, MovedListsExactlyWhatChanged) {
 }
 
 TEST(Player, TheFrameBeforeStaysAlive) {
-  const Scene scene = load("generator = \"uniform\"\ncount = 20\nframes = 3\n");
-  ScenePlayer player(scene, BoxKind::tight);
+  const scene::Scene scene = load("generator = \"uniform\"\ncount = 20\nframes = 3\n");
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   const std::span<const Aabb> before = player.boxes();
   const std::vector<Aabb> copy(before.begin(), before.end());
   ASSERT_TRUE(player.next());
@@ -163,8 +164,8 @@ TEST(Player, TheFrameBeforeStaysAlive) {
 }
 
 TEST(Player, PlaysTheSameBitsEachTime) {
-  const Scene scene = load(every_kind("brownian"));
-  ScenePlayer a(scene, BoxKind::tight), b(scene, BoxKind::tight);
+  const scene::Scene scene = load(every_kind("brownian"));
+  scene::ScenePlayer a(scene, scene::BoxKind::tight), b(scene, scene::BoxKind::tight);
   do {
     EXPECT_EQ(std::memcmp(a.boxes().data(), b.boxes().data(), a.boxes().size_bytes()), 0);
     EXPECT_EQ(std::memcmp(a.poses().data(), b.poses().data(), a.poses().size_bytes()), 0);
@@ -175,9 +176,9 @@ TEST(Player, InertialBodiesFlyStraightAndTurnEvenly) {
   Body body;
   body.velocity = {3, -1, 0.5};
   body.angular_velocity = {0, 0, std::numbers::pi};  // half a turn a second
-  Scene scene = scene_of(sphere(1), body, 61);
+  scene::Scene scene = scene_of(sphere(1), body, 61);
   scene.motion.time_step = 0.25;
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.next()) {
     const double time = 0.25 * player.frame();
     EXPECT_LT((player.poses()[0].translation - time * body.velocity).norm(), 1e-12);
@@ -191,8 +192,8 @@ TEST(Player, InertialBodiesFlyStraightAndTurnEvenly) {
 TEST(Player, RotationsStayOrthonormal) {
   Body body;
   body.angular_velocity = {70, -31, 12};
-  const Scene scene = scene_of(sphere(1), body, 5000);
-  ScenePlayer player(scene, BoxKind::tight);
+  const scene::Scene scene = scene_of(sphere(1), body, 5000);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.next()) {
     const Mat3d& r = player.poses()[0].rotation;
     ASSERT_LT((r.transpose() * r - Mat3d::Identity()).norm(), 4e-15);
@@ -203,10 +204,10 @@ TEST(Player, RotationsStayOrthonormal) {
 TEST(Player, FreeFallIsAParabola) {
   Body body;
   body.velocity = {1, 0, 10};
-  Scene scene = scene_of(sphere(1), body, 100);
-  scene.motion.kind = MotionKind::free_fall;
+  scene::Scene scene = scene_of(sphere(1), body, 100);
+  scene.motion.kind = scene::MotionKind::free_fall;
   scene.motion.acceleration = 9.81;
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.next()) {
     const double t = player.frame() / 30.0;
     const Vec3d expected(t, 0, 10 * t - 9.81 * t * t / 2);
@@ -215,11 +216,11 @@ TEST(Player, FreeFallIsAParabola) {
 }
 
 TEST(Player, GravityTurnsOnceAPeriod) {
-  Scene scene = scene_of(sphere(1), Body{}, 241);
-  scene.motion.kind = MotionKind::rotating_gravity;
+  scene::Scene scene = scene_of(sphere(1), Body{}, 241);
+  scene.motion.kind = scene::MotionKind::rotating_gravity;
   scene.motion.acceleration = 3;
   scene.motion.period = 8;  // 240 frames
-  Kinematics kinematics(scene);
+  scene::Kinematics kinematics(scene);
   kinematics.next();
   EXPECT_NEAR(kinematics.velocities()[0].z(), -0.1, 1e-15);
   EXPECT_EQ(kinematics.velocities()[0].x(), 0);
@@ -230,26 +231,27 @@ TEST(Player, GravityTurnsOnceAPeriod) {
 // Walls keep origins between them and preserve the energy, however fast the bodies are.
 TEST(Player, WallsAreElastic) {
   for (const double speed : {0.1, 5.0, 400.0, 1e6}) {
-    for (const MotionKind kind : {MotionKind::inertial, MotionKind::free_fall}) {
-      Scene scene;
+    for (const scene::MotionKind kind :
+         {scene::MotionKind::inertial, scene::MotionKind::free_fall}) {
+      scene::Scene scene;
       scene.shapes = {sphere(0.1)};
       scene.frames = 400;
       scene.motion.kind = kind;
-      scene.motion.acceleration = kind == MotionKind::free_fall ? 4 : 0;
+      scene.motion.acceleration = kind == scene::MotionKind::free_fall ? 4 : 0;
       scene.motion.wall_min = {-1, -2, -3};
       scene.motion.wall_max = {1, 2, 3};
-      Random random(3);
+      base::Random random(3);
       for (int i = 0; i < 20; ++i) {
         Body body;
         body.pose.translation = random.in_ball();
         body.velocity = speed * random.in_ball();
         scene.bodies.push_back(body);
       }
-      const auto energy = [&](const Kinematics& k, std::size_t i) {
+      const auto energy = [&](const scene::Kinematics& k, std::size_t i) {
         return k.velocities()[i].squaredNorm() / 2 +
                scene.motion.acceleration * (k.poses()[i].translation.z() + 3);
       };
-      Kinematics kinematics(scene);
+      scene::Kinematics kinematics(scene);
       std::vector<double> start;
       for (std::size_t i = 0; i < 20; ++i) start.push_back(energy(kinematics, i));
       while (kinematics.frame() < 399) {
@@ -268,8 +270,9 @@ TEST(Player, WallsAreElastic) {
 }
 
 TEST(Player, BrownianKicksOneInAHundredInTurn) {
-  const Scene scene = load("generator = \"brownian\"\ncount = 250\nwalls = false\nframes = 200\n");
-  Kinematics kinematics(scene);
+  const scene::Scene scene =
+      load("generator = \"brownian\"\ncount = 250\nwalls = false\nframes = 200\n");
+  scene::Kinematics kinematics(scene);
   std::vector<int> kicks(250);
   for (int frame = 0; frame < 84; ++frame) {  // 250 / 3, rounded up
     const std::vector<Vec3d> before(kinematics.velocities().begin(), kinematics.velocities().end());
@@ -291,10 +294,10 @@ TEST(Player, StillBodiesStayWhateverTheirVelocity) {
   body.velocity = {1, 2, 3};
   body.angular_velocity = {1, 2, 3};
   body.moving = false;
-  Scene scene = scene_of(sphere(1), body, 5);
-  scene.motion.kind = MotionKind::free_fall;
+  scene::Scene scene = scene_of(sphere(1), body, 5);
+  scene.motion.kind = scene::MotionKind::free_fall;
   scene.motion.acceleration = 9.81;
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.next()) {
     EXPECT_TRUE(player.change().moved.empty());
     EXPECT_EQ(player.poses()[0].translation, Vec3d::Zero());
@@ -303,7 +306,7 @@ TEST(Player, StillBodiesStayWhateverTheirVelocity) {
 
 // Every pair that overlaps with infinite boxes overlaps with the cut ones, in every frame.
 TEST(Player, HalfspacesAreCutWithoutLosingAPair) {
-  Scene scene;
+  scene::Scene scene;
   scene.shapes = {sphere(0.5), halfspace({0, 0, 1}, -5), halfspace({-1, 0, 0}, -5),
                   halfspace({1, 1, 0}, 0), halfspace({0, 1, 0}, 40)};
   scene.frames = 30;
@@ -313,15 +316,15 @@ TEST(Player, HalfspacesAreCutWithoutLosingAPair) {
     body.moving = false;
     scene.bodies.push_back(body);
   }
-  Random random(5);
+  base::Random random(5);
   for (int i = 0; i < 40; ++i) {
     Body body;
     body.pose.translation = 4 * random.in_ball();
     body.velocity = 10 * random.in_ball();
     scene.bodies.push_back(body);
   }
-  for (const BoxKind kind : {BoxKind::tight, BoxKind::loose}) {
-    ScenePlayer player(scene, kind);
+  for (const scene::BoxKind kind : {scene::BoxKind::tight, scene::BoxKind::loose}) {
+    scene::ScenePlayer player(scene, kind);
     int hits = 0, misses = 0;
     do {
       const auto boxes = player.boxes();
@@ -348,9 +351,9 @@ TEST(Player, HalfspacesAreCutWithoutLosingAPair) {
 TEST(Player, HalfspacesAloneHaveFiniteBoxes) {
   Body body;
   body.moving = false;
-  Scene scene = scene_of(halfspace({1, 2, 3}, 1), body, 2);
+  scene::Scene scene = scene_of(halfspace({1, 2, 3}, 1), body, 2);
   scene.bodies.push_back(body);
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   EXPECT_TRUE(overlap(player.boxes()[0], player.boxes()[1]));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     EXPECT_TRUE(std::isfinite(player.boxes()[0].min[axis]));
@@ -359,12 +362,12 @@ TEST(Player, HalfspacesAloneHaveFiniteBoxes) {
 }
 
 TEST(Player, PlaysRecordings) {
-  Scene scene;
+  scene::Scene scene;
   for (float f = 0; f < 4; ++f) {
     scene.recording.push_back({{{f, 0, 0}, {f + 1, 1, 1}}, {{0.0f, 5, 5}, {6, 6, 6}}});
   }
   scene.recording[2][1].min[0] = -0.0f;  // equal as a number, other bits
-  ScenePlayer player(scene, BoxKind::tight);
+  scene::ScenePlayer player(scene, scene::BoxKind::tight);
   EXPECT_TRUE(player.poses().empty());
   for (std::size_t frame = 0; frame < 4; ++frame) {
     EXPECT_EQ(std::vector<Aabb>(player.boxes().begin(), player.boxes().end()),

@@ -55,12 +55,12 @@ class RigidIpc : public testing::Test {
     }
   }
 
-  Scene import(const std::string& json) {
+  scene::Scene import(const std::string& json) {
     const fs::path file = folder_.path() / "fixtures" / "deep" / "made up.json";
     std::ofstream(file) << json;
-    return import_rigid_ipc(file);
+    return scene::import_rigid_ipc(file);
   }
-  Scene import_bodies(const std::string& bodies, const std::string& top = "") {
+  scene::Scene import_bodies(const std::string& bodies, const std::string& top = "") {
     return import("{\"scene_type\": \"distance_barrier_rb_problem\"," + top +
                   "\"rigid_body_problem\": {\"gravity\": [0, -9.8, 0], \"rigid_bodies\": [" +
                   bodies + "]}}");
@@ -76,7 +76,7 @@ class RigidIpc : public testing::Test {
 };
 
 // The world's box of a body.
-std::pair<Vec3d, Vec3d> extent(const Scene& scene, std::size_t body) {
+std::pair<Vec3d, Vec3d> extent(const scene::Scene& scene, std::size_t body) {
   const Body& b = scene.bodies[body];
   Vec3d low = Vec3d::Constant(1e300), high = -low;
   for (const Vec3d& v : scene.shapes[b.shape].hull->vertices) {
@@ -91,7 +91,7 @@ void expect_near(const Vec3d& a, const Vec3d& b) {
 }
 
 TEST_F(RigidIpc, PlacesMeshesAboutTheModelsOrigin) {
-  const Scene scene = import_bodies(R"(
+  const scene::Scene scene = import_bodies(R"(
       {"mesh": "block.obj", "position": [10, 0, 0]},
       {"mesh": "block.obj", "rotation": [90, 0, 0]},
       {"mesh": "block.obj", "rotation": [90, 0, 90], "position": [0, 0, 1]},
@@ -119,7 +119,7 @@ TEST_F(RigidIpc, PlacesMeshesAboutTheModelsOrigin) {
 TEST_F(RigidIpc, VelocitiesAndFrames) {
   const std::string body = R"({"mesh": "block.obj", "linear_velocity": [1, 2, 3],
       "angular_velocity": [180, 360, 0] )";
-  Scene scene = import_bodies(
+  scene::Scene scene = import_bodies(
       body + "}," + body + R"(, "is_dof_fixed": [true, false, false, false, true, false]},)" +
           body + R"(, "type": "static"},)" + body +
           R"(, "is_dof_fixed": true, "type": "kinematic"},)" +
@@ -148,10 +148,10 @@ TEST_F(RigidIpc, VelocitiesAndFrames) {
 }
 
 TEST_F(RigidIpc, SplitsAMeshIntoItsParts) {
-  const Scene whole = import_bodies(R"({"mesh": "pair.obj"})");
+  const scene::Scene whole = import_bodies(R"({"mesh": "pair.obj"})");
   ASSERT_EQ(whole.bodies.size(), 1u);
   expect_near(whole.bodies[0].pose.translation, {5.25, 0.25, 0.25});
-  const Scene scene =
+  const scene::Scene scene =
       import_bodies(R"({"mesh": "pair.obj", "split_components": true, "rotation": [0, 0, 90]})");
   ASSERT_EQ(scene.bodies.size(), 2u);
   expect_near(scene.bodies[0].pose.translation, {-0.25, 0.25, 0.25});
@@ -159,7 +159,7 @@ TEST_F(RigidIpc, SplitsAMeshIntoItsParts) {
 }
 
 TEST_F(RigidIpc, ReadsVerticesInTheFile) {
-  const Scene scene = import_bodies(
+  const scene::Scene scene = import_bodies(
       R"({"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "faces": [[0,2,1],[0,1,3],[1,2,3],[2,0,3]],
           "edges": []})");
   EXPECT_EQ(scene.shapes[0].hull->faces.size(), 4u);
@@ -190,20 +190,20 @@ TEST_F(RigidIpc, ErrorsSayWhere) {
   EXPECT_THAT(body_error(R"({"mesh": "block.obj", "kinematic_poses": []})"),
               HasSubstr("kinematic_poses"));
   EXPECT_THAT(body_error(R"({"vertices": [[0,0,0]], "faces": [[0,0,1]]})"), HasSubstr("in range"));
-  EXPECT_THROW(import_rigid_ipc(folder_.path()), InputError);
-  EXPECT_THROW(import_rigid_ipc(folder_.path() / "none.json"), InputError);
+  EXPECT_THROW(scene::import_rigid_ipc(folder_.path()), base::InputError);
+  EXPECT_THROW(scene::import_rigid_ipc(folder_.path() / "none.json"), base::InputError);
 }
 
 TEST(MeshMass, CentreOfSolidSurfaceAndPoints) {
-  Mesh mesh;
+  geometry::Mesh mesh;
   mesh.vertices = {{1, 1, 1}, {3, 1, 1}, {1, 3, 1}, {1, 1, 3}};
-  expect_near(centre_of_mass(mesh), Vec3d::Constant(1.5));
+  expect_near(geometry::centre_of_mass(mesh), Vec3d::Constant(1.5));
   mesh.triangles = {{0, 1, 2}};
-  expect_near(centre_of_mass(mesh), {5.0 / 3, 5.0 / 3, 1});
+  expect_near(geometry::centre_of_mass(mesh), {5.0 / 3, 5.0 / 3, 1});
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  expect_near(centre_of_mass(mesh), Vec3d::Constant(1.5));
+  expect_near(geometry::centre_of_mass(mesh), Vec3d::Constant(1.5));
   for (auto& t : mesh.triangles) std::swap(t[0], t[1]);  // inside out
-  expect_near(centre_of_mass(mesh), Vec3d::Constant(1.5));
+  expect_near(geometry::centre_of_mass(mesh), Vec3d::Constant(1.5));
 }
 
 // Every scene of the project's own folder loads, or says why not.
@@ -217,7 +217,7 @@ TEST(RigidIpcFolder, EveryScene) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
     try {
-      const Scene scene = import_rigid_ipc(entry.path());
+      const scene::Scene scene = scene::import_rigid_ipc(entry.path());
       ++loaded;
       EXPECT_GE(scene.frames, 1);
       for (const Body& body : scene.bodies) {
@@ -235,7 +235,7 @@ TEST(RigidIpcFolder, EveryScene) {
           EXPECT_LT(extent(scene, i).first.y(), 1);
         }
       }
-    } catch (const InputError& e) {
+    } catch (const base::InputError& e) {
       refused.push_back(e.what());
     }
   }

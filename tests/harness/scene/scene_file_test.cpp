@@ -19,11 +19,11 @@ using testing::StartsWith;
 
 class SceneFile : public testing::Test {
  protected:
-  Scene load(const std::string& content, const SceneOverrides& overrides = {}) {
-    return load_scene(folder_.write("scene.toml", content), overrides);
+  scene::Scene load(const std::string& content, const scene::SceneOverrides& overrides = {}) {
+    return scene::load_scene(folder_.write("scene.toml", content), overrides);
   }
   // The message, or nothing where there is no fault.
-  std::string fault(const std::string& content, const SceneOverrides& overrides = {}) {
+  std::string fault(const std::string& content, const scene::SceneOverrides& overrides = {}) {
     return input_fault([&] { load(content, overrides); });
   }
   std::string at(int line) const {
@@ -36,7 +36,7 @@ class SceneFile : public testing::Test {
 constexpr const char* ball = "[[body]]\nshape = {type = \"sphere\", radius = 1}\n";
 
 TEST_F(SceneFile, ReadsListedBodies) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "name = \"three\"\n"
       "frames = 4\n"
       "time_step = 0.5\n"
@@ -67,14 +67,14 @@ TEST_F(SceneFile, ReadsListedBodies) {
 }
 
 TEST_F(SceneFile, NameAndFramesHaveDefaults) {
-  const Scene scene = load(ball);
+  const scene::Scene scene = load(ball);
   EXPECT_EQ(scene.name, "scene");
   EXPECT_EQ(scene.frames, 1);
-  EXPECT_EQ(scene.motion.kind, MotionKind::inertial);
+  EXPECT_EQ(scene.motion.kind, scene::MotionKind::inertial);
 }
 
 TEST_F(SceneFile, ReadsEveryShape) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "body = [\n"
       "{shape = {type = \"sphere\", radius = 0}},\n"
       "{shape = {type = \"capsule\", radius = 1, half_length = 2}},\n"
@@ -98,7 +98,7 @@ TEST_F(SceneFile, ReadsEveryShape) {
 TEST_F(SceneFile, FoldsTheAxisIntoTheRotationExactly) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name(1, "xyz"[axis]);
-    const Scene scene =
+    const scene::Scene scene =
         load("[[body]]\nshape = {type = \"cone\", radius = 1, half_length = 2, axis = \"" + name +
              "\"}\nrotation = [0, -1, 0, 1, 0, 0, 0, 0, 1]\n");
     Mat3d turn;
@@ -111,7 +111,7 @@ TEST_F(SceneFile, FoldsTheAxisIntoTheRotationExactly) {
 
 TEST_F(SceneFile, NormalisesQuaternions) {
   for (const std::string size : {"1", "1e-200", "1e200"}) {
-    const Scene scene =
+    const scene::Scene scene =
         load(std::string(ball) + "quaternion_wxyz = [" + size + ", 0, 0, " + size + "]\n");
     const Vec3d turned = scene.bodies[0].pose.rotation * Vec3d(1, 0, 0);
     EXPECT_EQ(turned, Vec3d(0, 1, 0)) << size;
@@ -121,7 +121,7 @@ TEST_F(SceneFile, NormalisesQuaternions) {
 TEST_F(SceneFile, MeshesAreHullsAndShared) {
   folder_.write("block.obj",
                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.1 0.1 0.1\nf 1 2 3\nf 1 2 4\nf 1 5 4\n");
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "body = [\n"
       "{mesh = \"block.obj\"},\n"
       "{mesh = \"block.obj\", translation = [5, 0, 0]},\n"
@@ -138,7 +138,7 @@ TEST_F(SceneFile, MeshesAreHullsAndShared) {
 }
 
 TEST_F(SceneFile, PolytopesTakeThePlaceOfPrimitives) {
-  const Scene scene = load(
+  const scene::Scene scene = load(
       "polytope = 1\n"
       "body = [{shape = {type = \"sphere\", radius = 1}},\n"
       "{shape = {type = \"halfspace\", normal = [0, 0, 1], offset = 0}}]\n");
@@ -148,13 +148,13 @@ TEST_F(SceneFile, PolytopesTakeThePlaceOfPrimitives) {
 }
 
 TEST_F(SceneFile, ImportsRecordings) {
-  BoxRecording recording{"s", "t", {{0, 0, 0}, {4, 4, 4}}, {}};
+  scene::BoxRecording recording{"s", "t", {{0, 0, 0}, {4, 4, 4}}, {}};
   for (float f = 0; f < 3; ++f) {
     recording.frames.push_back({{{f, 0, 0}, {f + 1, 1, 1}}, {{2, 2, 2}, {3, 3, 3}}});
   }
-  write_aabbs(recording, folder_.path() / "r.aabbs");
-  EXPECT_EQ(load_scene(folder_.path() / "r.aabbs").recording, recording.frames);
-  EXPECT_EQ(load_scene(folder_.path() / "r.aabbs").name, "r");
+  scene::write_aabbs(recording, folder_.path() / "r.aabbs");
+  EXPECT_EQ(scene::load_scene(folder_.path() / "r.aabbs").recording, recording.frames);
+  EXPECT_EQ(scene::load_scene(folder_.path() / "r.aabbs").name, "r");
   const std::string imported = "import = \"r.aabbs\"\nframes = 2\n";
   EXPECT_EQ(load(imported).recording.size(), 2u);
   EXPECT_EQ(load(imported, {.frames = 3}).recording.size(), 3u);
@@ -170,8 +170,8 @@ TEST_F(SceneFile, OverridesReplaceWhatTheFileSays) {
   const std::string generated = "generator = \"uniform\"\ncount = 20\nseed = 3\nframes = 2\n";
   EXPECT_EQ(load(generated, {.count = 50}).bodies.size(), 50u);
   EXPECT_EQ(load(generated, {.frames = 7}).frames, 7);
-  EXPECT_NE(scene_hash(load(generated, {.seed = 4})), scene_hash(load(generated)));
-  EXPECT_EQ(scene_hash(load(generated, {.seed = 3})), scene_hash(load(generated)));
+  EXPECT_NE(scene::scene_hash(load(generated, {.seed = 4})), scene::scene_hash(load(generated)));
+  EXPECT_EQ(scene::scene_hash(load(generated, {.seed = 3})), scene::scene_hash(load(generated)));
   EXPECT_NE(fault(generated, {.count = 0}), "");
   EXPECT_NE(fault(generated, {.count = -2}), "");
   EXPECT_NE(fault(generated, {.frames = 0}), "");
@@ -299,9 +299,9 @@ INSTANTIATE_TEST_SUITE_P(
               3, "between the walls"}));
 
 TEST_F(SceneFile, FilesOfOtherKindsAreRefused) {
-  EXPECT_THROW(load_scene(folder_.path() / "none.toml"), InputError);
-  EXPECT_THROW(load_scene(folder_.path()), InputError);
-  EXPECT_THROW(load_scene(folder_.write("scene.xml", "<a/>")), InputError);
+  EXPECT_THROW(scene::load_scene(folder_.path() / "none.toml"), base::InputError);
+  EXPECT_THROW(scene::load_scene(folder_.path()), base::InputError);
+  EXPECT_THROW(scene::load_scene(folder_.write("scene.xml", "<a/>")), base::InputError);
 }
 
 }  // namespace

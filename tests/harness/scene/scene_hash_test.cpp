@@ -10,8 +10,8 @@
 namespace touchstone {
 namespace {
 
-Scene example() {
-  Scene scene;
+scene::Scene example() {
+  scene::Scene scene;
   scene.frames = 5;
   for (const ShapeKind kind : all_shape_kinds) {
     Shape shape;
@@ -38,73 +38,73 @@ Scene example() {
 void nudge(double& x) { x = std::nextafter(x, 10); }
 
 TEST(SceneHash, IsSixteenDigitsAndTheSameForTheSame) {
-  EXPECT_EQ(scene_hash(example()).size(), 16u);
-  EXPECT_EQ(scene_hash(example()).find_first_not_of("0123456789abcdef"), std::string::npos);
-  EXPECT_EQ(scene_hash(example()), scene_hash(example()));
-  Scene renamed = example();
+  EXPECT_EQ(scene::scene_hash(example()).size(), 16u);
+  EXPECT_EQ(scene::scene_hash(example()).find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_EQ(scene::scene_hash(example()), scene::scene_hash(example()));
+  scene::Scene renamed = example();
   renamed.name = "other";
-  EXPECT_EQ(scene_hash(renamed), scene_hash(example())) << "a name decides nothing";
+  EXPECT_EQ(scene::scene_hash(renamed), scene::scene_hash(example())) << "a name decides nothing";
 }
 
 TEST(SceneHash, AnyParameterChangesIt) {
   const auto at = [](ShapeKind kind) { return static_cast<std::size_t>(kind); };
-  const std::vector<std::function<void(Scene&)>> changes = {
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::sphere)].radius); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::capsule)].radius); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::capsule)].half_length); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::cylinder)].half_length); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::cone)].radius); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::box)].half_extents.y()); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::ellipsoid)].radii.z()); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::halfspace)].normal.x()); },
-      [&](Scene& s) { nudge(s.shapes[at(ShapeKind::halfspace)].offset); },
-      [&](Scene& s) {
+  const std::vector<std::function<void(scene::Scene&)>> changes = {
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::sphere)].radius); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::capsule)].radius); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::capsule)].half_length); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::cylinder)].half_length); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::cone)].radius); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::box)].half_extents.y()); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::ellipsoid)].radii.z()); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::halfspace)].normal.x()); },
+      [&](scene::Scene& s) { nudge(s.shapes[at(ShapeKind::halfspace)].offset); },
+      [&](scene::Scene& s) {
         s.shapes[at(ShapeKind::hull)].hull =
             make_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::nextafter(1, 2)}});
       },
-      [&](Scene& s) { s.shapes.push_back(s.shapes[0]); },
-      [](Scene& s) { s.bodies.pop_back(); },
-      [](Scene& s) { std::swap(s.bodies[0], s.bodies[1]); },
-      [](Scene& s) { s.bodies[0].shape = 2; },
-      [](Scene& s) { nudge(s.bodies[3].pose.translation.x()); },
-      [](Scene& s) { nudge(s.bodies[3].pose.rotation(2, 1)); },
-      [](Scene& s) { nudge(s.bodies[3].velocity.z()); },
-      [](Scene& s) { nudge(s.bodies[3].angular_velocity.x()); },
-      [](Scene& s) { s.bodies[3].moving = false; },
-      [](Scene& s) { s.frames = 6; },
-      [](Scene& s) { s.motion.kind = MotionKind::brownian; },
-      [](Scene& s) { nudge(s.motion.time_step); },
-      [](Scene& s) { nudge(s.motion.acceleration); },
-      [](Scene& s) { nudge(s.motion.period); },
-      [](Scene& s) { nudge(s.motion.speed); },
-      [](Scene& s) { s.motion.seed = 1; },
-      [](Scene& s) { nudge(s.motion.wall_min.x()); },
-      [](Scene& s) { nudge(s.motion.wall_max.z()); },
+      [&](scene::Scene& s) { s.shapes.push_back(s.shapes[0]); },
+      [](scene::Scene& s) { s.bodies.pop_back(); },
+      [](scene::Scene& s) { std::swap(s.bodies[0], s.bodies[1]); },
+      [](scene::Scene& s) { s.bodies[0].shape = 2; },
+      [](scene::Scene& s) { nudge(s.bodies[3].pose.translation.x()); },
+      [](scene::Scene& s) { nudge(s.bodies[3].pose.rotation(2, 1)); },
+      [](scene::Scene& s) { nudge(s.bodies[3].velocity.z()); },
+      [](scene::Scene& s) { nudge(s.bodies[3].angular_velocity.x()); },
+      [](scene::Scene& s) { s.bodies[3].moving = false; },
+      [](scene::Scene& s) { s.frames = 6; },
+      [](scene::Scene& s) { s.motion.kind = scene::MotionKind::brownian; },
+      [](scene::Scene& s) { nudge(s.motion.time_step); },
+      [](scene::Scene& s) { nudge(s.motion.acceleration); },
+      [](scene::Scene& s) { nudge(s.motion.period); },
+      [](scene::Scene& s) { nudge(s.motion.speed); },
+      [](scene::Scene& s) { s.motion.seed = 1; },
+      [](scene::Scene& s) { nudge(s.motion.wall_min.x()); },
+      [](scene::Scene& s) { nudge(s.motion.wall_max.z()); },
   };
-  std::set<std::string> hashes = {scene_hash(example())};
+  std::set<std::string> hashes = {scene::scene_hash(example())};
   for (const auto& change : changes) {
-    Scene scene = example();
+    scene::Scene scene = example();
     change(scene);
-    hashes.insert(scene_hash(scene));
+    hashes.insert(scene::scene_hash(scene));
   }
   EXPECT_EQ(hashes.size(), changes.size() + 1);
 }
 
 TEST(SceneHash, TakesInRecordings) {
-  Scene scene;
+  scene::Scene scene;
   scene.recording = {{{{0, 0, 0}, {1, 1, 1}}, {{2, 2, 2}, {3, 3, 3}}}};
-  std::set<std::string> hashes = {scene_hash(scene)};
-  Scene other = scene;
+  std::set<std::string> hashes = {scene::scene_hash(scene)};
+  scene::Scene other = scene;
   other.recording[0][1].max[2] = std::nextafter(3.0f, 4.0f);
-  hashes.insert(scene_hash(other));
+  hashes.insert(scene::scene_hash(other));
   other = scene;
   std::swap(other.recording[0][0], other.recording[0][1]);
-  hashes.insert(scene_hash(other));
+  hashes.insert(scene::scene_hash(other));
   other = scene;
   other.recording.push_back(other.recording[0]);
-  hashes.insert(scene_hash(other));
+  hashes.insert(scene::scene_hash(other));
   other.recording = {{scene.recording[0][0]}, {scene.recording[0][1]}};
-  hashes.insert(scene_hash(other));
+  hashes.insert(scene::scene_hash(other));
   EXPECT_EQ(hashes.size(), 5u);
 }
 

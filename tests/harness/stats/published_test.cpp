@@ -19,31 +19,31 @@ std::filesystem::path campaigns() {
   return std::filesystem::path(touchstone::project_folder) / "datasets/campaigns/published";
 }
 
-TEST(Published, IterationsOfGjkOnEllipsoidsAreAsPublished) {
-  const Campaign campaign = read_campaign(campaigns() / "gjk_iterations.toml");
+TEST(stats::Published, IterationsOfGjkOnEllipsoidsAreAsPublished) {
+  const campaign::Campaign campaign = campaign::read_campaign(campaigns() / "gjk_iterations.toml");
   const TemporaryFolder folder;
-  run_campaign(campaign, folder.path());
-  const Results results = read_results(folder.path());
+  campaign::run_campaign(campaign, folder.path());
+  const stats::Results results = stats::read_results(folder.path());
   EXPECT_EQ(results.sets.size(), 3u);  // no broad phases: the scenes list their pairs
-  const auto rows = check_published(campaign.published, results, Noise::kept);
+  const auto rows = stats::check_published(campaign.published, results, stats::Noise::kept);
   ASSERT_EQ(rows.size(), 6u);
-  for (const PublishedRow& row : rows) {
-    EXPECT_EQ(row.state, Holds::pass)
+  for (const stats::PublishedRow& row : rows) {
+    EXPECT_EQ(row.state, stats::Holds::pass)
         << row.claim << ", " << row.key.scene << ": " << row.published << ", here " << row.here;
   }
-  write_published(campaign.published, rows, folder.path());
-  EXPECT_THAT(published_text(campaign.published, rows), HasSubstr("GJK++"));
+  stats::write_published(campaign.published, rows, folder.path());
+  EXPECT_THAT(stats::published_text(campaign.published, rows), HasSubstr("GJK++"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "published.md"));
 }
 
 // Results as the claims meet them.
-Results made_up() {
-  Results results;
-  SampleSet& broad = results.sets.emplace_back();
+stats::Results made_up() {
+  stats::Results results;
+  stats::SampleSet& broad = results.sets.emplace_back();
   broad.key.scene = "uniform";
   for (const auto& [name, seconds] :
        {std::pair{"naive", 3e-3}, std::pair{"sort-and-sweep", 1e-3}}) {
-    Contestant& contestant = broad.contestants.emplace_back();
+    stats::Contestant& contestant = broad.contestants.emplace_back();
     contestant.label = name;
     for (int square = 0; square < 8; ++square) {
       Sample sample;
@@ -54,13 +54,13 @@ Results made_up() {
       contestant.samples.push_back(sample);
     }
   }
-  SampleSet& narrow = results.sets.emplace_back();
+  stats::SampleSet& narrow = results.sets.emplace_back();
   narrow.key.scene = "primitives";
   narrow.key.task = "intersect";
   narrow.key.pair_kind = "box-box";
-  Contestant& sat = narrow.contestants.emplace_back();
+  stats::Contestant& sat = narrow.contestants.emplace_back();
   sat.label = "sat-faces double";
-  Check check;
+  stats::Check check;
   check.compared = 200;
   check.pair_count = 200;
   check.disagreements = 3;
@@ -68,48 +68,48 @@ Results made_up() {
   return results;
 }
 
-PublishedRow only_row(const PublishedClaim& claim, const Results& results) {
-  const auto rows =
-      check_published({.source = "x", .note = "", .claims = {claim}}, results, Noise::left_out);
+stats::PublishedRow only_row(const stats::PublishedClaim& claim, const stats::Results& results) {
+  const auto rows = stats::check_published({.source = "x", .note = "", .claims = {claim}}, results,
+                                           stats::Noise::left_out);
   EXPECT_EQ(rows.size(), 1u);
   return rows.at(0);
 }
 
-TEST(Published, FasterHoldsFailsOrIsUndecided) {
-  Results results = made_up();
-  PublishedClaim claim;
-  claim.kind = PublishedClaim::Kind::faster;
+TEST(stats::Published, FasterHoldsFailsOrIsUndecided) {
+  stats::Results results = made_up();
+  stats::PublishedClaim claim;
+  claim.kind = stats::PublishedClaim::Kind::faster;
   claim.algorithm = "sort-and-sweep";
   claim.than = "naive";
-  EXPECT_EQ(only_row(claim, results).state, Holds::pass);
+  EXPECT_EQ(only_row(claim, results).state, stats::Holds::pass);
   EXPECT_THAT(only_row(claim, results).here, HasSubstr("0.333"));
   std::swap(claim.algorithm, claim.than);
-  EXPECT_EQ(only_row(claim, results).state, Holds::fail);
+  EXPECT_EQ(only_row(claim, results).state, stats::Holds::fail);
   for (Sample& sample : results.sets[0].contestants[0].samples) sample.noisy = sample.square > 3;
-  EXPECT_EQ(only_row(claim, results).state, Holds::undecided);
+  EXPECT_EQ(only_row(claim, results).state, stats::Holds::undecided);
 }
 
-TEST(Published, SufficesCountsWhatIsWrong) {
-  Results results = made_up();
-  PublishedClaim claim;
-  claim.kind = PublishedClaim::Kind::suffices;
+TEST(stats::Published, SufficesCountsWhatIsWrong) {
+  stats::Results results = made_up();
+  stats::PublishedClaim claim;
+  claim.kind = stats::PublishedClaim::Kind::suffices;
   claim.algorithm = "sat-faces double";
   claim.pair_kind = "box-box";
-  EXPECT_EQ(only_row(claim, results).state, Holds::fail);
+  EXPECT_EQ(only_row(claim, results).state, stats::Holds::fail);
   EXPECT_THAT(only_row(claim, results).here, HasSubstr("6 of 400 pairs wrong (1.5 %)"));
-  for (Check& check : results.sets[1].contestants[0].checks) check.disagreements = 0;
-  EXPECT_EQ(only_row(claim, results).state, Holds::pass);
+  for (stats::Check& check : results.sets[1].contestants[0].checks) check.disagreements = 0;
+  EXPECT_EQ(only_row(claim, results).state, stats::Holds::pass);
   claim.pair_kind = "sphere-sphere";
-  EXPECT_EQ(only_row(claim, results).state, Holds::undecided);
+  EXPECT_EQ(only_row(claim, results).state, stats::Holds::undecided);
   EXPECT_EQ(only_row(claim, results).here, "was not run");
 }
 
-TEST(Published, BadClaimsAreRefusedWithTheirLine) {
+TEST(stats::Published, BadClaimsAreRefusedWithTheirLine) {
   const TemporaryFolder folder;
   folder.write("s.toml", "generator = \"uniform\"\n");
   const auto refusal = [&](const std::string& text) {
     return input_fault(
-        [&] { read_campaign(folder.write("c.toml", "scenes = \"s.toml\"\n" + text)); });
+        [&] { campaign::read_campaign(folder.write("c.toml", "scenes = \"s.toml\"\n" + text)); });
   };
   EXPECT_EQ(refusal("[published]\nsource = \"x\"\n"), "");
   EXPECT_THAT(refusal("[published]\nnote = \"x\"\n"), HasSubstr("source"));

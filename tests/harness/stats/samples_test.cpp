@@ -18,28 +18,30 @@ using ::testing::HasSubstr;
 
 class Samples : public testing::Test {
  protected:
-  Results read(const FakeRun& run) { return read_results(run.write(folder_.path() / "r")); }
+  stats::Results read(const FakeRun& run) {
+    return stats::read_results(run.write(folder_.path() / "r"));
+  }
   TemporaryFolder folder_;
 };
 
 TEST_F(Samples, SetsContestantsAndSquares) {
-  const Results results = read(fake_run());
+  const stats::Results results = read(fake_run());
   EXPECT_EQ(results.campaign, "fake");
   EXPECT_THAT(results.isa, ElementsAre("avx2"));
   EXPECT_EQ(results.machine.at("processor"), "Test CPU");
   ASSERT_EQ(results.sets.size(), 2u);
-  const SampleSet& broad = results.sets[0];
+  const stats::SampleSet& broad = results.sets[0];
   EXPECT_EQ(broad.key.words(), "uniform, 1000 bodies, tight boxes, 2 threads, broad phases");
   ASSERT_EQ(broad.contestants.size(), 3u);
   EXPECT_EQ(broad.baseline().label, "sweep-and-prune");
   EXPECT_EQ(broad.twin.samples.size(), 3u * 4 * 4);
-  const Contestant& first = broad.contestants[0];
+  const stats::Contestant& first = broad.contestants[0];
   EXPECT_EQ(first.samples.size(), 3u * 4 * 4);
   EXPECT_EQ(first.checks.size(), 8u);
   EXPECT_TRUE(std::isnan(first.samples[0].parts[0]));
   EXPECT_NEAR(first.samples[0].parts[1] * 3, first.samples[0].parts[2], 1e-9);
-  EXPECT_EQ(by_square(first, Noise::left_out).size(), 12u);
-  const SampleSet& narrow = results.sets[1];
+  EXPECT_EQ(stats::by_square(first, stats::Noise::left_out).size(), 12u);
+  const stats::SampleSet& narrow = results.sets[1];
   EXPECT_EQ(narrow.key.words(),
             "uniform, 1000 bodies, tight boxes, 2 threads, distance box-sphere");
   EXPECT_EQ(narrow.contestants[1].label, "mpr double");
@@ -47,14 +49,14 @@ TEST_F(Samples, SetsContestantsAndSquares) {
 }
 
 TEST_F(Samples, TimesAreASumOfPhasesForAUnit) {
-  const Results results = read(fake_run());
+  const stats::Results results = read(fake_run());
   const auto middle = [&](std::size_t set, std::size_t contestant) {
     std::vector<double> values;
     for (const auto& [square, value] :
-         by_square(results.sets[set].contestants[contestant], Noise::left_out)) {
+         stats::by_square(results.sets[set].contestants[contestant], stats::Noise::left_out)) {
       values.push_back(value);
     }
-    return median(values);
+    return stats::median(values);
   };
   EXPECT_NEAR(middle(0, 1) / 2e-3, 1, 0.1);
   EXPECT_NEAR(middle(1, 0) / 100e-9, 1, 0.1);
@@ -64,9 +66,10 @@ TEST_F(Samples, RatiosArePairedBySquare) {
   // What a square shares, here a factor that varies by half, cancels.
   FakeRun run = fake_run();
   run.square_spread = 0.5;
-  const Results results = read(run);
-  const SampleSet& set = results.sets[0];
-  const auto ratios = paired_log_ratios(set.contestants[1], set.contestants[0], Noise::left_out);
+  const stats::Results results = read(run);
+  const stats::SampleSet& set = results.sets[0];
+  const auto ratios =
+      stats::paired_log_ratios(set.contestants[1], set.contestants[0], stats::Noise::left_out);
   ASSERT_EQ(ratios.size(), 12u);
   for (const double ratio : ratios) EXPECT_NEAR(std::exp(ratio), 2, 0.02);
 }
@@ -74,18 +77,18 @@ TEST_F(Samples, RatiosArePairedBySquare) {
 TEST_F(Samples, NoisyRoundsAreLeftOutUnlessAskedFor) {
   FakeRun run = fake_run();
   run.noisy_squares = 1;
-  const Results results = read(run);
-  const Contestant& contestant = results.sets[0].contestants[0];
-  EXPECT_EQ(by_square(contestant, Noise::left_out).size(), 9u);
-  EXPECT_EQ(by_square(contestant, Noise::kept).size(), 12u);
-  EXPECT_GT(by_square(contestant, Noise::kept).at({0, 0}), 5e-3);
+  const stats::Results results = read(run);
+  const stats::Contestant& contestant = results.sets[0].contestants[0];
+  EXPECT_EQ(stats::by_square(contestant, stats::Noise::left_out).size(), 9u);
+  EXPECT_EQ(stats::by_square(contestant, stats::Noise::kept).size(), 12u);
+  EXPECT_GT(stats::by_square(contestant, stats::Noise::kept).at({0, 0}), 5e-3);
 }
 
 TEST_F(Samples, FailuresAreRemembered) {
   FakeRun run = fake_run();
   run.blocks[0].contestants[1].status = "crashed";
-  const Results results = read(run);
-  EXPECT_EQ(results.sets[0].contestants[1].failure, RowStatus::crashed);
+  const stats::Results results = read(run);
+  EXPECT_EQ(results.sets[0].contestants[1].failure, record::RowStatus::crashed);
   EXPECT_TRUE(results.sets[0].contestants[1].samples.empty());
   EXPECT_EQ(results.sets[0].contestants[0].failure, std::nullopt);
 }
@@ -98,7 +101,7 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
     EXPECT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
     const auto file = folder_.write("raw.csv", text);
-    return folder_.without_path(input_fault([&] { read_results(file); }));
+    return folder_.without_path(input_fault([&] { stats::read_results(file); }));
   };
   EXPECT_THAT(fault("ok,check", "ok,chequed"),
               HasSubstr("raw.csv:2: column kind: found 'chequed'; expected one of check, sample"));
@@ -113,9 +116,9 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
   EXPECT_THAT(fault(",kind,", ",kin,"), HasSubstr("raw.csv:1: no column 'kind'"));
   EXPECT_THAT(fault("1000", "many"), HasSubstr("raw.csv:2: column bodies: found 'many'"));
   folder_.write("raw.csv", raw.substr(0, raw.size() - 30));
-  EXPECT_THAT(folder_.without_path(input_fault([&] { read_results(folder_.path()); })),
+  EXPECT_THAT(folder_.without_path(input_fault([&] { stats::read_results(folder_.path()); })),
               HasSubstr("expected 43, as in the header"));
-  EXPECT_THAT(input_fault([&] { read_results(folder_.path() / "none"); }),
+  EXPECT_THAT(input_fault([&] { stats::read_results(folder_.path() / "none"); }),
               HasSubstr("No such file"));
 }
 

@@ -26,42 +26,42 @@ std::vector<double> one_to(std::size_t n) {
 }
 
 TEST(Median, OfFewAndOfNone) {
-  EXPECT_EQ(median({3}), 3);
-  EXPECT_EQ(median({5, 1, 4}), 4);
-  EXPECT_EQ(median({5, 1, 4, 2}), 3);
-  EXPECT_TRUE(std::isnan(median({})));
+  EXPECT_EQ(stats::median({3}), 3);
+  EXPECT_EQ(stats::median({5, 1, 4}), 4);
+  EXPECT_EQ(stats::median({5, 1, 4, 2}), 3);
+  EXPECT_TRUE(std::isnan(stats::median({})));
 }
 
-TEST(MedianInterval, NoneBelowSixValuesAtNinetyFivePercent) {
+TEST(stats::MedianInterval, NoneBelowSixValuesAtNinetyFivePercent) {
   for (std::size_t n = 0; n < 6; ++n) {
-    const MedianInterval interval = median_interval(one_to(n), 0.95);
+    const stats::MedianInterval interval = stats::median_interval(one_to(n), 0.95);
     EXPECT_TRUE(std::isnan(interval.low)) << n;
     EXPECT_TRUE(std::isnan(interval.high)) << n;
     EXPECT_EQ(interval.n, n);
   }
-  const MedianInterval six = median_interval({6, 1, 5, 2, 4, 3}, 0.95);
+  const stats::MedianInterval six = stats::median_interval({6, 1, 5, 2, 4, 3}, 0.95);
   EXPECT_EQ(six.median, 3.5);
   EXPECT_EQ(six.low, 1);
   EXPECT_EQ(six.high, 6);
   EXPECT_EQ(six.n, 6u);
 }
 
-TEST(MedianInterval, RanksOfThePublishedTable) {
+TEST(stats::MedianInterval, RanksOfThePublishedTable) {
   // The order statistics of the sign test at 95 %, as in the tables of any textbook.
   const std::pair<std::size_t, double> table[] = {{8, 1},   {9, 2},   {12, 3},  {15, 4},
                                                   {17, 5},  {20, 6},  {25, 8},  {30, 10},
                                                   {40, 14}, {50, 18}, {100, 40}};
   for (const auto& [n, rank] : table) {
-    const MedianInterval interval = median_interval(one_to(n), 0.95);
+    const stats::MedianInterval interval = stats::median_interval(one_to(n), 0.95);
     EXPECT_EQ(interval.low, rank) << n;
     EXPECT_EQ(interval.high, static_cast<double>(n) + 1 - rank) << n;
   }
   // 99 %: none below 8 values.
-  EXPECT_TRUE(std::isnan(median_interval(one_to(7), 0.99).low));
-  EXPECT_EQ(median_interval(one_to(8), 0.99).low, 1);
+  EXPECT_TRUE(std::isnan(stats::median_interval(one_to(7), 0.99).low));
+  EXPECT_EQ(stats::median_interval(one_to(8), 0.99).low, 1);
 }
 
-TEST(MedianInterval, CoversTheMedianOfASkewedDistribution) {
+TEST(stats::MedianInterval, CoversTheMedianOfASkewedDistribution) {
   std::mt19937_64 random(3);
   std::lognormal_distribution<double> draw(0, 2);  // its median is 1
   int covered = 0;
@@ -69,7 +69,7 @@ TEST(MedianInterval, CoversTheMedianOfASkewedDistribution) {
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<double> values(12);
     for (double& x : values) x = draw(random);
-    const MedianInterval interval = median_interval(values, 0.95);
+    const stats::MedianInterval interval = stats::median_interval(values, 0.95);
     covered += interval.low <= 1 && 1 <= interval.high;
   }
   EXPECT_GT(covered, trials * 95 / 100);  // 96.1 % in truth
@@ -77,12 +77,12 @@ TEST(MedianInterval, CoversTheMedianOfASkewedDistribution) {
 }
 
 TEST(SignTest, KnownValues) {
-  EXPECT_DOUBLE_EQ(sign_test(std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, -1, -2}), 0.109375);
-  EXPECT_DOUBLE_EQ(sign_test(std::vector<double>{1, 2, 3, 4, 5, 6}), 2 / 64.0);
-  EXPECT_DOUBLE_EQ(sign_test(std::vector<double>{1, 2, 3, 0, 0, 4, 5, 6}), 2 / 64.0);
-  EXPECT_EQ(sign_test(std::vector<double>{1, -1}), 1);
-  EXPECT_EQ(sign_test(std::vector<double>{}), 1);
-  EXPECT_EQ(sign_test(std::vector<double>{0, 0}), 1);
+  EXPECT_DOUBLE_EQ(stats::sign_test(std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, -1, -2}), 0.109375);
+  EXPECT_DOUBLE_EQ(stats::sign_test(std::vector<double>{1, 2, 3, 4, 5, 6}), 2 / 64.0);
+  EXPECT_DOUBLE_EQ(stats::sign_test(std::vector<double>{1, 2, 3, 0, 0, 4, 5, 6}), 2 / 64.0);
+  EXPECT_EQ(stats::sign_test(std::vector<double>{1, -1}), 1);
+  EXPECT_EQ(stats::sign_test(std::vector<double>{}), 1);
+  EXPECT_EQ(stats::sign_test(std::vector<double>{0, 0}), 1);
 }
 
 // The same by going through every way to call `n` of the values a.
@@ -117,9 +117,9 @@ TEST(MannWhitney, TheTextbookExample) {
   // Hollander and Wolfe, permeability of the chorioamnion: W = 35, one-sided p = 0.1272.
   const std::vector<double> x = {0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46};
   const std::vector<double> y = {1.15, 0.88, 0.90, 0.74, 1.21};
-  EXPECT_NEAR(mann_whitney(x, y), 2 * 0.1272, 1e-4);
-  EXPECT_DOUBLE_EQ(mann_whitney(x, y), mann_whitney(y, x));
-  const MedianInterval shifted = shift(y, x, 0.95);
+  EXPECT_NEAR(stats::mann_whitney(x, y), 2 * 0.1272, 1e-4);
+  EXPECT_DOUBLE_EQ(stats::mann_whitney(x, y), stats::mann_whitney(y, x));
+  const stats::MedianInterval shifted = stats::shift(y, x, 0.95);
   EXPECT_NEAR(shifted.median, 0.305, 1e-12);
   EXPECT_NEAR(shifted.low, -0.15, 1e-12);
   EXPECT_NEAR(shifted.high, 0.76, 1e-12);
@@ -139,17 +139,17 @@ TEST(MannWhitney, AgreesWithEnumeration) {
     both.insert(both.end(), b.begin(), b.end());
     std::ranges::sort(both);
     ties += std::ranges::adjacent_find(both) != both.end();
-    EXPECT_NEAR(mann_whitney(a, b), mann_whitney_by_enumeration(a, b), 1e-12) << trial;
+    EXPECT_NEAR(stats::mann_whitney(a, b), mann_whitney_by_enumeration(a, b), 1e-12) << trial;
   }
   EXPECT_GT(ties, 20);
   EXPECT_LT(ties, 50);
 }
 
 TEST(MannWhitney, Extremes) {
-  EXPECT_DOUBLE_EQ(mann_whitney(one_to(5), std::vector<double>{6, 7, 8, 9, 10}), 2 / 252.0);
-  EXPECT_EQ(mann_whitney(std::vector<double>{1, 1, 1}, std::vector<double>{1, 1}), 1);
-  EXPECT_EQ(mann_whitney(std::vector<double>(40, 1.0), std::vector<double>(40, 1.0)), 1);
-  EXPECT_EQ(mann_whitney(std::vector<double>{}, std::vector<double>{1, 1}), 1);
+  EXPECT_DOUBLE_EQ(stats::mann_whitney(one_to(5), std::vector<double>{6, 7, 8, 9, 10}), 2 / 252.0);
+  EXPECT_EQ(stats::mann_whitney(std::vector<double>{1, 1, 1}, std::vector<double>{1, 1}), 1);
+  EXPECT_EQ(stats::mann_whitney(std::vector<double>(40, 1.0), std::vector<double>(40, 1.0)), 1);
+  EXPECT_EQ(stats::mann_whitney(std::vector<double>{}, std::vector<double>{1, 1}), 1);
 }
 
 TEST(MannWhitney, TheNormalApproximationGoesOnWhereTheExactEnds) {
@@ -159,7 +159,7 @@ TEST(MannWhitney, TheNormalApproximationGoesOnWhereTheExactEnds) {
     for (const std::size_t n : {30u, 31u}) {
       std::vector<double> b = one_to(n);
       for (double& x : b) x += step;
-      p.push_back(mann_whitney(one_to(n), b));
+      p.push_back(stats::mann_whitney(one_to(n), b));
     }
     EXPECT_NEAR(p[0], p[1], 0.03) << step;
   }
@@ -168,7 +168,7 @@ TEST(MannWhitney, TheNormalApproximationGoesOnWhereTheExactEnds) {
   for (double& x : b) x += 40;
   const double z = (800 - 0.5) / std::sqrt(1600 * 81 / 12.0);
   const double expected = std::erfc(z / std::sqrt(2.0));
-  EXPECT_NEAR(mann_whitney(one_to(40), b) / expected, 1, 1e-9);
+  EXPECT_NEAR(stats::mann_whitney(one_to(40), b) / expected, 1, 1e-9);
 }
 
 TEST(Shift, FindsAShiftAndItsIntervalNarrows) {
@@ -179,64 +179,65 @@ TEST(Shift, FindsAShiftAndItsIntervalNarrows) {
     std::vector<double> a(n), b(n);
     for (double& x : a) x = draw(random);
     for (double& x : b) x = draw(random) + 5;
-    const MedianInterval interval = shift(a, b, 0.95);
+    const stats::MedianInterval interval = stats::shift(a, b, 0.95);
     EXPECT_LT(interval.low, 5);
     EXPECT_GT(interval.high, 5);
     EXPECT_LT(interval.high - interval.low, width);
     width = interval.high - interval.low;
   }
-  EXPECT_TRUE(std::isnan(shift(one_to(3), one_to(3), 0.95).low));  // 1 of 20 is too likely
-  EXPECT_TRUE(std::isnan(shift({}, one_to(3), 0.95).median));
+  EXPECT_TRUE(std::isnan(stats::shift(one_to(3), one_to(3), 0.95).low));  // 1 of 20 is too likely
+  EXPECT_TRUE(std::isnan(stats::shift({}, one_to(3), 0.95).median));
 }
 
 TEST(Holm, KnownValues) {
-  EXPECT_THAT(holm(std::vector<double>{0.01, 0.04, 0.03, 0.005}),
+  EXPECT_THAT(stats::holm(std::vector<double>{0.01, 0.04, 0.03, 0.005}),
               Pointwise(DoubleNear(1e-15), {0.03, 0.06, 0.06, 0.02}));
-  EXPECT_THAT(holm(std::vector<double>{0.9, 0.8}), ElementsAre(1, 1));
-  EXPECT_THAT(holm(std::vector<double>{}), ElementsAre());
+  EXPECT_THAT(stats::holm(std::vector<double>{0.9, 0.8}), ElementsAre(1, 1));
+  EXPECT_THAT(stats::holm(std::vector<double>{}), ElementsAre());
 }
 
 TEST(ModifiedZ, FlagsWhatIsFarOffAndNothingElse) {
   // Median 3, absolute deviations 2 1 0 1 97, MAD 1.
-  EXPECT_THAT(modified_z(std::vector<double>{1, 2, 3, 4, 100}),
+  EXPECT_THAT(stats::modified_z(std::vector<double>{1, 2, 3, 4, 100}),
               Pointwise(DoubleNear(1e-12), {-2 * 0.6745, -0.6745, 0.0, 0.6745, 97 * 0.6745}));
-  EXPECT_THAT(modified_z(std::vector<double>{2, 2, 2}), ElementsAre(0, 0, 0));
+  EXPECT_THAT(stats::modified_z(std::vector<double>{2, 2, 2}), ElementsAre(0, 0, 0));
   std::vector<double> mostly_equal(20, 1.0);
   mostly_equal.back() = 3;
-  EXPECT_GT(modified_z(mostly_equal).back(), outlier_z);
-  EXPECT_EQ(modified_z(mostly_equal).front(), 0);
-  EXPECT_TRUE(modified_z(std::vector<double>{}).empty());
+  EXPECT_GT(stats::modified_z(mostly_equal).back(), stats::outlier_z);
+  EXPECT_EQ(stats::modified_z(mostly_equal).front(), 0);
+  EXPECT_TRUE(stats::modified_z(std::vector<double>{}).empty());
 }
 
-TEST(PowerLaw, FindsAnExactOne) {
+TEST(stats::PowerLaw, FindsAnExactOne) {
   std::vector<double> x = {100, 1000, 10000, 40000};
   std::vector<double> y;
   for (const double n : x) y.push_back(3e-9 * std::pow(n, 1.5));
-  const PowerLaw law = fit_power_law(x, y, 0.95);
+  const stats::PowerLaw law = stats::fit_power_law(x, y, 0.95);
   EXPECT_NEAR(law.exponent, 1.5, 1e-12);
   EXPECT_NEAR(law.low, 1.5, 1e-9);
   EXPECT_NEAR(law.high, 1.5, 1e-9);
   EXPECT_NEAR(law.factor / 3e-9, 1, 1e-9);
 }
 
-TEST(PowerLaw, IntervalByHand) {
+TEST(stats::PowerLaw, IntervalByHand) {
   // log x 0 1 2, log y 0 1 3: slope 3/2, residuals 1/6 -1/3 1/6, one degree of freedom.
   const double e = std::exp(1.0);
-  const PowerLaw law =
-      fit_power_law(std::vector<double>{1, e, e * e}, std::vector<double>{1, e, e * e * e}, 0.95);
+  const stats::PowerLaw law = stats::fit_power_law(std::vector<double>{1, e, e * e},
+                                                   std::vector<double>{1, e, e * e * e}, 0.95);
   EXPECT_NEAR(law.exponent, 1.5, 1e-12);
   EXPECT_NEAR(law.high - law.exponent, 12.7062047 * std::sqrt(1 / 12.0), 1e-6);
   EXPECT_NEAR(law.exponent - law.low, 12.7062047 * std::sqrt(1 / 12.0), 1e-6);
 }
 
-TEST(PowerLaw, TooFewPoints) {
-  const PowerLaw two = fit_power_law(std::vector<double>{1, 10}, std::vector<double>{1, 100}, 0.95);
+TEST(stats::PowerLaw, TooFewPoints) {
+  const stats::PowerLaw two =
+      stats::fit_power_law(std::vector<double>{1, 10}, std::vector<double>{1, 100}, 0.95);
   EXPECT_NEAR(two.exponent, 2, 1e-12);
   EXPECT_TRUE(std::isnan(two.low));
-  const PowerLaw one =
-      fit_power_law(std::vector<double>{5, 5, 5}, std::vector<double>{1, 2, 3}, 0.95);
+  const stats::PowerLaw one =
+      stats::fit_power_law(std::vector<double>{5, 5, 5}, std::vector<double>{1, 2, 3}, 0.95);
   EXPECT_TRUE(std::isnan(one.exponent));
-  EXPECT_TRUE(std::isnan(fit_power_law({}, {}, 0.95).exponent));
+  EXPECT_TRUE(std::isnan(stats::fit_power_law({}, {}, 0.95).exponent));
 }
 
 }  // namespace

@@ -25,14 +25,14 @@ class TablesOf : public testing::Test {
   std::filesystem::path write(const FakeRun& run, const std::string& name = "r") {
     return run.write(folder_.path() / name);
   }
-  Tables make(const FakeRun& run, Noise noise = Noise::left_out) {
-    return make_tables(read_results(write(run)), noise);
+  stats::Tables make(const FakeRun& run, stats::Noise noise = stats::Noise::left_out) {
+    return stats::make_tables(stats::read_results(write(run)), noise);
   }
   TemporaryFolder folder_;
 };
 
 TEST_F(TablesOf, TimesRatiosAndWinners) {
-  const Tables tables = make(fake_run());
+  const stats::Tables tables = make(fake_run());
   ASSERT_EQ(tables.times.size(), 5u);
   EXPECT_NEAR(tables.times[1].seconds.median / 2e-3, 1, 0.1);
   EXPECT_LT(tables.times[1].seconds.low, tables.times[1].seconds.median);
@@ -61,7 +61,7 @@ TEST_F(TablesOf, WhoIsWrongOrFailedDoesNotWin) {
   FakeRun run = fake_run();
   run.blocks[0].contestants[0].pair_hash = "00000000000000bb";
   run.blocks[1].contestants.push_back({"sat", 50e-9, "00000000000000aa", "ok", 3});
-  const Tables tables = make(run);
+  const stats::Tables tables = make(run);
   EXPECT_TRUE(tables.times[0].wrong);
   EXPECT_FALSE(tables.times[1].wrong);
   EXPECT_TRUE(tables.times[5].wrong);
@@ -98,11 +98,11 @@ TEST_F(TablesOf, TheBestOfOursAgainstTheBestOfOthers) {
   }
   // 'naive' stands for the truth where it is there: here most are right.
   for (FakeBlock& block : run.blocks) block.contestants[2].name = "loose-octree";
-  const Tables tables = make(run);
-  for (const WinnerRow& row : tables.winners) EXPECT_EQ(row.winner, "uniform-grid");
+  const stats::Tables tables = make(run);
+  for (const stats::WinnerRow& row : tables.winners) EXPECT_EQ(row.winner, "uniform-grid");
   ASSERT_EQ(tables.broad_best.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    const BroadBestRow& row = tables.broad_best[i];
+    const stats::BroadBestRow& row = tables.broad_best[i];
     EXPECT_EQ(row.ours.label, "uniform-grid");
     EXPECT_NEAR(row.ours.ratio.median, 1, 1e-12);
     EXPECT_NEAR(row.over_limit.median, 4, 0.05);
@@ -122,7 +122,7 @@ TEST_F(TablesOf, TheBestOfOursAgainstTheBestOfOthers) {
     EXPECT_NEAR(row.bullet_or_fcl.ratio.median, 6, 0.1);
   }
   std::filesystem::create_directory(folder_.path() / "out");
-  write_tables(tables, 1.5, folder_.path() / "out");
+  stats::write_tables(tables, 1.5, folder_.path() / "out");
   EXPECT_THAT(folder_.read("out/broad_best.csv"), HasSubstr(",uniform-grid,"));
   EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("| some-peer | fcl-sap |"));
 }
@@ -138,9 +138,9 @@ TEST_F(TablesOf, SpeedAndErrorOfTheBestNarrowPhases) {
                        {"bullet-mpr", 200e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "0.5"},
                        {"bullet-gjk-epa", 300e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "1e-4"}};
   run.blocks = {block};
-  const Tables tables = make(run);
+  const stats::Tables tables = make(run);
   ASSERT_EQ(tables.narrow_best.size(), 1u);
-  const NarrowBestRow& row = tables.narrow_best[0];
+  const stats::NarrowBestRow& row = tables.narrow_best[0];
   EXPECT_EQ(row.ours.label, "gjk double") << "sat is off by too much";
   EXPECT_EQ(row.ours.worst_error, 1e-14);
   EXPECT_EQ(row.right_peer.label, "bullet-gjk-epa double");
@@ -149,7 +149,7 @@ TEST_F(TablesOf, SpeedAndErrorOfTheBestNarrowPhases) {
   EXPECT_EQ(row.any_peer.wrong, 16);
   EXPECT_EQ(row.any_peer.queries, 400);
   std::filesystem::create_directory(folder_.path() / "out");
-  write_tables(tables, 1.5, folder_.path() / "out");
+  stats::write_tables(tables, 1.5, folder_.path() / "out");
   EXPECT_THAT(folder_.read("out/narrow_best.csv"), HasSubstr(",bullet-gjk-epa double,"));
   EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("| 16 of 400 | 1e-14 |"));
 }
@@ -160,7 +160,7 @@ TEST_F(TablesOf, NoiseIsLeftOutUnlessAskedForAndOutliersStay) {
   EXPECT_EQ(make(run).times[0].seconds.n, 9u);
   EXPECT_EQ(make(run).times[0].noisy, 12);
   EXPECT_LT(make(run).times[0].outliers, 3);
-  const Tables noisy = make(run, Noise::kept);
+  const stats::Tables noisy = make(run, stats::Noise::kept);
   EXPECT_EQ(noisy.times[0].seconds.n, 12u);
   EXPECT_EQ(noisy.times[0].outliers, 12);
 }
@@ -179,14 +179,14 @@ TEST_F(TablesOf, ExponentsAndSpeedUps) {
     }
   }
   run.square_spread = 0.002;
-  const Tables tables = make(run);
+  const stats::Tables tables = make(run);
   ASSERT_EQ(tables.exponents.size(), 4u);
   EXPECT_NEAR(tables.exponents[0].law.exponent, 1, 0.01);
   EXPECT_NEAR(tables.exponents[1].law.exponent, 2, 0.01);
   EXPECT_LE(tables.exponents[1].law.low, 2.01);
   EXPECT_THAT(tables.exponents[1].counts, ElementsAre(1000, 4000, 16000));
   ASSERT_EQ(tables.speed_ups.size(), 12u);
-  for (const SpeedUpRow& row : tables.speed_ups) {
+  for (const stats::SpeedUpRow& row : tables.speed_ups) {
     const double expected = row.key.threads == 2 && row.label == "sweep-and-prune" ? 1.8 : 1;
     EXPECT_NEAR(row.speed_up.median, expected, 0.02) << row.label;
     EXPECT_EQ(row.base_threads, 1);
@@ -194,10 +194,10 @@ TEST_F(TablesOf, ExponentsAndSpeedUps) {
 }
 
 TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
-  const Tables tables = make(fake_run());
+  const stats::Tables tables = make(fake_run());
   for (const char* name : {"one", "two"}) {
     std::filesystem::create_directory(folder_.path() / name);
-    write_tables(tables, 1.5, folder_.path() / name);
+    stats::write_tables(tables, 1.5, folder_.path() / name);
   }
   for (const char* name : {"tables.md", "times.csv", "ratios.csv", "winners.csv", "exponents.csv",
                            "speed_ups.csv", "agreement.csv", "work.csv"}) {
@@ -216,9 +216,9 @@ TEST_F(TablesOf, WorkABodyAPairAndAQuery) {
   FakeRun run = fake_run();  // 8 frames of 50 pairs, 1000 bodies
   run.blocks[0].contestants[1].work = ",,4000,500,75,32000,3,120";
   run.blocks[1].contestants[0].work = "200,250,,,,,0,0";
-  const Tables tables = make(run);
+  const stats::Tables tables = make(run);
   ASSERT_EQ(tables.work.size(), 2u);  // who counts nothing has no row
-  const WorkRow& grid = tables.work[0];
+  const stats::WorkRow& grid = tables.work[0];
   EXPECT_EQ(grid.label, "uniform-grid");
   EXPECT_EQ(grid.frames, 8);
   EXPECT_EQ(grid.queries, 400);
@@ -229,14 +229,14 @@ TEST_F(TablesOf, WorkABodyAPairAndAQuery) {
   EXPECT_DOUBLE_EQ(grid.allocations, 3);
   EXPECT_DOUBLE_EQ(grid.allocated_bytes, 120);
   EXPECT_TRUE(std::isnan(grid.iterations));
-  const WorkRow& gjk = tables.work[1];
+  const stats::WorkRow& gjk = tables.work[1];
   EXPECT_EQ(gjk.label, "gjk double");
   EXPECT_DOUBLE_EQ(gjk.iterations, 4);
   EXPECT_DOUBLE_EQ(gjk.support_calls, 5);
   EXPECT_DOUBLE_EQ(gjk.allocations, 0);
   EXPECT_TRUE(std::isnan(gjk.box_tests));
   std::filesystem::create_directory(folder_.path() / "w");
-  write_tables(tables, 1.5, folder_.path() / "w");
+  stats::write_tables(tables, 1.5, folder_.path() / "w");
   const std::string text = folder_.read("w/tables.md");
   EXPECT_THAT(text, HasSubstr("## Work"));
   EXPECT_THAT(text, HasSubstr("| uniform-grid | 4 | 0.5 | 1.5 | 32 | 3 | 120 |"));
@@ -249,7 +249,7 @@ TEST_F(TablesOf, ACanaryThatIsToldApartIsTold) {
   FakeRun run = fake_run();
   const auto text = [&] {
     std::filesystem::create_directory(folder_.path() / "t");
-    write_tables(make(run), 1.5, folder_.path() / "t");
+    stats::write_tables(make(run), 1.5, folder_.path() / "t");
     return folder_.read("t/tables.md");
   };
   EXPECT_THAT(text(), testing::Not(HasSubstr("told apart")));
@@ -260,23 +260,30 @@ TEST_F(TablesOf, ACanaryThatIsToldApartIsTold) {
 TEST_F(TablesOf, ASuspectSetIsMarkedAndProvesNothing) {
   FakeRun run = fake_run();
   const auto reference = write(run, "reference");
-  write_tables(make(run), 1.2, reference);
+  stats::write_tables(make(run), 1.2, reference);
   run.blocks[0].suspect = true;
-  const Tables tables = make(run);
-  for (const RatioRow& row : tables.ratios) EXPECT_EQ(row.suspect, !row.key.narrow()) << row.label;
-  for (const WinnerRow& row : tables.winners) EXPECT_EQ(row.suspect, !row.key.narrow());
+  const stats::Tables tables = make(run);
+  for (const stats::RatioRow& row : tables.ratios)
+    EXPECT_EQ(row.suspect, !row.key.narrow()) << row.label;
+  for (const stats::WinnerRow& row : tables.winners) EXPECT_EQ(row.suspect, !row.key.narrow());
   EXPECT_EQ(tables.times[0].noisy, 0) << "the round of the word is as good as the others";
   const auto folder = write(run, "suspect");
-  write_tables(tables, 1.2, folder);
+  stats::write_tables(tables, 1.2, folder);
   const std::string text = folder_.read("suspect/tables.md");
   EXPECT_THAT(text, HasSubstr("broad phases (**suspect**) | sweep-and-prune"));
   EXPECT_THAT(text, HasSubstr("this table is **suspect**"));
-  const auto undecided = [](const TableCheck& check) {
-    return std::ranges::count(check.cells, Holds::undecided, &CheckedCell::state);
+  const auto undecided = [](const stats::TableCheck& check) {
+    return std::ranges::count(check.cells, stats::Holds::undecided, &stats::CheckedCell::state);
   };
-  EXPECT_EQ(undecided(check_tables(reference, read_results(reference), Noise::left_out)), 0);
-  EXPECT_EQ(undecided(check_tables(reference, read_results(folder), Noise::left_out)), 2);
-  EXPECT_EQ(undecided(check_tables(folder, read_results(reference), Noise::left_out)), 2);
+  EXPECT_EQ(undecided(stats::check_tables(reference, stats::read_results(reference),
+                                          stats::Noise::left_out)),
+            0);
+  EXPECT_EQ(undecided(stats::check_tables(reference, stats::read_results(folder),
+                                          stats::Noise::left_out)),
+            2);
+  EXPECT_EQ(undecided(stats::check_tables(folder, stats::read_results(reference),
+                                          stats::Noise::left_out)),
+            2);
 }
 
 TEST_F(TablesOf, WorkOfAReferenceIsCheckedToTheDigit) {
@@ -286,9 +293,12 @@ TEST_F(TablesOf, WorkOfAReferenceIsCheckedToTheDigit) {
     run.blocks[0].contestants[1].name = label;
     run.blocks[0].contestants[1].work = stated;
     const auto reference = write(run, "reference");
-    write_tables(make_tables(read_results(reference), Noise::left_out), 1.2, reference);
+    stats::write_tables(stats::make_tables(stats::read_results(reference), stats::Noise::left_out),
+                        1.2, reference);
     run.blocks[0].contestants[1].work = here;
-    return check_tables(reference, read_results(write(run, "here")), Noise::left_out).changed;
+    return stats::check_tables(reference, stats::read_results(write(run, "here")),
+                               stats::Noise::left_out)
+        .changed;
   };
   const std::string work = ",,4000,500,75,32000,3,120";
   EXPECT_THAT(changed("uniform-grid", work, work), IsEmpty());
@@ -308,25 +318,27 @@ TEST(HoldsIn, IntervalAgainstTheBand) {
   const auto state = [](double low, double high) {
     return holds({(low + high) / 2, low, high, 12}, 1.5, 3);
   };
-  EXPECT_EQ(state(1.6, 2.9), Holds::pass);
-  EXPECT_EQ(state(1.5, 3.0), Holds::pass);
-  EXPECT_EQ(state(1.0, 1.4), Holds::fail);
-  EXPECT_EQ(state(3.1, 9.9), Holds::fail);
-  EXPECT_EQ(state(1.4, 1.6), Holds::undecided);
-  EXPECT_EQ(state(1.0, 4.0), Holds::undecided);
-  EXPECT_EQ(state(0.0 / 0.0, 0.0 / 0.0), Holds::undecided);
-  EXPECT_EQ(holds({1, 1, 1, 12}, 0.0 / 0.0, 0.0 / 0.0), Holds::undecided);
+  EXPECT_EQ(state(1.6, 2.9), stats::Holds::pass);
+  EXPECT_EQ(state(1.5, 3.0), stats::Holds::pass);
+  EXPECT_EQ(state(1.0, 1.4), stats::Holds::fail);
+  EXPECT_EQ(state(3.1, 9.9), stats::Holds::fail);
+  EXPECT_EQ(state(1.4, 1.6), stats::Holds::undecided);
+  EXPECT_EQ(state(1.0, 4.0), stats::Holds::undecided);
+  EXPECT_EQ(state(0.0 / 0.0, 0.0 / 0.0), stats::Holds::undecided);
+  EXPECT_EQ(holds({1, 1, 1, 12}, 0.0 / 0.0, 0.0 / 0.0), stats::Holds::undecided);
 }
 
 TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
   const auto reference = write(fake_run(), "reference");
-  write_tables(make_tables(read_results(reference), Noise::left_out), 1.2, reference);
+  stats::write_tables(stats::make_tables(stats::read_results(reference), stats::Noise::left_out),
+                      1.2, reference);
   const auto check = [&](const FakeRun& run) {
-    return check_tables(reference, read_results(write(run, "here")), Noise::left_out);
+    return stats::check_tables(reference, stats::read_results(write(run, "here")),
+                               stats::Noise::left_out);
   };
-  const auto states = [](const TableCheck& found) {
+  const auto states = [](const stats::TableCheck& found) {
     std::vector<std::string> all;
-    for (const CheckedCell& cell : found.cells) {
+    for (const stats::CheckedCell& cell : found.cells) {
       all.push_back(cell.label + " " + std::string(to_string(cell.state)));
     }
     return all;
@@ -338,7 +350,7 @@ TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
   for (FakeBlock& block : run.blocks) {
     for (FakeContestant& c : block.contestants) c.seconds *= 7;
   }
-  TableCheck found = check(run);
+  stats::TableCheck found = check(run);
   EXPECT_THAT(found.changed, IsEmpty());
   EXPECT_THAT(found.left_out, IsEmpty());
   EXPECT_THAT(states(found), ElementsAre("uniform-grid pass", "naive pass", "mpr double pass"));
@@ -379,16 +391,17 @@ TEST_F(TablesOf, ALibraryIsTheBaselineOfAReference) {
   run.blocks[0].contestants = {
       {"sweep-and-prune", 1e-3}, {"uniform-grid", 2e-3}, {"bullet-tree", 4e-3}};
   const auto reference = write(run, "reference");
-  const Tables tables = make_tables(read_results(reference), Noise::left_out);
-  for (const RatioRow& row : tables.library_ratios) EXPECT_EQ(row.baseline, "bullet-tree");
-  write_tables(tables, 1.2, reference);
+  const stats::Tables tables =
+      stats::make_tables(stats::read_results(reference), stats::Noise::left_out);
+  for (const stats::RatioRow& row : tables.library_ratios) EXPECT_EQ(row.baseline, "bullet-tree");
+  stats::write_tables(tables, 1.2, reference);
   // The measured baseline is twice as fast: its ratio is better, and no other changes.
   run.blocks[0].contestants[0].seconds *= 0.5;
-  const TableCheck found =
-      check_tables(reference, read_results(write(run, "here")), Noise::left_out);
+  const stats::TableCheck found = stats::check_tables(
+      reference, stats::read_results(write(run, "here")), stats::Noise::left_out);
   ASSERT_EQ(found.cells.size(), 2u);
-  EXPECT_EQ(found.cells[0].state, Holds::faster);
-  EXPECT_EQ(found.cells[1].state, Holds::pass);
+  EXPECT_EQ(found.cells[0].state, stats::Holds::faster);
+  EXPECT_EQ(found.cells[1].state, stats::Holds::pass);
 }
 
 TEST_F(TablesOf, ADepthBeyondTheStatedErrorWinsNothing) {
@@ -399,15 +412,15 @@ TEST_F(TablesOf, ADepthBeyondTheStatedErrorWinsNothing) {
       {"gjk", 100e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "1e-6"},
       {"mpr", 130e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "1e-5"},
       {"bullet-mpr", 50e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "0.6"}};
-  const Results results = read_results(write(run, "r"));
-  const Tables strict = make_tables(results, Noise::left_out);
+  const stats::Results results = stats::read_results(write(run, "r"));
+  const stats::Tables strict = stats::make_tables(results, stats::Noise::left_out);
   EXPECT_EQ(strict.winners.at(0).winner, "gjk double");
-  EXPECT_THAT(tables_markdown(strict), HasSubstr("**off by 0.6**"));
-  EXPECT_THAT(summary(results, strict, {}, "r"),
+  EXPECT_THAT(stats::tables_markdown(strict), HasSubstr("**off by 0.6**"));
+  EXPECT_THAT(stats::summary(results, strict, {}, "r"),
               HasSubstr("bullet-mpr double: distance or depth off by up to 0.6 of the size"));
-  const Tables loose = make_tables(results, Noise::left_out, 0.7);
+  const stats::Tables loose = stats::make_tables(results, stats::Noise::left_out, 0.7);
   EXPECT_EQ(loose.winners.at(0).winner, "bullet-mpr double");
-  EXPECT_THAT(summary(results, loose, {}, "r"), HasSubstr("No algorithm was wrong."));
+  EXPECT_THAT(stats::summary(results, loose, {}, "r"), HasSubstr("No algorithm was wrong."));
 }
 
 }  // namespace

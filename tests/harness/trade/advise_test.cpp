@@ -10,11 +10,11 @@ namespace {
 
 struct Asked : SmallRequest {
   explicit Asked(const std::string& scene_text) : SmallRequest(scene_text, 1) {
-    request.grids[0].boxes = {{}, {BoxChoice::Kind::loose, 0}};
+    request.grids[0].boxes = {{}, {trade::BoxChoice::Kind::loose, 0}};
   }
-  Advice advice(const ErrorBudget& budget) {
-    TradeScene scene(request, representing);
-    return advise({request, scene, representing, budget, [](const auto&) {}});
+  trade::Advice advice(const trade::ErrorBudget& budget) {
+    trade::TradeScene scene(request, representing);
+    return trade::advise({request, scene, representing, budget, [](const auto&) {}});
   }
 };
 
@@ -22,12 +22,12 @@ const std::string boxes = "generator = \"uniform\"\ncount = 100\noverlaps = 6\nf
 
 TEST(Advise, MeetsTheBudgetThereAndElsewhere) {
   Asked asked(boxes);
-  const Advice exact = asked.advice({.most = 0});
+  const trade::Advice exact = asked.advice({.most = 0});
   ASSERT_TRUE(exact.best);
   EXPECT_EQ(exact.best->error, 0);
   EXPECT_EQ(exact.held_out_on, "seeds 2 to 3");
   ASSERT_EQ(exact.held_out.size(), 2u);
-  for (const HeldOutGrade& grade : exact.held_out) {
+  for (const trade::HeldOutGrade& grade : exact.held_out) {
     EXPECT_EQ(grade.error, 0);
     EXPECT_GT(grade.near, 100);
   }
@@ -35,7 +35,7 @@ TEST(Advise, MeetsTheBudgetThereAndElsewhere) {
   EXPECT_LT(exact.within_budget, exact.configurations);
 
   // Without a narrow phase it is the quickest, and wrong; a better one is named.
-  const Advice rough = asked.advice({.most = 1, .no_false_negatives = true});
+  const trade::Advice rough = asked.advice({.most = 1, .no_false_negatives = true});
   ASSERT_TRUE(rough.best);
   EXPECT_EQ(rough.best->evaluation.errors.false_negatives, 0);
   EXPECT_EQ(rough.within_budget, rough.configurations);
@@ -49,9 +49,9 @@ TEST(Advise, SpheresGetTheClosedFormAndNoHullIsBuiltOnTheWay) {
   Asked asked(boxes + "shapes = [\"sphere\"]\n");
   asked.request.grids.clear();
   asked.representing = {represent_no_body, asked.representing.error};
-  const Advice advice = asked.advice({.most = 0});
+  const trade::Advice advice = asked.advice({.most = 0});
   ASSERT_TRUE(advice.best);
-  EXPECT_EQ(chain_name(advice.best->point.configuration.narrow), "closed-form");
+  EXPECT_EQ(trade::chain_name(advice.best->point.configuration.narrow), "closed-form");
   EXPECT_EQ(advice.best->evaluation.counters.hulls_built, 0);
   EXPECT_EQ(advice.hulls_built, 0);
   EXPECT_GT(advice.configurations, 30u);
@@ -61,7 +61,7 @@ TEST(Advise, SpheresGetTheClosedFormAndNoHullIsBuiltOnTheWay) {
 
 TEST(Advise, WhatRestsIsNeverUpdated) {
   Asked asked(boxes + "moving = 0\n");
-  const Advice advice = asked.advice({.most = 0});
+  const trade::Advice advice = asked.advice({.most = 0});
   ASSERT_TRUE(advice.best);
   EXPECT_EQ(advice.best->evaluation.counters.updates, 0);
   EXPECT_EQ(advice.best->evaluation.counters.builds, 1);
@@ -71,15 +71,15 @@ TEST(Advise, WhatRestsIsNeverUpdated) {
 TEST(Advise, DistancesHaveWitnessPoints) {
   Asked asked(boxes);
   asked.request.task = Task::distance;
-  asked.request.measure = ErrorMeasure::greatest;
-  const Advice advice = asked.advice({.most = 1e-6});
+  asked.request.measure = trade::ErrorMeasure::greatest;
+  const trade::Advice advice = asked.advice({.most = 1e-6});
   ASSERT_TRUE(advice.best);
   EXPECT_GT(advice.best->evaluation.counters.witnesses, 50);
 }
 
 TEST(Advise, WhatNothingMeetsIsSaid) {
   Asked asked(boxes);
-  asked.request.grids[0].narrow = {NarrowChain{}};
+  asked.request.grids[0].narrow = {trade::NarrowChain{}};
   EXPECT_FALSE(asked.advice({.most = 1e-3}).best);
 }
 
@@ -97,33 +97,33 @@ const std::string listed = [] {
 
 TEST(Advise, AListedSceneIsHeldOutByWhereItBegins) {
   Asked asked(listed);
-  const Advice advice = asked.advice({.most = 0});
+  const trade::Advice advice = asked.advice({.most = 0});
   ASSERT_TRUE(advice.best);
   EXPECT_EQ(advice.held_out_on, "starts 1 to 2");
   ASSERT_EQ(advice.held_out.size(), 2u);
-  for (const HeldOutGrade& grade : advice.held_out) EXPECT_GT(grade.near, 30);
+  for (const trade::HeldOutGrade& grade : advice.held_out) EXPECT_GT(grade.near, 30);
 }
 
 TEST(Advise, ABudgetWithoutMissesCountsUnansweredContacts) {
-  Evaluation evaluation;
+  trade::Evaluation evaluation;
   evaluation.errors.near = 1000;
   evaluation.errors.contacts = 500;
-  const ErrorBudget lenient{.most = 0.1}, strict{.most = 0.1, .no_false_negatives = true};
+  const trade::ErrorBudget lenient{.most = 0.1}, strict{.most = 0.1, .no_false_negatives = true};
   const auto both = [&] {
-    return std::pair(meets(lenient, ErrorMeasure::verdicts, evaluation, {}),
-                     meets(strict, ErrorMeasure::verdicts, evaluation, {}));
+    return std::pair(trade::meets(lenient, trade::ErrorMeasure::verdicts, evaluation, {}),
+                     trade::meets(strict, trade::ErrorMeasure::verdicts, evaluation, {}));
   };
   EXPECT_EQ(both(), std::pair(true, true));
   evaluation.errors.bins[0].failed = evaluation.errors.failed = 1;
   EXPECT_EQ(both(), std::pair(true, false));
   evaluation.errors.bins[0].failed = 0;
-  evaluation.errors.bins[gap_bins - 1].failed = 1;  // apart
+  evaluation.errors.bins[trade::gap_bins - 1].failed = 1;  // apart
   EXPECT_EQ(both(), std::pair(true, true));
   evaluation.errors.false_negatives = 1;
   EXPECT_EQ(both(), std::pair(true, false));
   evaluation.errors.false_positives = 200;
   EXPECT_EQ(both(), std::pair(false, false));
-  evaluation.state = ItemState::crashed;
+  evaluation.state = process::ItemState::crashed;
   evaluation.errors = {};
   EXPECT_EQ(both(), std::pair(false, false));
 }

@@ -13,29 +13,30 @@ namespace {
 
 TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
   const TemporaryFolder folder;
-  TradeRequest request;
+  trade::TradeRequest request;
   request.name = "small";
   request.scene =
       folder.write("scene.toml", "generator = \"uniform\"\ncount = 80\noverlaps = 6\nframes = 5\n");
   request.threads = 1;
   request.seconds = 1;
-  TradeGrid grid = grid_with("gjk");
-  grid.narrow = {parse_chain("gjk"), parse_chain("certified"), {}};
-  grid.boxes = {{}, {BoxChoice::Kind::loose, 0}};
-  grid.representations = {{}, all_as(Form::sphere)};
+  trade::TradeGrid grid = grid_with("gjk");
+  grid.narrow = {trade::parse_chain("gjk"), trade::parse_chain("certified"), {}};
+  grid.boxes = {{}, {trade::BoxChoice::Kind::loose, 0}};
+  grid.representations = {{}, all_as(proxies::Form::sphere)};
   request.grids = {grid};
-  TradeScene scene(request, simple_representing());
-  const TradeResult result = measure_trade(request, scene, folder.path(), [](const auto&) {});
+  trade::TradeScene scene(request, simple_representing());
+  const trade::TradeResult result =
+      trade::measure_trade(request, scene, folder.path(), [](const auto&) {});
 
   ASSERT_EQ(result.points.size(), 12u);
   std::set<double> errors;
-  for (const TradeOutcome& point : result.points) {
+  for (const trade::TradeOutcome& point : result.points) {
     ASSERT_TRUE(point.ok()) << point.timed.words;
     EXPECT_GT(point.timed.seconds, 0);
     EXPECT_GT(point.timed.rounds, 0);
     errors.insert(point.error);
     for (const std::size_t i : result.front) {
-      const TradeOutcome& best = result.points[i];
+      const trade::TradeOutcome& best = result.points[i];
       EXPECT_FALSE(point.timed.seconds < best.timed.seconds && point.error < best.error);
     }
   }
@@ -46,8 +47,8 @@ TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
   EXPECT_GT(result.control, 0);
 
   std::size_t on_front = 0, points = 0, samples = 0;
-  CsvReader(folder.path() / "points.csv", {"point", "front", "seconds"})
-      .read([&](const CsvReader::Row& row) {
+  files::CsvReader(folder.path() / "points.csv", {"point", "front", "seconds"})
+      .read([&](const files::CsvReader::Row& row) {
         ++points;
         on_front += row.text(1) == "1" ? 1 : 0;
         EXPECT_GT(row.number(2), 0);
@@ -55,19 +56,19 @@ TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
   EXPECT_EQ(points, 12u);
   EXPECT_EQ(on_front, result.front.size());
   std::set<std::string> stages;
-  CsvReader(folder.path() / "samples.csv",
-            {"scene", "bodies", "frame", "broad", "narrow", "scalar", "threads", "phase", "seconds",
-             "pair_count", "pair_hash", "contact_count", "status"})
-      .read([&](const CsvReader::Row& row) {
+  files::CsvReader(folder.path() / "samples.csv",
+                   {"scene", "bodies", "frame", "broad", "narrow", "scalar", "threads", "phase",
+                    "seconds", "pair_count", "pair_hash", "contact_count", "status"})
+      .read([&](const files::CsvReader::Row& row) {
         ++samples;
         stages.emplace(row.text(7));
         EXPECT_EQ(row.integer(1), 80);
         EXPECT_EQ(row.text(12), "ok");
       });
-  EXPECT_EQ(stages.size(), stage_names.size());
-  EXPECT_EQ(samples % stage_names.size(), 0u);
+  EXPECT_EQ(stages.size(), trade::stage_names.size());
+  EXPECT_EQ(samples % trade::stage_names.size(), 0u);
   // What was measured can be asked for again.
-  const TradeRequest again = read_trade(folder.path() / "trade.toml");
+  const trade::TradeRequest again = trade::read_trade(folder.path() / "trade.toml");
   EXPECT_EQ(again.name, "small");
   EXPECT_TRUE(std::filesystem::equivalent(again.scene, request.scene));
 }

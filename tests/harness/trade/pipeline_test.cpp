@@ -44,37 +44,38 @@ struct World {
         frames(scene, 8),
         library(frames, simple_representing()) {}
 
-  std::vector<FrameTruth> truth() const {
-    return find_truth(frames, sampling_order(frames.frames.size()), 100, 1);
+  std::vector<trade::FrameTruth> truth() const {
+    return trade::find_truth(frames, trade::sampling_order(frames.frames.size()), 100, 1);
   }
-  Evaluation errors_of(const TradeGrid& grid, const std::vector<FrameTruth>& known) {
-    const TradePoint point = point_of(grid, frames, library, task);
-    return evaluate(frames, {&point, 1}, known, task).front();
+  trade::Evaluation errors_of(const trade::TradeGrid& grid,
+                              const std::vector<trade::FrameTruth>& known) {
+    const trade::TradePoint point = point_of(grid, frames, library, task);
+    return trade::evaluate(frames, {&point, 1}, known, task).front();
   }
 
   Task task;
-  Scene scene;
-  SceneFrames frames;
-  StandInLibrary library;
+  scene::Scene scene;
+  trade::SceneFrames frames;
+  trade::StandInLibrary library;
 };
 
 TEST(TradePipeline, WhatHoldsTheBodyMissesNoContact) {
   World world(mixed);
-  const std::vector<FrameTruth> truth = world.truth();
-  std::vector<TradeGrid> grids;
+  const std::vector<trade::FrameTruth> truth = world.truth();
+  std::vector<trade::TradeGrid> grids;
   for (const char* boxes_name : {"tight", "loose", "fat-0.1"}) {
     for (const char* narrow : {"none", "certified"}) {
-      for (const Form form : {Form::as_given, Form::sphere}) {
-        TradeGrid grid = grid_with(narrow, "dynamic-bvh");
-        grid.boxes = {*parse_box_choice(boxes_name)};
+      for (const proxies::Form form : {proxies::Form::as_given, proxies::Form::sphere}) {
+        trade::TradeGrid grid = grid_with(narrow, "dynamic-bvh");
+        grid.boxes = {*trade::parse_box_choice(boxes_name)};
         grid.representations = {all_as(form)};
         grids.push_back(grid);
       }
     }
   }
   std::int64_t false_positives = 0;
-  for (const TradeGrid& grid : grids) {
-    const Evaluation found = world.errors_of(grid, truth);
+  for (const trade::TradeGrid& grid : grids) {
+    const trade::Evaluation found = world.errors_of(grid, truth);
     ASSERT_TRUE(found.ok()) << found.words;
     EXPECT_EQ(found.errors.false_negatives, 0);
     EXPECT_EQ(found.errors.failed, 0);
@@ -82,7 +83,7 @@ TEST(TradePipeline, WhatHoldsTheBodyMissesNoContact) {
     EXPECT_GT(found.errors.near - found.errors.contacts, 100);
     false_positives += found.errors.false_positives;
     const bool is_exact =
-        grid.narrow[0].size() == 1 && grid.representations[0] == all_as(Form::as_given);
+        grid.narrow[0].size() == 1 && grid.representations[0] == all_as(proxies::Form::as_given);
     if (is_exact) {
       EXPECT_EQ(found.errors.wrong_share(), 0);
     }
@@ -92,9 +93,10 @@ TEST(TradePipeline, WhatHoldsTheBodyMissesNoContact) {
 
 TEST(TradePipeline, WithoutANarrowPhaseEveryPairOfBoxesIsAContact) {
   World world(mixed);
-  const std::vector<FrameTruth> truth = world.truth();
-  const TradePoint point = point_of(grid_with("none"), world.frames, world.library);
-  const Evaluation found = evaluate(world.frames, {&point, 1}, truth, Task::intersect).front();
+  const std::vector<trade::FrameTruth> truth = world.truth();
+  const trade::TradePoint point = point_of(grid_with("none"), world.frames, world.library);
+  const trade::Evaluation found =
+      trade::evaluate(world.frames, {&point, 1}, truth, Task::intersect).front();
   EXPECT_EQ(found.errors.false_positives + found.errors.far + found.errors.contacts,
             found.counters.pairs);
   EXPECT_GT(found.errors.false_positives, 50);
@@ -105,9 +107,11 @@ TEST(TradePipeline, WithoutANarrowPhaseEveryPairOfBoxesIsAContact) {
 TEST(TradePipeline, NothingIsDoneThatTheSceneDoesNotNeed) {
   World balls(spheres);
   const auto truth = balls.truth();
-  const TradePoint point = point_of(grid_with("closed-form+gjk"), balls.frames, balls.library);
-  EXPECT_EQ(chain_name(point.configuration.narrow), "closed-form");
-  const Evaluation found = evaluate(balls.frames, {&point, 1}, truth, Task::intersect).front();
+  const trade::TradePoint point =
+      point_of(grid_with("closed-form+gjk"), balls.frames, balls.library);
+  EXPECT_EQ(trade::chain_name(point.configuration.narrow), "closed-form");
+  const trade::Evaluation found =
+      trade::evaluate(balls.frames, {&point, 1}, truth, Task::intersect).front();
   EXPECT_EQ(found.counters.hulls_built, 0);
   EXPECT_EQ(found.counters.shapes_bound, static_cast<std::int64_t>(point.stand_ins->shapes.size()));
   EXPECT_GT(found.counters.updates, 0);
@@ -119,26 +123,26 @@ TEST(TradePipeline, NothingIsDoneThatTheSceneDoesNotNeed) {
 
   World resting(still);
   EXPECT_TRUE(resting.frames.is_static());
-  const Evaluation at_rest = resting.errors_of(grid_with("gjk"), resting.truth());
+  const trade::Evaluation at_rest = resting.errors_of(grid_with("gjk"), resting.truth());
   EXPECT_EQ(at_rest.counters.updates, 0);
   EXPECT_EQ(at_rest.counters.builds, 1);
 }
 
 TEST(TradePipeline, WhatRestsIsSettledOnceAndFatBoxesAreKept) {
   World world(mixed + "moving = 0.3\nspeed = 0.2\nspin = 0.1\n");
-  TradeGrid grid = grid_with("gjk", "dynamic-bvh");
-  grid.boxes = {{BoxChoice::Kind::fat, 0.2}};
-  const TradePoint fat = point_of(grid, world.frames, world.library);
+  trade::TradeGrid grid = grid_with("gjk", "dynamic-bvh");
+  grid.boxes = {{trade::BoxChoice::Kind::fat, 0.2}};
+  const trade::TradePoint fat = point_of(grid, world.frames, world.library);
   Executor executor(1);
-  FramePipeline pipeline(world.frames, *fat.stand_ins, fat.configuration, Task::intersect,
-                         executor);
+  trade::FramePipeline pipeline(world.frames, *fat.stand_ins, fat.configuration, Task::intersect,
+                                executor);
   pipeline.start(0);
   const std::int64_t first = pipeline.counters().pairs;
   EXPECT_EQ(pipeline.counters().settled, 0);
   std::size_t moved = 0;
   while (pipeline.frame() + 1 < world.frames.frames.size()) {
     pipeline.advance();
-    for (const PairAnswer& answer : pipeline.answers()) {
+    for (const trade::PairAnswer& answer : pipeline.answers()) {
       const bool moves =
           world.frames.moves[answer.pair.a] != 0 || world.frames.moves[answer.pair.b] != 0;
       EXPECT_TRUE(moves);
@@ -158,30 +162,30 @@ TEST(TradePipeline, WhatRestsIsSettledOnceAndFatBoxesAreKept) {
 TEST(TradePipeline, PartsAnswerAsTheWhole) {
   for (const Task task : {Task::intersect, Task::distance}) {
     World world(boxes, task);
-    TradeGrid whole = grid_with("certified");
-    TradeGrid octants = whole;
-    octants.representations = {all_as(Form::dop26)};
+    trade::TradeGrid whole = grid_with("certified");
+    trade::TradeGrid octants = whole;
+    octants.representations = {all_as(proxies::Form::dop26)};
     Executor executor(1);
-    const TradePoint one = point_of(whole, world.frames, world.library, task);
-    const TradePoint eight = point_of(octants, world.frames, world.library, task);
+    const trade::TradePoint one = point_of(whole, world.frames, world.library, task);
+    const trade::TradePoint eight = point_of(octants, world.frames, world.library, task);
     EXPECT_FALSE(eight.stand_ins->single);
-    FramePipeline a(world.frames, *one.stand_ins, one.configuration, task, executor);
-    FramePipeline b(world.frames, *eight.stand_ins, eight.configuration, task, executor);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, PairAnswer> expected;
+    trade::FramePipeline a(world.frames, *one.stand_ins, one.configuration, task, executor);
+    trade::FramePipeline b(world.frames, *eight.stand_ins, eight.configuration, task, executor);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, trade::PairAnswer> expected;
     a.start(0);
     b.start(0);
     a.advance();
     b.advance();
-    for (const PairAnswer& answer : a.answers()) {
+    for (const trade::PairAnswer& answer : a.answers()) {
       expected[{answer.pair.a, answer.pair.b}] = answer;
     }
     std::size_t contacts = 0, apart = 0;
-    for (const PairAnswer& answer : b.answers()) {
+    for (const trade::PairAnswer& answer : b.answers()) {
       const auto of_whole = expected.find({answer.pair.a, answer.pair.b});
       if (of_whole == expected.end()) continue;  // boxes that rounding made larger
-      ASSERT_EQ(is_contact(answer.answer), is_contact(of_whole->second.answer));
-      ++(is_contact(answer.answer) ? contacts : apart);
-      if (task == Task::distance && !is_contact(answer.answer)) {
+      ASSERT_EQ(grade::is_contact(answer.answer), grade::is_contact(of_whole->second.answer));
+      ++(grade::is_contact(answer.answer) ? contacts : apart);
+      if (task == Task::distance && !grade::is_contact(answer.answer)) {
         EXPECT_NEAR(answer.distance, of_whole->second.distance, 1e-12);
       }
     }
@@ -198,9 +202,9 @@ TEST(TradePipeline, WhatThrowsCostsItselfAlone) {
   broken.make = [](const NarrowPhaseSettings&) -> std::unique_ptr<NarrowPhase> {
     throw std::runtime_error("broken on purpose");
   };
-  std::vector<TradePoint> points(3, point_of(grid_with("gjk"), world.frames, world.library));
+  std::vector<trade::TradePoint> points(3, point_of(grid_with("gjk"), world.frames, world.library));
   points[1].configuration.narrow = {&broken};
-  const auto found = evaluate(world.frames, points, truth, Task::intersect);
+  const auto found = trade::evaluate(world.frames, points, truth, Task::intersect);
   EXPECT_TRUE(found[0].ok());
   EXPECT_EQ(to_string(found[1].state), "threw");
   EXPECT_THAT(found[1].words, testing::HasSubstr("broken on purpose"));

@@ -17,13 +17,13 @@ using testing::HasSubstr;
 const std::string scene_text =
     "generator = \"uniform\"\ncount = 40\nshapes = [\"box\", \"sphere\"]\noverlaps = 5\n";
 
-std::vector<std::string> names(const GridPoints& grid) {
+std::vector<std::string> names(const trade::GridPoints& grid) {
   std::vector<std::string> all;
-  for (const TradePoint& point : grid.points) all.push_back(point.configuration.name());
+  for (const trade::TradePoint& point : grid.points) all.push_back(point.configuration.name());
   return all;
 }
 
-TEST(TradeRequest, WhatIsWrittenIsReadAsTheSame) {
+TEST(trade::TradeRequest, WhatIsWrittenIsReadAsTheSame) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene_text);
   const auto file = folder.write("a.toml", R"(
@@ -48,47 +48,48 @@ narrow = "gjk"
 tolerances = [1e-3, 1e-9]
 max_iterations = [1, 8]
 )");
-  EXPECT_TRUE(has_key(file, "trade"));
-  const TradeRequest request = read_trade(file);
+  EXPECT_TRUE(files::has_key(file, "trade"));
+  const trade::TradeRequest request = trade::read_trade(file);
   EXPECT_EQ(request.seed, 7u);
   EXPECT_EQ(request.task, Task::penetration);
-  EXPECT_EQ(request.measure, ErrorMeasure::p99);
+  EXPECT_EQ(request.measure, trade::ErrorMeasure::p99);
   EXPECT_EQ(request.overrides.count, 50);
   ASSERT_EQ(request.grids.size(), 2u);
   EXPECT_EQ(request.grids[1].max_iterations[1], 8);
 
   std::filesystem::create_directory(folder.path() / "out");
-  const std::string text = trade_toml(request, folder.path() / "out", "A comment\nof two lines");
-  const TradeRequest again = read_trade(folder.write("out/b.toml", text));
-  EXPECT_EQ(trade_toml(again, folder.path() / "out", "A comment\nof two lines"), text);
+  const std::string text =
+      trade::trade_toml(request, folder.path() / "out", "A comment\nof two lines");
+  const trade::TradeRequest again = trade::read_trade(folder.write("out/b.toml", text));
+  EXPECT_EQ(trade::trade_toml(again, folder.path() / "out", "A comment\nof two lines"), text);
   EXPECT_EQ(again.name, request.name);
   EXPECT_EQ(again.seconds, request.seconds);
-  const Scene scene = load_scene(again.scene, again.overrides);
-  const SceneFrames frames(scene, 3);
-  StandInLibrary library(frames, simple_representing());
-  const GridPoints before = expand(request.grids, frames, library, request.task);
-  const GridPoints after = expand(again.grids, frames, library, again.task);
+  const scene::Scene scene = scene::load_scene(again.scene, again.overrides);
+  const trade::SceneFrames frames(scene, 3);
+  trade::StandInLibrary library(frames, simple_representing());
+  const trade::GridPoints before = trade::expand(request.grids, frames, library, request.task);
+  const trade::GridPoints after = trade::expand(again.grids, frames, library, again.task);
   EXPECT_EQ(names(before), names(after));
   EXPECT_EQ(before.left_out, after.left_out);
   EXPECT_GT(before.points.size(), 20u);
 
   // One configuration, as advice is written.
-  for (const TradePoint& point : before.points) {
-    TradeRequest one = request;
-    one.grids = {grid_of(point.configuration)};
-    const TradeRequest read =
-        read_trade(folder.write("out/one.toml", trade_toml(one, folder.path() / "out", "")));
-    const GridPoints only = expand(read.grids, frames, library, read.task);
+  for (const trade::TradePoint& point : before.points) {
+    trade::TradeRequest one = request;
+    one.grids = {trade::grid_of(point.configuration)};
+    const trade::TradeRequest read = trade::read_trade(
+        folder.write("out/one.toml", trade::trade_toml(one, folder.path() / "out", "")));
+    const trade::GridPoints only = trade::expand(read.grids, frames, library, read.task);
     ASSERT_EQ(only.points.size(), 1u);
     EXPECT_EQ(only.points[0].configuration.name(), point.configuration.name());
   }
 }
 
-TEST(TradeRequest, BadInputIsToldWithItsPlace) {
+TEST(trade::TradeRequest, BadInputIsToldWithItsPlace) {
   const TemporaryFolder folder;
   const auto fault = [&](const std::string& text) {
     const auto file = folder.write("bad.toml", text);
-    return folder.without_path(input_fault([&] { read_trade(file); }));
+    return folder.without_path(input_fault([&] { trade::read_trade(file); }));
   };
   const std::string head = "[trade]\nscene = \"s.toml\"\n";
   EXPECT_THAT(fault("[trade]\n"), HasSubstr("bad.toml:1: trade: scene: missing"));
@@ -106,16 +107,17 @@ TEST(TradeRequest, BadInputIsToldWithItsPlace) {
   }
 }
 
-TEST(TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
-  const Scene scene = scene_of(scene_text);
-  const SceneFrames frames(scene, 3);
-  StandInLibrary library(frames, simple_representing());
-  TradeGrid grid = grid_with("sat");
-  grid.narrow = {parse_chain("sat"),     parse_chain("sat+gjk"),   parse_chain("gjk"),
-                 parse_chain("gjk+sat"), parse_chain("certified"), {}};
+TEST(trade::TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
+  const scene::Scene scene = scene_of(scene_text);
+  const trade::SceneFrames frames(scene, 3);
+  trade::StandInLibrary library(frames, simple_representing());
+  trade::TradeGrid grid = grid_with("sat");
+  grid.narrow = {trade::parse_chain("sat"),       trade::parse_chain("sat+gjk"),
+                 trade::parse_chain("gjk"),       trade::parse_chain("gjk+sat"),
+                 trade::parse_chain("certified"), {}};
   grid.scalars = {Precision::float64, Precision::float32};
-  grid.representations = {{}, all_as(Form::capsule)};
-  const GridPoints intersect = expand({&grid, 1}, frames, library, Task::intersect);
+  grid.representations = {{}, all_as(proxies::Form::capsule)};
+  const trade::GridPoints intersect = trade::expand({&grid, 1}, frames, library, Task::intersect);
   EXPECT_EQ(intersect.points.size(), 6u);  // sat+gjk and gjk in both, certified, none
   EXPECT_EQ(std::ranges::count_if(intersect.left_out,
                                   [](const auto& reason) {
@@ -125,22 +127,26 @@ TEST(TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
   EXPECT_EQ(intersect.left_out.at("the same as another"), 2);  // gjk+sat is gjk
   EXPECT_EQ(intersect.left_out.at("certified has no float"), 1);
   EXPECT_EQ(intersect.left_out.at("capsule: no such representation in this test"), 1);
-  const GridPoints distance = expand({&grid, 1}, frames, library, Task::distance);
+  const trade::GridPoints distance = trade::expand({&grid, 1}, frames, library, Task::distance);
   EXPECT_EQ(distance.left_out.at("without a narrow phase there are no numbers"), 1);
 }
 
-TEST(TradeGrid, AKindThatTheSceneHasNotMakesNoDifference) {
-  const Scene scene = scene_of(scene_text);
-  const SceneFrames frames(scene, 3);
-  const StandInLibrary library(frames, simple_representing());
-  Representations some;
-  some.of[static_cast<std::size_t>(ShapeKind::cone)] = Representation{Form::sphere, {}, 0};
-  some.of[static_cast<std::size_t>(ShapeKind::sphere)] = Representation{Form::sphere, {}, 0};
+TEST(trade::TradeGrid, AKindThatTheSceneHasNotMakesNoDifference) {
+  const scene::Scene scene = scene_of(scene_text);
+  const trade::SceneFrames frames(scene, 3);
+  const trade::StandInLibrary library(frames, simple_representing());
+  trade::Representations some;
+  some.of[static_cast<std::size_t>(ShapeKind::cone)] =
+      proxies::Representation{proxies::Form::sphere, {}, 0};
+  some.of[static_cast<std::size_t>(ShapeKind::sphere)] =
+      proxies::Representation{proxies::Form::sphere, {}, 0};
   EXPECT_EQ(library.complete(some), library.complete({}));
-  some.of[static_cast<std::size_t>(ShapeKind::box)] = Representation{Form::sphere, {}, 0};
+  some.of[static_cast<std::size_t>(ShapeKind::box)] =
+      proxies::Representation{proxies::Form::sphere, {}, 0};
   EXPECT_EQ(library.complete(some).name(), "sphere");  // a sphere's sphere is itself
-  EXPECT_EQ(library.complete(all_as(Form::sphere)), library.complete(some));
-  some.of[static_cast<std::size_t>(ShapeKind::box)] = Representation{Form::dop26, {}, 0};
+  EXPECT_EQ(library.complete(all_as(proxies::Form::sphere)), library.complete(some));
+  some.of[static_cast<std::size_t>(ShapeKind::box)] =
+      proxies::Representation{proxies::Form::dop26, {}, 0};
   EXPECT_EQ(library.complete(some).name(), "sphere=as-given,box=dop-26");
 }
 

@@ -13,18 +13,18 @@
 namespace touchstone {
 
 // sphere: a ball about the body's origin, which holds it. parts: a box as its eight octants.
-inline std::vector<Part> represent_simply(const Shape& shape, const Mesh*,
-                                          const Representation& wanted) {
-  if (wanted.form == Form::sphere && wanted.side == Side::outer) {
-    Part ball;
+inline std::vector<proxies::Part> represent_simply(const Shape& shape, const geometry::Mesh*,
+                                                   const proxies::Representation& wanted) {
+  if (wanted.form == proxies::Form::sphere && wanted.side == proxies::Side::outer) {
+    proxies::Part ball;
     ball.shape.kind = ShapeKind::sphere;
     ball.shape.radius = loose_reach(shape, Mat3d::Identity());
     return {ball};
   }
-  if (wanted.form == Form::dop26 && shape.kind == ShapeKind::box) {
-    std::vector<Part> octants;
+  if (wanted.form == proxies::Form::dop26 && shape.kind == ShapeKind::box) {
+    std::vector<proxies::Part> octants;
     for (int corner = 0; corner < 8; ++corner) {
-      Part& octant = octants.emplace_back();
+      proxies::Part& octant = octants.emplace_back();
       octant.shape = shape;
       octant.shape.half_extents /= 2;
       for (int axis = 0; axis < 3; ++axis) {
@@ -34,45 +34,47 @@ inline std::vector<Part> represent_simply(const Shape& shape, const Mesh*,
     }
     return octants;
   }
-  throw InputError("no such representation in this test");
+  throw base::InputError("no such representation in this test");
 }
 
 // For scenes that need nobody to stand for their bodies.
-inline std::vector<Part> represent_no_body(const Shape&, const Mesh*, const Representation&) {
+inline std::vector<proxies::Part> represent_no_body(const Shape&, const geometry::Mesh*,
+                                                    const proxies::Representation&) {
   throw std::logic_error("a body was represented that need not be");
 }
 
-inline Representing simple_representing() {
-  return {represent_simply, [](const Shape&, const Mesh*, const std::vector<Part>&) {
-            return RepresentationError{};
+inline trade::Representing simple_representing() {
+  return {represent_simply,
+          [](const Shape&, const geometry::Mesh*, const std::vector<proxies::Part>&) {
+            return proxies::RepresentationError{};
           }};
 }
 
 // A scene from the text of its file.
-inline Scene scene_of(const std::string& text) {
+inline scene::Scene scene_of(const std::string& text) {
   const TemporaryFolder folder;
-  return load_scene(folder.write("scene.toml", text));
+  return scene::load_scene(folder.write("scene.toml", text));
 }
 
-inline Representations all_as(Form form) {
-  Representations all;
-  all.of.fill(Representation{form, Side::outer, 0});
+inline trade::Representations all_as(proxies::Form form) {
+  trade::Representations all;
+  all.of.fill(proxies::Representation{form, proxies::Side::outer, 0});
   return all;
 }
 
 // The only configuration of a grid.
-inline TradePoint point_of(const TradeGrid& grid, const SceneFrames& frames,
-                           StandInLibrary& library, Task task = Task::intersect) {
-  const GridPoints made = expand({&grid, 1}, frames, library, task);
+inline trade::TradePoint point_of(const trade::TradeGrid& grid, const trade::SceneFrames& frames,
+                                  trade::StandInLibrary& library, Task task = Task::intersect) {
+  const trade::GridPoints made = trade::expand({&grid, 1}, frames, library, task);
   if (made.points.size() != 1) throw std::logic_error("not one configuration");
   return made.points[0];
 }
 
-inline TradeGrid grid_with(const std::string& narrow,
-                           const std::string& broad = "sweep-and-prune") {
-  TradeGrid grid;
+inline trade::TradeGrid grid_with(const std::string& narrow,
+                                  const std::string& broad = "sweep-and-prune") {
+  trade::TradeGrid grid;
   grid.broad = {find_broad_phase(broad)};
-  grid.narrow = {parse_chain(narrow)};
+  grid.narrow = {trade::parse_chain(narrow)};
   return grid;
 }
 
@@ -82,16 +84,18 @@ struct SmallRequest {
     request.scene = folder.write("scene.toml", scene_text);
     request.threads = 1;
     request.seconds = seconds;
-    TradeGrid grid = grid_with("gjk");
-    grid.narrow = {
-        parse_chain("gjk"), parse_chain("closed-form+gjk"), parse_chain("certified"), {}};
-    grid.representations = {{}, all_as(Form::sphere)};
+    trade::TradeGrid grid = grid_with("gjk");
+    grid.narrow = {trade::parse_chain("gjk"),
+                   trade::parse_chain("closed-form+gjk"),
+                   trade::parse_chain("certified"),
+                   {}};
+    grid.representations = {{}, all_as(proxies::Form::sphere)};
     request.grids = {grid};
   }
 
   TemporaryFolder folder;
-  TradeRequest request;
-  Representing representing = simple_representing();
+  trade::TradeRequest request;
+  trade::Representing representing = simple_representing();
 };
 
 }  // namespace touchstone

@@ -12,19 +12,19 @@ namespace touchstone {
 namespace {
 
 TEST(TradeTruth, SamplesEveryFrameOnceAndSpreadsThem) {
-  const std::vector<std::size_t> order = sampling_order(65);
+  const std::vector<std::size_t> order = trade::sampling_order(65);
   EXPECT_EQ(order[0], 0u);
   EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), 65u);
   // Of the first five, one in each quarter.
   const std::set<std::size_t> first(order.begin() + 1, order.begin() + 5);
   std::size_t quarter = 0;
   for (const std::size_t frame : first) EXPECT_EQ((frame - 1) / 16, quarter++);
-  EXPECT_EQ(sampling_order(1), std::vector<std::size_t>{0});
+  EXPECT_EQ(trade::sampling_order(1), std::vector<std::size_t>{0});
 }
 
 // The surface of a box, as triangles.
-Mesh mesh_of_box(const Vec3d& half) {
-  Mesh mesh;
+geometry::Mesh mesh_of_box(const Vec3d& half) {
+  geometry::Mesh mesh;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3d at = half;
     for (int axis = 0; axis < 3; ++axis) {
@@ -42,30 +42,30 @@ Mesh mesh_of_box(const Vec3d& half) {
 }
 
 TEST(TradeTruth, AMeshIsASolidAndAnswersAsTheBoxThatItIs) {
-  const Scene scene = scene_of(
+  const scene::Scene scene = scene_of(
       "generator = \"uniform\"\ncount = 60\noverlaps = 8\nframes = 3\n"
       "shapes = [\"box\", \"sphere\"]\nsize = [0.2, 3]\n");
-  SceneFrames convex(scene, 3);
-  SceneFrames meshes(scene, 3);
-  std::vector<std::unique_ptr<Mesh>> kept;
+  trade::SceneFrames convex(scene, 3);
+  trade::SceneFrames meshes(scene, 3);
+  std::vector<std::unique_ptr<geometry::Mesh>> kept;
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     if (scene.shapes[i].kind != ShapeKind::box) continue;
-    kept.push_back(std::make_unique<Mesh>(mesh_of_box(scene.shapes[i].half_extents)));
+    kept.push_back(std::make_unique<geometry::Mesh>(mesh_of_box(scene.shapes[i].half_extents)));
     meshes.mesh_of[i] = kept.back().get();
   }
   const std::vector<std::size_t> wanted = {0, 1, 2};
-  const auto expected = find_truth(convex, wanted, 100, 1);
-  const auto found = find_truth(meshes, wanted, 100, 1);
+  const auto expected = trade::find_truth(convex, wanted, 100, 1);
+  const auto found = trade::find_truth(meshes, wanted, 100, 1);
   ASSERT_EQ(found.size(), 3u);
   std::size_t contacts = 0, apart = 0;
   for (std::size_t frame = 0; frame < 3; ++frame) {
     ASSERT_EQ(found[frame].pairs.size(), expected[frame].pairs.size());
     for (std::size_t i = 0; i < found[frame].pairs.size(); ++i) {
-      const TruePair &mesh = found[frame].pairs[i], &box = expected[frame].pairs[i];
-      ASSERT_EQ(is_contact(mesh.answer), is_contact(box.answer))
+      const trade::TruePair &mesh = found[frame].pairs[i], &box = expected[frame].pairs[i];
+      ASSERT_EQ(grade::is_contact(mesh.answer), grade::is_contact(box.answer))
           << mesh.pair.a << " " << mesh.pair.b;
-      ++(is_contact(mesh.answer) ? contacts : apart);
-      if (!is_contact(mesh.answer)) {
+      ++(grade::is_contact(mesh.answer) ? contacts : apart);
+      if (!grade::is_contact(mesh.answer)) {
         EXPECT_NEAR(mesh.gap, box.gap, 1e-12);
       }
     }
@@ -75,16 +75,16 @@ TEST(TradeTruth, AMeshIsASolidAndAnswersAsTheBoxThatItIs) {
 }
 
 TEST(TradeTruth, InsideIsByTheWindingNumber) {
-  const Mesh mesh = mesh_of_box({1, 2, 3});
-  EXPECT_TRUE(is_inside(mesh, {0.9, -1.9, 2.9}));
-  EXPECT_FALSE(is_inside(mesh, {1.1, 0, 0}));
-  EXPECT_FALSE(is_inside(mesh, {5, 5, 5}));
+  const geometry::Mesh mesh = mesh_of_box({1, 2, 3});
+  EXPECT_TRUE(trade::is_inside(mesh, {0.9, -1.9, 2.9}));
+  EXPECT_FALSE(trade::is_inside(mesh, {1.1, 0, 0}));
+  EXPECT_FALSE(trade::is_inside(mesh, {5, 5, 5}));
 }
 
 TEST(TradeTruth, ARecordingHasNoBodies) {
-  Scene scene;
+  scene::Scene scene;
   scene.recording = {{Aabb{{0, 0, 0}, {1, 1, 1}}}};
-  EXPECT_THROW(SceneFrames(scene, 4), InputError);
+  EXPECT_THROW(trade::SceneFrames(scene, 4), base::InputError);
 }
 
 }  // namespace

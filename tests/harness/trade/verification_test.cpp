@@ -19,26 +19,27 @@ using testing::HasSubstr;
 
 struct Small : SmallRequest {
   explicit Small(const std::string& scene_text) : SmallRequest(scene_text, 0.5) {}
-  Configuration named(const std::string& narrow) const {
-    Configuration configuration;
+  trade::Configuration named(const std::string& narrow) const {
+    trade::Configuration configuration;
     configuration.broad = find_broad_phase("sweep-and-prune");
-    configuration.narrow = parse_chain(narrow);
+    configuration.narrow = trade::parse_chain(narrow);
     return configuration;
   }
-  Verification verified(const Configuration& choice, const ErrorBudget& budget) {
-    TradeScene scene(request, representing);
-    Configuration complete = choice;
+  trade::Verification verified(const trade::Configuration& choice,
+                               const trade::ErrorBudget& budget) {
+    trade::TradeScene scene(request, representing);
+    trade::Configuration complete = choice;
     complete.representations = scene.library.complete(choice.representations);
-    return verify({request, scene, representing, budget, [](const auto&) {}}, complete, 3, 2,
-                  folder.path() / "grid");
+    return trade::verify({request, scene, representing, budget, [](const auto&) {}}, complete, 3, 2,
+                         folder.path() / "grid");
   }
 };
 
 const std::string moving = "generator = \"uniform\"\ncount = 80\noverlaps = 6\nframes = 5\n";
 
-TEST(Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
+TEST(trade::Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
   Small small(moving);
-  const Verification found = small.verified(small.named("gjk"), {.most = 0});
+  const trade::Verification found = small.verified(small.named("gjk"), {.most = 0});
   EXPECT_TRUE(found.within_budget);
   EXPECT_EQ(found.choice.error, 0);
   EXPECT_EQ(found.held_out_on, "seeds 4 to 5");
@@ -53,25 +54,26 @@ TEST(Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
   EXPECT_TRUE(std::filesystem::exists(small.folder.path() / "grid/points.csv"));
 }
 
-TEST(Verification, ABudgetThatIsNotMetIsSaid) {
+TEST(trade::Verification, ABudgetThatIsNotMetIsSaid) {
   Small small(moving);
-  const Verification found = small.verified(small.named("none"), {.most = 1e-3});
+  const trade::Verification found = small.verified(small.named("none"), {.most = 1e-3});
   EXPECT_FALSE(found.within_budget);
   EXPECT_FALSE(found.holds());
   EXPECT_GT(found.choice.error, 1e-3);
-  for (const HeldOutGrade& grade : found.held_out) EXPECT_FALSE(grade.within);
-  EXPECT_THAT(verification_text(found), HasSubstr("Not verified"));
+  for (const trade::HeldOutGrade& grade : found.held_out) EXPECT_FALSE(grade.within);
+  EXPECT_THAT(trade::verification_text(found), HasSubstr("Not verified"));
 }
 
-TEST(Verification, TimesAreJudgedByTheWholeInterval) {
-  EXPECT_EQ(time_verdict({1.0, 0.9, 1.1, 9}), TimeVerdict::within);
-  EXPECT_EQ(time_verdict({1.0, 0.9, 1.11, 9}), TimeVerdict::undecided);
-  EXPECT_EQ(time_verdict({1.2, 1.11, 1.3, 9}), TimeVerdict::beyond);
-  EXPECT_EQ(time_verdict({1.0, Outcome::none, Outcome::none, 3}), TimeVerdict::undecided);
+TEST(trade::Verification, TimesAreJudgedByTheWholeInterval) {
+  EXPECT_EQ(trade::time_verdict({1.0, 0.9, 1.1, 9}), trade::TimeVerdict::within);
+  EXPECT_EQ(trade::time_verdict({1.0, 0.9, 1.11, 9}), trade::TimeVerdict::undecided);
+  EXPECT_EQ(trade::time_verdict({1.2, 1.11, 1.3, 9}), trade::TimeVerdict::beyond);
+  EXPECT_EQ(trade::time_verdict({1.0, Outcome::none, Outcome::none, 3}),
+            trade::TimeVerdict::undecided);
 }
 
 // Number k is the same scene each time, and another than the scene's own and the other numbers'.
-TEST(Verification, HeldOutScenesAreDrawnByTheirNumber) {
+TEST(trade::Verification, HeldOutScenesAreDrawnByTheirNumber) {
   const std::string listed =
       "frames = 3\n"
       "[[body]]\nshape = {type = \"box\", half_extents = [1, 1, 1]}\ntranslation = [0, 0, 0]\n"
@@ -80,41 +82,41 @@ TEST(Verification, HeldOutScenesAreDrawnByTheirNumber) {
       "velocity = [-1, 0, 0]\n";
   for (const std::string& text : {moving, moving + "seed = 7\n", listed}) {
     Small small(text);
-    const HeldOutScenes first(small.request, small.representing, 1, 3, 100);
+    const trade::HeldOutScenes first(small.request, small.representing, 1, 3, 100);
     EXPECT_THAT(first.name(), HasSubstr(text == listed   ? "starts 1 to 3"
                                         : text == moving ? "seeds 2 to 4"
                                                          : "seeds 8 to 10"));
-    std::set<std::string> hashes = {scene_hash(load_scene(small.request.scene))};
-    for (std::size_t i = 0; i < 3; ++i) hashes.insert(scene_hash(first.scene(i)));
+    std::set<std::string> hashes = {scene::scene_hash(scene::load_scene(small.request.scene))};
+    for (std::size_t i = 0; i < 3; ++i) hashes.insert(scene::scene_hash(first.scene(i)));
     EXPECT_EQ(hashes.size(), 4u);
-    const HeldOutScenes again(small.request, small.representing, 3, 1, 100);
-    EXPECT_EQ(scene_hash(again.scene(0)), scene_hash(first.scene(2)));
+    const trade::HeldOutScenes again(small.request, small.representing, 3, 1, 100);
+    EXPECT_EQ(scene::scene_hash(again.scene(0)), scene::scene_hash(first.scene(2)));
   }
   Small still("[[body]]\nshape = {type = \"sphere\", radius = 1}\ntranslation = [0, 0, 0]\n");
-  EXPECT_TRUE(HeldOutScenes(still.request, still.representing, 1, 2, 100).empty());
+  EXPECT_TRUE(trade::HeldOutScenes(still.request, still.representing, 1, 2, 100).empty());
 }
 
-TEST(Verification, ARowSaysWhatCameOut) {
+TEST(trade::Verification, ARowSaysWhatCameOut) {
   Small small(moving);
-  TradeScene scene(small.request, small.representing);
-  const ErrorBudget budget{.most = 0.5};
-  const AdviceProblem problem{small.request, scene, small.representing, budget, {}};
-  Verification verification;
+  trade::TradeScene scene(small.request, small.representing);
+  const trade::ErrorBudget budget{.most = 0.5};
+  const trade::AdviceProblem problem{small.request, scene, small.representing, budget, {}};
+  trade::Verification verification;
   verification.choice.error = 0.25;
   verification.held_out = {{"seed 4", 0.5, 10, 1, true}};
   verification.held_out_on = "seed 4";
   verification.within_budget = true;
   verification.best = "other";
   verification.ratio = {1.05, 1, 1.09, 30};
-  VerificationRows rows(small.folder.path() / "v", 2);
+  trade::VerificationRows rows(small.folder.path() / "v", 2);
   rows.write(problem, &verification);
   rows.write(problem, nullptr);
   rows.close();
   std::vector<std::vector<std::string>> found;
-  CsvReader(small.folder.path() / "v/verification.csv",
-            {"scene", "max_error", "error", "error_1", "error_2", "within_budget", "best",
-             "ratio_high", "within_time", "verified"})
-      .read([&](const CsvReader::Row& row) {
+  files::CsvReader(small.folder.path() / "v/verification.csv",
+                   {"scene", "max_error", "error", "error_1", "error_2", "within_budget", "best",
+                    "ratio_high", "within_time", "verified"})
+      .read([&](const files::CsvReader::Row& row) {
         std::vector<std::string>& texts = found.emplace_back();
         for (std::size_t i = 0; i < 10; ++i) texts.emplace_back(row.text(i));
       });
@@ -138,9 +140,9 @@ max_error = 0.25
 no_false_negatives = true
 task = "distance"
 )");
-  TradeRequest usual;
+  trade::TradeRequest usual;
   usual.seconds = 7;
-  const std::vector<AdviceTask> tasks = read_advice_list(file, usual);
+  const std::vector<trade::AdviceTask> tasks = trade::read_advice_list(file, usual);
   ASSERT_EQ(tasks.size(), 2u);
   EXPECT_EQ(tasks[0].name, "a");
   EXPECT_EQ(tasks[0].budget.most, 1e-3);
@@ -149,13 +151,13 @@ task = "distance"
   EXPECT_EQ(tasks[1].budget.most, 0.25);
   EXPECT_TRUE(tasks[1].budget.no_false_negatives);
   EXPECT_EQ(tasks[1].request.task, Task::distance);
-  EXPECT_EQ(tasks[1].request.measure, ErrorMeasure::greatest);
+  EXPECT_EQ(tasks[1].request.measure, trade::ErrorMeasure::greatest);
   EXPECT_EQ(tasks[1].request.seconds, 7);
   EXPECT_TRUE(std::filesystem::exists(tasks[1].request.scene));
 
   const auto fault = [&](const std::string& text) {
     const auto bad = folder.write("bad.toml", text);
-    return folder.without_path(input_fault([&] { read_advice_list(bad, usual); }));
+    return folder.without_path(input_fault([&] { trade::read_advice_list(bad, usual); }));
   };
   EXPECT_THAT(fault("a = 1\n"), HasSubstr("bad.toml"));
   const std::string head = "[[scene]]\nfile = \"a.toml\"\n";
@@ -169,7 +171,7 @@ task = "distance"
 
 // The list that comes with the project.
 TEST(AdviceList, TheProjectsOwnCanBeRead) {
-  const auto tasks = read_advice_list(
+  const auto tasks = trade::read_advice_list(
       std::filesystem::path(touchstone::project_folder) / "datasets/advice/scenes.toml", {});
   EXPECT_EQ(tasks.size(), 6u);
 }

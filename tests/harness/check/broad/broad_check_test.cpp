@@ -50,15 +50,16 @@ Status all_but(std::size_t dropped, std::span<const Aabb> boxes, PairSink& sink)
   return Status::ok;
 }
 
-std::vector<BroadCheck> check(const BroadPhaseEntry& entry, std::span<const BoxScene> scenes) {
+std::vector<check::BroadCheck> check(const BroadPhaseEntry& entry,
+                                     std::span<const check::BoxScene> scenes) {
   const std::vector<const BroadPhaseEntry*> entries = {&entry};
-  return check_broad_phases(entries, scenes, 10);
+  return check::check_broad_phases(entries, scenes, 10);
 }
 
 TEST(BoxScenes, HaveFramesThatChangeAndPairsOfEachKind) {
-  const std::vector<BoxScene> scenes = box_scenes(1);
+  const std::vector<check::BoxScene> scenes = check::box_scenes(1);
   std::set<std::string> names;
-  for (const BoxScene& scene : scenes) {
+  for (const check::BoxScene& scene : scenes) {
     names.insert(scene.name);
     ASSERT_EQ(scene.frames.size(), 5u);
     std::size_t pairs = 0, apart = 0, empty = 0;
@@ -88,40 +89,41 @@ TEST(BoxScenes, HaveFramesThatChangeAndPairsOfEachKind) {
     EXPECT_GT(empty, 20u) << scene.name;
   }
   EXPECT_EQ(names.size(), scenes.size());
-  EXPECT_EQ(box_scenes(1)[0].frames, scenes[0].frames);
-  EXPECT_NE(box_scenes(2)[0].frames, scenes[0].frames);
+  EXPECT_EQ(check::box_scenes(1)[0].frames, scenes[0].frames);
+  EXPECT_NE(check::box_scenes(2)[0].frames, scenes[0].frames);
 }
 
-TEST(BroadCheck, EveryOneOfOurs) {
-  const std::vector<BoxScene> scenes = box_scenes(3);
+TEST(check::BroadCheck, EveryOneOfOurs) {
+  const std::vector<check::BoxScene> scenes = check::box_scenes(3);
   for (const BroadPhaseEntry& entry : broad_phases()) {
     if (entry.info.origin != Origin::ours) continue;
-    for (const BroadCheck& one : check(entry, scenes)) {
+    for (const check::BroadCheck& one : check(entry, scenes)) {
       EXPECT_TRUE(one.good()) << entry.info.name << ' ' << one.scene->name << ": " << one.faults();
       EXPECT_GT(one.pairs, 0);
     }
   }
 }
 
-TEST(BroadCheck, ADroppedPairIsFound) {
-  const std::vector<BoxScene> scenes = box_scenes(1);
+TEST(check::BroadCheck, ADroppedPairIsFound) {
+  const std::vector<check::BoxScene> scenes = check::box_scenes(1);
   const BroadPhaseEntry good =
       planted([](auto boxes, auto& sink) { return all_but(0, boxes, sink); });
   const BroadPhaseEntry bad =
       planted([](auto boxes, auto& sink) { return all_but(1, boxes, sink); });
-  for (const BroadCheck& one : check(good, scenes)) EXPECT_TRUE(one.good()) << one.faults();
-  for (const BroadCheck& one : check(bad, scenes)) {
+  for (const check::BroadCheck& one : check(good, scenes)) EXPECT_TRUE(one.good()) << one.faults();
+  for (const check::BroadCheck& one : check(bad, scenes)) {
     EXPECT_FALSE(one.good());
     EXPECT_THAT(one.faults(), HasSubstr("frame 0: 1 missing"));
   }
 }
 
-TEST(BroadCheck, CrashesHangsAndRefusalsAreFound) {
-  const std::vector<BoxScene> scenes = {box_scenes(1)[0]};
+TEST(check::BroadCheck, CrashesHangsAndRefusalsAreFound) {
+  const std::vector<check::BoxScene> scenes = {check::box_scenes(1)[0]};
   const auto status = [&](const Find& find, double seconds) {
     const BroadPhaseEntry entry = planted(find, Origin::peer);
     const std::vector<const BroadPhaseEntry*> entries = {&entry};
-    const std::vector<BroadCheck> checks = check_broad_phases(entries, scenes, seconds);
+    const std::vector<check::BroadCheck> checks =
+        check::check_broad_phases(entries, scenes, seconds);
     EXPECT_FALSE(checks[0].good());
     EXPECT_FALSE(checks[0].faults().empty());
     return checks[0].status;

@@ -15,12 +15,14 @@
 namespace touchstone {
 namespace {
 
-Case made(const char* regime, std::uint64_t index) { return make(*find_regime(regime), 1, index); }
+files::Case made(const char* regime, std::uint64_t index) {
+  return make(*check::find_regime(regime), 1, index);
+}
 
 // The first case of the regime that fails.
-Case first_failing(const char* regime, const FailurePredicate& fails) {
+files::Case first_failing(const char* regime, const grade::FailurePredicate& fails) {
   for (std::uint64_t i = 0; i < 1000; ++i) {
-    Case c = made(regime, i);
+    files::Case c = made(regime, i);
     if (fails(c)) return c;
   }
   ADD_FAILURE() << "no case fails in " << regime;
@@ -29,18 +31,18 @@ Case first_failing(const char* regime, const FailurePredicate& fails) {
 
 TEST(Shrink, FindsTheOneVertexThatMatters) {
   const Vec3d planted(0.123456789, -0.987654321, 0.5);
-  Case c = made("random-mixed", 0);
+  files::Case c = made("random-mixed", 0);
   std::vector<Vec3d> vertices = made("gap-1e0", 0).shape_a.kind == ShapeKind::hull
                                     ? made("gap-1e0", 0).shape_a.hull->vertices
-                                    : box_as_hull({1, 2, 3}).hull->vertices;
+                                    : check::box_as_hull({1, 2, 3}).hull->vertices;
   vertices.insert(vertices.begin() + 3, planted);
-  c.shape_a = hull_of(vertices);
-  const auto fails = [&](const Case& x) {
+  c.shape_a = check::hull_of(vertices);
+  const auto fails = [&](const files::Case& x) {
     return x.shape_a.kind == ShapeKind::hull &&
            std::ranges::any_of(x.shape_a.hull->vertices,
                                [&](const Vec3d& v) { return v.x() == planted.x(); });
   };
-  const Case small = shrink(c, fails);
+  const files::Case small = grade::shrink(c, fails);
   EXPECT_TRUE(fails(small));
   EXPECT_EQ(small.id, c.id);
   // It takes four for a solid.
@@ -59,47 +61,47 @@ TEST(Shrink, FindsTheOneVertexThatMatters) {
 
 TEST(Shrink, LeavesOverlappingHullsWithFewVerticesAndShortNumbers) {
   oracle::Oracle oracle;
-  const auto fails = [&](const Case& c) {
+  const auto fails = [&](const files::Case& c) {
     return c.shape_a.kind == ShapeKind::hull && c.shape_b.kind == ShapeKind::hull &&
            exact_verdict(oracle, c) == Answer::overlapping;
   };
-  const Case c = first_failing("random-polytopes", fails);
-  const Case small = shrink(c, fails, 4000);
+  const files::Case c = first_failing("random-polytopes", fails);
+  const files::Case small = grade::shrink(c, fails, 4000);
   EXPECT_TRUE(fails(small));
   EXPECT_LE(small.shape_a.hull->vertices.size() + small.shape_b.hull->vertices.size(), 8u);
-  EXPECT_LT(to_json(small).size(), 600u) << to_json(small);
+  EXPECT_LT(files::to_json(small).size(), 600u) << files::to_json(small);
 }
 
 TEST(Shrink, KeepsASmallGap) {
   oracle::Oracle oracle;
-  const auto fails = [&](const Case& c) {
+  const auto fails = [&](const files::Case& c) {
     const oracle::Measure m = exact_measure(oracle, c);
-    return m.answer == Answer::separated && m.upper < 1e-8 * pair_size(c);
+    return m.answer == Answer::separated && m.upper < 1e-8 * grade::pair_size(c);
   };
-  const Case c = first_failing("gap-1e-9", [&](const Case& x) {
+  const files::Case c = first_failing("gap-1e-9", [&](const files::Case& x) {
     return fails(x) && x.shape_a.kind == ShapeKind::hull && x.shape_b.kind == ShapeKind::hull;
   });
-  const Case small = shrink(c, fails);
+  const files::Case small = grade::shrink(c, fails);
   EXPECT_TRUE(fails(small));
-  EXPECT_LT(to_json(small).size(), to_json(c).size() / 2) << to_json(small);
+  EXPECT_LT(files::to_json(small).size(), files::to_json(c).size() / 2) << files::to_json(small);
 }
 
 TEST(Shrink, KeepsToItsBudgetAndIsTheSameEachTime) {
-  const Case c = first_failing("random-polytopes", [](const Case& x) {
+  const files::Case c = first_failing("random-polytopes", [](const files::Case& x) {
     return x.shape_a.kind == ShapeKind::hull && x.shape_a.hull->vertices.size() > 20;
   });
   for (const int budget : {0, 1, 10, 200}) {
     int calls = 0;
-    const auto fails = [&](const Case& x) {
+    const auto fails = [&](const files::Case& x) {
       ++calls;
       return x.shape_a.kind == ShapeKind::hull && x.shape_a.hull->vertices.size() >= 5 &&
              x.pose_b.translation.norm() > 0.25;
     };
-    const std::string first = to_json(shrink(c, fails, budget));
+    const std::string first = files::to_json(grade::shrink(c, fails, budget));
     EXPECT_LE(calls, budget);
-    EXPECT_EQ(to_json(shrink(c, fails, budget)), first);
+    EXPECT_EQ(files::to_json(grade::shrink(c, fails, budget)), first);
     if (budget == 0) {
-      EXPECT_EQ(first, to_json(c));
+      EXPECT_EQ(first, files::to_json(c));
     }
   }
 }
@@ -110,27 +112,27 @@ TEST(Shrink, EndsAndGivesCasesThatCanBeRead) {
   int cases = 0;
   {
     std::ofstream stream(file);
-    for (const Regime& regime : regimes()) {
+    for (const check::Regime& regime : check::regimes()) {
       int calls = 0;
-      const Case c = made(regime.name.c_str(), 1);
+      const files::Case c = made(regime.name.c_str(), 1);
       const ShapeKind kind = c.shape_b.kind;
       // What nothing can be done about.
-      const Case same = shrink(
-          c, [&](const Case&) { return ++calls < 0; }, 100'000);
-      EXPECT_EQ(to_json(same), to_json(c));
+      const files::Case same = grade::shrink(
+          c, [&](const files::Case&) { return ++calls < 0; }, 100'000);
+      EXPECT_EQ(files::to_json(same), files::to_json(c));
       EXPECT_LT(calls, 60'000);
       // What everything can be done about.
       calls = 0;
-      const Case small = shrink(
-          c, [&](const Case& x) { return ++calls > 0 && x.shape_b.kind == kind; }, 100'000);
-      EXPECT_LT(calls, 1000) << to_json(small);
+      const files::Case small = grade::shrink(
+          c, [&](const files::Case& x) { return ++calls > 0 && x.shape_b.kind == kind; }, 100'000);
+      EXPECT_LT(calls, 1000) << files::to_json(small);
       EXPECT_TRUE(small.pose_b.translation.isZero(0));
       EXPECT_EQ(small.pose_b.rotation, Mat3d::Identity());
-      stream << to_json(small) << "\n";
+      stream << files::to_json(small) << "\n";
       ++cases;
     }
   }
-  EXPECT_EQ(read_cases(file).size(), cases);
+  EXPECT_EQ(files::read_cases(file).size(), cases);
 }
 
 }  // namespace

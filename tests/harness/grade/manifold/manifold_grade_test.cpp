@@ -18,8 +18,8 @@ namespace {
 
 using reference::make_box;
 
-Case box_on_box() {
-  Case c;
+files::Case box_on_box() {
+  files::Case c;
   c.id = "box";
   c.shape_a = make_box(2, 2, 1);
   c.shape_b = make_box(1, 1, 1);
@@ -29,45 +29,45 @@ Case box_on_box() {
 
 const ManifoldEntry& ours() { return *find_contact_manifold("clipped-faces"); }
 
-TEST(ManifoldGrade, OursOnEveryFamily) {
+TEST(grade::ManifoldGrade, OursOnEveryFamily) {
   for (const Precision scalar : {Precision::float64, Precision::float32}) {
-    ManifoldTally tally;
+    grade::ManifoldTally tally;
     int with_area = 0;
-    for (const SettledFamily& family : settled_families()) {
+    for (const check::SettledFamily& family : check::settled_families()) {
       for (std::uint64_t i = 0; i < 12; ++i) {
-        const Case c = settled_pair(family, 5, i);
-        const ManifoldTruth truth = manifold_truth(c);
+        const files::Case c = check::settled_pair(family, 5, i);
+        const grade::ManifoldTruth truth = grade::manifold_truth(c);
         EXPECT_TRUE(truth.overlap()) << c.id;
-        const Manifold manifold = solve_manifold(ours(), {.scalar = scalar}, c);
+        const Manifold manifold = process::solve_manifold(ours(), {.scalar = scalar}, c);
         tally.add(std::string(family.name), "ours", ours().info, scalar, c, truth, manifold);
-        with_area += grade(c, truth, manifold).of_all ? 1 : 0;
+        with_area += grade::grade(c, truth, manifold).of_all ? 1 : 0;
       }
     }
     EXPECT_THAT(tally.ours_wrong(), testing::IsEmpty());
-    EXPECT_GT(with_area, static_cast<int>(settled_families().size()) * 9);
+    EXPECT_GT(with_area, static_cast<int>(check::settled_families().size()) * 9);
   }
 }
 
 // Pairs of every kind and pose, at every gap and depth, degenerate and extreme: points are on their
 // bodies, and the deepest is among them.
-TEST(ManifoldGrade, OursOnEveryRegime) {
+TEST(grade::ManifoldGrade, OursOnEveryRegime) {
   int apart = 0, common = 0, several = 0;
-  for (const Regime& regime : regimes()) {
+  for (const check::Regime& regime : check::regimes()) {
     for (std::uint64_t i = 0; i < 12; ++i) {
-      const Case c = make(regime, 11, i);
+      const files::Case c = make(regime, 11, i);
       if (!offers(ours(), c.shape_a.kind, c.shape_b.kind)) continue;
       for (const Precision scalar : {Precision::float64, Precision::float32}) {
-        const Manifold manifold = solve_manifold(ours(), {.scalar = scalar}, c);
+        const Manifold manifold = process::solve_manifold(ours(), {.scalar = scalar}, c);
         several += manifold.count > 1 ? 1 : 0;
         if (manifold.answer == Answer::separated) {
           EXPECT_EQ(manifold.count, 0);
           ++apart;
           continue;
         }
-        const ManifoldTruth truth = manifold_truth(c);
+        const grade::ManifoldTruth truth = grade::manifold_truth(c);
         common += truth.overlap() ? 1 : 0;
-        const ManifoldGrade graded = grade(c, truth, manifold);
-        const double rounding = coordinate_rounding(c, truth);
+        const grade::ManifoldGrade graded = grade::grade(c, truth, manifold);
+        const double rounding = grade::coordinate_rounding(c, truth);
         const double limit = scalar == Precision::float64 ? 1e-13 : 1e-4;
         EXPECT_LE(graded.off_body, limit + rounding) << c.id;
         EXPECT_EQ(graded.apart, 0) << c.id;
@@ -91,13 +91,13 @@ TEST(ManifoldGrade, OursOnEveryRegime) {
   EXPECT_GT(several, 100);
 }
 
-TEST(ManifoldGrade, SeesWhatIsWrong) {
-  const Case c = box_on_box();
-  const ManifoldTruth truth = manifold_truth(c);
+TEST(grade::ManifoldGrade, SeesWhatIsWrong) {
+  const files::Case c = box_on_box();
+  const grade::ManifoldTruth truth = grade::manifold_truth(c);
   EXPECT_EQ(truth.size, 4);
   EXPECT_NEAR(truth.depth, 0.01, 1e-15);
-  const Manifold right = solve_manifold(ours(), {}, c);
-  const ManifoldGrade good = grade(c, truth, right);
+  const Manifold right = process::solve_manifold(ours(), {}, c);
+  const grade::ManifoldGrade good = grade::grade(c, truth, right);
   EXPECT_LT(good.off_body, 1e-15);
   EXPECT_LT(good.depth_error, 1e-15);
   EXPECT_NEAR(good.of_best_four.value(), 1, 1e-14);
@@ -105,22 +105,22 @@ TEST(ManifoldGrade, SeesWhatIsWrong) {
 
   Manifold off = right;
   off.points[1].on_b.z() -= 0.1;  // below b
-  EXPECT_NEAR(grade(c, truth, off).off_body, 0.1 / 4, 1e-15);
-  EXPECT_NEAR(grade(c, truth, off).off_line, 0.1 / 4, 1e-15);
+  EXPECT_NEAR(grade::grade(c, truth, off).off_body, 0.1 / 4, 1e-15);
+  EXPECT_NEAR(grade::grade(c, truth, off).off_line, 0.1 / 4, 1e-15);
   Manifold shallow = right;
   for (ContactPoint& point : shallow.points) point.depth /= 2;
-  EXPECT_NEAR(grade(c, truth, shallow).depth_error, 0.005 / 4, 1e-15);
+  EXPECT_NEAR(grade::grade(c, truth, shallow).depth_error, 0.005 / 4, 1e-15);
   Manifold apart = right;
   apart.points[2].depth = -0.04;
-  EXPECT_NEAR(grade(c, truth, apart).apart, 0.01, 1e-15);
+  EXPECT_NEAR(grade::grade(c, truth, apart).apart, 0.01, 1e-15);
   Manifold three = right;
   three.count = 3;
-  EXPECT_NEAR(grade(c, truth, three).of_best_four.value(), 0.5, 1e-14);
+  EXPECT_NEAR(grade::grade(c, truth, three).of_best_four.value(), 0.5, 1e-14);
   Manifold none = right;
   none.count = 0;
-  EXPECT_TRUE(grade(c, truth, none).missed);
+  EXPECT_TRUE(grade::grade(c, truth, none).missed);
 
-  ManifoldTally tally;
+  grade::ManifoldTally tally;
   for (const Manifold& wrong : {off, shallow, three, none}) {
     tally.add("boxes", "ours", ours().info, Precision::float64, c, truth, wrong);
   }
@@ -128,25 +128,25 @@ TEST(ManifoldGrade, SeesWhatIsWrong) {
   EXPECT_THAT(tally.markdown(), testing::HasSubstr("| boxes | ours | 4 | 1 | 3 to 4 |"));
 }
 
-TEST(ManifoldGrade, TouchingAreaIsWhereOneFaceIsBelowTheOther) {
-  Case c = box_on_box();
+TEST(grade::ManifoldGrade, TouchingAreaIsWhereOneFaceIsBelowTheOther) {
+  files::Case c = box_on_box();
   c.shape_b = make_box(4, 4, 1);
   c.pose_b.rotation = Eigen::AngleAxisd(0.1, Vec3d::UnitY()).toRotationMatrix();
   // b's lower face crosses a's upper one at x = 0.
   c.pose_b.translation = {0, 0, 1 + 1 / std::cos(0.1)};
-  const auto area = touching_area(c, area_frame(c, Vec3d::UnitZ()));
+  const auto area = grade::touching_area(c, grade::area_frame(c, Vec3d::UnitZ()));
   ASSERT_TRUE(area);
-  EXPECT_NEAR(static_cast<double>(hull_area(*area)), 8, 1e-13);
-  Case sphere = c;
+  EXPECT_NEAR(static_cast<double>(grade::hull_area(*area)), 8, 1e-13);
+  files::Case sphere = c;
   sphere.shape_b = reference::make_sphere(1);
-  EXPECT_FALSE(touching_area(sphere, area_frame(c, Vec3d::UnitZ())));
+  EXPECT_FALSE(grade::touching_area(sphere, grade::area_frame(c, Vec3d::UnitZ())));
 }
 
 TEST(SettledPairs, AreTheSameAgainAndOtherwiseOthers) {
-  for (const SettledFamily& family : settled_families()) {
-    const Case one = settled_pair(family, 1, 3);
-    EXPECT_EQ(to_json(one), to_json(settled_pair(family, 1, 3)));
-    EXPECT_NE(to_json(one), to_json(settled_pair(family, 2, 3)));
+  for (const check::SettledFamily& family : check::settled_families()) {
+    const files::Case one = check::settled_pair(family, 1, 3);
+    EXPECT_EQ(files::to_json(one), files::to_json(check::settled_pair(family, 1, 3)));
+    EXPECT_NE(files::to_json(one), files::to_json(check::settled_pair(family, 2, 3)));
     EXPECT_EQ(one.id, fmt::format("{}/3", family.name));
   }
 }

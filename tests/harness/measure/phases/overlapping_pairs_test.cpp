@@ -26,14 +26,14 @@ std::vector<IndexPair> by_definition(const std::vector<Aabb>& boxes) {
 
 void expect_right(const std::vector<Aabb>& boxes, const char* what) {
   const std::vector<IndexPair> pairs = by_definition(boxes);
-  EXPECT_EQ(overlapping_pairs(boxes), pairs) << what;
-  EXPECT_EQ(overlapping_pairs(boxes, 0), pairs) << what << ", by the tree";
+  EXPECT_EQ(measure::overlapping_pairs(boxes), pairs) << what;
+  EXPECT_EQ(measure::overlapping_pairs(boxes, 0), pairs) << what << ", by the tree";
 }
 
 TEST(OverlappingPairs, AreThoseOfTheDefinition) {
   std::size_t hits = 0, possible = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    Random random(seed);
+    base::Random random(seed);
     std::vector<Aabb> boxes;
     const std::uint64_t count = random.below(300);
     const bool on_grid = seed % 3 == 0;  // many that touch exactly, and many that coincide

@@ -35,8 +35,8 @@ std::vector<Outcome> solve(const std::vector<std::uint32_t>& behaviour, double l
   for (std::uint32_t i = 0; i < second.size(); ++i) second[i] = i;
   const PairBatch batch{ShapeKind::sphere, ShapeKind::sphere, {behaviour, second, {}, {}}};
   std::vector<Outcome> outcomes(behaviour.size());
-  solve_guarded([] { return std::make_unique<Misbehaving>(); }, Task::distance, batch, outcomes,
-                limit, std::size_t{1} << 30);
+  process::solve_guarded([] { return std::make_unique<Misbehaving>(); }, Task::distance, batch,
+                         outcomes, limit, std::size_t{1} << 30);
   return outcomes;
 }
 

@@ -8,9 +8,9 @@ namespace touchstone {
 namespace {
 
 TEST(OrderedPair, SwapsKindsThatComeInTheOtherOrder) {
-  EXPECT_FALSE(needs_swap(ShapeKind::sphere, ShapeKind::box));
-  EXPECT_FALSE(needs_swap(ShapeKind::box, ShapeKind::box));
-  EXPECT_TRUE(needs_swap(ShapeKind::box, ShapeKind::sphere));
+  EXPECT_FALSE(process::needs_swap(ShapeKind::sphere, ShapeKind::box));
+  EXPECT_FALSE(process::needs_swap(ShapeKind::box, ShapeKind::box));
+  EXPECT_TRUE(process::needs_swap(ShapeKind::box, ShapeKind::sphere));
 }
 
 TEST(OrderedPair, TheAnswerIsTurnedBack) {
@@ -21,13 +21,13 @@ TEST(OrderedPair, TheAnswerIsTurnedBack) {
   outcome.normal = Vec3d(1, 0, -1);
   outcome.witness_a = Vec3d(1, 2, 3);
   outcome.witness_b = Vec3d(4, 5, 6);
-  const Outcome turned = swapped(outcome);
+  const Outcome turned = process::swapped(outcome);
   EXPECT_EQ(turned.distance, 2);
   EXPECT_EQ(turned.normal, Vec3d(-1, 0, 1));
   EXPECT_FALSE(std::signbit(turned.normal[1]));
   EXPECT_EQ(turned.witness_a, outcome.witness_b);
   EXPECT_EQ(turned.witness_b, outcome.witness_a);
-  EXPECT_TRUE(swapped(Outcome{}).normal.hasNaN());
+  EXPECT_TRUE(process::swapped(Outcome{}).normal.hasNaN());
 }
 
 }  // namespace
