@@ -42,7 +42,7 @@ struct Stage {
   measure::BlockInput input;
 
   explicit Stage(const char* file)
-      : scene(scene::load_scene(std::filesystem::path(source_folder) / "datasets" / file,
+      : scene(scene::load_scene(std::filesystem::path(record::source_folder) / "datasets" / file,
                                 {bodies, -1, frames})),
         input(scene, scene::BoxKind::tight, true) {}
 };

@@ -116,7 +116,7 @@ void count_instructions(const std::string& filter, const fs::path& out) {
         "(Debian: valgrind)");
   }
   subjects_of(filter);  // a wrong filter is reported at once
-  check_output(out);
+  files::check_output(out);
   const DumpFolder folder;
   const int status = process::run_and_wait(
       "valgrind",

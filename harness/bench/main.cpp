@@ -30,12 +30,12 @@ std::string value_of(int argc, char** argv, std::string_view name) {
 int main(int argc, char** argv) {
   try {
     if (const auto filter = value_of(argc, argv, "--under-valgrind="); !filter.empty()) {
-      touchstone::count_under_valgrind(filter);
+      touchstone::bench::count_under_valgrind(filter);
       return 0;
     }
     if (const auto out = value_of(argc, argv, "--instructions="); !out.empty()) {
       const std::string filter = value_of(argc, argv, "--benchmark_filter=");
-      touchstone::count_instructions(filter.empty() ? "." : filter, out);
+      touchstone::bench::count_instructions(filter.empty() ? "." : filter, out);
       return 0;
     }
   } catch (const std::exception& error) {
@@ -44,11 +44,11 @@ int main(int argc, char** argv) {
   }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  touchstone::register_broad_benchmarks();
-  touchstone::register_narrow_benchmarks();
-  touchstone::register_oracle_benchmarks();
-  touchstone::register_kernel_benchmarks();
-  touchstone::register_harness_overhead_benchmarks();
+  touchstone::bench::register_broad_benchmarks();
+  touchstone::bench::register_narrow_benchmarks();
+  touchstone::bench::register_oracle_benchmarks();
+  touchstone::bench::register_kernel_benchmarks();
+  touchstone::bench::register_harness_overhead_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -22,7 +22,7 @@ std::vector<Aabb> shifted(std::vector<Aabb> boxes, float scale, float offset) {
   return boxes;
 }
 
-std::vector<Aabb> clusters(base::Random& random) {
+std::vector<Aabb> clusters(Random& random) {
   std::vector<Aabb> boxes;
   for (int cluster = 0; cluster < 12; ++cluster) {
     const float spread = std::exp2(uniform(random, -10, -3));
@@ -36,7 +36,7 @@ std::vector<Aabb> clusters(base::Random& random) {
 }
 
 // Around a corner, where they are denser and smaller by up to 2^depth.
-std::vector<Aabb> ever_denser(base::Random& random, std::size_t count, float depth) {
+std::vector<Aabb> ever_denser(Random& random, std::size_t count, float depth) {
   std::vector<Aabb> boxes;
   for (std::size_t i = 0; i < count; ++i) {
     const float scale = std::exp2(-uniform(random, 0, depth));
@@ -48,7 +48,7 @@ std::vector<Aabb> ever_denser(base::Random& random, std::size_t count, float dep
 
 // Most in a cluster that is `width` times narrower than the world where the others are, in that
 // again a few hundred in one `width` times narrower, with sides to suit.
-std::vector<Aabb> crowd_in_crowd(base::Random& random, float width, float side_outside) {
+std::vector<Aabb> crowd_in_crowd(Random& random, float width, float side_outside) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < 2000; ++i) {
     const float scale = i % 20 == 0 ? width * width : i % 5 == 0 ? 1 : width;
@@ -60,7 +60,7 @@ std::vector<Aabb> crowd_in_crowd(base::Random& random, float width, float side_o
 }
 
 // Thin plates one above the other, and such turned to the other axes.
-std::vector<Aabb> piles_of_plates(base::Random& random) {
+std::vector<Aabb> piles_of_plates(Random& random) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < 1800; ++i) {
     Aabb box =
@@ -73,7 +73,7 @@ std::vector<Aabb> piles_of_plates(base::Random& random) {
   return boxes;
 }
 
-std::vector<Aabb> sizes_over_orders(base::Random& random, float orders) {
+std::vector<Aabb> sizes_over_orders(Random& random, float orders) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < 900; ++i) {
     const float side = 0.3f * std::pow(10.0f, -uniform(random, 0, orders));
@@ -95,7 +95,7 @@ std::vector<Aabb> flattened(std::vector<Aabb> boxes, std::size_t axes, bool same
 }
 
 // Unit cubes that touch their 26 neighbours exactly.
-std::vector<Aabb> lattice(base::Random& random, int count) {
+std::vector<Aabb> lattice(Random& random, int count) {
   std::vector<Aabb> boxes;
   for (int x = 0; x < count; ++x) {
     for (int y = 0; y < count; ++y) {
@@ -110,7 +110,7 @@ std::vector<Aabb> lattice(base::Random& random, int count) {
 }
 
 // Every extent is one of a few values, so that all kinds of ties come up.
-std::vector<Aabb> from_values(base::Random& random, std::size_t count, std::vector<float> values) {
+std::vector<Aabb> from_values(Random& random, std::size_t count, std::vector<float> values) {
   std::vector<Aabb> boxes(count);
   for (Aabb& box : boxes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -123,7 +123,7 @@ std::vector<Aabb> from_values(base::Random& random, std::size_t count, std::vect
   return boxes;
 }
 
-std::vector<Aabb> stacks(base::Random& random) {
+std::vector<Aabb> stacks(Random& random) {
   std::vector<Aabb> boxes;
   for (int stack = 0; stack < 8; ++stack) {
     const float x = uniform(random, 0, 50);
@@ -152,7 +152,7 @@ std::vector<Aabb> with_outliers(std::vector<Aabb> boxes, std::size_t every, floa
   return boxes;
 }
 
-std::vector<Aabb> with_empties(base::Random& random, std::vector<Aabb> boxes, float fraction) {
+std::vector<Aabb> with_empties(Random& random, std::vector<Aabb> boxes, float fraction) {
   for (Aabb& box : boxes) {
     if (uniform(random, 0, 1) < fraction) box = Aabb::empty();
   }
@@ -170,12 +170,12 @@ std::vector<Aabb> nested(int count) {
 
 }  // namespace
 
-float uniform(base::Random& random, float low, float high) {
+float uniform(Random& random, float low, float high) {
   const auto unit = static_cast<float>(random() >> 40) * 0x1p-24f;
   return low + (high - low) * unit;
 }
 
-std::vector<Aabb> uniform_boxes(base::Random& random, std::size_t count, float side) {
+std::vector<Aabb> uniform_boxes(Random& random, std::size_t count, float side) {
   std::vector<Aabb> boxes(count);
   for (Aabb& box : boxes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -189,7 +189,7 @@ std::vector<Aabb> uniform_boxes(base::Random& random, std::size_t count, float s
 std::vector<BoxSet> box_sets() {
   constexpr float largest = std::numeric_limits<float>::max();
   constexpr float smallest = std::numeric_limits<float>::denorm_min();
-  base::Random random(20240229);
+  Random random(20240229);
   std::vector<BoxSet> sets;
   const auto add = [&](std::string name, std::vector<Aabb> boxes) {
     sets.push_back({.name = std::move(name), .boxes = std::move(boxes)});

@@ -42,7 +42,7 @@ const std::vector<Sample>& samples() {
 // Large enough for many tasks.
 const Sample& crowd() {
   static const Sample sample = [] {
-    base::Random random(7);
+    Random random(7);
     BoxSet set{.name = "crowd", .boxes = uniform_boxes(random, crowd_size, 0.05f)};
     auto truth = true_pairs(set.boxes);
     return Sample{std::move(set), std::move(truth)};
@@ -209,7 +209,7 @@ class Frames {
   std::size_t now_ = 0;
 };
 
-void shift(Aabb& box, base::Random& random, float reach) {
+void shift(Aabb& box, Random& random, float reach) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float by = uniform(random, -reach, reach);
     box.min[axis] += by;
@@ -241,7 +241,7 @@ TEST_P(BroadPhases, FollowTheFrames) {
   Executor executor(2);
   const auto algorithm = entry().make(executor);
   PairSink sink;
-  base::Random random(42);
+  Random random(42);
   for (const Churn& churn : churns) {
     SCOPED_TRACE(churn.name);
     Frames frames(uniform_boxes(random, 500, 0.15f));
@@ -281,7 +281,7 @@ TEST_P(BroadPhases, FollowFromNothingToNothing) {
   Executor executor(2);
   const auto algorithm = entry().make(executor);
   PairSink sink;
-  base::Random random(43);
+  Random random(43);
   Frames frames(std::vector<Aabb>{});
   algorithm->build(frames.boxes());
   EXPECT_TRUE(ordered_pairs(*algorithm, sink).empty());
@@ -302,7 +302,7 @@ TEST_P(BroadPhases, FollowSizes) {
   Executor executor(2);
   const auto algorithm = entry().make(executor);
   PairSink sink;
-  base::Random random(44);
+  Random random(44);
   Frames frames(uniform_boxes(random, 400, 0.1f));
   algorithm->build(frames.boxes());
   for (int frame = 0; frame < 6; ++frame) {
@@ -321,7 +321,7 @@ TEST_P(BroadPhases, FollowSizes) {
 TEST_P(OurBroadPhases, FollowTheSameAtEveryWidth) {
   std::optional<std::vector<IndexPair>> first;
   for (const int width : {1, 2, 3}) {
-    base::Random random(45);
+    Random random(45);
     Executor executor(width);
     const auto algorithm = entry().make(executor);
     PairSink sink;

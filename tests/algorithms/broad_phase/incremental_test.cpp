@@ -79,7 +79,7 @@ class Bodies {
   }
 
   History history_;
-  base::Random random_;
+  Random random_;
   std::vector<Aabb> boxes_;
   std::vector<std::uint32_t> moved_, inserted_, removed_;
 };
@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, LongHistories, testing::ValuesIn(keepers()),
                          });
 
 TEST(PairSet, IsASet) {
-  base::Random random(5);
+  Random random(5);
   PairSet set;
   std::set<IndexPair> truth;
   std::size_t inserted = 0, repeated = 0, erased = 0, missed = 0;

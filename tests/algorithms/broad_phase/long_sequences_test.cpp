@@ -67,7 +67,7 @@ const Sequence sequences[] = {
 
 class Bodies {
  public:
-  Bodies(const Sequence& sequence, base::Random& random) : sequence_(sequence), random_(random) {
+  Bodies(const Sequence& sequence, Random& random) : sequence_(sequence), random_(random) {
     for (std::size_t i = 0; i < sequence.bodies; ++i) add();
     boxes_[0] = scaled();
   }
@@ -147,7 +147,7 @@ class Bodies {
   }
 
   const Sequence& sequence_;
-  base::Random& random_;
+  Random& random_;
   std::vector<Aabb> own_;
   std::vector<std::array<float, 3>> drift_;
   std::vector<Aabb> boxes_[2];
@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, LongSequences, testing::ValuesIn(sequences), te
 
 TEST_P(LongSequences, AreFollowed) {
   const Sequence& sequence = GetParam();
-  base::Random random(77);
+  Random random(77);
   Bodies bodies(sequence, random);
   std::vector<Follower> all = followers();
   for (Follower& follower : all) follower.algorithm->build(bodies.boxes());
@@ -239,7 +239,7 @@ TEST(LongSequencesOfChurn, DoNotGrowTheMemory) {
                           .teleported = 0.01f,
                           .inserted = 0.01f,
                           .removed = 0.01f};
-  base::Random random(78);
+  Random random(78);
   Bodies bodies(sequence, random);
   std::vector<Follower> all = followers();
   for (Follower& follower : all) follower.algorithm->build(bodies.boxes());

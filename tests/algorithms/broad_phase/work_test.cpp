@@ -54,7 +54,7 @@ std::vector<Aabb> row_of_cubes(std::size_t count) {
 }
 
 TEST_F(Work, NaiveTestsEveryPairOnce) {
-  base::Random random(1);
+  Random random(1);
   for (const std::size_t n : {0u, 1u, 2u, 17u, 256u, 257u, 1'500u, 4'000u}) {
     const Counted counted = count("naive", uniform_boxes(random, n, 0.1f));
     const auto pairs = static_cast<std::int64_t>(n * (n - 1) / 2);
@@ -196,7 +196,7 @@ TEST_F(Work, OctreeByHand) {
 }
 
 TEST_F(Work, IsTheSameAtEveryWidthAndLevel) {
-  base::Random random(2);
+  Random random(2);
   std::vector<BoxSet> sets = box_sets();
   sets.push_back({.name = "crowd", .boxes = uniform_boxes(random, 6'000, 0.05f)});
   std::size_t with_saving = 0;
@@ -231,7 +231,7 @@ TEST_F(Work, IsOfTheFrameAtHand) {
     Executor executor(1);
     const auto algorithm = entry->make(executor);
     PairSink sink;
-    base::Random random(3);
+    Random random(3);
     const std::vector<Aabb> many = uniform_boxes(random, 900, 0.2f);
     const std::vector<Aabb> few = uniform_boxes(random, 30, 0.2f);
     algorithm->build(many);

@@ -163,7 +163,7 @@ TEST(Rounding, IsOutwardAndExactWhereItCanBe) {
   EXPECT_EQ(round_up(1e-300), std::numeric_limits<float>::denorm_min());
 }
 
-TEST(proxies::Overlap, IsClosedAndTheEmptyBoxOverlapsNothing) {
+TEST(Overlap, IsClosedAndTheEmptyBoxOverlapsNothing) {
   const Aabb a{{0, 0, 0}, {1, 1, 1}};
   EXPECT_TRUE(overlap(a, {{1, 1, 1}, {2, 2, 2}}));
   EXPECT_FALSE(overlap(a, {{std::nextafter(1.0f, 2.0f), 0, 0}, {2, 1, 1}}));

@@ -146,15 +146,14 @@ TEST(ConvexHull, ScalesOffsetsAndProportions) {
   int tried = 0;
   for (double scale : {1e-150, 1e-9, 1.0, 1e9, 1e150}) {
     for (double thin : {1.0, 1e-4, 1e-8}) {
-      for (int axes = 1; check::axes <= 2; ++axes) {
+      for (int axes = 1; axes <= 2; ++axes) {
         for (bool turned : {false, true}) {
           const Vec3d extents(axes == 2 ? thin : 1, 1, thin);
           const Mat3d rotation = turned ? oblique() : Mat3d::Identity();
           const auto place = [&](const Vec3d& p) -> Vec3d {
             return scale * (rotation * p.cwiseProduct(extents));
           };
-          SCOPED_TRACE(testing::Message()
-                       << scale << ' ' << thin << ' ' << check::axes << ' ' << turned);
+          SCOPED_TRACE(testing::Message() << scale << ' ' << thin << ' ' << axes << ' ' << turned);
           const auto box = make_hull(mapped(cube(), place));
           expect_valid(*box, turned ? 1e-12 : 1e-15);
           if (!turned || thin == 1) expect_counts(*box, 6, 12);

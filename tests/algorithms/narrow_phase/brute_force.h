@@ -149,7 +149,7 @@ inline Real distance(const Vec& point, const Triangle& t) {
   const auto beside = [&](const Vec& p, const Vec& q) {
     return (q - p).cross(point - p).dot(normal) >= 0;
   };
-  if (base::beside(t.a, t.b) && base::beside(t.b, t.c) && base::beside(t.c, t.a)) {
+  if (beside(t.a, t.b) && beside(t.b, t.c) && beside(t.c, t.a)) {
     best = std::min(best, std::abs(normal.normalized().dot(point - t.a)));
   }
   return best;

@@ -22,7 +22,7 @@ const NarrowPhaseEntry& certified() {
                        [](const auto& entry) { return entry.info.name == "certified"; });
 }
 
-Shape random_shape(ShapeKind kind, double size, base::Random& random) {
+Shape random_shape(ShapeKind kind, double size, Random& random) {
   const auto length = [&] { return size * uniform(random, 0.2, 1); };
   Shape shape;
   if (kind == ShapeKind::hull) {
@@ -35,17 +35,17 @@ Shape random_shape(ShapeKind kind, double size, base::Random& random) {
     return bare_hull(std::move(vertices), 3);
   }
   shape.kind = kind;
-  shape.radius = base::length();
-  shape.half_length = base::length();
-  shape.half_extents = {base::length(), base::length(), base::length()};
-  shape.radii = {base::length(), base::length(), base::length()};
+  shape.radius = length();
+  shape.half_length = length();
+  shape.half_extents = {length(), length(), length()};
+  shape.radii = {length(), length(), length()};
   shape.normal = random_direction(random) * uniform(random, 0.5, 2);
   shape.offset = size * uniform(random, -1, 1);
   return shape;
 }
 
 // A rotation, one of the axes' own, a stretched and sheared matrix, or a mirrored one.
-Mat3d random_matrix(base::Random& random) {
+Mat3d random_matrix(Random& random) {
   const Mat3d turned = random_rotation(random);
   switch (random() % 4) {
     case 0: return Mat3d::Identity();
@@ -112,7 +112,7 @@ class CertifiedScale : public testing::TestWithParam<double> {};
 
 TEST_P(CertifiedScale, EveryPairOfKindsAgreesWithTheOracle) {
   const double scale = GetParam();
-  base::Random random(17);
+  Random random(17);
   Count count;
   for (const ShapeKind kind_a : all_shape_kinds) {
     for (const ShapeKind kind_b : all_shape_kinds) {
@@ -141,7 +141,7 @@ TEST(Certified, KnowsTouchingFromBoth) {
   const Shape cube = box(1, 1, 1), ball = sphere(1);
   const double ulp = 0x1p-52;
   for (const double shift : {0., ulp, -ulp / 2}) {
-    for (const Shape& b : {cube, check::box_as_hull(1, 1, 1), ball}) {
+    for (const Shape& b : {cube, box_as_hull(1, 1, 1), ball}) {
       Pose pose_b;
       pose_b.translation = {1 + 1 + 2 * shift, 0, 0};
       compare(cube, {}, b, pose_b, count);
@@ -158,7 +158,7 @@ TEST(Certified, KnowsTouchingFromBoth) {
 }
 
 TEST(Certified, CoincidentBodiesOverlap) {
-  base::Random random(3);
+  Random random(3);
   Count count;
   for (const ShapeKind kind : all_shape_kinds) {
     for (int k = 0; k < 4; ++k) {
@@ -171,7 +171,7 @@ TEST(Certified, CoincidentBodiesOverlap) {
 }
 
 TEST(Certified, HullsFarFromTheirOwnOrigin) {
-  base::Random random(5);
+  Random random(5);
   Count count;
   for (const double far : {1e3, 1e8, 1e12, 1e15}) {
     for (int k = 0; k < 20; ++k) {
@@ -193,7 +193,7 @@ TEST(Certified, HullsFarFromTheirOwnOrigin) {
 
 // The neighbours in a wrongly linked hull need not lead to the furthest vertex.
 TEST(Certified, DoesNotTrustTheEdgesOfAHull) {
-  base::Random random(7);
+  Random random(7);
   Count count;
   auto made = std::make_shared<Hull>();
   for (int k = 0; k < 300; ++k) made->vertices.push_back(random_direction(random));
@@ -210,7 +210,7 @@ TEST(Certified, DoesNotTrustTheEdgesOfAHull) {
 
 // The disc of a cylinder and the ellipsoid's length are roots of squares that may vanish.
 TEST(Certified, DirectionsThatAreNearlyAlongAnAxis) {
-  base::Random random(9);
+  Random random(9);
   Count count;
   for (const ShapeKind kind : {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid}) {
     for (const double tilt : {1e-150, 1e-162, 1e-170, 1e-300}) {

@@ -46,7 +46,7 @@ double signed_distance(const Shape& a, const Pose& pose_a, const Shape& b, const
 }
 
 TEST(ClosedForm, CapsulesWhoseAxesMeet) {
-  base::Random random(1);
+  Random random(1);
   const Shape a = capsule(0.2, 1), b = capsule(0.3, 0.7);
   for (int k = 0; k < 300; ++k) {
     const Mat3d common = random_rotation(random);
@@ -61,7 +61,7 @@ TEST(ClosedForm, CapsulesWhoseAxesMeet) {
 }
 
 TEST(ClosedForm, CapsulesInLineAndAtTheirEnds) {
-  base::Random random(2);
+  Random random(2);
   const Shape a = capsule(0.25, 1), b = capsule(0.25, 0.5), ball = sphere(0.25);
   for (int k = 0; k < 100; ++k) {
     const Mat3d r = random_rotation(random);
@@ -70,17 +70,17 @@ TEST(ClosedForm, CapsulesInLineAndAtTheirEnds) {
     const auto along = [&](double z) { return Pose{r, r * Vec3d(0, 0, z)}; };
     const auto beside = [&](double x) { return Pose{r, r * Vec3d(x, 0, 0.3)}; };
     EXPECT_NEAR(signed_distance(a, at, b, along(2 + gap)), gap, 1e-14);
-    EXPECT_NEAR(signed_distance(a, at, b, base::beside(0.5 + gap)), gap, 1e-14);
+    EXPECT_NEAR(signed_distance(a, at, b, beside(0.5 + gap)), gap, 1e-14);
     EXPECT_NEAR(signed_distance(ball, at, a, along(1.5 + gap)), gap, 1e-14);
-    EXPECT_NEAR(signed_distance(ball, at, a, base::beside(0.5 + gap)), gap, 1e-14);
-    EXPECT_NEAR(signed_distance(ball, at, ball, base::beside(0.4)), 0, 1e-14);
+    EXPECT_NEAR(signed_distance(ball, at, a, beside(0.5 + gap)), gap, 1e-14);
+    EXPECT_NEAR(signed_distance(ball, at, ball, beside(0.4)), 0, 1e-14);
   }
   EXPECT_NEAR(signed_distance(ball, {}, ball, {}), -0.5, 1e-14);
   EXPECT_NEAR(signed_distance(a, {}, a, {}), -0.5, 1e-14);
 }
 
 TEST(ClosedForm, SphereAndBox) {
-  base::Random random(3);
+  Random random(3);
   const Shape ball = sphere(0.25), block = box(1, 2, 3);
   for (int k = 0; k < 200; ++k) {
     const Pose pose{random_rotation(random), 1e3 * random_direction(random)};

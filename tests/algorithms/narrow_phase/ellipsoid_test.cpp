@@ -26,7 +26,7 @@ Shape ellipsoid(const Vec3d& radii) {
   return shape;
 }
 
-Shape random_ellipsoid(base::Random& random, double aspect) {
+Shape random_ellipsoid(Random& random, double aspect) {
   const auto radius = [&] { return 0.5 * std::pow(aspect, uniform(random, -1, 0)); };
   return ellipsoid({radius(), radius(), radius()});
 }
@@ -40,12 +40,11 @@ struct Tally {
 double size_of(const Shape& shape) { return std::max(shape.radius, shape.radii.maxCoeff()); }
 
 // Every task of both scalars, each against the enclosure; what is `ok` has to be right.
-Tally check(Precision scalar, int count, unsigned seed,
-            const std::function<Pair(base::Random&)>& draw) {
+Tally check(Precision scalar, int count, unsigned seed, const std::function<Pair(Random&)>& draw) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("ellipsoid");
   const double accuracy = scalar == Precision::float64 ? 1e-12 : 1e-5;
   oracle::Oracle oracle;
-  base::Random random(seed);
+  Random random(seed);
   Tally tally;
   for (int k = 0; k < count; ++k) {
     const Pair pair = draw(random);
@@ -100,7 +99,7 @@ class EllipsoidPairs : public testing::TestWithParam<Precision> {
  protected:
   // Expects that both answers occur, and that all but `percent` per cent are `ok`.
   void expect_good(int count, unsigned seed, int percent,
-                   const std::function<Pair(base::Random&)>& draw) const {
+                   const std::function<Pair(Random&)>& draw) const {
     const Tally tally = check(GetParam(), count, seed, draw);
     EXPECT_LE(tally.gave_up * 100, tally.pairs * percent);
     EXPECT_GE(tally.overlapping, count / 5);
@@ -109,7 +108,7 @@ class EllipsoidPairs : public testing::TestWithParam<Precision> {
   bool is_double() const { return GetParam() == Precision::float64; }
 };
 
-Pair place(base::Random& random, const Shape& a, const Shape& b, double near, double far) {
+Pair place(Random& random, const Shape& a, const Shape& b, double near, double far) {
   Pair pair{a, b, {random_rotation(random), Vec3d::Zero()}, {random_rotation(random), {}}};
   pair.pose_a.translation = random_direction(random);
   pair.pose_b.translation =
@@ -117,12 +116,12 @@ Pair place(base::Random& random, const Shape& a, const Shape& b, double near, do
   return pair;
 }
 
-Shape ball_or_ellipsoid(base::Random& random, double aspect) {
+Shape ball_or_ellipsoid(Random& random, double aspect) {
   return random() % 3 == 0 ? sphere(uniform(random, 0.1, 0.5)) : random_ellipsoid(random, aspect);
 }
 
 TEST_P(EllipsoidPairs, AtRandom) {
-  expect_good(300, 1, 0, [](base::Random& random) {
+  expect_good(300, 1, 0, [](Random& random) {
     return place(random, ball_or_ellipsoid(random, 4), random_ellipsoid(random, 4), 0, 1.2);
   });
 }
@@ -130,14 +129,14 @@ TEST_P(EllipsoidPairs, AtRandom) {
 // Aspects to 1e4 (double) or 1e2.
 TEST_P(EllipsoidPairs, Thin) {
   const double aspect = is_double() ? 1e4 : 1e2;
-  expect_good(300, 2, 10, [&](base::Random& random) {
+  expect_good(300, 2, 10, [&](Random& random) {
     return place(random, ball_or_ellipsoid(random, aspect), random_ellipsoid(random, aspect), 0,
                  0.6);
   });
 }
 
 TEST_P(EllipsoidPairs, DeepAndConcentric) {
-  const Tally tally = check(GetParam(), 200, 3, [](base::Random& random) {
+  const Tally tally = check(GetParam(), 200, 3, [](Random& random) {
     const Shape a = ball_or_ellipsoid(random, 4), b = random_ellipsoid(random, 4);
     return place(random, a, b, 0, random() % 2 == 0 ? 0 : 0.05);
   });
@@ -146,7 +145,7 @@ TEST_P(EllipsoidPairs, DeepAndConcentric) {
 
 // One body and itself, turned alike, with all, two or one of its radii equal.
 TEST_P(EllipsoidPairs, Equal) {
-  expect_good(150, 4, 2, [](base::Random& random) {
+  expect_good(150, 4, 2, [](Random& random) {
     Shape a = random_ellipsoid(random, 3);
     const auto kind = random() % 3;
     if (kind > 0) a.radii.y() = a.radii.x();
@@ -158,7 +157,7 @@ TEST_P(EllipsoidPairs, Equal) {
 }
 
 TEST_P(EllipsoidPairs, OfEveryScale) {
-  expect_good(200, 5, 0, [](base::Random& random) {
+  expect_good(200, 5, 0, [](Random& random) {
     Pair pair = place(random, ball_or_ellipsoid(random, 4), random_ellipsoid(random, 4), 0.1, 1.2);
     const double scale = std::pow(10.0, uniform(random, -6, 6));
     for (Shape* shape : {&pair.a, &pair.b}) {
@@ -172,7 +171,7 @@ TEST_P(EllipsoidPairs, OfEveryScale) {
 }
 
 TEST_P(EllipsoidPairs, FarFromTheOrigin) {
-  expect_good(200, 6, 1, [](base::Random& random) {
+  expect_good(200, 6, 1, [](Random& random) {
     Pair pair = place(random, ball_or_ellipsoid(random, 4), random_ellipsoid(random, 4), 0.1, 1.2);
     const Vec3d away = 1e7 * random_direction(random);
     pair.pose_a.translation += away;
@@ -182,9 +181,9 @@ TEST_P(EllipsoidPairs, FarFromTheOrigin) {
 }
 
 // Gaps and depths from a tenth down to rounding: the normals of both agree where they meet.
-TEST_P(EllipsoidPairs, grade::Touching) {
+TEST_P(EllipsoidPairs, Touching) {
   const double finest = is_double() ? -13 : -4.5;
-  expect_good(300, 7, 2, [&](base::Random& random) {
+  expect_good(300, 7, 2, [&](Random& random) {
     Pair pair = place(random, ball_or_ellipsoid(random, 4), random_ellipsoid(random, 4), 0, 0);
     const Vec3d n = random_direction(random);
     const double gap =
@@ -197,7 +196,7 @@ TEST_P(EllipsoidPairs, grade::Touching) {
 
 // Matrices that are not rotations are used as they stand.
 TEST_P(EllipsoidPairs, Sheared) {
-  expect_good(200, 8, 1, [](base::Random& random) {
+  expect_good(200, 8, 1, [](Random& random) {
     Pair pair = place(random, ball_or_ellipsoid(random, 2), random_ellipsoid(random, 2), 0.1, 1.2);
     if (pair.a.kind != ShapeKind::sphere) {
       pair.pose_a.rotation *= Vec3d(uniform(random, 0.5, 1.5), 1, -0.8).asDiagonal();
@@ -209,7 +208,7 @@ TEST_P(EllipsoidPairs, Sheared) {
 
 // No volume: whatever is said has to be right, but little need be said.
 TEST_P(EllipsoidPairs, Flat) {
-  check(GetParam(), 300, 9, [](base::Random& random) {
+  check(GetParam(), 300, 9, [](Random& random) {
     Shape a = ball_or_ellipsoid(random, 3), b = random_ellipsoid(random, 3);
     const auto flatten = [&](Shape& shape) {
       for (double& radius : shape.radii) {

@@ -52,7 +52,7 @@ std::vector<Shape> samples(ShapeKind kind) {
   shape.normal = Vec3d(1, -2, 2);
   shape.offset = 0.75;
   if (kind == ShapeKind::hull) {
-    return {check::box_as_hull(0.5, 0.7, 0.9), tetrahedron(), octahedron(), icosahedron()};
+    return {box_as_hull(0.5, 0.7, 0.9), tetrahedron(), octahedron(), icosahedron()};
   }
   return {shape};
 }
@@ -72,7 +72,7 @@ double outside(const Shape& shape, const Pose& pose, const Vec3d& point) {
     const Vec3d outward = (pose.rotation * shape.normal).normalized();
     return outward.dot(point - support(shape, pose, outward));
   }
-  base::Random random(1);
+  Random random(1);
   double worst = -1;
   for (int k = 0; k < 200; ++k) {
     const Vec3d d = random_direction(random);
@@ -147,8 +147,7 @@ TEST_P(EveryNarrowPhase, AnswersEasyPairs) {
       if (kind_b < kind_a) continue;
       for (const Task task : all_tasks) {
         if (!offers(*subject.entry, kind_a, kind_b, task)) continue;
-        base::Random random(static_cast<std::uint64_t>(kind_a) * 8 +
-                            static_cast<std::uint64_t>(kind_b));
+        Random random(static_cast<std::uint64_t>(kind_a) * 8 + static_cast<std::uint64_t>(kind_b));
         for (const Shape& a : samples(kind_a)) {
           for (const Shape& b : samples(kind_b)) {
             for (int k = 0; k < 6; ++k) {
@@ -164,9 +163,8 @@ TEST_P(EveryNarrowPhase, AnswersEasyPairs) {
                 moved.translation = on_a - on_b;
                 return moved;
               };
-              const Pose apart = scene::meet(p + 0.5 * u, support(b, pose_b, -u));
-              const Pose common =
-                  scene::meet(point_within(a, pose_a, u), point_within(b, pose_b, -u));
+              const Pose apart = meet(p + 0.5 * u, support(b, pose_b, -u));
+              const Pose common = meet(point_within(a, pose_a, u), point_within(b, pose_b, -u));
               const Outcome of_apart = subject.ask(task, a, pose_a, b, apart);
               const Outcome of_common = subject.ask(task, a, pose_a, b, common);
               asked += 2;
@@ -197,7 +195,7 @@ TEST_P(EveryNarrowPhase, AnswersEasyPairs) {
 // Same centre and orientation, and one far inside of the other.
 TEST_P(EveryNarrowPhase, AnswersContainment) {
   const Subject& subject = GetParam();
-  base::Random random(3);
+  Random random(3);
   for (const ShapeKind kind : all_shape_kinds) {
     if (kind == ShapeKind::halfspace) continue;
     for (const Task task : all_tasks) {
@@ -240,7 +238,7 @@ TEST_P(EveryNarrowPhase, AnswersContainment) {
   }
 }
 
-Shape random_polytope(base::Random& random, ShapeKind kind) {
+Shape random_polytope(Random& random, ShapeKind kind) {
   if (kind == ShapeKind::hull) return random_hull(random, 4 + static_cast<int>(random() % 8));
   return box(uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1));
 }
@@ -248,7 +246,7 @@ Shape random_polytope(base::Random& random, ShapeKind kind) {
 // Boxes and hulls at random, against the brute force; the bodies in either order.
 TEST_P(EveryNarrowPhase, AgreesWithTheBruteForce) {
   const Subject& subject = GetParam();
-  base::Random random(4);
+  Random random(4);
   const double margin = subject.is_double() ? 1e-9 : 1e-4;
   for (const auto& [kind_a, kind_b] : {std::pair{ShapeKind::box, ShapeKind::box},
                                        {ShapeKind::box, ShapeKind::hull},
@@ -327,7 +325,7 @@ TEST_P(EveryNarrowPhase, AgreesWithTheBruteForce) {
 // face.
 TEST_P(EveryNarrowPhase, ClimbsTheLadderOfGaps) {
   const Subject& subject = GetParam();
-  base::Random random(5);
+  Random random(5);
   const double margin = subject.is_double() ? 0.9e-12 : 2e-5;
   const auto turn = [](double angle, const Vec3d& axis) {
     return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
@@ -344,10 +342,9 @@ TEST_P(EveryNarrowPhase, ClimbsTheLadderOfGaps) {
   for (const Rung& rung : {Rung{face, turned, "face-face"},
                            {on_edge_x, on_edge_y, "edge-edge"},
                            {face, on_corner, "vertex-face"}}) {
-    for (const auto& [a, b] :
-         {std::pair{box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5)},
-          {box(0.5, 0.5, 0.5), check::box_as_hull(0.5, 0.5, 0.5)},
-          {check::box_as_hull(0.5, 0.5, 0.5), check::box_as_hull(0.5, 0.5, 0.5)}}) {
+    for (const auto& [a, b] : {std::pair{box(0.5, 0.5, 0.5), box(0.5, 0.5, 0.5)},
+                               {box(0.5, 0.5, 0.5), box_as_hull(0.5, 0.5, 0.5)},
+                               {box_as_hull(0.5, 0.5, 0.5), box_as_hull(0.5, 0.5, 0.5)}}) {
       for (int step = 1; step <= 12; ++step) {
         for (const double sign : {1.0, -1.0}) {
           const Mat3d common = step % 3 == 0 ? Mat3d::Identity() : random_rotation(random);

@@ -40,7 +40,7 @@ Shape square(double reach) {
 
 TEST(GjkRound, SpheresAndCapsulesHaveTheirClosedForms) {
   const auto gjk = make_gjk();
-  base::Random random(5);
+  Random random(5);
   int apart = 0;
   int common = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -57,7 +57,7 @@ TEST(GjkRound, SpheresAndCapsulesHaveTheirClosedForms) {
       b.pose.translation += (target - thrown) * normal;
     }
     const auto truth = static_cast<double>(signed_distance(a, b, normal));
-    const double size = grade::pair_size(a, b);
+    const double size = pair_size(a, b);
     if (std::abs(truth) < 1e-12 * size) continue;
     ++(truth > 0 ? apart : common);
     const Task task = truth > 0 ? Task::distance : Task::penetration;
@@ -76,7 +76,7 @@ TEST(GjkRound, SpheresAndCapsulesHaveTheirClosedForms) {
 
 TEST(GjkRound, SphereAgainstBoxAndCylinder) {
   const auto gjk = make_gjk();
-  base::Random random(6);
+  Random random(6);
   for (int i = 0; i < 1000; ++i) {
     const Shape shape = random.below(2) ? make_box(1, random.uniform(0, 1), 0.5)
                                         : make_cylinder(random.uniform(0.1, 1), 0.7);
@@ -135,7 +135,7 @@ TEST(GjkDegenerate, PointsSegmentsAndPolygons) {
 
 TEST(GjkDegenerate, CoplanarPolygonsAreNoDepthDeep) {
   const auto gjk = make_gjk();
-  const Mat3d rotation = base::Random(7).rotation();
+  const Mat3d rotation = Random(7).rotation();
   const Body a = at(square(1), {0, 0, 0}, rotation);
   const Body b = at(square(1), rotation * Vec3d{0.5, 0.25, 0}, rotation);
   const Outcome outcome = query(*gjk, Task::penetration, a, b);
@@ -147,7 +147,7 @@ TEST(GjkDegenerate, CoplanarPolygonsAreNoDepthDeep) {
 
 TEST(GjkDegenerate, CoincidentCentresAndIdenticalBodies) {
   const auto gjk = make_gjk();
-  for (const Mat3d& rotation : {Mat3d(Mat3d::Identity()), base::Random(8).rotation()}) {
+  for (const Mat3d& rotation : {Mat3d(Mat3d::Identity()), Random(8).rotation()}) {
     const Vec3d place{3, -2, 1};
     for (const auto& [shape, depth] : std::vector<std::pair<Shape, double>>{
              {make_sphere(0.5), 1},
@@ -180,7 +180,7 @@ TEST(GjkDegenerate, CoincidentCentresAndIdenticalBodies) {
 
 TEST(GjkDegenerate, ContainedBodies) {
   const auto gjk = make_gjk();
-  base::Random random(9);
+  Random random(9);
   for (int i = 0; i < 100; ++i) {
     const Body box = at(make_box(3, 4, 5), random.vector(1), random.rotation());
     const Vec3d local{0, random.uniform(-1, 1), random.uniform(0, 2)};
@@ -209,7 +209,7 @@ TEST(GjkDegenerate, TouchingIsNoClaim) {
 
 TEST(GjkHalfspace, AgainstEveryKind) {
   const auto gjk = make_gjk();
-  base::Random random(10);
+  Random random(10);
   const std::vector<std::pair<Shape, double>> shapes = {
       {make_sphere(0.5), 0.5},
       {make_capsule(0.5, 1), 1.5},
@@ -316,7 +316,7 @@ Shape icosphere(int level) {
 
 TEST(GjkLargeHulls, OrderOfVerticesDoesNotMatter) {
   const auto gjk = make_gjk();
-  base::Random random(11);
+  Random random(11);
   const Shape sphere = icosphere(3);
   ASSERT_EQ(sphere.hull->vertices.size(), 642);
   Shape shuffled = sphere;
@@ -353,7 +353,7 @@ TEST(GjkSettings, CapAndToleranceAreKept) {
   NarrowPhaseSettings settings;
   settings.max_iterations = 3;
   const Body a = at(make_ellipsoid(1, 2, 3), {0, 0, 0});
-  const Body b = at(make_ellipsoid(3, 1, 2), {4.5, 1, 0.5}, base::Random(12).rotation());
+  const Body b = at(make_ellipsoid(3, 1, 2), {4.5, 1, 0.5}, Random(12).rotation());
   const Outcome capped = query(*make_gjk(settings), Task::distance, a, b);
   EXPECT_EQ(capped.status, Status::not_converged);
   EXPECT_EQ(capped.iterations, 3);

@@ -191,12 +191,12 @@ template <class Scalar>
 void expect_few_left() {
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : {Sort::plain, Sort::scaled, Sort::remote}) {
-      base::Random random(15);
+      Random random(15);
       Pairs pairs;
       const double scale = sort == Sort::scaled ? 1e-5 : 1, far = sort == Sort::remote ? 1e6 : 0;
       for (int k = 0; k < 400; ++k) {
         const auto draw = [&](ShapeKind kind) {
-          Shape shape = check::random_shape(random, kind, false, kinds.hull_points);
+          Shape shape = random_shape(random, kind, false, kinds.hull_points);
           shape.radius *= scale;
           shape.half_length *= scale;
           shape.half_extents *= scale;
@@ -241,7 +241,7 @@ TEST(GjkLanes, LeaveFewPairs) {
 
 // Hulls far from their own origin, among others of few vertices and of many.
 TEST(GjkLanes, AnswerWhatDoesNotFit) {
-  base::Random random(16);
+  Random random(16);
   oracle::Oracle oracle;
   Pairs pairs;
   std::array<int, 2> count{};

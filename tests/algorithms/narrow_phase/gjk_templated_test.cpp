@@ -46,17 +46,17 @@ Shape great_prism() {
   return hull(std::move(vertices), loops);
 }
 
-Shape draw(base::Random& random, ShapeKind kind, bool flat) {
+Shape draw(Random& random, ShapeKind kind, bool flat) {
   static const Shape prism = great_prism();
   if (kind == ShapeKind::hull && !flat && random() % 4 == 0) return prism;
-  Shape shape = check::random_shape(random, kind, flat);
+  Shape shape = random_shape(random, kind, flat);
   shape.radii = shape.half_extents;
   shape.normal = random_direction(random) * uniform(random, 0.5, 2);
   shape.offset = uniform(random, -0.5, 0.5);
   return shape;
 }
 
-void add_pair(base::Random& random, Kinds kinds, Sort sort, Pairs& pairs) {
+void add_pair(Random& random, Kinds kinds, Sort sort, Pairs& pairs) {
   const bool flat = sort == Sort::flat;
   const Shape a = draw(random, kinds.a, flat), b = draw(random, kinds.b, flat);
   Pose pose_a{random_rotation(random), random_direction(random)};
@@ -131,7 +131,7 @@ std::vector<Kinds> all_kind_pairs() {
 }
 
 TEST(GjkTemplated, HasTheBitsOfGjk) {
-  base::Random random(31);
+  Random random(31);
   std::array<std::size_t, 4> answers{};
   for (const Kinds kinds : all_kind_pairs()) {
     std::array<std::size_t, 4> of_kinds{};
@@ -159,7 +159,7 @@ TEST(GjkTemplated, HasTheBitsOfGjk) {
 }
 
 TEST(GjkTemplated, HasTheBitsOfGjkAtEveryLevelAndSetting) {
-  base::Random random(32);
+  Random random(32);
   for (const Kinds kinds : all_kind_pairs()) {
     Pairs pairs;
     while (pairs.size() < 16) add_pair(random, kinds, Sort::near, pairs);

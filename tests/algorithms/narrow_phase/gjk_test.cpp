@@ -76,7 +76,7 @@ struct Regime {
   double float_margin = 1e-4;
 };
 
-Shape random_polytope(base::Random& random, double size, const Vec3d& stretch, bool box) {
+Shape random_polytope(Random& random, double size, const Vec3d& stretch, bool box) {
   if (box) {
     const Vec3d half = size * stretch;
     return make_box(half.x() * random.uniform(.3, 1), half.y() * random.uniform(.3, 1),
@@ -95,7 +95,7 @@ class Polytopes : public testing::TestWithParam<Regime> {
   };
   // Every third pair stays as thrown; the others are moved to a gap or depth between 1e-1 and 1e-12
   // of the size, so that all pairs of features come close.
-  Pair make(base::Random& random, int i) {
+  Pair make(Random& random, int i) {
     const Regime& regime = GetParam();
     Pair pair;
     const double s = regime.scale;
@@ -115,14 +115,14 @@ class Polytopes : public testing::TestWithParam<Regime> {
       pair.b.pose.translation += (target - thrown) * normal;
     }
     pair.truth = static_cast<double>(signed_distance(pair.a, pair.b, normal));
-    pair.size = grade::pair_size(pair.a, pair.b);
+    pair.size = pair_size(pair.a, pair.b);
     return pair;
   }
 };
 
 TEST_P(Polytopes, AgreeWithBruteForceInDouble) {
   const auto gjk = make_gjk();
-  base::Random random(1);
+  Random random(1);
   int apart = 0;
   int common = 0;
   for (int i = 0; i < 400; ++i) {
@@ -143,7 +143,7 @@ TEST_P(Polytopes, AgreeWithBruteForceInDouble) {
 
 TEST_P(Polytopes, AreHonestInFloat) {
   const auto gjk = make_gjk(Precision::float32);
-  base::Random random(2);
+  Random random(2);
   for (int i = 0; i < 400; ++i) {
     const Pair pair = make(random, i);
     const double truth = pair.truth / pair.size;
@@ -241,7 +241,7 @@ TEST(GjkByHand, EveryPairOfKindsOnALine) {
 TEST(GjkByHand, DepthIsTheLeastOfManyDirections) {
   const auto gjk = make_gjk();
   const std::vector<Piece> all = pieces();
-  base::Random random(3);
+  Random random(3);
   int converged = 0;
   int capped = 0;
   for (const double overlap : {1e-6, 1e-2, 0.3}) {

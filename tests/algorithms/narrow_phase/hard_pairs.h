@@ -49,12 +49,12 @@ struct Pairs {
   }
 };
 
-inline double power(base::Random& random, double low, double high) {
+inline double power(Random& random, double low, double high) {
   return std::pow(10.0, uniform(random, low, high));
 }
 
 // Four points or more; hard: in a plane, along a line, one, or about so.
-inline Shape random_hull(base::Random& random, std::size_t most_points, bool hard) {
+inline Shape random_hull(Random& random, std::size_t most_points, bool hard) {
   std::vector<Vec3d> points(4 + random() % (most_points - 3));
   Vec3d stretch = Vec3d::Ones();
   int dimension = 3;
@@ -70,8 +70,7 @@ inline Shape random_hull(base::Random& random, std::size_t most_points, bool har
   return bare_hull(std::move(points), dimension);
 }
 
-inline Shape random_shape(base::Random& random, ShapeKind kind, bool hard,
-                          std::size_t hull_points = 16) {
+inline Shape random_shape(Random& random, ShapeKind kind, bool hard, std::size_t hull_points = 16) {
   if (kind == ShapeKind::hull) return random_hull(random, hull_points, hard);
   Shape shape;
   shape.kind = kind;
@@ -79,9 +78,9 @@ inline Shape random_shape(base::Random& random, ShapeKind kind, bool hard,
     if (!hard) return uniform(random, 0.2, 1);
     return random() % 5 == 0 ? 0 : power(random, -5, 0);
   };
-  shape.radius = base::length();
-  shape.half_length = base::length();
-  for (double& half : shape.half_extents) half = base::length();
+  shape.radius = length();
+  shape.half_length = length();
+  for (double& half : shape.half_extents) half = length();
   return shape;
 }
 
@@ -96,8 +95,7 @@ inline constexpr std::array all_sorts{Sort::plain,  Sort::parallel, Sort::stacke
 
 // Adds a pair of random sizes and places; b is moved until the signed distance is about one of a
 // ladder of lengths.
-inline void add_pair(base::Random& random, oracle::Oracle& oracle, Kinds kinds, Sort sort,
-                     Pairs& pairs) {
+inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort sort, Pairs& pairs) {
   const bool slivers = sort == Sort::slivers;
   Shape a = random_shape(random, kinds.a, slivers, kinds.hull_points);
   Shape b = random_shape(random, kinds.b, slivers, kinds.hull_points);
@@ -151,7 +149,7 @@ inline void add_pair(base::Random& random, oracle::Oracle& oracle, Kinds kinds, 
 }
 
 inline Pairs hard_pairs(std::uint64_t seed, Kinds kinds, Sort sort, std::size_t count) {
-  base::Random random(seed);
+  Random random(seed);
   std::srand(static_cast<unsigned>(seed));  // for Eigen's random matrices
   oracle::Oracle oracle;
   Pairs pairs;

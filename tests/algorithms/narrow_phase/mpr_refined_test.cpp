@@ -65,7 +65,7 @@ void check(Precision scalar, const Body& a, const Body& b, double truth, double 
 // Two random polytopes with their centres up to `spread` apart.
 template <class MakeShape>
 Tally sweep(Precision scalar, const MakeShape& make, int count, double spread, double margin) {
-  base::Random random(11);
+  Random random(11);
   Tally tally;
   for (int k = 0; k < count && !testing::Test::HasFailure(); ++k) {
     const Body a{make(random), {random_rotation(random), random_direction(random)}};
@@ -78,12 +78,10 @@ Tally sweep(Precision scalar, const MakeShape& make, int count, double spread, d
   return tally;
 }
 
-Shape any_box(base::Random& random) {
+Shape any_box(Random& random) {
   return box(uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1));
 }
-Shape any_hull(base::Random& random) {
-  return random_hull(random, 4 + static_cast<int>(random() % 20));
-}
+Shape any_hull(Random& random) { return random_hull(random, 4 + static_cast<int>(random() % 20)); }
 
 class MprRefined : public testing::TestWithParam<Precision> {
  protected:
@@ -122,16 +120,16 @@ TEST_P(MprRefined, LeavesTheCorner) {
 // Flat, thin and pointed hulls, coincident centres, and sizes and places of 1e-6 to 1e6. Depths of
 // bodies without volume are of the solid difference that they make together.
 TEST_P(MprRefined, HoldsItsBoundsAtTheExtremes) {
-  base::Random random(12);
+  Random random(12);
   Tally tally;
   for (int k = 0; k < 400 && !HasFailure(); ++k) {
     const double size = std::pow(10.0, uniform(random, -6, 6));
     const auto draw = [&]() -> Shape {
       const double thin = std::pow(10.0, uniform(random, -4, 0));
       switch (random() % 3) {
-        case 0: return check::box_as_hull(size, size * thin, size * thin);
+        case 0: return box_as_hull(size, size * thin, size * thin);
         case 1: return box(size, size, size * thin);
-        default: return check::box_as_hull(size, size, size * thin);
+        default: return box_as_hull(size, size, size * thin);
       }
     };
     const Vec3d place = uniform(random, 0, 2) * size * random_direction(random);
@@ -152,7 +150,7 @@ TEST_P(MprRefined, HoldsItsBoundsAtTheExtremes) {
 
 // Points, segments and flat sets: a depth of nothing, whatever is said of the verdict.
 TEST_P(MprRefined, LivesWithBodiesWithoutVolume) {
-  base::Random random(13);
+  Random random(13);
   int common = 0, apart = 0;
   for (int k = 0; k < 300; ++k) {
     const auto draw = [&] {
@@ -181,7 +179,7 @@ TEST_P(MprRefined, LivesWithBodiesWithoutVolume) {
 
 // Round bodies: against the exact answer.
 TEST_P(MprRefined, HoldsItsBoundsForRoundBodies) {
-  base::Random random(14);
+  Random random(14);
   Tally tally;
   const double margin = GetParam() == Precision::float64 ? 1e-8 : 1e-4;
   for (int k = 0; k < 300 && !HasFailure(); ++k) {
@@ -213,7 +211,7 @@ TEST_P(MprRefined, HoldsItsBoundsForRoundBodies) {
 TEST_P(MprRefined, IsNeverWorseWarm) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("mpr-refined");
   ASSERT_TRUE(entry.traits.starts_warm);
-  base::Random random(15);
+  Random random(15);
   int common = 0, apart = 0, better = 0;
   long calls_warm = 0, calls_cold = 0;
   for (int scene = 0; scene < 40 && !HasFailure(); ++scene) {

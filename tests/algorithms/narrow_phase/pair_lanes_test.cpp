@@ -196,17 +196,17 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
 template <class Scalar>
 void expect_few_left() {
   for (const Sort sort : {Sort::plain, Sort::stacked, Sort::scaled, Sort::remote}) {
-    base::Random random(4);
+    Random random(4);
     Pairs pairs;
     for (int k = 0; k < 500; ++k) {
-      const Shape a = check::random_shape(random, ShapeKind::box, false);
+      const Shape a = random_shape(random, ShapeKind::box, false);
       const bool stacked = sort == Sort::stacked;
       const Pose pose_a{random_rotation(random), random_direction(random)};
       const Pose pose_b{stacked ? pose_a.rotation : random_rotation(random),
                         pose_a.translation +
                             uniform(random, 0.2, 1.6) * (stacked ? Vec3d(pose_a.rotation.col(k % 3))
                                                                  : random_direction(random))};
-      pairs.add(a, pose_a, check::random_shape(random, ShapeKind::box, false), pose_b);
+      pairs.add(a, pose_a, random_shape(random, ShapeKind::box, false), pose_b);
     }
     BoxPairLanes<Scalar> lanes;
     lanes.bind(pairs.shapes);

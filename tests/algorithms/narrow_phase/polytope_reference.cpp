@@ -11,7 +11,7 @@
 namespace touchstone::reference {
 namespace {
 
-Real3 wide(const Vec3d& x) { return x.cast<grade::Real>(); }
+Real3 wide(const Vec3d& x) { return x.cast<Real>(); }
 
 // The vertices of the body's core, less `origin`.
 std::vector<Real3> core_vertices(const Body& body, const Vec3d& origin) {
@@ -31,7 +31,7 @@ std::vector<Real3> core_vertices(const Body& body, const Vec3d& origin) {
   }
   std::vector<Real3> result;
   for (const Vec3d& v : local) {
-    result.push_back(body.pose.rotation.cast<grade::Real>() * wide(v) +
+    result.push_back(body.pose.rotation.cast<Real>() * wide(v) +
                      (wide(body.pose.translation) - wide(origin)));
   }
   return result;
@@ -51,20 +51,20 @@ Real3 normal_of(const Real3& e, const Real3& f) {
 }
 
 struct Nearest {
-  grade::Real distance = std::numeric_limits<grade::Real>::infinity();
+  Real distance = std::numeric_limits<Real>::infinity();
   Real3 difference = Real3::Zero();  // from a to b
   void offer(const Real3& candidate) {
-    const grade::Real length = candidate.norm();
-    if (base::length < distance) *this = {length, candidate};
+    const Real length = candidate.norm();
+    if (length < distance) *this = {length, candidate};
   }
 };
 
-void offer_point_segment(const Real3& p, const Real3& q0, const Real3& q1, grade::Real sign,
+void offer_point_segment(const Real3& p, const Real3& q0, const Real3& q1, Real sign,
                          Nearest& nearest) {
   const Real3 e = q1 - q0;
-  const grade::Real t = e.squaredNorm() > 0 ? std::clamp((p - q0).dot(e) / e.squaredNorm(),
-                                                         grade::Real{0}, grade::Real{1})
-                                            : grade::Real{0};
+  const Real t = e.squaredNorm() > 0
+                     ? std::clamp((p - q0).dot(e) / e.squaredNorm(), Real{0}, Real{1})
+                     : Real{0};
   nearest.offer(sign * (q0 + t * e - p));
 }
 
@@ -75,25 +75,25 @@ void offer_segments(const Real3& p0, const Real3& p1, const Real3& q0, const Rea
   const Real3 e = p1 - p0;
   const Real3 f = q1 - q0;
   const Real3 n = normal_of(e, f);
-  const grade::Real nn = n.squaredNorm();
+  const Real nn = n.squaredNorm();
   if (!(nn > 1e-30L * e.squaredNorm() * f.squaredNorm())) return;
   const Real3 between = q0 - p0;
-  const grade::Real s = between.cross(f).dot(n) / nn;
-  const grade::Real t = between.cross(e).dot(n) / nn;
+  const Real s = between.cross(f).dot(n) / nn;
+  const Real t = between.cross(e).dot(n) / nn;
   if (s < 0 || s > 1 || t < 0 || t > 1) return;
   nearest.offer(n.dot(between) / nn * n);
 }
 
-void offer_point_triangle(const Real3& p, const Real3& a, const Real3& b, const Real3& c,
-                          grade::Real sign, Nearest& nearest) {
+void offer_point_triangle(const Real3& p, const Real3& a, const Real3& b, const Real3& c, Real sign,
+                          Nearest& nearest) {
   const Real3 e = b - a;
   const Real3 f = c - a;
   const Real3 n = normal_of(e, f);
-  const grade::Real nn = n.squaredNorm();
+  const Real nn = n.squaredNorm();
   if (!(nn > 1e-30L * e.squaredNorm() * f.squaredNorm())) return;
   const Real3 q = p - a;
-  const grade::Real u = q.cross(f).dot(n) / nn;
-  const grade::Real v = e.cross(q).dot(n) / nn;
+  const Real u = q.cross(f).dot(n) / nn;
+  const Real v = e.cross(q).dot(n) / nn;
   if (u < 0 || v < 0 || u + v > 1) return;
   nearest.offer(-sign * (n.dot(q) / nn * n));
 }
@@ -104,7 +104,7 @@ Nearest nearest_features(const std::vector<Real3>& a, const std::vector<Real3>& 
     for (const Real3& q : b) nearest.offer(q - p);
   }
   const auto one_way = [&](const std::vector<Real3>& from, const std::vector<Real3>& to,
-                           grade::Real sign) {
+                           Real sign) {
     for (std::size_t i = 0; i < to.size(); ++i) {
       for (std::size_t j = i + 1; j < to.size(); ++j) {
         for (const Real3& p : from) offer_point_segment(p, to[i], to[j], sign, nearest);
@@ -129,19 +129,19 @@ Nearest nearest_features(const std::vector<Real3>& a, const std::vector<Real3>& 
 }
 
 struct Depth {
-  grade::Real height = std::numeric_limits<grade::Real>::infinity();  // of the difference a - b
+  Real height = std::numeric_limits<Real>::infinity();  // of the difference a - b
   Real3 normal = Real3::UnitX();
 };
 
 Depth least_height(const std::vector<Real3>& a, const std::vector<Real3>& b) {
   Depth least;
   const auto offer = [&](const Real3& direction) {
-    const grade::Real length = direction.norm();
+    const Real length = direction.norm();
     if (!(length > 0)) return;
-    for (const grade::Real sign : {grade::Real{1}, grade::Real{-1}}) {
+    for (const Real sign : {Real{1}, Real{-1}}) {
       const Real3 n = sign / length * direction;
-      grade::Real reach_a = -std::numeric_limits<grade::Real>::infinity();
-      grade::Real reach_b = std::numeric_limits<grade::Real>::infinity();
+      Real reach_a = -std::numeric_limits<Real>::infinity();
+      Real reach_b = std::numeric_limits<Real>::infinity();
       for (const Real3& p : a) reach_a = std::max(reach_a, n.dot(p));
       for (const Real3& q : b) reach_b = std::min(reach_b, n.dot(q));
       if (reach_a - reach_b < least.height) least = {reach_a - reach_b, n};
@@ -185,21 +185,21 @@ double extent(const Body& body) {
 
 }  // namespace
 
-grade::Real signed_distance(const Body& a, const Body& b, Vec3d& normal) {
+Real signed_distance(const Body& a, const Body& b, Vec3d& normal) {
   const Vec3d origin = a.pose.translation;
   const std::vector<Real3> points_a = core_vertices(a, origin);
   const std::vector<Real3> points_b = core_vertices(b, origin);
-  const grade::Real radius = grade::Real{ball(a)} + grade::Real{ball(b)};
+  const Real radius = Real{ball(a)} + Real{ball(b)};
   // The heights of normals do not decide overlap of points and segments; their gap does.
   const Nearest gap = nearest_features(points_a, points_b);
   const Depth depth = least_height(points_a, points_b);
-  const bool solid = depth.height < std::numeric_limits<grade::Real>::infinity();
+  const bool solid = depth.height < std::numeric_limits<Real>::infinity();
   if (solid && depth.height > 0) {
     bool apart = false;  // a direction between vertices or along a gap may still separate them
     if (gap.distance > 0) {
       const Real3 n = gap.difference / gap.distance;
-      grade::Real reach_a = -std::numeric_limits<grade::Real>::infinity();
-      grade::Real reach_b = std::numeric_limits<grade::Real>::infinity();
+      Real reach_a = -std::numeric_limits<Real>::infinity();
+      Real reach_b = std::numeric_limits<Real>::infinity();
       for (const Real3& p : points_a) reach_a = std::max(reach_a, n.dot(p));
       for (const Real3& q : points_b) reach_b = std::min(reach_b, n.dot(q));
       apart = reach_a < reach_b;

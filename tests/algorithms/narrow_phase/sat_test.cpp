@@ -74,12 +74,12 @@ void check(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_
   }
 }
 
-using MakeShape = std::function<Shape(base::Random&)>;
+using MakeShape = std::function<Shape(Random&)>;
 
 // Random pairs whose bodies are moved along the line of their centres to about where they touch.
 Tally sweep(const MakeShape& make_a, const MakeShape& make_b, int count, double margin,
             float float_margin, double spread, std::uint64_t seed) {
-  base::Random random(seed);
+  Random random(seed);
   Tally tally;
   for (int k = 0; k < count; ++k) {
     const Shape a = make_a(random), b = make_b(random);
@@ -97,13 +97,11 @@ Tally sweep(const MakeShape& make_a, const MakeShape& make_b, int count, double 
   return tally;
 }
 
-Shape unit_box(base::Random& random) {
+Shape unit_box(Random& random) {
   return box(uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1));
 }
-Shape any_hull(base::Random& random) {
-  return random_hull(random, 4 + static_cast<int>(random() % 9));
-}
-Shape flat_hull(base::Random& random) {
+Shape any_hull(Random& random) { return random_hull(random, 4 + static_cast<int>(random() % 9)); }
+Shape flat_hull(Random& random) {
   // Small integers times a power of two: flat in exact arithmetic.
   std::vector<Vec3d> points;
   const Vec3d u(1, static_cast<double>(random() % 5) - 2, 2),
@@ -118,11 +116,11 @@ Shape flat_hull(base::Random& random) {
   }
   return bare_hull(points, 2);
 }
-Shape segment(base::Random& random) {
+Shape segment(Random& random) {
   const Vec3d p = random_direction(random);
   return bare_hull({p, -p * uniform(random, 0, 1)}, 1);
 }
-Shape point(base::Random& random) { return bare_hull({0.1 * random_direction(random)}, 0); }
+Shape point(Random& random) { return bare_hull({0.1 * random_direction(random)}, 0); }
 
 void expect_both(const Tally& tally) {
   const int all = tally.apart + tally.common;
@@ -140,8 +138,8 @@ TEST(Sat, AgreesOnFlatHulls) {
   expect_both(sweep(unit_box, flat_hull, 400, 1e-13, 1e-5F, 1, 6));
 }
 TEST(Sat, AgreesOnBoxesWithoutThickness) {
-  const auto plate = [](base::Random& random) { return box(uniform(random, 0.2, 1), 1, 0); };
-  const auto needle = [](base::Random&) { return box(0, 1, 0); };
+  const auto plate = [](Random& random) { return box(uniform(random, 0.2, 1), 1, 0); };
+  const auto needle = [](Random&) { return box(0, 1, 0); };
   expect_both(sweep(plate, unit_box, 400, 1e-13, 1e-5F, 1, 23));
   expect_both(sweep(plate, plate, 400, 1e-13, 1e-5F, 1, 24));
   expect_both(sweep(needle, unit_box, 400, 1e-13, 1e-5F, 1, 25));
@@ -155,14 +153,13 @@ TEST(Sat, AgreesOnSegmentsAndPoints) {
   EXPECT_GT(tally.apart, 250);
 }
 TEST(Sat, AgreesOnNeedlesAndPlates) {
-  const auto thin = [](base::Random& random) {
+  const auto thin = [](Random& random) {
     Vec3d half(1, 1, 1);
     for (int k = 0; k < 3; ++k) half[k] = std::pow(10.0, uniform(random, -8, 0));
     return box(half.x(), half.y(), half.z());
   };
-  const auto needle = [](base::Random& random) {
-    return check::box_as_hull(1, 1e-8 * uniform(random, 1, 2),
-                              std::pow(10.0, uniform(random, -8, 0)));
+  const auto needle = [](Random& random) {
+    return box_as_hull(1, 1e-8 * uniform(random, 1, 2), std::pow(10.0, uniform(random, -8, 0)));
   };
   Tally all;
   for (const auto& tally : {sweep(thin, unit_box, 500, 1e-12, 1e-4F, 1, 10),
@@ -177,7 +174,7 @@ TEST(Sat, AgreesOnNeedlesAndPlates) {
 }
 TEST(Sat, AgreesOnUnequalSizes) {
   const auto scaled = [](const MakeShape& make, double scale) {
-    return [make, scale](base::Random& random) {
+    return [make, scale](Random& random) {
       const Shape shape = make(random);
       std::vector<Vec3d> points = shape.hull->vertices;
       auto copy = std::make_shared<Hull>(*shape.hull);
@@ -195,7 +192,7 @@ TEST(Sat, AgreesOnUnequalSizes) {
 }
 
 TEST(Sat, AgreesFarFromTheOrigin) {
-  base::Random random(17);
+  Random random(17);
   Tally tally;
   for (int k = 0; k < 300; ++k) {
     // Far in the world, and far from the body's own origin.
@@ -216,14 +213,14 @@ TEST(Sat, AgreesFarFromTheOrigin) {
 
 // Edges that are parallel up to an angle, whose ridges face each other.
 TEST(Sat, AgreesOnAlmostParallelEdges) {
-  base::Random random(18);
+  Random random(18);
   Tally tally;
   for (int k = 0; k < 1500; ++k) {
     const double angle = std::pow(10.0, uniform(random, -16, -1));
     const Vec3d axis = random_direction(random);
     const Mat3d common = random_rotation(random);
-    const Shape a = k % 3 == 0 ? box(1, 1, 1) : check::box_as_hull(1, 1, 1);
-    const Shape b = k % 2 == 0 ? box(0.5, 1, 0.7) : check::box_as_hull(0.5, 1, 0.7);
+    const Shape a = k % 3 == 0 ? box(1, 1, 1) : box_as_hull(1, 1, 1);
+    const Shape b = k % 2 == 0 ? box(0.5, 1, 0.7) : box_as_hull(0.5, 1, 0.7);
     const Pose pose_a{common * turn(45, Vec3d::UnitX()), Vec3d::Zero()};
     const Mat3d twist = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
     const Mat3d rotation_b = common * twist * turn(45, Vec3d::UnitX());
@@ -243,7 +240,7 @@ TEST(Sat, AgreesOnAlmostParallelEdges) {
 
 // Two knife edges face each other, almost parallel: hardly any face normal tells them apart.
 TEST(Sat, IsHonestOnKnives) {
-  base::Random random(19);
+  Random random(19);
   int answered = 0;
   for (int k = 0; k < 400; ++k) {
     const double width = std::pow(10.0, uniform(random, -8, -1));
@@ -273,7 +270,7 @@ TEST(Sat, IsHonestOnKnives) {
 TEST(Sat, FaceNormalsAloneMissCrossedEdges) {
   // Two ridges crossed at right angles, apart along z, which is no face normal of either.
   int missed = 0;
-  for (const Shape& shape : {box(1, 1, 1), check::box_as_hull(1, 1, 1)}) {
+  for (const Shape& shape : {box(1, 1, 1), box_as_hull(1, 1, 1)}) {
     for (const double gap : {1e-12, 1e-6, 1e-2, 0.3}) {
       const Pose pose_a{turn(45, Vec3d::UnitX()), Vec3d::Zero()};
       const Pose pose_b{turn(45, Vec3d::UnitY()), {0, 0, 2 * std::sqrt(2.0) + gap}};
@@ -302,7 +299,7 @@ TEST(Sat, FaceNormalsAloneMissCrossedEdges) {
 }
 
 TEST(Sat, WitnessPointsLieOnBothBodies) {
-  base::Random random(20);
+  Random random(20);
   int overlapping = 0;
   for (int k = 0; k < 1500; ++k) {
     const Shape a = k % 2 == 0 ? unit_box(random) : any_hull(random);
@@ -326,7 +323,7 @@ TEST(Sat, WitnessPointsLieOnBothBodies) {
 }
 
 TEST(Sat, SaysSoWhereAHullHasNoFaces) {
-  base::Random random(21);
+  Random random(21);
   const Shape whole = any_hull(random);
   const Shape bare = bare_hull(whole.hull->vertices, 3);
   const Pose here;
@@ -345,7 +342,7 @@ TEST(Sat, SaysSoWhereAHullHasNoFaces) {
 
 // A matrix is used as it stands: one that was rounded to float is not quite a rotation.
 TEST(Sat, TakesMatricesLiterally) {
-  base::Random random(22);
+  Random random(22);
   Tally tally;
   for (int k = 0; k < 300; ++k) {
     const Shape a = k % 2 == 0 ? unit_box(random) : any_hull(random);

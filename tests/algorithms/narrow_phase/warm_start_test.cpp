@@ -21,7 +21,7 @@ namespace {
 
 using namespace reference;
 
-Shape ball_hull(base::Random& random, int points, double radius) {
+Shape ball_hull(Random& random, int points, double radius) {
   std::vector<Vec3d> vertices;
   for (int i = 0; i < points; ++i) vertices.push_back(radius * random.direction());
   Shape shape;
@@ -47,7 +47,7 @@ struct Pair {
   PairMemory memory = {};
 };
 
-std::vector<Pair> pairs_of_all_sorts(base::Random& random) {
+std::vector<Pair> pairs_of_all_sorts(Random& random) {
   std::vector<Pair> pairs;
   const auto add = [&](const std::string& name, double size, Shape a, Shape b) {
     if (a.kind > b.kind) std::swap(a, b);
@@ -83,7 +83,7 @@ void turn(Pose& pose, const Vec3d& axis, double angle) {
 
 // A little motion; and now and then a jump to anywhere, from far apart to deep inside, or a turn by
 // any angle on the spot.
-void move(base::Random& random, int frame, Pair& pair) {
+void move(Random& random, int frame, Pair& pair) {
   Pose& b = pair.poses[1];
   const double size = pair.size;
   if (frame % 9 == 0) {
@@ -140,8 +140,8 @@ void grade(const Outcome& outcome, const oracle::Measure& truth, Task task, bool
 }
 
 Tally play(const NarrowPhaseEntry& entry, Precision scalar, Task task,
-           const std::function<void(base::Random&, PairMemory&)>& disturb) {
-  base::Random random(static_cast<unsigned>(task) + 1);
+           const std::function<void(Random&, PairMemory&)>& disturb) {
+  Random random(static_cast<unsigned>(task) + 1);
   oracle::Oracle oracle;
   Tally tally;
   const double error = scalar == Precision::float64 ? 1e-8 : 2e-4;
@@ -180,7 +180,7 @@ std::vector<const NarrowPhaseEntry*> warm_ones() {
   return entries;
 }
 
-void expect_right(const std::function<void(base::Random&, PairMemory&)>& disturb) {
+void expect_right(const std::function<void(Random&, PairMemory&)>& disturb) {
   for (const NarrowPhaseEntry* entry : warm_ones()) {
     for (const Precision scalar : entry->scalars) {
       for (const Task task : entry->tasks) {
@@ -202,12 +202,12 @@ TEST(WarmStart, IsKnownToSome) {
 }
 
 TEST(WarmStart, IsAsRightAsAColdOneThroughMotionAndJumps) {
-  expect_right([](base::Random&, PairMemory&) {});
+  expect_right([](Random&, PairMemory&) {});
 }
 
 // More than the contract asks for: nothing that can be in memory is believed.
 TEST(WarmStart, WhateverIsInMemory) {
-  expect_right([](base::Random& random, PairMemory& memory) {
+  expect_right([](Random& random, PairMemory& memory) {
     std::array<std::uint32_t, 16> words;
     for (std::uint32_t& word : words) {
       const float real = static_cast<float>(random.uniform(-1, 1));
@@ -225,7 +225,7 @@ TEST(WarmStart, WhateverIsInMemory) {
 // One memory serves every task.
 TEST(WarmStart, TasksMayTakeTurns) {
   const NarrowPhaseEntry& gjk = *find_narrow_phase("gjk");
-  base::Random random(11);
+  Random random(11);
   oracle::Oracle oracle;
   for (Pair& pair : pairs_of_all_sorts(random)) {
     const auto warm = gjk.make({});
@@ -248,7 +248,7 @@ struct Work {
 
 Work work_of(const char* name, Task task, bool warm, double distance, int points) {
   const NarrowPhaseEntry& entry = *find_narrow_phase(name);
-  base::Random random(21);
+  Random random(21);
   Work work;
   for (int n = 0; n < 30; ++n) {
     Pair pair{.name = "",

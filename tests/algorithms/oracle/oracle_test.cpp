@@ -98,11 +98,11 @@ ExactMeasure expect_sound(Oracle& oracle, const Sample& sample) {
   return measure;
 }
 
-class ExactRegime : public ::testing::TestWithParam<check::Regime> {};
+class ExactRegime : public ::testing::TestWithParam<Regime> {};
 
 TEST_P(ExactRegime, IsProvenAndAgreesWithTheReferences) {
-  const check::Regime& regime = GetParam();
-  base::Random random(17);
+  const Regime& regime = GetParam();
+  Random random(17);
   Oracle oracle;
   std::array<int, 4> answers{};
   const int count = regime.count / one_in;
@@ -162,7 +162,7 @@ double size_of(const Sample& sample) {
 }
 
 TEST(Oracle, EnclosesCurvedBodies) {
-  base::Random random(19);
+  Random random(19);
   Oracle oracle;
   std::array<int, 4> answers{};
   constexpr int count = 1500 / one_in;
@@ -187,7 +187,7 @@ TEST(Oracle, EnclosesCurvedBodies) {
 }
 
 TEST(Oracle, MeasuresHalfspaces) {
-  base::Random random(23);
+  Random random(23);
   Oracle oracle;
   std::array<int, 4> answers{};
   constexpr int count = 3000 / one_in;
@@ -235,13 +235,13 @@ mpq_class exact_separation(const Body& a, const Body& b, const Vec3d& n) {
     }
     return *greatest;
   };
-  const mpq_class height = (proxies::reach(pair.a, 1) + proxies::reach(pair.b, -1)) * pair.unit;
+  const mpq_class height = (reach(pair.a, 1) + reach(pair.b, -1)) * pair.unit;
   return height * abs(height) / (along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
 }
 
 TEST(Oracle, SaysHowFarADirectionSeparates) {
-  base::Random random(29);
-  for (const check::Regime& regime : exact_regimes()) {
+  Random random(29);
+  for (const Regime& regime : exact_regimes()) {
     for (int i = 0; i < 60 && !HasFailure(); ++i) {
       const Sample sample = regime.make(random, i);
       Vec3d n = random.direction();
@@ -261,7 +261,7 @@ TEST(Oracle, SaysHowFarADirectionSeparates) {
 }
 
 TEST(Oracle, NoDirectionSeparatesLessThanTheDepth) {
-  base::Random random(31);
+  Random random(31);
   Oracle oracle;
   for (int i = 0; i < 300; ++i) {
     const Sample sample = curved_sample(random, i);
@@ -276,7 +276,7 @@ TEST(Oracle, NoDirectionSeparatesLessThanTheDepth) {
 }
 
 TEST(Oracle, KnowsWhetherABoxHoldsABody) {
-  base::Random random(37);
+  Random random(37);
   const Solid origin{Shape{}};
   for (int i = 0; i < 300; ++i) {
     const Sample sample = exact_regimes()[i % 9].make(random, i);
@@ -318,7 +318,7 @@ constexpr int noticed = 3, not_noticed = 4;
 // Ends the process with whether one of the answers is wrong, and is found to be so by its
 // certificate or by the verdict of an oracle that is sound. An answer may take two seconds.
 [[noreturn]] void ask_with(const Filters& filters, int count) {
-  base::Random random(41);
+  Random random(41);
   Oracle sound, broken(filters);
   for (int i = 0; i < count; ++i) {
     const Sample sample = nearly_touching_sample(random, i);

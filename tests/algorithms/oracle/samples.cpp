@@ -24,24 +24,24 @@ Placed placed(const Shape& shape, const Pose& pose = {}) {
   return {std::make_shared<Solid>(shape), pose};
 }
 
-Pose random_pose(base::Random& random, double reach) {
+Pose random_pose(Random& random, double reach) {
   const Mat3d rotation = random.rotation();
   return {rotation, random.vector(reach)};
 }
 
-Shape random_box(base::Random& random) {
+Shape random_box(Random& random) {
   const double x = random.uniform(0.2, 1.5), y = random.uniform(0.2, 1.5);
   return make_box(x, y, random.uniform(0.2, 1.5));
 }
 
-Shape random_hull(base::Random& random, int vertices) {
+Shape random_hull(Random& random, int vertices) {
   std::vector<Vec3d> points;
   for (int i = 0; i < vertices; ++i) points.push_back(random.direction());
   return make_hull(points);
 }
 
 // A point, a segment, or a polygon with up to six corners; exactly flat.
-Shape random_flat(base::Random& random) {
+Shape random_flat(Random& random) {
   std::vector<Vec3d> points;
   for (int i = random.below(6); i >= 0; --i) {
     const double x = random.uniform(-1, 1);
@@ -50,13 +50,13 @@ Shape random_flat(base::Random& random) {
   return make_hull(points);
 }
 
-Shape random_round(base::Random& random) {
+Shape random_round(Random& random) {
   const double radius = random.uniform(0, 1);
   return random.below(2) == 0 ? make_sphere(radius)
                               : make_capsule(radius, random.uniform(0.2, 1.5));
 }
 
-Shape random_polytope(base::Random& random) {
+Shape random_polytope(Random& random) {
   switch (random.below(4)) {
     case 0: return random_box(random);
     case 1: return random_hull(random, 4 + random.below(5));
@@ -65,7 +65,7 @@ Shape random_polytope(base::Random& random) {
   }
 }
 
-Shape random_curved(base::Random& random) {
+Shape random_curved(Random& random) {
   const double x = random.uniform(0.2, 1.5), y = random.uniform(0.2, 1.5);
   switch (random.below(3)) {
     case 0: return make_cylinder(x, y);
@@ -90,46 +90,46 @@ void scale(Sample& sample, int exponent) {
 
 // --- pairs in general position ---
 
-Sample boxes(base::Random& random, int) {
+Sample boxes(Random& random, int) {
   const Shape a = random_box(random), b = random_box(random);
   const Pose pose_a = random_pose(random, 1.5);
   return {placed(a, pose_a), placed(b, random_pose(random, 1.5))};
 }
 
-Sample tetrahedra(base::Random& random, int) {
+Sample tetrahedra(Random& random, int) {
   const Shape a = random_hull(random, 4), b = random_hull(random, 4);
   const Pose pose_a = random_pose(random, 0.5);
   return {placed(a, pose_a), placed(b, random_pose(random, 0.5))};
 }
 
-Sample hulls(base::Random& random, int) {
+Sample hulls(Random& random, int) {
   const Shape a = random_hull(random, 4 + random.below(4)),
               b = random_hull(random, 4 + random.below(4));
   const Pose pose_a = random_pose(random, 0.9);
   return {placed(a, pose_a), placed(b, random_pose(random, 0.9))};
 }
 
-Sample great_hulls(base::Random& random, int) {
+Sample great_hulls(Random& random, int) {
   const Shape a = random_hull(random, 8 + random.below(35)),
               b = random_hull(random, 8 + random.below(35));
   const Pose pose_a = random_pose(random, 1.1);
   return {placed(a, pose_a), placed(b, random_pose(random, 1.1))};
 }
 
-Sample flats(base::Random& random, int number) {
+Sample flats(Random& random, int number) {
   const Shape a = random_flat(random);
   const Shape b = number % 2 == 0 ? random_flat(random) : random_polytope(random);
   const Pose pose_a = random_pose(random, 0.3);
   return {placed(a, pose_a), placed(b, random_pose(random, 0.3))};
 }
 
-Sample rounds(base::Random& random, int) {
+Sample rounds(Random& random, int) {
   const Shape a = random_round(random), b = random_polytope(random);
   const Pose pose_a = random_pose(random, 1.3);
   return {placed(a, pose_a), placed(b, random_pose(random, 1.3))};
 }
 
-Sample quaternions(base::Random& random, int number) {
+Sample quaternions(Random& random, int number) {
   Sample sample = number % 2 == 0 ? boxes(random, number) : rounds(random, number);
   for (Placed* body : {&sample.a, &sample.b}) {
     std::array<double, 4> q;
@@ -145,7 +145,7 @@ Sample quaternions(base::Random& random, int number) {
   return sample;
 }
 
-Sample matrices(base::Random& random, int number) {
+Sample matrices(Random& random, int number) {
   Sample sample = hulls(random, number);
   for (Placed* body : {&sample.a, &sample.b}) {
     Mat3d& m = body->pose.rotation;
@@ -157,7 +157,7 @@ Sample matrices(base::Random& random, int number) {
 
 // --- pairs that touch exactly, and others with nothing in general position ---
 
-Shape integer_hull(base::Random& random, int most) {
+Shape integer_hull(Random& random, int most) {
   std::vector<Vec3d> points;
   for (int i = 1 + random.below(most); i > 0; --i) {
     const int x = random.below(5) - 2, y = random.below(5) - 2;
@@ -166,7 +166,7 @@ Shape integer_hull(base::Random& random, int most) {
   return make_hull(points);
 }
 
-Sample integers(base::Random& random, int number) {
+Sample integers(Random& random, int number) {
   const auto body = [&] {
     Shape shape = integer_hull(random, 7);
     if (number % 3 == 1) shape = make_box(random.below(3), random.below(3), random.below(3));
@@ -188,7 +188,7 @@ Sample integers(base::Random& random, int number) {
 
 // The bodies have one random pose, so that bodies that touch in body coordinates touch in the
 // world.
-Sample one_pose(base::Random& random, int number) {
+Sample one_pose(Random& random, int number) {
   Sample sample;
   const Pose pose = random_pose(random, 10);
   std::vector<Vec3d> points = integer_hull(random, 8).hull->vertices;
@@ -207,7 +207,7 @@ Sample one_pose(base::Random& random, int number) {
 }
 
 // One body twice, one inside the other, or both around one point.
-Sample coincident(base::Random& random, int number) {
+Sample coincident(Random& random, int number) {
   Sample sample;
   const Shape shape = number % 2 == 0 ? random_polytope(random) : integer_hull(random, 8);
   sample.a = placed(shape, random_pose(random, 2));
@@ -221,7 +221,7 @@ Sample coincident(base::Random& random, int number) {
   return sample;
 }
 
-Sample near(base::Random& random, int number) {
+Sample near(Random& random, int number) {
   Sample sample = number % 3 == 0   ? boxes(random, number)
                   : number % 3 == 1 ? tetrahedra(random, number)
                                     : rounds(random, number);
@@ -236,7 +236,7 @@ Sample near(base::Random& random, int number) {
 
 // --- extremes ---
 
-Sample scaled(base::Random& random, int number) {
+Sample scaled(Random& random, int number) {
   Sample sample = number % 2 == 0 ? boxes(random, number) : tetrahedra(random, number);
   if (number % 3 == 0) bring(sample, random.uniform(-1e-15, 1e-15));
   constexpr int exponents[] = {1000, -1000, 500, -500, -1060};
@@ -245,7 +245,7 @@ Sample scaled(base::Random& random, int number) {
 }
 
 // The power of two is in the matrix, and its reciprocal in the body.
-Sample scaled_within(base::Random& random, int number) {
+Sample scaled_within(Random& random, int number) {
   Sample sample = tetrahedra(random, number);
   for (Placed* body : {&sample.a, &sample.b}) {
     const double power = std::ldexp(1.0, random.below(1800) - 900);
@@ -257,7 +257,7 @@ Sample scaled_within(base::Random& random, int number) {
   return sample;
 }
 
-Sample subnormal_bits(base::Random& random, int number) {
+Sample subnormal_bits(Random& random, int number) {
   Sample sample = integers(random, number);
   const double least = std::numeric_limits<double>::denorm_min();
   for (Placed* body : {&sample.a, &sample.b}) {
@@ -273,7 +273,7 @@ Sample subnormal_bits(base::Random& random, int number) {
   return sample;
 }
 
-Sample far_away(base::Random& random, int number) {
+Sample far_away(Random& random, int number) {
   Sample sample = near(random, number);
   const Vec3d offset = 0x1p40 * random.direction();
   sample.a.pose.translation += offset;
@@ -281,7 +281,7 @@ Sample far_away(base::Random& random, int number) {
   return sample;
 }
 
-Sample thin(base::Random& random, int number) {
+Sample thin(Random& random, int number) {
   Sample sample;
   for (Placed* body : {&sample.a, &sample.b}) {
     Vec3d sizes(1, random.uniform(0.5, 1), 1e-8);
@@ -292,14 +292,14 @@ Sample thin(base::Random& random, int number) {
   return sample;
 }
 
-Sample size_ratio(base::Random& random, int number) {
+Sample size_ratio(Random& random, int number) {
   Sample sample = boxes(random, number);
   sample.b.pose.rotation *= 1e-12;
   bring(sample, random.uniform(-2e-12, 2e-12));
   return sample;
 }
 
-Sample nearly_parallel(base::Random& random, int number) {
+Sample nearly_parallel(Random& random, int number) {
   Sample sample = boxes(random, number);
   const double angle = random.uniform(-2e-15, 2e-15);
   sample.b.pose.rotation =
@@ -309,7 +309,7 @@ Sample nearly_parallel(base::Random& random, int number) {
 }
 
 // Triangles of hardly any area beside balls, where a height over a plane means nothing.
-Sample slivers(base::Random& random, int number) {
+Sample slivers(Random& random, int number) {
   const double width = std::ldexp(1.0, -20 - random.below(60));
   const Vec3d along = random.direction();
   std::vector<Vec3d> points;
@@ -325,7 +325,7 @@ Sample slivers(base::Random& random, int number) {
 
 // A polytope beside a ball that is hardly there: what is added for the rounding of a distance has
 // to be more than a part of the radius.
-Sample small_balls(base::Random& random, int number) {
+Sample small_balls(Random& random, int number) {
   const Shape polytope = number % 2 == 0 ? random_box(random) : random_hull(random, 4);
   const Shape ball = make_sphere(random.uniform(1, 2) * 1e-9);
   const Pose pose = random_pose(random, 1);
@@ -336,7 +336,7 @@ Sample small_balls(base::Random& random, int number) {
 
 }  // namespace
 
-std::vector<check::Regime> exact_regimes() {
+std::vector<Regime> exact_regimes() {
   return {
       {"Boxes", boxes, 20, 0, 20, 2000, 1000, 1000},
       {"Tetrahedra", tetrahedra, 20, 0, 20, 2000, 2000, 1000},
@@ -362,7 +362,7 @@ std::vector<check::Regime> exact_regimes() {
   };
 }
 
-Sample curved_sample(base::Random& random, int number) {
+Sample curved_sample(Random& random, int number) {
   const Shape a = random_curved(random);
   const Shape b = number % 2 == 0 ? random_curved(random) : random_polytope(random);
   const Pose pose_a = random_pose(random, 1.5);
@@ -371,7 +371,7 @@ Sample curved_sample(base::Random& random, int number) {
   return sample;
 }
 
-Sample halfspace_sample(base::Random& random, int number) {
+Sample halfspace_sample(Random& random, int number) {
   const auto halfspace = [&] {
     Pose pose = random_pose(random, 1);
     for (int k = 0; k < 9; ++k) pose.rotation(k) += random.uniform(-0.5, 0.5);
@@ -394,7 +394,7 @@ Sample halfspace_sample(base::Random& random, int number) {
   return sample;
 }
 
-Sample nearly_touching_sample(base::Random& random, int number) {
+Sample nearly_touching_sample(Random& random, int number) {
   switch (number % 5) {
     case 0: return nearly_parallel(random, number);
     case 1: return slivers(random, 5 * number);

@@ -39,7 +39,7 @@ inline constexpr int one_in = 1;
 // pairs are compared with which reference.
 struct Regime {
   const char* name;
-  Sample (*make)(base::Random& random, int number);
+  Sample (*make)(Random& random, int number);
   int separated, touching, overlapping;
   int count;             // proven, and their certificates verified
   int by_axes, by_cgal;  // of these, the first so many are compared with a reference as well
@@ -49,11 +49,11 @@ struct Regime {
 std::vector<Regime> exact_regimes();
 
 // Cylinders, cones and ellipsoids with each other and with all the rest.
-Sample curved_sample(base::Random& random, int number);
+Sample curved_sample(Random& random, int number);
 // A half-space and any other body, or another half-space.
-Sample halfspace_sample(base::Random& random, int number);
+Sample halfspace_sample(Random& random, int number);
 // Boxes, tetrahedra and needles beside balls that touch or miss each other by what filters in
 // double precision cannot tell.
-Sample nearly_touching_sample(base::Random& random, int number);
+Sample nearly_touching_sample(Random& random, int number);
 
 }  // namespace touchstone::oracle

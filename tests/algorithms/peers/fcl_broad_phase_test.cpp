@@ -8,7 +8,7 @@ class FclBroadPhaseTest : public PeerTest<find_broad_phase> {};
 
 TEST_P(FclBroadPhaseTest, FindsTheClosedPairsOfEveryFrame) {
   const bool misses_touching = !entry_->info.known_defect.empty();
-  check::Tally tally;
+  Tally tally;
   for (const Style& style : styles()) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       play(*entry_, style, seed, misses_touching, tally);

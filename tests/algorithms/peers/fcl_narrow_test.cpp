@@ -167,8 +167,8 @@ TEST_F(FclTest, IndepSolverGivesDepthAndNormalInMostPairs) {
 }
 
 TEST_F(FclTest, ToleranceAndCapReachTheSolvers) {
-  const Placed a = trade::placed(shapes_of(ShapeKind::ellipsoid)[0]);
-  Placed b = trade::placed(shapes_of(ShapeKind::ellipsoid)[1]);
+  const Placed a = placed(shapes_of(ShapeKind::ellipsoid)[0]);
+  Placed b = placed(shapes_of(ShapeKind::ellipsoid)[1]);
   b.pose.translation = {1.7, 1.2, -0.8};
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     const double fine = ask(*entry, Task::distance, a, b, {.tolerance = 1e-13}).distance;
@@ -215,13 +215,13 @@ TEST_F(FclTest, TakesFlatHulls) {
   };
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     for (const Shape& shape : flat) {
-      const Placed body = trade::placed(shape);
-      Placed cube = trade::placed(box({1, 1, 1}), {0.3, 0.2, 0.4});
+      const Placed body = placed(shape);
+      Placed cube = placed(box({1, 1, 1}), {0.3, 0.2, 0.4});
       EXPECT_EQ(ask(*entry, Task::intersect, body, cube).answer, Answer::overlapping);
       cube.pose.translation.z() = 1.9;
       EXPECT_EQ(ask(*entry, Task::intersect, body, cube).answer, Answer::separated);
       EXPECT_NEAR(ask(*entry, Task::distance, body, cube).distance, 0.9, 1e-6);
-      const Placed ground = trade::placed(halfspace(Vec3d::UnitZ(), 0), {0, 0, 0.25});
+      const Placed ground = placed(halfspace(Vec3d::UnitZ(), 0), {0, 0, 0.25});
       EXPECT_NEAR(ask(*entry, Task::penetration, body, ground).distance, -0.25, 1e-9);
     }
   }
@@ -234,8 +234,8 @@ TEST_F(FclTest, TakesHullsWithPointsInside) {
   for (Hull::Face& face_of : hull.faces) {
     for (std::uint32_t& vertex : face_of.loop) ++vertex;
   }
-  const Placed body = trade::placed(hull_shape(std::make_shared<const Hull>(std::move(hull))));
-  const Placed ball = trade::placed(sphere(0.5), {0, 0, 1.5});
+  const Placed body = placed(hull_shape(std::make_shared<const Hull>(std::move(hull))));
+  const Placed ball = placed(sphere(0.5), {0, 0, 1.5});
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     EXPECT_NEAR(ask(*entry, Task::distance, body, ball).distance, 0.3, 1e-4);
   }
@@ -245,7 +245,7 @@ TEST_F(FclTest, EndsOnCoincidentCentres) {
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     for (const ShapeKind kind : all_shape_kinds) {
       if (kind == ShapeKind::halfspace) continue;
-      const Placed body = trade::placed(shapes_of(kind)[0]);
+      const Placed body = placed(shapes_of(kind)[0]);
       for (const Task task : entry->tasks) {
         EXPECT_EQ(ask(*entry, task, body, body).answer, Answer::overlapping)
             << entry->info.name << " " << to_string(task) << " " << to_string(kind);

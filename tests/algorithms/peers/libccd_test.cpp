@@ -89,12 +89,12 @@ TEST_F(LibccdTest, EpaGivesTheDepthInAllButAFewPairs) {
 }
 
 TEST_F(LibccdTest, ToleranceReachesTheLibrary) {
-  const Placed a = trade::placed(shapes_of(ShapeKind::ellipsoid)[0]);
+  const Placed a = placed(shapes_of(ShapeKind::ellipsoid)[0]);
   for (const NarrowPhaseEntry* entry : {epa_, mpr_}) {
     double coarse = 0, fine = 0;
     std::mt19937_64 random(3);
     for (int i = 0; i < 20; ++i) {
-      const Placed b = trade::placed(shapes_of(ShapeKind::ellipsoid)[1], 0.9 * random_unit(random));
+      const Placed b = placed(shapes_of(ShapeKind::ellipsoid)[1], 0.9 * random_unit(random));
       const auto depth = [&](double tolerance) {
         return ask(*entry, Task::penetration, a, b, {.tolerance = tolerance}).distance;
       };
@@ -140,7 +140,7 @@ TEST_F(LibccdTest, EndsOnCoincidentCentres) {
     if (kind == ShapeKind::halfspace) continue;
     for (const double tolerance : {1e-6, 1e-12, 1e-15}) {
       for (const NarrowPhaseEntry* entry : {epa_, mpr_}) {
-        const Placed body = trade::placed(shapes_of(kind)[0]);
+        const Placed body = placed(shapes_of(kind)[0]);
         const Outcome outcome =
             ask(*entry, Task::penetration, body, body, {.tolerance = tolerance});
         EXPECT_EQ(outcome.answer, Answer::overlapping) << entry->info.name << to_string(kind);
@@ -169,14 +169,12 @@ TEST_F(LibccdTest, TakesFlatHullsAndZeroSizes) {
   };
   for (const Shape& shape : thin) {
     for (const NarrowPhaseEntry* entry : {gjk_, mpr_}) {
-      const Placed body = trade::placed(shape);
-      EXPECT_EQ(
-          ask(*entry, Task::intersect, body, trade::placed(box({1, 1, 1}), {0.3, 0.2, 0.4})).answer,
-          Answer::overlapping)
+      const Placed body = placed(shape);
+      EXPECT_EQ(ask(*entry, Task::intersect, body, placed(box({1, 1, 1}), {0.3, 0.2, 0.4})).answer,
+                Answer::overlapping)
           << to_string(shape.kind);
-      EXPECT_EQ(
-          ask(*entry, Task::intersect, body, trade::placed(box({1, 1, 1}), {0.3, 0.2, 1.9})).answer,
-          Answer::separated)
+      EXPECT_EQ(ask(*entry, Task::intersect, body, placed(box({1, 1, 1}), {0.3, 0.2, 1.9})).answer,
+                Answer::separated)
           << to_string(shape.kind);
     }
   }
@@ -185,9 +183,9 @@ TEST_F(LibccdTest, TakesFlatHullsAndZeroSizes) {
 // The pose is a matrix to be used as it stands: here it makes the box twice as large, and leaves
 // the ball a ball.
 TEST_F(LibccdTest, UsesTheRotationAsItStands) {
-  Placed large = trade::placed(box({1, 1, 1}), Vec3d::Zero());
+  Placed large = placed(box({1, 1, 1}), Vec3d::Zero());
   large.pose.rotation *= 2;
-  Placed ball = trade::placed(sphere(0.6), {2.5, 0.1, 0});
+  Placed ball = placed(sphere(0.6), {2.5, 0.1, 0});
   ball.pose.rotation *= 2;
   for (const NarrowPhaseEntry* entry : {gjk_, mpr_}) {
     EXPECT_EQ(ask(*entry, Task::intersect, large, ball).answer, Answer::overlapping);

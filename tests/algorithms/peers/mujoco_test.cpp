@@ -96,13 +96,13 @@ TEST_F(MujocoTest, GivesDepthAndNormal) {
 
 TEST_F(MujocoTest, TurnsTheAnswerForThePairInItsOwnOrder) {
   // MuJoCo's types have the cylinder before the box, and the plane before all.
-  const Placed box_at_rest = trade::placed(box({0.5, 0.4, 0.3}));
-  const Placed above = trade::placed(along_z(ShapeKind::cylinder, 0.3, 0.2), {0, 0, 0.45});
+  const Placed box_at_rest = placed(box({0.5, 0.4, 0.3}));
+  const Placed above = placed(along_z(ShapeKind::cylinder, 0.3, 0.2), {0, 0, 0.45});
   const Outcome of_cylinder = ask(*entry_, Task::penetration, box_at_rest, above);
   EXPECT_NEAR(of_cylinder.distance, -0.05, 1e-5);
   EXPECT_GT(of_cylinder.normal.z(), 0.999);
-  const Outcome of_plane = ask(*entry_, Task::penetration, box_at_rest,
-                               trade::placed(halfspace({0, 0, 2}, -0.5), {1, 2, 0}));
+  const Outcome of_plane =
+      ask(*entry_, Task::penetration, box_at_rest, placed(halfspace({0, 0, 2}, -0.5), {1, 2, 0}));
   EXPECT_NEAR(of_plane.distance, -0.05, 1e-12);
   EXPECT_LT(of_plane.normal.z(), -0.999);
 }

@@ -17,7 +17,7 @@ class PeerBroadPhaseTest : public PeerTest<find_broad_phase> {
 
 TEST_P(PeerBroadPhaseTest, FindsTheClosedPairsOfEveryFrame) {
   EXPECT_TRUE(entry_->info.known_defect.empty());
-  check::Tally tally;
+  Tally tally;
   for (const Style& style : styles()) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) play(*entry_, style, seed, false, tally);
   }

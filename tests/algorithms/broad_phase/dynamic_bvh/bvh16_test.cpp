@@ -117,7 +117,7 @@ TEST_F(WideTrees, StayGoodWhereBodiesWander) {
     for (std::size_t node = 0; node < tree_.nodes(); ++node) {
       if (!tree_.is_leaf(node)) continue;
       Aabb bounds = Aabb::empty();
-      for (std::size_t place = node * Bvh16::fan; check::place < (node + 1) * Bvh16::fan; ++place) {
+      for (std::size_t place = node * Bvh16::fan; place < (node + 1) * Bvh16::fan; ++place) {
         if (tree_.boxes().ids()[place] != Bvh16::nobody) {
           bounds = united(bounds, tree_.box_at(place));
         }
@@ -136,8 +136,7 @@ TEST_F(WideTrees, StayGoodWhereBodiesWander) {
     };
     std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
       for (const std::size_t axis : {0u, 1u}) {
-        if (base::cell(a, axis) != base::cell(b, axis))
-          return base::cell(a, axis) < base::cell(b, axis);
+        if (cell(a, axis) != cell(b, axis)) return cell(a, axis) < cell(b, axis);
       }
       return bodies_[a].min[2] < bodies_[b].min[2];
     });

@@ -15,13 +15,13 @@ namespace {
 
 std::vector<Aabb> random_boxes(std::size_t count, float side) {
   std::mt19937 random(3);
-  std::uniform_real_distribution<float> check::place(0, 10);
-  std::uniform_real_distribution<float> base::length(0, side);
+  std::uniform_real_distribution<float> place(0, 10);
+  std::uniform_real_distribution<float> length(0, side);
   std::vector<Aabb> boxes(count);
   for (Aabb& box : boxes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.min[axis] = check::place(random);
-      box.max[axis] = box.min[axis] + base::length(random);
+      box.min[axis] = place(random);
+      box.max[axis] = box.min[axis] + length(random);
     }
   }
   return boxes;

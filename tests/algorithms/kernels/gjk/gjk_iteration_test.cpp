@@ -25,7 +25,7 @@ bool keeps_signs(const Simplex<Scalar>& simplex, long double off) {
         simplex.points[static_cast<std::size_t>(i)].difference.template cast<long double>();
   }
   constexpr int faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  int files::positive = 0, negative = 0;
+  int positive = 0, negative = 0;
   for (const auto& face : faces) {
     const Exact p = w[static_cast<std::size_t>(face[0])], q = w[static_cast<std::size_t>(face[1])],
                 s = w[static_cast<std::size_t>(face[2])];
@@ -34,10 +34,10 @@ bool keeps_signs(const Simplex<Scalar>& simplex, long double off) {
     const Exact p2 = p + sign * q.cross(s).normalized(), q2 = q + sign * s.cross(p).normalized(),
                 s2 = s + sign * p.cross(q).normalized();
     const long double after = p2.dot(q2.cross(s2));
-    ++(after > 0 ? files::positive : negative);
+    ++(after > 0 ? positive : negative);
     if ((before > 0) != (after > 0)) return false;
   }
-  return files::positive == 4 || negative == 4;
+  return positive == 4 || negative == 4;
 }
 
 template <class Scalar>
@@ -49,21 +49,17 @@ TYPED_TEST(SurelyInside, HoldsForCornersThatAreOff) {
   using Scalar = TypeParam;
   constexpr long double u = std::numeric_limits<Scalar>::epsilon() / 2;
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> base::unit(-1, 1);
-  const auto draw = [&] {
-    return Vec3d(base::unit(random), base::unit(random), base::unit(random));
-  };
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto draw = [&] { return Vec3d(unit(random), unit(random), unit(random)); };
   int sure = 0, close = 0, unsure = 0;
   for (int repeat = 0; repeat < 60000; ++repeat) {
     // A face through a place near the origin, of corners near and far; the last one behind it.
-    const double size = std::pow(10, -3 * std::abs(base::unit(random)));
-    const Vec3d p = size * std::pow(10, -4 * std::abs(base::unit(random))) * draw(),
-                q = size * draw();
-    const double share = std::abs(base::unit(random));
-    const Vec3d s = -(share * p + (1 - share) * q) * (1 + std::abs(base::unit(random)));
+    const double size = std::pow(10, -3 * std::abs(unit(random)));
+    const Vec3d p = size * std::pow(10, -4 * std::abs(unit(random))) * draw(), q = size * draw();
+    const double share = std::abs(unit(random));
+    const Vec3d s = -(share * p + (1 - share) * q) * (1 + std::abs(unit(random)));
     const Vec3d normal = p.cross(q).normalized();
-    const double height =
-        size * static_cast<double>(u) * std::pow(10, 6 * std::abs(base::unit(random)));
+    const double height = size * static_cast<double>(u) * std::pow(10, 6 * std::abs(unit(random)));
     Simplex<Scalar> simplex;
     simplex.size = 4;
     const std::array<Vec3d, 4> corners = {p, q, s, size * (draw() + 2 * normal)};

@@ -94,13 +94,13 @@ TEST(GridLevels, FindEachBoxInItsCell) {
       std::size_t most_in_a_cell = 0;
       for (const GridLevels::Level& level : grids.levels()) {
         ASSERT_EQ(level.boxes.first, ids.size());
-        for (std::size_t place = level.boxes.first; check::place < level.boxes.last; ++place) {
+        for (std::size_t place = level.boxes.first; place < level.boxes.last; ++place) {
           ids.push_back(grids.id(place));
           const std::uint64_t cell = level.grid.cell_of(boxes[grids.id(place)]);
           ASSERT_EQ(cell, grids.cell(level, place));
           const std::size_t first = grids.find(level, cell);
           const std::size_t last = grids.find(level, cell + 1);
-          ASSERT_TRUE(level.boxes.first <= first && first <= place && check::place < last &&
+          ASSERT_TRUE(level.boxes.first <= first && first <= place && place < last &&
                       last <= level.boxes.last);
           most_in_a_cell = std::max(most_in_a_cell, last - first);
         }

@@ -117,17 +117,17 @@ TYPED_TEST(DirectionCellsOf, FindWhatLookingAtAllFindsAtEveryLevel) {
       const SupportCubeMap<Scalar> cells{std::span<const Vec3<Scalar>>(vertices)};
       ASSERT_FALSE(cells.empty());
       std::set<std::uint32_t> numbers;
-      for (std::uint32_t place = 0; check::place < count; ++place) {
+      for (std::uint32_t place = 0; place < count; ++place) {
         numbers.insert(cells.number(place));
         ASSERT_EQ(cells.vertex(place), vertices[cells.number(place)]);
       }
       ASSERT_EQ(numbers.size(), count);
       for (const Vec3<Scalar>& d : directions(source, vertices)) {
         std::uint32_t best = 0;
-        for (std::uint32_t place = 1; check::place < count; ++place) {
+        for (std::uint32_t place = 1; place < count; ++place) {
           if (along(d, cells.vertex(place)) > along(d, cells.vertex(best))) best = place;
         }
-        for (std::uint32_t place = best + 1; check::place < count; ++place) {
+        for (std::uint32_t place = best + 1; place < count; ++place) {
           ties += along(d, cells.vertex(place)) == along(d, cells.vertex(best)) ? 1 : 0;
         }
         for (const Isa level : {Isa::baseline, Isa::avx2, Isa::avx512}) {

@@ -24,10 +24,8 @@ bool crosses(const GaussArc& a, const GaussArc& b, double& least) {
     least = std::min(least, std::abs(value));
     return value;
   };
-  const double b_left = base::product(b.left, a.direction),
-               b_right = base::product(b.right, a.direction);
-  const double a_left = base::product(a.left, b.direction),
-               a_right = base::product(a.right, b.direction);
+  const double b_left = product(b.left, a.direction), b_right = product(b.right, a.direction);
+  const double a_left = product(a.left, b.direction), a_right = product(a.right, b.direction);
   return b_left * b_right < 0 && a_left * a_right < 0 && a_left * b_left > 0;
 }
 

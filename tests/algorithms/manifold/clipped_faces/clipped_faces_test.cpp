@@ -275,7 +275,7 @@ TEST(ClippedFaces, ASolidHullWithoutFacesSaysSo) {
 }
 
 TEST(ClippedFaces, ApartThereAreNoPoints) {
-  base::Random random(7);
+  Random random(7);
   int apart = 0, common = 0;
   for (int i = 0; i < 2000; ++i) {
     const bool hulls = i % 2 == 0;

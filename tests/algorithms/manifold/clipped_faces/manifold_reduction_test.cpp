@@ -44,23 +44,22 @@ double greatest_area(const Corners& corners) {
 
 TEST(FourPoints, AreTheGreatestWithTheDeepest) {
   std::mt19937_64 engine(3);
-  std::uniform_real_distribution<double> base::unit(0, 1);
+  std::uniform_real_distribution<double> unit(0, 1);
   int level = 0, all_level = 0;
   for (int round = 0; round < 3000; ++round) {
     const int count = 5 + round % 11;
     std::set<double> angles;
     while (static_cast<int>(angles.size()) < count) {
-      angles.insert(
-          2 * std::numbers::pi *
-          (round % 3 == 0 ? std::floor(64 * base::unit(engine)) / 64 : base::unit(engine)));
+      angles.insert(2 * std::numbers::pi *
+                    (round % 3 == 0 ? std::floor(64 * unit(engine)) / 64 : unit(engine)));
     }
-    const double width = std::pow(10.0, -6 * base::unit(engine));
+    const double width = std::pow(10.0, -6 * unit(engine));
     Corners corners;
     for (const double angle : angles) {
       PolygonCorner<double> corner{};
       corner.x = std::cos(angle);
       corner.y = width * std::sin(angle);
-      corner.depth = round % 2 == 0 ? 1 : std::floor(3 * base::unit(engine));
+      corner.depth = round % 2 == 0 ? 1 : std::floor(3 * unit(engine));
       corners.push_back(corner);
     }
     const auto four = choose_four(corners, 1e-12);
