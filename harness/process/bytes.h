@@ -1,7 +1,7 @@
-// Values as bytes, for a process of the same program to read.
+// Values as bytes, which another process of this program reads.
 //
 // A value is of a trivially copyable type, a string, a vector of values, or a class with a member
-// `template <class Visit> void for_each_field(Visit visit)` that visits all that it consists of.
+// `template <class Visit> void for_each_field(Visit visit)` that visits all its parts.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,8 @@ class ByteWriter {
   template <class T>
   void add(const T& value) {
     if constexpr (HasFields<T>) {
-      const_cast<T&>(value).for_each_field([this](auto& field) { add(field); });  // only read
+      // add() only reads
+      const_cast<T&>(value).for_each_field([this](auto& field) { add(field); });
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
       bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);

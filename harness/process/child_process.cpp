@@ -1,3 +1,4 @@
+// Forks a child, limits its memory, and collects how it ended and its last words.
 #include "harness/process/child_process.h"
 
 #include <fcntl.h>
@@ -26,7 +27,7 @@
 namespace touchstone::process {
 namespace {
 
-// Lets this process add so many bytes to what it has; beyond, its allocations fail.
+// Lets this process allocate `bytes` beyond what it holds now; further allocations fail.
 void allow_memory(std::size_t bytes) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   static_cast<void>(bytes);
@@ -47,8 +48,9 @@ void allow_memory(std::size_t bytes) {
 
 void become_child(pid_t parent, int output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could be asked for
-  prctl(PR_SET_DUMPABLE, 0);                     // no core dump, not even into a pipe
+  // the parent died before prctl() asked for the signal
+  if (getppid() != parent) _exit(EXIT_FAILURE);
+  prctl(PR_SET_DUMPABLE, 0);  // The child dumps no core, not even into a pipe.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP}) {
     std::signal(signal, SIG_DFL);
   }
@@ -75,7 +77,7 @@ void expect_one_thread() {
 ChildProcess::ChildProcess(const Settings& settings, const std::function<void()>& work) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  std::fflush(nullptr);  // or the child would have a copy of what is not written yet
+  std::fflush(nullptr);  // otherwise the child would write the parent's buffered output again
   const pid_t parent = getpid();
   const pid_t child = fork();
   const int error = errno;
@@ -89,7 +91,7 @@ ChildProcess::ChildProcess(const Settings& settings, const std::function<void()>
   words_ = ends[0];
 }
 
-// Never returns: what the parent has open, buffered and registered for its exit is not the child's.
+// This function never returns: files, buffers and exit handlers of the parent are not the child's.
 void ChildProcess::run(pid_t parent, int output, const Settings& settings,
                        const std::function<void()>& work) {
   const auto keep = [&](std::string_view what) {
@@ -148,7 +150,7 @@ void ChildProcess::wait(double seconds) {
     listen(1);
     if (watch.seconds() > seconds) {
       stop();
-      stopped_ = false;  // it had hung up, and was not at work
+      stopped_ = false;  // the child had hung up and was not at work
     }
   }
 }

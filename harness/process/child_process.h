@@ -1,7 +1,7 @@
 // A forked child of this process: every child of the harness is one.
 //
-// It dies with its parent, has a limit of memory, and leaves behind how it ended and its last
-// words.
+// The child dies with its parent and has a limit of memory. It leaves behind how it ended, and its
+// last words.
 #pragma once
 
 #include <sys/types.h>
@@ -16,10 +16,10 @@
 
 namespace touchstone::process {
 
-// Throws std::logic_error when this process has more threads than the calling one: a forked child
-// then finds their locks held for ever. An Executor of more than one thread that has been used is
-// such a case, since oneTBB keeps its threads. ThreadSanitizer has a thread of its own, so nothing
-// is checked under it, nor where the system does not list the threads.
+// Throws std::logic_error if this process has more threads than the calling one, since a forked
+// child then finds their locks held for ever. A used Executor of more than one thread is such a
+// case, since oneTBB keeps its threads. Nothing is checked under ThreadSanitizer, which has a
+// thread of its own, or where the system does not list the threads.
 void expect_one_thread();
 
 class ChildProcess {
@@ -28,8 +28,8 @@ class ChildProcess {
   static constexpr std::size_t kept_words = 400;  // bytes
 
   struct Settings {
-    // Bytes that the child may add to what is there; beyond, its allocations fail. A sanitizer maps
-    // terabytes, so the limit is not kept under one.
+    // Bytes that the child may add to its memory; further allocations fail. The limit is not set
+    // under a sanitizer, which maps terabytes.
     std::size_t memory = no_limit;
     // The child calls this first, while it may still open its own files in /proc.
     std::function<void()> before = [] {};
@@ -37,24 +37,24 @@ class ChildProcess {
 
   // Forks. The child runs `work` and leaves with status 0; an exception ends it, and its text is
   // kept. The child dies with this process, dumps no core, leaves interrupts to its parent, and
-  // what it prints is kept from the terminal. Throws std::system_error.
+  // prints nothing on the terminal. Throws std::system_error.
   ChildProcess(const Settings& settings, const std::function<void()>& work);
-  ~ChildProcess();  // kills a child that is alive
+  ~ChildProcess();  // kills the child if it is alive
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   bool alive() const { return pid_ > 0; }
-  // Becomes readable when the child prints; -1 when it will not print any more.
+  // A descriptor that becomes readable when the child prints; -1 when the child will print no more.
   int words() const { return words_at_end_ ? -1 : words_; }
-  // Takes what the child printed; waits so long for it when there is nothing.
+  // Reads the child's output; waits up to `milliseconds` if there is none yet.
   void listen(int milliseconds);
-  // Looks, without waiting, whether the child has ended by itself.
+  // Returns without waiting whether the child has ended by itself.
   bool has_ended();
-  // Waits until the child ends by itself, and stops it when that takes longer than so many seconds.
+  // Waits until the child ends by itself, and stops it after `seconds`.
   void wait(double seconds);
-  // Ends the child for taking too long.
+  // Ends the child because it takes too long.
   void stop();
-  // How it ended, with its last words; `item` and `in_setup` are the caller's to fill in.
+  // Returns how the child ended, with its last words; the caller fills in `item` and `in_setup`.
   IsolationFailure failure();
 
  private:

@@ -1,3 +1,4 @@
+// Puts the ending of a child into words.
 #include "harness/process/ending.h"
 
 #include <fmt/format.h>

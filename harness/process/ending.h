@@ -11,35 +11,36 @@
 namespace touchstone::process {
 
 enum class ItemState : std::uint8_t {
-  not_run,    // never begun: the failures before it were too many
+  not_run,    // never begun, since too many items failed before it
   running,    // begun, and not ended yet
   done,       // its work returned
   threw,      // its work, or the setup before it, threw
-  crashed,    // it ended the child: a signal, an assertion, exit()
+  crashed,    // its work ended the child: a signal, an assertion, exit()
   timed_out,  // it was stopped
 };
 
-// "ok" of what is done, "threw", "crashed", "timed_out"; "not_run" of what did not end.
+// Returns "ok" for `done`, "threw", "crashed" or "timed_out"; "not_run" for work that did not end.
 std::string_view to_string(ItemState state);
 
-// The status of an answer whose item ended so: ok when it is done, timed_out when it was stopped,
-// otherwise crashed.
+// The status of an answer whose item ended in this state: ok for `done`, timed_out for a stopped
+// item, crashed for all else.
 Status status_of(ItemState state);
 
-// Whether there is no answer because the query ended its process or was stopped.
+// Returns whether an answer is missing because the query ended its process or was stopped.
 inline bool is_lost(Status status) {
   return status == Status::crashed || status == Status::timed_out;
 }
 
 struct IsolationFailure {
   std::size_t item = 0;
-  bool in_setup = false;  // `item` is then the one that the setup was for; it ends the whole work
+  // The setup failed; `item` is the item that it preceded. This ends the whole work.
+  bool in_setup = false;
   ItemState state = ItemState::crashed;
-  int signal = 0;     // that ended the child, or 0
-  int exit_code = 0;  // of a child that left by exit()
-  std::string words;  // what was thrown, or the last that the child printed; may be empty
+  int signal = 0;     // signal that ended the child, or 0
+  int exit_code = 0;  // status of a child that left by exit()
+  std::string words;  // text of the exception, or the last output of the child; may be empty
 
-  // "killed by signal 11 (Segmentation fault)", "no answer in time", ...
+  // Returns words such as "killed by signal 11 (Segmentation fault)" or "no answer in time".
   std::string reason() const;
 };
 

@@ -1,3 +1,4 @@
+// Runs items in children, watches their time, and starts a new child after each failure.
 #include "harness/process/isolate.h"
 
 #include <unistd.h>
@@ -15,22 +16,23 @@ namespace {
 
 constexpr int tick_milliseconds = 20;
 
-// What a child tells its parent, in shared memory.
+// The state that a child shares with its parent.
 struct Progress {
-  // Items begun since the parent made this, counting the setup of each child: goes up whenever the
-  // child's time starts afresh.
+  // Number of items begun since the parent made this, plus one for each child's setup. It goes up
+  // whenever the child's time starts afresh.
   std::atomic<std::uint64_t> beats = 0;
   std::atomic<bool> in_setup = false;
-  std::atomic<std::size_t> item = 0;  // at hand
-  std::atomic<bool> done = false;     // with all items
+  std::atomic<std::size_t> item = 0;  // item at hand
+  std::atomic<bool> done = false;     // all items are done
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
-// What a child does.
+// Runs in the child: the setup, then the items.
 void work_through(std::size_t first, Progress& progress, SharedArray<ItemState>& states,
                   const std::function<ItemWork()>& setup) {
   const ItemWork work = setup();
-  progress.beats.fetch_add(1);  // first: or the setup's time would be held against an item
+  // This comes first, so that the setup's time does not count for an item.
+  progress.beats.fetch_add(1);
   progress.in_setup.store(false);
   for (std::size_t item = first; item < states.size(); ++item) {
     progress.item.store(item);
@@ -40,11 +42,12 @@ void work_through(std::size_t first, Progress& progress, SharedArray<ItemState>&
     states[item] = ItemState::done;
   }
   progress.done.store(true);
-  _exit(EXIT_SUCCESS);  // before `work` goes: what it holds may be broken
+  _exit(EXIT_SUCCESS);  // leaves before `work` is destroyed, which may hold broken data
 }
 
-// Returns when the child has ended; stops it when it takes too long over one item. Returns false
-// when it stopped the child just after that had gone on to another item, which has no fault.
+// Returns when the child has ended, and stops it when it takes too long over one item. Returns
+// false if it stopped the child just after the child had gone on to another item, which is not at
+// fault.
 bool watch(ChildProcess& child, const IsolationLimits& limits, const Progress& progress) {
   std::uint64_t beats = progress.beats.load();
   base::Stopwatch stopwatch;

@@ -12,43 +12,42 @@ namespace touchstone::process {
 
 struct IsolationLimits {
   static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
-  double item_seconds = 5;  // wall clock; an item is stopped at most a twentieth of a second later
-  double setup_seconds = 60;        // the same for the setup of a child
-  std::size_t failures = no_limit;  // no further item is begun after these
-  // Bytes that a child may add to what is there; beyond, its allocations fail. The limit is not
-  // kept under a sanitizer.
+  double item_seconds = 5;  // Wall clock; an item is stopped at most a twentieth of a second later.
+  double setup_seconds = 60;        // wall clock, for the setup of a child
+  std::size_t failures = no_limit;  // no further item is begun after so many failures
+  // Bytes that a child may add to its memory; further allocations fail. The limit is not set under
+  // a sanitizer.
   std::size_t memory = std::size_t{4} << 30;
 };
 
 struct IsolationReport {
-  std::vector<ItemState> states;           // of each item
+  std::vector<ItemState> states;           // one for each item
   std::vector<IsolationFailure> failures;  // in the order of the items
 };
 
 using ItemWork = std::function<void(std::size_t item)>;
 
 // Runs the items 0, 1, ... in order in a child process: `setup` once in each child, then the work
-// that it returned on each item. After a failure a new child goes on at the next item; a failure of
-// the setup would come again, so it ends the work, and its state is that of all items that are
-// left.
+// that it returned on each item. After a failure a new child goes on at the next item. A failure of
+// the setup would come again, so it ends the work, and all remaining items get its state.
 //
-// Results are written to SharedArrays; whatever else the child changes is lost with it. What it
-// prints is kept from the terminal. Its memory is the caller's at the time of the call, but of the
-// caller's threads only the calling one goes on in it: the work must not use an Executor that was
-// made before. The child dies with the caller. An item costs a few stores; there is no fork for it.
+// Results are written to SharedArrays; all other changes that the child makes are lost with it. Its
+// output does not reach the terminal. Its memory is a copy of the caller's at the time of the call,
+// but only the calling thread goes on in it: the work must not use an Executor that was made
+// before. The child dies with the caller. An item costs a few stores, and no fork.
 IsolationReport isolate(std::size_t items, const IsolationLimits& limits,
                         const std::function<ItemWork()>& setup);
 
-// Answers of items that a child answered; an answer has a `status`.
+// The answers of a child, one for each item; an answer has a `status`.
 template <class Answer>
 struct IsolatedAnswers {
-  std::vector<Answer> answers;             // of each item
+  std::vector<Answer> answers;             // one for each item
   std::vector<IsolationFailure> failures;  // in the order of the items
 };
 
-// Runs the items as isolate() does; `setup` returns a function from an item to its answer, which is
-// plain bytes. The answer of an item that was lost is a default one whose status is crashed or
-// timed_out; items that were not begun share the status of the last that was lost.
+// Runs the items as isolate() does; `setup` returns a function from an item to its answer, a plain
+// struct. A lost item gets a default answer with status crashed or timed_out; items that were not
+// begun get the status of the last lost one.
 template <class Answer, class Setup>
 IsolatedAnswers<Answer> isolated_answers(std::size_t items, const IsolationLimits& limits,
                                          const Setup& setup) {

@@ -1,4 +1,4 @@
-// Memory that a forked child and its parent both see.
+// An array in memory that a forked child and its parent share.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,7 +11,7 @@
 
 namespace touchstone::process {
 
-// `size` elements, value-initialised. Elements hold no pointers to memory of their own.
+// An array of `size` value-initialised elements. Elements hold no pointers to memory of their own.
 template <class T>
 class SharedArray {
  public:

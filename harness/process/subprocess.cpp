@@ -1,3 +1,4 @@
+// Starts a program with its output in a file, and waits for it.
 #include "harness/process/subprocess.h"
 
 #include <fcntl.h>

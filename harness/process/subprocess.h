@@ -1,4 +1,4 @@
-// Other programs, started and waited for.
+// Starts another program and waits for it.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace touchstone::process {
 
-// Runs a program, found as a shell finds it, with these arguments; what it prints goes into `log`.
-// Its exit status, or 128 and the number of the signal that ended it. InputError where it cannot be
-// started.
+// Runs a program, found as a shell finds it, with these arguments; its output goes to `log`.
+// Returns its exit status, or 128 plus the number of the signal that ended it. Throws InputError if
+// the program cannot be started.
 int run_and_wait(const std::string& program, const std::vector<std::string>& arguments,
                  const std::filesystem::path& log);
 

@@ -1,3 +1,4 @@
+// Hands jobs to forked workers and takes their results in the order of the jobs.
 #include "harness/process/worker_pool.h"
 
 #include <fcntl.h>
@@ -21,17 +22,17 @@
 namespace touchstone::process {
 namespace {
 
-constexpr double seconds_to_leave = 10;  // of a worker that hung up
+constexpr double seconds_to_leave = 10;  // time that a worker has to leave after it hung up
 
-// What goes before the bytes of a result.
+// The header in front of a result's bytes.
 struct Header {
   std::size_t job = 0;
   std::size_t size = 0;
 };
 
-// What the processes share.
+// The state that all processes share.
 struct Board {
-  std::atomic<std::size_t> next = 0;  // job that no worker has begun
+  std::atomic<std::size_t> next = 0;  // first job that no worker has begun
   std::atomic<std::size_t> taken = 0;
   std::atomic<bool> stop = false;
 };
@@ -47,7 +48,7 @@ void write_all(int descriptor, const void* data, std::size_t size) {
   }
 }
 
-// What a worker does. `at_hand` is the job that it is at.
+// Runs in a worker. `at_hand` is the job that it works on.
 void do_jobs(int output, std::size_t end, std::size_t lead, Board& board, std::size_t& at_hand,
              const std::function<JobWork()>& make) {
   std::signal(SIGPIPE, SIG_IGN);
@@ -55,7 +56,7 @@ void do_jobs(int output, std::size_t end, std::size_t lead, Board& board, std::s
   for (;;) {
     const std::size_t job = board.next.fetch_add(1);
     if (job >= end) break;
-    // Results that wait for an earlier one are held in memory: not too many of them.
+    // Results that wait for an earlier one are held in memory, so their number is limited.
     while (job > board.taken.load() + lead && !board.stop.load()) usleep(1000);
     if (board.stop.load()) break;
     at_hand = job;
@@ -86,11 +87,11 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  int input() const { return input_; }  // -1 when it has ended
+  int input() const { return input_; }  // -1 when the worker has ended
   int words() const { return child_->words(); }
   void listen() { child_->listen(0); }
 
-  // Takes what it has sent. Results that are whole go to `store`.
+  // Reads from the worker, and moves complete results to `store`.
   void receive(std::map<std::size_t, std::string>& store) {
     char buffer[1 << 16];
     const ssize_t got = read(input_, buffer, sizeof buffer);
@@ -141,7 +142,8 @@ void run_jobs(std::size_t first, std::size_t end, int workers, const std::functi
   }
   std::map<std::size_t, std::string> store;
   for (std::size_t next = first; next < end;) {
-    std::vector<pollfd> waiting;  // the results and the words of each worker that is there
+    // the descriptors of the results and of the output of each live worker
+    std::vector<pollfd> waiting;
     std::vector<Worker*> of;
     for (const std::unique_ptr<Worker>& worker : pool) {
       if (worker->input() < 0) continue;
@@ -161,7 +163,7 @@ void run_jobs(std::size_t first, std::size_t end, int workers, const std::functi
       board.taken = ++next;
       if (!take(at->first, std::move(at->second))) {
         board.stop = true;
-        return;  // the pool stops them
+        return;  // the pool stops the workers
       }
     }
   }

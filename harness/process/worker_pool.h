@@ -1,4 +1,4 @@
-// Jobs done by several processes, their results taken in order.
+// Runs jobs in several processes and takes their results in order.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,17 @@
 
 namespace touchstone::process {
 
-// Runs the jobs first, first + 1, ... below `end` in `workers` forked processes, each of which
-// calls `make` once and then its result for each of its jobs. What that returns, any bytes, is
-// handed to `take` in this process, in the order of the jobs; when `take` returns false no further
-// job is begun and its result is the last. The caller has no threads. A worker that ends by itself,
-// or throws, is a std::runtime_error here that names the job; the workers die with the caller.
+// Runs the jobs first, first + 1, ... below `end` in `workers` forked processes. Each process calls
+// `make` once, and the function that `make` returns for each of its jobs. The result, any bytes, is
+// passed to `take` in this process, in the order of the jobs. When `take` returns false, no further
+// job is begun and this result is the last. The caller must have no threads. A worker that throws
+// or ends by itself causes a std::runtime_error here that names the job. The workers die with the
+// caller.
 using JobWork = std::function<std::string(std::size_t job)>;
 void run_jobs(std::size_t first, std::size_t end, int workers, const std::function<JobWork()>& make,
               const std::function<bool(std::size_t job, std::string result)>& take);
 
-// The same for results that are any values of bytes.h: `make` returns a function from a job to its
+// Runs jobs whose results are values of bytes.h: `make` returns a function from a job to its
 // result.
 template <class Result, class Make, class Take>
 void run_jobs(std::size_t first, std::size_t end, int workers, const Make& make, const Take& take) {

@@ -1,3 +1,4 @@
+// Solves a batch of pairs one by one in an isolated child.
 #include "harness/process/queries/guarded_solve.h"
 
 #include <algorithm>

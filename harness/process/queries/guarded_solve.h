@@ -1,4 +1,4 @@
-// A narrow phase run pair by pair where it can do no harm, to find the pair that it fails on.
+// Runs a narrow phase pair by pair in a child process, to find the pair that it fails on.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace touchstone::process {
 
-// Answers the batch pair by pair in a child process, where `make` gives the algorithm with its
-// shapes bound. A query that kills the child gets the status crashed; one that takes longer than
-// `time_limit` seconds gets timed_out, and so does what is left when all queries together have
-// taken that long. After three lost queries the rest shares the status of the last.
+// Answers the batch pair by pair in a child process; `make` returns the algorithm with its shapes
+// bound. A query that kills the child gets the status crashed. A query that takes more than
+// `time_limit` seconds gets timed_out, and so do all that remain when the queries together have
+// taken that long. After three lost queries the rest gets the status of the last.
 void solve_guarded(const std::function<std::unique_ptr<NarrowPhase>()>& make, Task task,
                    const PairBatch& batch, std::span<Outcome> outcomes, double time_limit,
                    std::size_t memory_limit);

@@ -1,3 +1,4 @@
+// Asks queries in children, each under a limit of processor time and one of wall-clock time.
 #include "harness/process/queries/limited_query.h"
 
 #include <sys/time.h>
@@ -16,12 +17,12 @@
 namespace touchstone::process {
 namespace {
 
-constexpr double clock_factor = 20;  // of the processor's time
-constexpr double bind_seconds = 3;   // of the processor
+constexpr double clock_factor = 20;  // wall clock, in units of the processor time
+constexpr double bind_seconds = 3;   // processor time
 constexpr std::size_t memory = std::size_t{1} << 30;
 constexpr std::size_t many_vertices = 5000;
 
-// Ends this process with SIGPROF when it has used so many seconds of the processor; 0: no more.
+// Sets a timer that ends this process with SIGPROF after `seconds` of processor time; 0: no timer.
 void limit_processor_time(double seconds) {
   const double whole = std::floor(seconds);
   itimerval timer = {};
@@ -34,15 +35,15 @@ bool is_large(const Shape& shape) {
   return shape.kind == ShapeKind::hull && shape.hull->vertices.size() > many_vertices;
 }
 
-// What a child keeps of large bodies from query to query.
+// The bound large bodies that a child keeps from query to query.
 using Bound = std::map<const files::Case*, std::unique_ptr<BoundCase>>;
 
 struct Asked {
   struct Range {
     std::size_t first, end;
   };
-  std::vector<ItemState> states;  // of each place
-  std::vector<Range> by_clock;    // places that timed out, but not by the processor's time
+  std::vector<ItemState> states;  // one for each place
+  std::vector<Range> by_clock;    // places that exceeded the wall clock, but not the processor time
 };
 
 class Asker {
@@ -55,7 +56,7 @@ class Asker {
     });
   }
 
-  // Those of the queries that are at these places.
+  // Asks the queries at these places.
   Asked ask(std::span<const std::size_t> places, SharedArray<Outcome>& outcomes) const {
     const IsolationLimits isolation = {.item_seconds = clock_factor * limits_.seconds,
                                        .setup_seconds = clock_factor * bind_seconds,
@@ -107,7 +108,7 @@ std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhas
   std::vector<std::size_t> all(queries.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   Asked asked = asker.ask(all, outcomes);
-  // If it was the machine that stood still, the second time tells.
+  // A second try tells a hanging query from a machine that stood still.
   for (const Asked::Range& range : asked.by_clock) {
     const std::span<const std::size_t> again(all.data() + range.first, range.end - range.first);
     std::ranges::copy(asker.ask(again, outcomes).states,

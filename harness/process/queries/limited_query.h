@@ -1,4 +1,4 @@
-// Queries that may crash or never end, each with a limit of its own.
+// Queries that may crash or hang, each with its own time limit.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +15,20 @@ struct LimitedQuery {
 };
 
 struct QueryLimits {
-  // Of the processor's time that a query may use: what others do on the machine does not make it
-  // hang. One that waits instead is given twenty times as long by the clock, twice.
+  // Processor time of one query; other load on the machine does not count. A query that waits
+  // instead has twenty times as long by the wall clock, twice.
   double seconds = 0.5;
-  std::size_t lost = 3;  // after so many that crashed or hung the rest is not asked
+  std::size_t lost = 3;  // the rest is not asked after so many crashes and hangs
 };
 
-// The outcome of each, in a child process; crashed and timed_out are statuses. The algorithm is
-// made and given its shapes for each case alone (see solve_case.h). For large hulls that takes
-// longer than a query, and is given ten seconds and not counted.
+// Returns the outcome of each query, asked in a child process; crashed and timed_out are statuses.
+// The algorithm is made and given its shapes for each case alone (see solve_case.h). Binding large
+// hulls takes longer than a query, so it has ten seconds of its own.
 std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
                                  const std::vector<LimitedQuery>& queries,
                                  const QueryLimits& limits);
 
-// Whether the outcome is of a query that was not asked, after too many that were lost.
+// Returns whether the query was skipped because too many before it were lost.
 bool is_not_asked(const Outcome& outcome);
 
 }  // namespace touchstone::process

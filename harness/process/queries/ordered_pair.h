@@ -1,5 +1,4 @@
-// Narrow phases are given pairs with kind_a <= kind_b; these turn a pair round, and its answer
-// back.
+// Exchanges the bodies of a pair, and of its outcome: narrow phases take kind_a <= kind_b only.
 #pragma once
 
 #include <utility>
@@ -9,12 +8,12 @@
 
 namespace touchstone::process {
 
-// Whether the pair is to be handed over as (b, a).
+// Returns whether the pair must be passed as (b, a).
 constexpr bool needs_swap(ShapeKind a, ShapeKind b) { return b < a; }
 
-// The outcome of the pair (b, a), from that of (a, b).
+// Turns the outcome of the pair (a, b) into that of (b, a).
 inline Outcome swapped(Outcome outcome) {
-  outcome.normal = Vec3d::Zero() - outcome.normal;  // a zero stays positive
+  outcome.normal = Vec3d::Zero() - outcome.normal;  // 0 - n keeps a zero positive
   std::swap(outcome.witness_a, outcome.witness_b);
   return outcome;
 }

@@ -1,3 +1,4 @@
+// Binds an algorithm to one case and solves its pair.
 #include "harness/process/queries/solve_case.h"
 
 #include <array>

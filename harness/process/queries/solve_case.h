@@ -1,4 +1,4 @@
-// One query about one case, as `query` asks it and `check` grades it.
+// Solves one case, for `query` as for `check`.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace touchstone::process {
 
-// An algorithm that was made for a case and given its two shapes alone. The entry is built and
-// takes such pairs; the case stays alive.
+// An algorithm that is made for one case and bound to its two shapes alone. The entry must be built
+// and take such pairs; the case must outlive this object.
 class BoundCase {
  public:
   BoundCase(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
             const files::Case& c);
-  BoundCase(const BoundCase&) = delete;  // the algorithm knows the place of the shapes
+  BoundCase(const BoundCase&) = delete;  // the algorithm points to the shapes
   BoundCase& operator=(const BoundCase&) = delete;
 
-  // As solve_case has it.
+  // Answers as solve_case does.
   Outcome solve(Task task);
 
  private:
@@ -27,9 +27,9 @@ class BoundCase {
   std::unique_ptr<NarrowPhase> narrow_phase_;
 };
 
-// The outcome in the case's own order, with what the task asks for and no more: an algorithm may
-// know more, but then knows it by chance. The algorithm is bound for the query alone, so that no
-// case can spoil another's answer.
+// Returns the outcome in the case's own order, with only what the task asks for: further values
+// that an algorithm fills in are not part of its promise. The algorithm is bound for the query
+// alone, so that no case can spoil another's answer.
 Outcome solve_case(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
                    const files::Case& c, Task task);
 

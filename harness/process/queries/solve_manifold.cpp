@@ -1,3 +1,4 @@
+// Finds the contact manifold of one case.
 #include "harness/process/queries/solve_manifold.h"
 
 #include <array>
@@ -10,9 +11,9 @@
 namespace touchstone::process {
 namespace {
 
-// The manifold of the pair (b, a), from that of (a, b).
+// Turns the manifold of the pair (a, b) into that of (b, a).
 Manifold swapped(Manifold manifold) {
-  manifold.normal = Vec3d::Zero() - manifold.normal;  // a zero stays positive
+  manifold.normal = Vec3d::Zero() - manifold.normal;  // 0 - n keeps a zero positive
   for (ContactPoint& point : manifold.points) std::swap(point.on_a, point.on_b);
   return manifold;
 }

@@ -1,4 +1,4 @@
-// The contact manifold of one case.
+// Finds the contact manifold of one case.
 #pragma once
 
 #include "algorithms/registry.h"
@@ -6,8 +6,8 @@
 
 namespace touchstone::process {
 
-// In the case's own order. The algorithm is made for the query and given the two shapes alone. The
-// entry is built and takes such pairs.
+// Returns the manifold in the case's own order. The algorithm is made for the query and given the
+// two shapes alone. The entry must be built and take such pairs.
 Manifold solve_manifold(const ManifoldEntry& entry, const ManifoldSettings& settings,
                         const files::Case& c);
 
