@@ -1,3 +1,4 @@
+// Adds graded answers to counts and keeps the greatest errors.
 #include "harness/grade/answer_count.h"
 
 #include <algorithm>

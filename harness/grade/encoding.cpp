@@ -1,3 +1,4 @@
+// Converts a case exactly to each encoding.
 #include "harness/grade/encoding.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ double rounded(double x) { return static_cast<double>(static_cast<float>(x)); }
 
 Vec3d rounded(const Vec3d& v) { return v.cast<float>().cast<double>(); }
 
-// Of a hull the vertices relative to the centre.
+// Moves the shape by -centre; a hull's vertices become relative to the centre.
 Shape centred(const Shape& shape, const Vec3d& centre) {
   Shape out = shape;
   if (shape.kind == ShapeKind::hull) {

@@ -7,18 +7,17 @@
 
 namespace touchstone::grade {
 
-// The pair's signed distance is that of what an algorithm of this encoding is given; its place in
-// the world is the case's but for the relative ones, which have the first body's centre at the
-// origin.
+// The two bodies that an algorithm of this encoding is given. Their place in the world is that of
+// the case, except with the relative encodings, which put the first body's centre at the origin.
 class EncodedPair {
  public:
   EncodedPair(const files::Case& c, Encoding encoding);
-  EncodedPair(const EncodedPair&) = delete;  // the bodies know the place of their solids
+  EncodedPair(const EncodedPair&) = delete;  // the bodies point to their solids
   EncodedPair& operator=(const EncodedPair&) = delete;
 
   const oracle::Body& a() const { return a_; }
   const oracle::Body& b() const { return b_; }
-  // False where a number has left the range of floats: then there is no such problem.
+  // Returns false if a number is beyond the range of floats: then the problem does not exist.
   bool is_finite() const { return finite_; }
 
  private:

@@ -1,3 +1,4 @@
+// Judges the side of contact and measures the errors of numbers.
 #include "harness/grade/grade.h"
 
 #include <algorithm>
@@ -10,14 +11,14 @@ namespace {
 constexpr std::array<std::string_view, 7> verdict_names = {
     "right", "silent_error", "honest_failure", "crashed", "timed_out", "unsupported", "unscored"};
 
-// x less the nearest value of [lower, upper]. Equal infinities are no error.
+// Returns x less the nearest value of [lower, upper]. Equal infinities are no error.
 double outside(double x, double lower, double upper) {
   if (x > upper) return x - upper;
   if (x < lower) return x - lower;
   return std::isnan(x) ? x : 0;
 }
 
-// The range of x - y for x in one enclosure and y in another, as outside() has it for one number.
+// Returns the distance between two enclosures, signed as in outside(); 0 if they overlap.
 double apart(double lower, double upper, double other_lower, double other_upper) {
   if (lower > other_upper) return lower - other_upper;
   if (upper < other_lower) return upper - other_lower;
@@ -32,10 +33,10 @@ double bounds_error(const Outcome& outcome, const oracle::Measure& exact) {
   return error;
 }
 
-// How far b is to be moved along n until the bodies are separated (less than 0: how far they are
-// apart along n). The difference of a body and a half-space is a half-space, of which only one
-// direction has a support, and that is seldom the reported one to the last bit; so there the exact
-// depth is divided by the cosine between the two.
+// Encloses the length by which b must move along n until the bodies are separated (negative: the
+// gap along n). The difference of a body and a half-space is a half-space, which has a support in
+// one direction only, and the reported direction seldom equals that one to the last bit. There the
+// exact depth is divided by the cosine between the two directions.
 oracle::Enclosure needed_along(const oracle::Measure& exact, const oracle::Body& a,
                                const oracle::Body& b, const Vec3d& n) {
   const oracle::Enclosure along = oracle::separation_along(a, b, n);
@@ -108,7 +109,7 @@ Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, con
   }
   grade.bounds_error = bounds_error(outcome, exact);
   if (!stands_by(outcome) || !asks_for_distance(task, outcome.answer)) return grade;
-  // What is known of a pair on the other side of contact says nothing about this number.
+  // The number has nothing to be compared with if the exact answer is on the other side of contact.
   const bool both_apart = task == Task::distance && !(exact.upper < 0);
   const bool both_meet = task == Task::penetration && !(exact.lower > 0);
   if (!both_apart && !both_meet) return grade;

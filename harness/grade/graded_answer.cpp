@@ -1,3 +1,4 @@
+// Computes all grades of one answer.
 #include "harness/grade/graded_answer.h"
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 namespace touchstone::grade {
 namespace {
 
-// The greatest of the numbers that a distance is the difference of, in metres: a hull and a
-// half-space may lie away from their own origins, and a half-space has no centre to be near.
+// Returns the greatest coordinate whose differences give a distance, in metres: a hull or a
+// half-space may lie away from its own origin, and a half-space has no centre.
 double greatest_coordinate(const files::Case& c) {
   double greatest = 0;
   for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
@@ -24,7 +25,8 @@ double greatest_coordinate(const files::Case& c) {
   return greatest;
 }
 
-// Of that, what counts as size: seen only where bodies are points, or nearly so.
+// The part of that coordinate that counts as size; it matters only if bodies are points, or nearly
+// so.
 constexpr double coordinate_share = 1e-3;
 
 }  // namespace

@@ -1,3 +1,4 @@
+// The table of margins.
 #include "harness/grade/margins.h"
 
 #include <limits>

@@ -1,3 +1,4 @@
+// Compares outcomes with exact answers, pair by pair.
 #include "harness/grade/outcome_check.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace touchstone::grade {
 namespace {
 
-// The greatest extent and coordinate of a body, from its box; a half-space has none of its own.
+// Grows the greatest extent and coordinate by a body's box; a half-space has no box.
 void grow(ReferenceOutcome& reference, const Shape& shape, const Pose& pose) {
   if (shape.kind == ShapeKind::halfspace) {
     reference.reach = std::max(reference.reach, std::abs(shape.offset));
@@ -65,7 +66,7 @@ OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
       case Verdict::silent_error: {
         ++faults.compared;
         const double by = std::abs(expected.distance);
-        // Written so that an unknown distance counts as a disagreement.
+        // The comparison is written so that an unknown distance counts as a disagreement.
         if (by <= grazing_band(expected.size, expected.reach, scalar)) {
           ++faults.grazing;
         } else {

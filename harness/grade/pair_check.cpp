@@ -1,3 +1,4 @@
+// Compares two sorted lists of pairs.
 #include "harness/grade/pair_check.h"
 
 #include <fmt/core.h>

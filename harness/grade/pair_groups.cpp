@@ -1,3 +1,4 @@
+// Sorts pairs into groups by the kinds of their shapes.
 #include "harness/grade/pair_groups.h"
 
 #include <fmt/core.h>

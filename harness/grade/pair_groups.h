@@ -1,4 +1,4 @@
-// Pairs of bodies, sorted into batches of one kind of shapes.
+// Pairs of bodies, grouped into batches of one kind pair.
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@ struct PairGroup {
 
   std::size_t size() const { return first.size(); }
   std::string name() const;  // "box-sphere"
-  // Pairs [begin, end) of the group as a batch.
+  // Returns the pairs [begin, end) of the group as a batch.
   PairBatch batch(std::span<const std::uint32_t> shape_of, std::span<const Pose> poses,
                   std::size_t begin, std::size_t end) const;
 };
 
-// Pairs that are sorted by their kinds as they are added. It keeps its memory when it is cleared.
+// Groups pairs by their kinds as they are added. It keeps its memory when it is cleared.
 class PairGrouping {
  public:
   static constexpr std::size_t kinds = all_shape_kinds.size();
@@ -38,15 +38,15 @@ class PairGrouping {
   // Returns the index of the pair's group.
   std::size_t add(std::uint32_t first, ShapeKind first_kind, std::uint32_t second,
                   ShapeKind second_kind);
-  // By index; many are empty.
+  // All groups by index; many are empty.
   std::span<const PairGroup> groups() const { return groups_; }
 
  private:
   std::array<PairGroup, kinds * kinds> groups_;
 };
 
-// In the order of the kinds; within a group in the order of `pairs`. Groups without pairs are left
-// out.
+// Returns the groups in the order of the kinds, and within a group in the order of `pairs`. Groups
+// without pairs are left out.
 std::vector<PairGroup> group_by_kind(std::span<const IndexPair> pairs,
                                      std::span<const Shape> shapes,
                                      std::span<const std::uint32_t> shape_of);

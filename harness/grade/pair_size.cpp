@@ -1,3 +1,4 @@
+// Computes the size of a pair from its shapes.
 #include "harness/grade/pair_size.h"
 
 #include <algorithm>

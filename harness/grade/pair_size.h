@@ -1,17 +1,16 @@
-// The size of a pair.
+// The size of a pair, in metres: the unit of tolerances.
 #pragma once
 
 #include "harness/files/cases.h"
 
 namespace touchstone::grade {
 
-// What tolerances are relative to, in metres: the greatest extent of the two bounded bodies, each
-// along its own axes (the longest side of a box, the diameter of a sphere, the longest side of the
-// box around a hull's vertices, whatever the poses). Half-spaces do not count; 0 where nothing has
-// an extent.
+// Returns the greatest extent of the two bounded bodies, each along its own axes, whatever the
+// poses: the longest side of a box, the diameter of a sphere, the longest side of the box around a
+// hull's vertices. Half-spaces do not count. Returns 0 if nothing has an extent.
 double pair_size(const files::Case& c);
 
-// The same for one shape.
+// Returns the size of one shape, by the rule of pair_size.
 double shape_size(const Shape& shape);
 
 }  // namespace touchstone::grade

@@ -1,3 +1,4 @@
+// Finds exact answers for a case when they are first asked for.
 #include "harness/grade/true_case.h"
 
 #include <limits>

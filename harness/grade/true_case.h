@@ -1,4 +1,4 @@
-// A case with its exact answers.
+// A case with its exact answers, one for each encoding.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@ namespace touchstone::grade {
 
 class TrueCase {
  public:
-  // The oracle stays alive.
+  // The oracle must outlive this object.
   TrueCase(files::Case c, std::uint64_t index, oracle::Oracle& oracle);
 
-  // What is true of the pair in an encoding.
+  // The exact answer for the pair in an encoding.
   struct Truth {
     EncodedPair pair;
-    oracle::Measure measure;  // of anything between the infinities where the pair is not finite
+    oracle::Measure measure;  // spans all numbers if the pair is not finite
     Truth(const files::Case& c, Encoding encoding, oracle::Oracle& oracle);
   };
-  const Truth& truth(Encoding encoding);  // found when it is first asked for
+  const Truth& truth(Encoding encoding);  // computed on the first call
 
   const files::Case& pair() const { return case_; }
   std::uint64_t index() const { return index_; }

@@ -1,3 +1,4 @@
+// Decides whether an answer is wrong, and says so in words.
 #include "harness/grade/wrong.h"
 
 #include <fmt/format.h>
@@ -11,14 +12,14 @@
 namespace touchstone::grade {
 namespace {
 
-// Whether the answer is on the wrong side of contact, and may not be.
+// Returns whether the answer is on the wrong side of contact without being allowed to.
 bool is_wrong_side(const NarrowPhaseEntry& entry, const GradedAnswer& answer, const Grade& grade) {
   return grade.verdict == Verdict::silent_error &&
          !(entry.traits.approximate && is_contact(answer.answer));
 }
 
 // Calls visit(words, error in metres, margin as a part of the scale) for each distance and depth of
-// the answer. An error that is not known is NaN.
+// the answer. An unknown error is NaN.
 template <class Visit>
 void for_each_length(const NarrowPhaseEntry& entry, const GradedAnswer& answer, const Grade& grade,
                      const Margins& margins, const Visit& visit) {
@@ -42,7 +43,7 @@ bool is_wrong(const NarrowPhaseEntry& entry, const GradedAnswer& answer, const G
   return wrong;
 }
 
-// Sentences, joined by semicolons.
+// Collects remarks and joins them by semicolons.
 class Remarks {
  public:
   void add(const std::string& text) { text_ += (text_.empty() ? "" : "; ") + text; }

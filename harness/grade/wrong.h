@@ -1,9 +1,9 @@
-// Whether a graded answer is wrong, by how much, and in words.
+// Decides whether a graded answer is wrong, by how much, and says it in words.
 //
-// An answer is wrong when the algorithm stands by it, or cannot say, and it is on the wrong side of
-// contact or a number in it is beyond the documented margin (margins.h). Certified bounds that miss
-// are wrong whatever the status. An approximate algorithm may call bodies overlapping that are
-// apart; a depth that is labelled as a bound may be too great.
+// An answer is wrong if the algorithm stands by it, or reports no status, and it is on the wrong
+// side of contact or contains a number beyond the documented margin (margins.h). Certified bounds
+// that miss are wrong whatever the status. An approximate algorithm may report separate bodies as
+// overlapping; a depth that is labelled as a bound may be too great.
 #pragma once
 
 #include <array>
@@ -16,14 +16,15 @@
 
 namespace touchstone::grade {
 
-// What became of a query. No margin forgives the wrong side of contact here; bodies that touch
-// exactly are on either side.
+// Classes of answers. No margin forgives the wrong side of contact here; for bodies that touch
+// exactly either side is right.
 enum class AnswerClass : std::uint8_t {
   right,
-  rounded,  // right about what the algorithm was given, wrong about the pair: the conversion of the
-            // input to its scalar or frame did that
-  honest,   // no answer, or one that the algorithm does not stand by
-  silent,   // wrong, and nothing says so
+  // Right for the given problem but wrong for the case: the conversion of the input to the
+  // algorithm's scalar or frame caused the error.
+  rounded,
+  honest,  // no answer, or one that the algorithm does not stand by
+  silent,  // wrong without any sign of it
   crashed,
   hung,
 };
@@ -34,20 +35,20 @@ std::string_view to_string(AnswerClass one);
 
 AnswerClass class_of(const NarrowPhaseEntry& entry, const GradedAnswer& answer, bool extreme);
 
-// The exact signed distance that was called wrongly, and the greatest error of a number, as a part
-// of the scale, against what was given; NaN where there is none.
+// Return the exact signed distance of a wrong verdict, and the greatest error of a number, as parts
+// of the scale, against the given problem; NaN if there is none.
 double wrong_margin(const NarrowPhaseEntry& entry, const GradedAnswer& answer);
 double worst_error(const NarrowPhaseEntry& entry, const GradedAnswer& answer);
 
-// What of an answer is beyond the documented margins, end to end, in words; empty where nothing is.
+// Describes the excess over the documented margins, end to end; empty if there is none.
 std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& answer, bool extreme);
 
-// What is wrong with an answer, in words: beyond the margins if `answer.beyond`, otherwise against
-// what was given.
+// Describes what is wrong with an answer: beyond the margins if `answer.beyond`, otherwise against
+// the given problem.
 std::string describe(const NarrowPhaseEntry& entry, const GradedAnswer& answer, bool extreme);
 
-// How bad an answer is against what was given; 0 where there is nothing to show. A crash is worse
-// than a hang, that is worse than a silent error, and that is worse than a wrong number.
+// Returns how bad an answer is against the given problem; 0 if it is right. A crash is worse than a
+// hang, a hang worse than a silent error, and that is worse than a wrong number.
 double badness(const GradedAnswer& answer);
 
 }  // namespace touchstone::grade

@@ -1,3 +1,4 @@
+// Writes and removes files of cases.
 #include "harness/grade/failures/case_files.h"
 
 #include <system_error>

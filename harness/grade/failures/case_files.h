@@ -1,4 +1,4 @@
-// Files of cases in a folder, a case a line.
+// Files of cases in a folder, one case per line.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace touchstone::grade {
 
-// Each file is made when its first line comes.
+// Writes several such files; each is created with its first line.
 class CaseFiles {
  public:
   explicit CaseFiles(std::filesystem::path folder);
 
   // Appends a line to NAME.jsonl; returns the file's path.
   std::filesystem::path add(const std::string& name, const std::string& line);
-  // InputError when a file could not be written.
+  // Throws InputError if a file could not be written.
   void close();
 
  private:

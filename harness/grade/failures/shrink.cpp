@@ -1,3 +1,4 @@
+// Shrinks a failing case step by step: vertices, kinds, poses, numbers.
 #include "harness/grade/failures/shrink.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace touchstone::grade {
 namespace {
 
-// To so many significant decimal digits.
+// Rounds x to this number of significant decimal digits.
 double rounded(double x, int digits) {
   std::array<char, 40> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), x,
@@ -25,7 +26,7 @@ double rounded(double x, int digits) {
   return result;
 }
 
-// Digits of the shortest decimal number that reads back as x; 0 for zero.
+// Returns the number of digits of the shortest decimal number that reads back as x; 0 for zero.
 int digits_of(double x) {
   if (x == 0) return 0;
   std::array<char, 40> text{};
@@ -37,7 +38,7 @@ int digits_of(double x) {
   return digits;
 }
 
-// Whether nothing that had a size has lost it, so that a solid does not become flat.
+// Returns whether every size that was not zero is still not zero, so that a solid stays solid.
 bool keeps_sizes(const Shape& before, const Shape& after) {
   if (before.kind != after.kind) return true;
   const auto kept = [](double x, double y) { return x == 0 || y > 0; };
@@ -76,7 +77,7 @@ class Shrinker {
       return false;
     }
     for (Pose* pose : {&candidate.pose_a, &candidate.pose_b}) {
-      pose->translation.array() += 0.0;  // no negative zeros
+      pose->translation.array() += 0.0;  // turns negative zeros into positive ones
     }
     --budget_;
     if (!still_fails_(candidate)) return false;
@@ -85,8 +86,7 @@ class Shrinker {
     return true;
   }
 
-  // --- vertices
-  // -----------------------------------------------------------------------------------
+  // --- vertices ----------------------------------------------------------------------------------
 
   void drop_vertices(Shape files::Case::*shape) {
     if ((best_.*shape).kind != ShapeKind::hull) return;
@@ -104,8 +104,7 @@ class Shrinker {
     }
   }
 
-  // --- kinds of shapes
-  // ----------------------------------------------------------------------------
+  // --- kinds of shapes ---------------------------------------------------------------------------
 
   void simplify_shapes() {
     for (Shape files::Case::*shape : {&files::Case::shape_a, &files::Case::shape_b}) {
@@ -121,10 +120,9 @@ class Shrinker {
     }
   }
 
-  // --- places and rotations
-  // -----------------------------------------------------------------------
+  // --- places and rotations ----------------------------------------------------------------------
 
-  // Hulls need no rotation of their own, and their first vertex can be the local origin.
+  // Gives hulls the identity as rotation, and makes their first vertex the local origin.
   void bake_poses() {
     for (const bool first : {true, false}) {
       Shape files::Case::*shape = first ? &files::Case::shape_a : &files::Case::shape_b;
@@ -152,8 +150,8 @@ class Shrinker {
     }
   }
 
-  // Both bodies, so that one of them is at the origin and not turned: the first if possible, but
-  // rather a body that is no hull.
+  // Moves both bodies so that one is at the origin with the identity as rotation: the first one,
+  // but preferably a body that is no hull.
   void move_to_origin() {
     std::array<Pose files::Case::*, 2> order = {&files::Case::pose_a, &files::Case::pose_b};
     if (best_.shape_a.kind == ShapeKind::hull && best_.shape_b.kind != ShapeKind::hull) {
@@ -188,7 +186,7 @@ class Shrinker {
       }
       if (try_rotation(pose, Mat3d::Identity())) continue;
       if (try_rotation(pose, nearest_signed_permutation((best_.*pose).rotation))) continue;
-      // Quaternions of whole numbers: the next greater ones are twice as close.
+      // Quaternions of whole numbers: each step up in size halves the error.
       const std::array<double, 4> q = quaternion_of((best_.*pose).rotation);
       for (double steps = 1; steps <= 1024; steps *= 2) {
         std::array<double, 4> whole;
@@ -199,7 +197,7 @@ class Shrinker {
   }
 
   bool try_rotation(Pose files::Case::*pose, const Mat3d& rotation) {
-    // A rotation that was found before is not changed for a finer one.
+    // A rotation that was found before is not replaced by a finer one.
     if ((best_.*pose).rotation == rotation) return true;
     files::Case candidate = best_;
     (candidate.*pose).rotation = rotation;
@@ -223,18 +221,17 @@ class Shrinker {
     return best->matrix();
   }
 
-  // The greatest part is 1.
+  // Scales the quaternion so that its greatest part is 1.
   static std::array<double, 4> quaternion_of(const Mat3d& m) {
     const Eigen::Quaterniond q(m);
     const double greatest = q.coeffs().cwiseAbs().maxCoeff();
     return {q.w() / greatest, q.x() / greatest, q.y() / greatest, q.z() / greatest};
   }
 
-  // --- numbers
-  // ------------------------------------------------------------------------------------
+  // --- numbers -----------------------------------------------------------------------------------
 
-  // Every length and coordinate of a case, in an order that only depends on its shapes. Those of
-  // hulls are in `vertices`, from which the hulls are to be built again.
+  // All lengths and coordinates of a case, in an order that depends only on its shapes. Those of
+  // hulls are in `vertices`, from which the hulls must be rebuilt.
   struct Numbers {
     std::array<std::vector<Vec3d>, 2> vertices;
     std::vector<double*> all;
@@ -272,8 +269,8 @@ class Shrinker {
     }
   }
 
-  // The case with each number x replaced by change(place, x); false where nothing changes, or where
-  // a half-space would lose its normal.
+  // Replaces each number x by change(place, x). Returns false if nothing changes, or if a
+  // half-space would lose its normal.
   template <class Change>
   bool try_numbers(Change change) {
     files::Case candidate = best_;
@@ -298,7 +295,7 @@ class Shrinker {
 
   void round_all() {
     constexpr std::array<int, 7> few_digits = {1, 2, 3, 4, 6, 9, 13};
-    // All at once first.
+    // The first try changes all numbers at once.
     for (const int digits : few_digits) {
       if (try_numbers([&](std::size_t, double x) { return rounded(x, digits); })) break;
     }

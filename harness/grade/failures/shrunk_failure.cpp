@@ -1,3 +1,4 @@
+// Shrinks a failing case in a child process and describes what is wrong with it.
 #include "harness/grade/failures/shrunk_failure.h"
 
 #include <cmath>
@@ -14,10 +15,10 @@ namespace touchstone::grade {
 namespace {
 
 constexpr int shrink_budget = 400;           // queries
-constexpr double shrink_seconds = 1;         // wall clock, of a case
-constexpr std::size_t most_bytes = 1 << 20;  // of a shrunk case
+constexpr double shrink_seconds = 1;         // wall clock, for one case
+constexpr std::size_t most_bytes = 1 << 20;  // size of a shrunk case, bytes
 
-// Asks in this process.
+// Asks the query in this process.
 GradedAnswer ask(const FailedQuery& failed, const files::Case& c, oracle::Oracle& oracle) {
   TrueCase true_case(c, failed.answer.index, oracle);
   const Query query = query_of(failed.answer);
@@ -26,12 +27,12 @@ GradedAnswer ask(const FailedQuery& failed, const files::Case& c, oracle::Oracle
       process::solve_case(*failed.algorithm, {.scalar = query.scalar}, c, query.task));
 }
 
-// Shrinking may turn a body into one of another kind.
+// Returns whether the algorithm takes the kinds of the case, which shrinking may have changed.
 bool offers_kinds(const FailedQuery& failed, const files::Case& c) {
   return offers(*failed.algorithm, c.shape_a.kind, c.shape_b.kind, failed.answer.task);
 }
 
-// Whether the query kills its process.
+// Returns whether the query kills its process.
 bool crashes(const FailedQuery& failed, const files::Case& c) {
   const auto solved =
       process::isolated_answers<Outcome>(1, {.item_seconds = failed.time_limit}, [&] {
@@ -43,7 +44,7 @@ bool crashes(const FailedQuery& failed, const files::Case& c) {
   return solved.answers[0].status == Status::crashed;
 }
 
-// A smaller case may be a little less wrong, and no more than that.
+// Returns whether the smaller case is about as wrong: it may be a little less wrong.
 bool is_alike(const GradedAnswer& small, const GradedAnswer& failure) {
   if (failure.beyond && !small.beyond) return false;
   if (small.given.verdict != failure.given.verdict) return false;
@@ -55,7 +56,7 @@ bool is_alike(const GradedAnswer& small, const GradedAnswer& failure) {
 
 files::Case shrunk(const FailedQuery& failed) {
   const GradedAnswer& failure = failed.answer;
-  // Without a measure of it nothing tells whether a smaller case is as bad.
+  // Without a badness there is no way to tell whether a smaller case is as bad.
   if (failure.given.verdict == Verdict::timed_out || badness(failure) == 0) return failed.original;
   oracle::Oracle oracle;
   const base::Stopwatch watch;

@@ -1,4 +1,4 @@
-// A wrong answer, asked again about a case that is as small as can be.
+// A failing query, with its case made as small as possible.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@ namespace touchstone::grade {
 
 struct FailedQuery {
   const NarrowPhaseEntry* algorithm;
-  bool extreme;       // of the regime, see margins.h
-  double time_limit;  // seconds a query
+  bool extreme;       // trait of the regime, see margins.h
+  double time_limit;  // seconds for one query
   files::Case original;
-  GradedAnswer answer;  // about the original
+  GradedAnswer answer;  // the answer for the original
 };
 
 struct ShrunkFailure {
-  GradedAnswer answer;  // about the case in the line
-  // A line of a case file: the case, the exact answer and what is wrong, as keys that a reader of
-  // cases passes over.
+  GradedAnswer answer;  // the answer for the case in the line
+  // A line of a case file: the case, and further keys, which readers of cases ignore, for the exact
+  // answer and the fault.
   std::string line;
 
   template <class Visit>
@@ -29,8 +29,8 @@ struct ShrunkFailure {
   }
 };
 
-// Shrinks the case as far as it still fails in the same way, for at most a second, in a child
-// process: a query that is tried on the way may kill it. Then the case stays as it is.
+// Shrinks the case while it still fails in the same way, for at most a second. This takes place in
+// a child process, since a query on the way may kill it; in that event the case stays as it is.
 ShrunkFailure shrunk_failure(const FailedQuery& failed);
 
 }  // namespace touchstone::grade

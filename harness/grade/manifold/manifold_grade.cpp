@@ -1,3 +1,4 @@
+// Grades contact manifolds against exact distances and touching areas.
 #include "harness/grade/manifold/manifold_grade.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ const NarrowPhaseEntry& oracle() {
   return *entry;
 }
 
-// Metres; zero inside. By the oracle.
+// Returns the oracle's distance of a point from a body, metres; zero inside.
 double distance_from(const Shape& shape, const Pose& pose, const Vec3d& point) {
   static const std::shared_ptr<const Hull> at_origin = make_hull({Vec3d::Zero()});
   files::Case c;
@@ -31,9 +32,9 @@ double distance_from(const Shape& shape, const Pose& pose, const Vec3d& point) {
   return outcome.distance;
 }
 
-// An area below this part of the size's square is none.
+// Smaller areas, as a part of the squared size, count as none.
 constexpr Real least_area = 1e-14L;
-// Depths that are this part of the size from the deepest are as deep.
+// Depths within this part of the size of the deepest count as equal to it.
 constexpr Real same_depth = 1e-14L;
 
 }  // namespace

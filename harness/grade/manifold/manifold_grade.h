@@ -1,5 +1,5 @@
-// Contact manifolds held to the bodies themselves: by the oracle, and by the area in which two
-// faces touch, cut out in long double by other means than the algorithms have.
+// Grades of contact manifolds against the bodies themselves. Distances come from the oracle. The
+// area in which two faces touch is clipped in long double, in a way that no algorithm uses.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace touchstone::grade {
 
-// What is graded against, found once for each case.
+// The exact answers for one case.
 struct ManifoldTruth {
-  double size = 1;  // of the pair, metres
-  // Of the least penetration, metres: the middle of the oracle's interval, which is wide for some
-  // curved bodies. Negative where the bodies are apart.
+  double size = 1;  // size of the pair, metres
+  // The least penetration, metres, and its bounds. `depth` is the middle of the oracle's interval,
+  // which is wide for some curved bodies. The values are negative if the bodies are apart.
   double depth = 0, least_depth = 0, greatest_depth = 0;
 
   bool overlap() const { return depth > 0; }
@@ -21,24 +21,24 @@ struct ManifoldTruth {
 
 ManifoldTruth manifold_truth(const files::Case& c);
 
-// Lengths as a part of the pair's size.
+// Grades of one manifold. Lengths are parts of the pair's size.
 struct ManifoldGrade {
-  bool missed = false;     // no point, though the bodies overlap
-  double off_body = 0;     // the greatest distance of a point on_a from a, or on_b from b
-  double off_line = 0;     // the greatest distance of on_a - on_b from depth * normal
-  double depth_error = 0;  // of the deepest point, beyond the oracle's interval
-  double apart = 0;        // the greatest gap at a point: how far from touching a place is
-  // The area between the points, seen along the normal, as a part of the greatest that four
-  // corners of the contact area span of which one is the deepest; and of all of it. At most 1: who
-  // reports places that are apart may have more. Only where both bodies are boxes, solid hulls or
-  // half-spaces and their faces, within 20 degrees of each being across the normal, touch in an
-  // area.
+  bool missed = false;     // the manifold has no point, though the bodies overlap
+  double off_body = 0;     // greatest distance of a point on_a from a, or on_b from b
+  double off_line = 0;     // greatest distance of on_a - on_b from depth * normal
+  double depth_error = 0;  // error of the deepest point, beyond the oracle's interval
+  double apart = 0;        // greatest gap between the bodies at a point
+  // The area spanned by the points, seen along the normal, as a part of two others: the greatest
+  // area of four corners of the contact area that include the deepest, and the whole contact area.
+  // At most 1: points at which the bodies are apart could span more. Known only if both bodies are
+  // boxes, solid hulls or half-spaces, and their faces touch in an area and lie within 20 degrees
+  // of the plane across the normal.
   std::optional<double> of_best_four, of_all;
 };
 
 ManifoldGrade grade(const files::Case& c, const ManifoldTruth& truth, const Manifold& manifold);
 
-// What rounding of world coordinates may put a point off by, as a part of the size.
+// Returns the error of a point that rounding of world coordinates explains, as a part of the size.
 double coordinate_rounding(const files::Case& c, const ManifoldTruth& truth);
 
 }  // namespace touchstone::grade

@@ -1,3 +1,4 @@
+// Tabulates grades of manifolds, and lists broken promises of ours.
 #include "harness/grade/manifold/manifold_tally.h"
 
 #include <fmt/format.h>
@@ -10,14 +11,14 @@
 namespace touchstone::grade {
 namespace {
 
-// What ours promise, as a part of the size.
+// The promises of our algorithms, as parts of the size.
 struct Limits {
   double off_body, depth_error;
 };
 constexpr Limits limits_of(Precision scalar) {
   return scalar == Precision::float64 ? Limits{1e-13, 1e-8} : Limits{1e-4, 1e-4};
 }
-constexpr double least_area = 0.9;  // of the best four, in double
+constexpr double least_area = 0.9;  // as a part of the best four, in double
 
 const std::vector<std::string> header = {
     "pairs", "algorithm",         "asked",  "missed",     "points", "off body", "depth error",

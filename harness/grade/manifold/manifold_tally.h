@@ -1,4 +1,4 @@
-// Grades of contact manifolds, gathered by family of cases and algorithm.
+// Grades of contact manifolds, by family of cases and algorithm.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@ namespace touchstone::grade {
 
 class ManifoldTally {
  public:
-  // `algorithm` as it is to be called in the tables. Ours are held to what they promise.
+  // Adds a grade under the table's name for the algorithm. Ours are held to their promises.
   void add(const std::string& family, const std::string& algorithm, const AlgorithmInfo& info,
            Precision scalar, const files::Case& c, const ManifoldTruth& truth,
            const Manifold& manifold);
 
-  // A row for each family and algorithm: how often it was asked and missed, and the worst of each
-  // grade.
+  // Returns a table with a row for each family and algorithm: cases asked and missed, and the worst
+  // of each grade.
   std::string text(std::size_t page_width) const;
   std::string markdown() const;
 
-  // What of ours is beyond what it promises, a line each; empty where nothing is.
+  // Lists the broken promises of ours, one line each; empty if there are none.
   const std::vector<std::string>& ours_wrong() const { return wrong_; }
 
  private:
@@ -39,7 +39,7 @@ class ManifoldTally {
 
   std::vector<std::vector<std::string>> cells() const;
 
-  std::vector<std::pair<Key, Worst>> rows_;  // in the order of their coming
+  std::vector<std::pair<Key, Worst>> rows_;  // in the order in which they were added
   std::vector<std::string> wrong_;
 };
 

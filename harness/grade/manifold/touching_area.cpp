@@ -1,3 +1,4 @@
+// Clips two outlines against each other in long double.
 #include "harness/grade/manifold/touching_area.h"
 
 #include <algorithm>
@@ -10,11 +11,11 @@ namespace {
 
 using Vec = Vec3<Real>;
 
-constexpr Real least_cosine = 0.93969262L;  // of 20 degrees
+constexpr Real least_cosine = 0.93969262L;  // cosine of 20 degrees
 
 Vec wide(const Vec3d& v) { return v.cast<Real>(); }
 
-// A face in the frame's place: corners, empty for a half-space, and the plane's outward normal.
+// A face in the frame: its corners (none for a half-space) and the plane's outward normal.
 struct Face {
   std::vector<Vec> corners;
   Vec normal, point;
@@ -66,7 +67,7 @@ std::vector<Face> faces_of(const Shape& shape, const Pose& pose, const Vec& orig
   return faces;
 }
 
-// Of the faces with a corner that is furthest in the direction the one most nearly across it.
+// Returns, among the faces with a corner furthest in the direction, the one most nearly across it.
 const Face& supporting_face(const std::vector<Face>& faces, const Vec& direction) {
   if (faces.size() == 1) return faces[0];  // a half-space
   const auto height = [&](const Face& face) {
@@ -87,13 +88,13 @@ const Face& supporting_face(const std::vector<Face>& faces, const Vec& direction
   return *best;
 }
 
-// a x + b y + c >= 0, a length.
+// The half-plane a x + b y + c >= 0; the value is a length.
 struct Line {
   Real a, b, c;
   Real at(const AreaPoint& p) const { return a * p.x + b * p.y + c; }
 };
 
-// The plane's height along the normal over (x, y), as a line's value.
+// Returns the plane's height along the normal over (x, y), as the value of a line.
 Line height_of(const Face& face, const AreaFrame& frame) {
   const Real along = face.normal.dot(frame.normal);
   const Real a = -face.normal.dot(frame.u) / along, b = -face.normal.dot(frame.v) / along;
@@ -124,7 +125,7 @@ Real cross(const AreaPoint& o, const AreaPoint& p, const AreaPoint& q) {
   return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
 }
 
-// Anticlockwise, by Jarvis' march: from each corner to the one that all others are to the left of.
+// Jarvis' march, anticlockwise: each step goes to the corner that has all others to its left.
 std::vector<AreaPoint> convex_loop(const std::vector<AreaPoint>& points, Real least) {
   if (points.size() < 3) return points;
   const auto lower = [](const auto& p, const auto& q) {
