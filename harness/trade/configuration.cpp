@@ -1,3 +1,4 @@
+// Names of configurations, and the parsing of their parts.
 #include "harness/trade/configuration.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,8 @@ std::string_view body_kind_name(std::size_t kind) {
   return kind == mesh_body ? "mesh" : to_string(all_shape_kinds[kind]);
 }
 
-// Whether it is the body itself, for bodies of that kind: a sphere's sphere, the hull of a hull.
+// Returns true if the form is the body itself, for bodies of that kind: a sphere's sphere, a hull's
+// hull.
 bool is_the_body(proxies::Form form, std::size_t kind) {
   const auto is = [&](ShapeKind shape) { return kind == static_cast<std::size_t>(shape); };
   switch (form) {
@@ -26,7 +28,8 @@ bool is_the_body(proxies::Form form, std::size_t kind) {
     case proxies::Form::hull: return is(ShapeKind::hull);
     case proxies::Form::icosphere: return is(ShapeKind::box) || is(ShapeKind::hull);
     case proxies::Form::parts:
-    case proxies::Form::mesh: return kind != mesh_body;  // convex already, and without a mesh
+    // the shape is convex already, and has no mesh
+    case proxies::Form::mesh: return kind != mesh_body;
     case proxies::Form::dop14:
     case proxies::Form::dop18:
     case proxies::Form::dop26:
@@ -37,7 +40,8 @@ bool is_the_body(proxies::Form form, std::size_t kind) {
 
 std::string Representations::name() const {
   std::string listed;
-  std::optional<proxies::Representation> common;  // of those that are not as given
+  // the common representation of kinds that are not as given
+  std::optional<proxies::Representation> common;
   for (const auto& one : of) {
     if (one && one->form != proxies::Form::as_given) common = one;
   }

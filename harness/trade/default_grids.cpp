@@ -1,3 +1,4 @@
+// The grids of a request that has none.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -19,9 +20,8 @@ constexpr std::array<std::string_view, 9> broad_names = {"sweep-and-prune",
                                                          "dynamic-bvh",
                                                          "uniform-grid",
                                                          "naive"};
-// The peers at the end are left out where they are not built.
-// The peers at the end are left out where they are not built. What gjk-lanes does not take goes to
-// the one behind it.
+// The peers at the end are left out if they are not built. A pair that gjk-lanes does not take goes
+// to the algorithm behind it.
 constexpr std::array<std::string_view, 16> narrow_names = {"gjk",
                                                            "gjk-lanes+gjk",
                                                            "closed-form+gjk",
@@ -145,7 +145,7 @@ std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad) {
 
   std::vector<TradeGrid> grids = {algorithms, tolerances, caps,
                                   boxes,      broads,     representation_grid(broad)};
-  // A verdict needs no number: the tolerance of one matters to nobody.
+  // A verdict needs no number, so one tolerance is enough.
   if (task == Task::intersect) grids.erase(grids.begin() + 1);
   return grids;
 }
@@ -186,8 +186,8 @@ const BroadPhaseEntry& fastest_broad(const SceneFrames& frames, StandInLibrary& 
   trial.broad = broad_entries();
   trial.narrow = {{}};
   const GridPoints grid = expand({&trial, 1}, frames, library, Task::intersect);
-  if (grid.points.empty()) return *trial.broad.front();  // a scene that lists its pairs
-  // Without truth: the answers are not asked for.
+  if (grid.points.empty()) return *trial.broad.front();  // the scene lists its pairs
+  // The trial needs no truth, because it does not look at the answers.
   std::vector<FrameTruth> order;
   const std::vector<std::size_t> sampled = sampling_order(frames.frames.size());
   for (std::size_t i = 0; i < std::min<std::size_t>(sampled.size(), 8); ++i) {

@@ -1,3 +1,4 @@
+// Counts and sums of a configuration's errors.
 #include "harness/trade/errors.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-constexpr double no_value = 1;  // error of an answer without a number: all of the size
+constexpr double no_value = 1;  // error of an answer that has no number, as a part of the size
 
 bool before(const IndexPair& a, const IndexPair& b) { return a.a != b.a ? a.a < b.a : a.b < b.b; }
 
@@ -40,7 +41,7 @@ Spread spread_of(std::vector<double> values) {
   std::ranges::sort(values);
   Spread spread;
   for (const double value : values) spread.mean += value / static_cast<double>(values.size());
-  // The least that 99 % are at most.
+  // The smallest value that 99 % of the errors do not exceed.
   const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(values.size())));
   spread.p99 = values[rank - 1];
   spread.greatest = values.back();
@@ -74,11 +75,12 @@ void ErrorCount::add(const TruePair& truth, const PairAnswer* answer) {
   if (!std::isfinite(expected)) return;  // an unknown truth is no error of the answer
   double given = 0;
   if (answer == nullptr) {
-    // Not found: no distance was asked for, unless that missed a contact, by its depth at least.
+    // The pair was not found, so it has no distance, unless a contact was missed: by its depth at
+    // least.
     if (!wants_depth && !contact) return;
     if (!wants_depth) given = std::abs(truth.gap);
   } else if (!answered || said_contact == wants_depth) {
-    // In this order NaN stays what it is.
+    // In this order of arguments NaN stays NaN.
     given = std::max(wants_depth ? -answer->distance : answer->distance, 0.0);
   }
   const double error = std::abs(given - expected) / truth.size;

@@ -1,10 +1,11 @@
+// Plays configurations in child processes and grades their answers.
 #include "harness/trade/evaluation.h"
 
 #include <numeric>
 namespace touchstone::trade {
 namespace {
 
-struct Found {  // what the child hands over
+struct Found {  // the result that the child sends
   PointErrors errors;
   PipelineCounters counters;
   StageSeconds rough{};
@@ -21,12 +22,13 @@ void play(const SceneFrames& frames, const TradePoint& point, std::span<const Fr
     if (frame.frame == 0) {
       pipeline.start(0);
     } else {
-      // The frame is an update, which is what the scene asks for.
+      // The frame is an update, as in the timed scene.
       pipeline.pass(frame.frame - 1);
       pipeline.advance();
     }
     count.add(frame, pipeline.answers());
-    if (frame.frame == 0 && truth.size() > 1) continue;  // the first of many
+    // the scene has more frames, which come later
+    if (frame.frame == 0 && truth.size() > 1) continue;
     ++timed;
     for (std::size_t i = 0; i < found.rough.size(); ++i) found.rough[i] += pipeline.seconds()[i];
   }

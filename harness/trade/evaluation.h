@@ -20,21 +20,22 @@ struct TradePoint {
 struct Evaluation {
   PointErrors errors;
   PipelineCounters counters;
-  StageSeconds rough{};  // a frame, read once: for planning only
+  StageSeconds rough{};  // seconds a frame, from one reading: only for planning
   process::ItemState state =
-      process::ItemState::done;  // how it ended; if it failed, the rest means nothing
-  std::string words;             // why it failed
+      process::ItemState::done;  // if it is not `done`, the other members mean nothing
+  std::string words;             // the reason of a failure
 
   bool ok() const { return state == process::ItemState::done; }
   double rough_seconds() const;
 };
 
 struct EvaluationLimits {
-  double seconds = 60;  // for one configuration
+  double seconds = 60;  // the limit for one configuration
   std::size_t memory = std::size_t{4} << 30;
 };
 
-// One after the other in a child process, so that what crashes costs itself alone.
+// Evaluates one after the other in a child process, so that a crash costs only its own
+// configuration.
 std::vector<Evaluation> evaluate(const SceneFrames& frames, std::span<const TradePoint> points,
                                  std::span<const FrameTruth> truth, Task task,
                                  const EvaluationLimits& limits = {});

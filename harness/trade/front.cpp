@@ -1,3 +1,4 @@
+// The Pareto front, and names of error measures.
 #include "harness/trade/front.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Expands grids into the configurations that make sense for a scene.
 #include "harness/trade/grid.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,8 @@
 namespace touchstone::trade {
 namespace {
 
-// The narrow phases of the chain that some pair comes to; empty, with the reason, where a pair
-// comes to none.
+// Returns the narrow phases of the chain that take some pair of the scene; nothing, with the
+// reason, if a pair is taken by none.
 std::optional<NarrowChain> used(const NarrowChain& chain, const StandIns& stand_ins, Task task,
                                 std::string& reason) {
   std::set<const NarrowPhaseEntry*> taking;

@@ -1,3 +1,4 @@
+// Plays a configuration's frames as samples.
 #include "harness/trade/point_sampler.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Samples of a whole configuration.
+// Samples of a whole configuration, for the measuring loop.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 namespace touchstone::trade {
 
 // Frames are played in order and again and again. They begin at frame 0, which belongs to no
-// sample, unless the scene has no other: then each of its samples begins anew. The durations are
-// the stages of the pipeline.
+// sample; if the scene has no other frame, each of its samples begins anew. The durations are the
+// stages of the pipeline.
 class PointSampler final : public measure::Sampler {
  public:
   // The frames outlive it.

@@ -1,3 +1,4 @@
+// Medians and intervals of the points' times.
 #include "harness/trade/point_statistics.h"
 
 #include <algorithm>
@@ -8,11 +9,11 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr std::size_t least_values = 6;  // for an interval of 95 %
+constexpr std::size_t least_values = 6;  // the smallest number for an interval of 95 %
 
 }  // namespace
 
-// The values of quiet rounds, where there are enough for an interval; else those of all rounds.
+// Returns the values of quiet rounds if they are enough for an interval, else those of all rounds.
 std::vector<double> PointStatistics::Values::chosen() const {
   std::vector<double> values = quiet;
   if (quiet.size() < least_values) values.insert(values.end(), noisy.begin(), noisy.end());
@@ -38,7 +39,7 @@ void PointStatistics::add(const measure::Round& round) {
     } else {
       add(ratios_[sample.contestant], std::log(seconds / unit));
     }
-    if (sample.contestant == stages_.size()) continue;  // the control
+    if (sample.contestant == stages_.size()) continue;  // it is the control
     for (std::size_t k = 0; k < stage_names.size(); ++k) {
       stages_[sample.contestant][k].push_back(sample.reply.durations.of(stage_names[k]) / frames);
     }

@@ -1,4 +1,4 @@
-// From the rounds of a timing to the times of its points.
+// The times of a trade's points, from the rounds of its timing.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace touchstone::trade {
 
-// Contestant i of the plan is point i; point 0 is the baseline, and the last contestant its
+// Contestant i of the plan is point i; point 0 is the baseline, and the last contestant is its
 // control.
 class PointStatistics {
  public:
@@ -20,14 +20,14 @@ class PointStatistics {
   void summarise(PointTimes& times) const;
 
  private:
-  // Values of rounds that the machine left alone, and of the others.
+  // Values of quiet rounds, and of rounds that other work disturbed.
   struct Values {
     std::vector<double> quiet, noisy;
     std::vector<double> chosen() const;
   };
 
   Values baseline_;             // seconds a frame
-  std::vector<Values> ratios_;  // of each contestant: logarithms of ratios to the baseline
+  std::vector<Values> ratios_;  // for each contestant: logarithms of its ratios to the baseline
   std::vector<std::array<std::vector<double>, stage_names.size()>> stages_;
 };
 

@@ -1,3 +1,4 @@
+// Times a trade's points with the measuring loop.
 #include "harness/trade/point_times.h"
 
 #include <algorithm>
@@ -13,14 +14,14 @@ namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t others_a_set = 7;
-constexpr std::size_t most_rounds = 6;  // of a square, in one process
-constexpr double overhead = 2e-3;       // seconds a sample, about: a message there and back
-constexpr double least_sample = 1e-3;   // seconds that a sample should take, for the clock
+constexpr std::size_t most_rounds = 6;  // rounds of a square in one process
+constexpr double overhead = 2e-3;  // seconds a sample, approximately: one message in each direction
+constexpr double least_sample = 1e-3;  // the shortest sample that the clock resolves well, seconds
 constexpr double seconds_to_start = 300;
 constexpr double most_window_at_rest = 64;  // frames
 
-// The points as contestants: the last one is the baseline's control. A set is of points of like
-// speed, and each process of it has one square.
+// The points as contestants; the last one is the baseline's control. A set holds points of similar
+// speed, and each of its processes runs one square.
 class PointTiming final : private measure::MeasuringJob {
  public:
   PointTiming(const SceneFrames& frames, std::span<const TradePoint> points,
@@ -84,7 +85,7 @@ class PointTiming final : private measure::MeasuringJob {
     for (measure::MeasuredSet& set : plan_.sets) share_time(set, share);
   }
 
-  // Chooses rounds and window for so many seconds a process: rounds first, as they make the
+  // Chooses rounds and window for so many seconds a process: rounds first, because they make the
   // statistics, then longer windows. The untimed window costs as much as a round.
   void share_time(measure::MeasuredSet& set, double seconds) {
     double a_frame = 0, least = std::numeric_limits<double>::max();
@@ -115,12 +116,12 @@ class PointTiming final : private measure::MeasuringJob {
   }
 
   double deadline(std::size_t contestant, std::size_t, std::uint32_t frames) const override {
-    // The frames up to a window are played first.
+    // The frames before a window are played first.
     const double all = static_cast<double>(frames + frames_.frames.size());
     return std::max(60.0, all * std::max(timing_.time_limit, 20 * rough_[point_of(contestant)]));
   }
 
-  // Errors of the answers are what the other axis of a trade shows.
+  // The other axis of a trade shows the errors of the answers, so every answer is accepted.
   bool is_right(std::size_t, std::size_t, const measure::SampleRequest&,
                 const measure::SampleReply&) const override {
     return true;
@@ -158,7 +159,7 @@ class PointTiming final : private measure::MeasuringJob {
   const TimingPlan& timing_;
   const std::function<void(const PointSample&)>& keep_;
   measure::MeasurePlan plan_;
-  std::vector<double> costs_;  // of each set: seconds a process, about
+  std::vector<double> costs_;  // for each set: seconds a process, approximately
   base::Stopwatch watch_;
   PointTimes times_;
   PointStatistics statistics_;

@@ -1,3 +1,4 @@
+// Writes the files of a trade's folder.
 #include "harness/trade/trade_files.h"
 
 #include <fmt/format.h>

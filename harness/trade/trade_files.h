@@ -12,8 +12,8 @@ namespace touchstone::trade {
 
 class TradeFiles {
  public:
-  // Begins the folder anew. All but the path outlive it. InputError where it cannot be written, or
-  // another trade is at work in it.
+  // Begins the folder anew. All arguments but the path outlive it. Throws InputError if the folder
+  // cannot be written, or another trade is at work in it.
   TradeFiles(const TradeRequest& request, const TradeScene& scene,
              const std::filesystem::path& folder);
   // Adds a row for each stage of the sample to samples.csv, and flushes it.
@@ -33,7 +33,7 @@ class TradeFiles {
   record::ResultFolder folder_;
 };
 
-// The front as a table for a terminal, with what is worth knowing beside it.
+// Returns the front as a table for a terminal, with the notes that belong to it.
 std::string front_text(const TradeResult& result, const TradeRequest& request,
                        std::size_t page_width);
 

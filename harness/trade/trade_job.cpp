@@ -1,3 +1,4 @@
+// Measures a trade: truth, errors, times, front.
 #include "harness/trade/trade_job.h"
 
 #include <fmt/format.h>
@@ -11,16 +12,16 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr double preparation_share = 0.03;  // of the seconds, for one representation
-constexpr double truth_share = 0.2;         // of the seconds
-constexpr double least_timing = 0.4;        // of the seconds, whatever the rest took
+constexpr double preparation_share = 0.03;  // share of the seconds, for one representation
+constexpr double truth_share = 0.2;         // share of the seconds
+constexpr double least_timing = 0.4;  // least share of the seconds, however long the rest took
 constexpr std::size_t most_truth_frames = 16;
 
 int frames_of(const TradeRequest& request) {
   return request.overrides.frames == -1 ? default_trade_frames : request.overrides.frames;
 }
 
-// The first point that works is what the others are measured by.
+// The first point that works is the baseline of the others.
 void put_baseline_first(std::vector<TradeOutcome>& points) {
   const auto works =
       std::ranges::find_if(points, [](const TradeOutcome& point) { return point.evaluation.ok(); });

@@ -16,28 +16,28 @@ struct TradeOutcome {
   TradePoint point;
   Evaluation evaluation;
   RepresentationSpread representation;
-  double preparation = 0;  // seconds that its representations took to make, before any frame
+  double preparation = 0;  // seconds to make its representations, before any frame
   TimedPoint timed;
-  double error = 0;  // of the request's measure; NaN where it failed
+  double error = 0;  // a value of the request's measure; NaN if the point failed
   bool on_front = false;
 
   bool ok() const { return evaluation.ok() && timed.ok(); }
 };
 
 struct TradeResult {
-  std::vector<TradeOutcome> points;  // the baseline first
-  std::vector<std::size_t> front;    // by rising time
+  std::vector<TradeOutcome> points;  // the points, the baseline first
+  std::vector<std::size_t> front;    // indices of points, by rising time
   std::map<std::string, int> left_out;
   std::size_t bodies = 0, frames = 0, truth_frames = 0, near_pairs = 0;
-  double control = Outcome::none;  // time of the A/A control over the baseline's
+  double control = Outcome::none;  // the time of the A/A control over the baseline's
 };
 
 // A scene that is ready to be measured on.
 struct TradeScene {
-  // Throws InputError where the scene cannot be had.
+  // Throws InputError if the scene cannot be made.
   TradeScene(const TradeRequest& request, const Representing& representing);
   TradeScene(scene::Scene from, const TradeRequest& request, const Representing& representing);
-  TradeScene(const TradeScene&) = delete;  // its members know each other's places
+  TradeScene(const TradeScene&) = delete;  // its members hold references to each other
   TradeScene& operator=(const TradeScene&) = delete;
 
   scene::Scene scene;
@@ -45,8 +45,8 @@ struct TradeScene {
   StandInLibrary library;
 };
 
-// Measures into the folder, which it begins anew. Fills in the grids where the request has none.
-// `said` gets a line for each step.
+// Measures into the folder, which it begins anew. Fills in the grids if the request has none.
+// `said` is called with a line for each step.
 TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
                           const std::filesystem::path& folder,
                           const std::function<void(const std::string&)>& said);

@@ -1,3 +1,4 @@
+// Reads and writes the request of a trade.
 #include "harness/trade/trade_request.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
 constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
 
-// The elements of an array; one value stands for an array of it.
+// Returns the elements of an array; a single value is an array of one.
 std::vector<const toml::node*> elements(files::TomlTable& table, std::string_view key) {
   const toml::node* node = table.node(key);
   std::vector<const toml::node*> list;
@@ -26,7 +27,7 @@ std::vector<const toml::node*> elements(files::TomlTable& table, std::string_vie
   return list;
 }
 
-// Each element as `make` gives it; a fault that it throws is told with its place.
+// Converts each element with `make`; an error that it throws is reported with the element's place.
 template <class Value, class Make>
 void read_axis(files::TomlTable& table, std::string_view key, std::vector<Value>& values,
                const Make& make) {

@@ -10,7 +10,7 @@
 
 namespace touchstone::trade {
 
-// A configuration as the columns of a row name it; empty where it has no such part.
+// A configuration as the columns of a row name it; the name of an absent part is empty.
 struct ConfigurationNames {
   ConfigurationNames() = default;
   explicit ConfigurationNames(const Configuration& configuration);

@@ -1,3 +1,4 @@
+// Writes the files of advice and of its verification.
 #include "harness/trade/advice/advice_files.h"
 
 #include <fmt/format.h>

@@ -10,23 +10,24 @@
 
 namespace touchstone::trade {
 
-// The question, and the answer in a few lines.
+// Returns the question, and the answer in a few lines.
 std::string advice_text(const Advice& advice, const AdviceProblem& problem);
 
-// Writes advice.txt and, where there is advice, advice.toml: the best and the next better, as a
-// file that `touchstone run` takes.
+// Writes advice.txt and, if there is advice, advice.toml: the best configuration and the next
+// better one, as a file that `touchstone run` takes.
 void write_advice(const Advice& advice, const AdviceProblem& problem,
                   const std::filesystem::path& folder);
 
-// One paragraph.
+// Returns one paragraph.
 std::string verification_text(const Verification& verification);
 
-// verification.csv and machine.csv of a folder: a row for each scene, flushed one by one.
+// Writes verification.csv and machine.csv of a folder: a row for each scene, flushed one by one.
 class VerificationRows {
  public:
-  // `draws`: held-out scenes of each. InputError where the folder cannot be written.
+  // `draws` is the number of held-out scenes of each. Throws InputError if the folder cannot be
+  // written.
   VerificationRows(const std::filesystem::path& folder, int draws);
-  // `verification` is null where there is no advice.
+  // `verification` is null if there is no advice.
   void write(const AdviceProblem& problem, const Verification* verification);
   void close() { folder_.finish(); }
 

@@ -1,3 +1,4 @@
+// Reads a list of scenes for advice.
 #include "harness/trade/advice/advice_list.h"
 
 #include <fmt/format.h>

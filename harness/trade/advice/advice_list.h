@@ -1,4 +1,4 @@
-// A file of scenes, each with the error that will do: what `touchstone advise --list` works off.
+// A file of scenes, each with the error that is allowed: the input of `touchstone advise --list`.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,14 @@
 namespace touchstone::trade {
 
 struct AdviceTask {
-  std::string name;  // of its folder: the scene file's stem, unless the list says otherwise
+  // The name of the folder: the scene file's stem, unless the list gives another.
+  std::string name;
   TradeRequest request;
   ErrorBudget budget;
 };
 
-// The keys are documented in datasets/README.md; what they do not say is as in `usual`. Throws
-// InputError with file, line and what was expected; names are distinct.
+// The keys are documented in datasets/README.md; a key that is missing has its value from `usual`.
+// Throws InputError with file, line and what was expected; names are distinct.
 std::vector<AdviceTask> read_advice_list(const std::filesystem::path& file,
                                          const TradeRequest& usual);
 

@@ -12,10 +12,10 @@ namespace touchstone::trade {
 
 struct AdviceProblem {
   const TradeRequest& request;
-  TradeScene& scene;  // the request's
+  TradeScene& scene;  // the scene of the request
   const Representing& representing;
   const ErrorBudget& budget;
-  std::function<void(const std::string&)> said;  // gets a line for each step
+  std::function<void(const std::string&)> said;  // is called with a line for each step
 };
 
 }  // namespace touchstone::trade

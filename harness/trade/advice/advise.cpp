@@ -1,3 +1,4 @@
+// The search for advice: errors first, then successive halving by time.
 #include "harness/trade/advice/advise.h"
 
 #include <fmt/format.h>
@@ -13,13 +14,14 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr double truth_share = 0.15;  // of the seconds; as much again for what is held out
+constexpr double truth_share = 0.15;  // share of the seconds; held-out scenes get as much again
 constexpr std::size_t frames_at_first = 2, most_frames = 8;
 constexpr std::size_t finalists = 4;
-constexpr double hopeless = 4;             // times the time of the quickest, by one reading
-constexpr double first_search = 0.6;       // of the seconds left, where more is to be tried
-constexpr double least_search = 0.3;       // of all seconds, whatever came before
-constexpr double enough_for_better = 0.3;  // of the seconds of a search, for that of the next
+constexpr double hopeless = 4;        // in times of the quickest configuration, by one reading
+constexpr double first_search = 0.6;  // share of the seconds left, if more is to be tried
+constexpr double least_search = 0.3;  // share of all seconds, however many are spent before
+// share of a search's seconds, for the search of the next better
+constexpr double enough_for_better = 0.3;
 
 class Search {
  public:
@@ -60,7 +62,8 @@ class Search {
     return grids;
   }
 
-  // Adds what these grids have and nobody tried yet; of that, what is within the budget.
+  // Adds the configurations of these grids that are not tried yet, and keeps those within the
+  // budget.
   std::vector<std::size_t> within_budget(std::span<const TradeGrid> grids) {
     GridPoints grid =
         expand(grids, problem_.scene.frames, problem_.scene.library, problem_.request.task);
@@ -78,8 +81,8 @@ class Search {
     return added;
   }
 
-  // Winners of different axes need not have met: the best with every other broad phase, and with
-  // every other narrow phase.
+  // The winners of different axes may never have met, so the best one is combined with every other
+  // broad phase and with every other narrow phase.
   std::vector<std::size_t> with_like(const std::vector<std::size_t>& ranked) {
     const std::vector<TradeGrid> grids =
         grids_like(all_[ranked.front()].point.configuration, problem_.request.task);
@@ -138,7 +141,7 @@ class Search {
 
   double rough(std::size_t i) const { return std::max(1e-7, all_[i].evaluation.rough_seconds()); }
 
-  // Times them, the fewer the longer, and keeps the faster half; gives all, the quickest first.
+  // Times them, the fewer the longer, and keeps the faster half; returns all, the quickest first.
   std::vector<std::size_t> halve(std::vector<std::size_t> left, double seconds) {
     if (left.empty()) return left;
     std::ranges::stable_sort(left, {}, [&](std::size_t i) { return rough(i); });
@@ -183,7 +186,7 @@ class Search {
     for (std::size_t k = 0; k < members.size(); ++k) {
       TimedPoint& timed = all_[members[k]].timed;
       timed = std::move(times.points[k]);
-      // Last in its order.
+      // It is the last in its order.
       if (!timed.ok()) timed.seconds = std::numeric_limits<double>::infinity();
     }
     advice_.control = times.control;
@@ -205,8 +208,8 @@ class Search {
   const AdviceProblem& problem_;
   base::Stopwatch watch_;
   std::vector<TradeOutcome> all_;
-  std::set<std::string> names_;          // of all
-  std::vector<std::size_t> candidates_;  // of all, those within the budget
+  std::set<std::string> names_;          // the names of all configurations tried
+  std::vector<std::size_t> candidates_;  // indices of those within the budget
   std::vector<FrameTruth> truth_;
   Advice advice_;
 };

@@ -14,23 +14,26 @@
 
 namespace touchstone::trade {
 
-// Draws of held_out.h that the search itself uses, from 1 on; a verification uses those behind.
+// The number of draws of held_out.h that the search itself uses, from 1 on; a verification uses
+// those behind.
 inline constexpr int advice_draws = 2;
 
 struct Advice {
-  std::optional<TradeOutcome> best;         // none: nothing meets the budget
-  std::optional<TradeOutcome> next_better;  // the cheapest with less error; none: no error is left
-  std::vector<HeldOutGrade> held_out;       // of the best, on scenes that were not looked at before
+  std::optional<TradeOutcome> best;  // empty if nothing meets the budget
+  // The cheapest configuration with less error; empty if there is no error left.
+  std::optional<TradeOutcome> next_better;
+  // grades of the best on scenes that the search did not look at
+  std::vector<HeldOutGrade> held_out;
   std::string held_out_on;
   std::size_t configurations = 0, within_budget = 0, timed = 0;
-  std::int64_t hulls_built = 0;    // in all of the search, for whatever was tried
-  double control = Outcome::none;  // time of the A/A control over the baseline's
+  std::int64_t hulls_built = 0;    // the number built in the whole search
+  double control = Outcome::none;  // the time of the A/A control over that of the baseline
 };
 
-// Without grids in the request: those of default_grids, each kind of bodies represented by itself
-// too, but for spheres, which nothing stands for more cheaply; and then what is like the winner but
-// for its boxes and broad phase, or its narrow phase. A configuration that is over the budget on a
-// held-out scene is dropped for the next.
+// If the request has no grids, the search takes those of default_grids, and also represents each
+// kind of bodies by itself, except spheres, which have no cheaper representation. Then it tries the
+// configurations that differ from the winner only in boxes and broad phase, or only in the narrow
+// phase. A configuration that is over the budget on a held-out scene is replaced by the next.
 Advice advise(const AdviceProblem& problem);
 
 }  // namespace touchstone::trade

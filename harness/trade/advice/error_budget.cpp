@@ -1,3 +1,4 @@
+// The text of an error budget.
 #include "harness/trade/advice/error_budget.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Makes held-out scenes and grades configurations on them.
 #include "harness/trade/advice/held_out.h"
 
 #include <fmt/format.h>
@@ -16,25 +17,25 @@ namespace {
 
 constexpr std::size_t most_frames = 4;
 
-// The seed of the scene as it is asked for; 1 for a scene that is not generated.
+// The seed of the scene as the request has it; 1 for a scene that is not generated.
 std::int64_t own_seed(const TradeRequest& request) {
   if (request.overrides.seed != -1) return request.overrides.seed;
   if (request.scene.extension() != ".toml") return 1;
   return files::parse_toml(request.scene)["seed"].value<std::int64_t>().value_or(1);
 }
 
-// Empty where the scene has no seeds.
+// Returns nothing if the scene has no seeds.
 std::optional<scene::Scene> with_seed(const TradeRequest& request, std::int64_t seed) {
   scene::SceneOverrides overrides = request.overrides;
   overrides.seed = seed;
   try {
     return scene::load_scene(request.scene, overrides);
   } catch (const base::InputError&) {
-    return {};  // without that seed it can be had: the caller has it
+    return {};  // only this seed fails: the caller has loaded the scene without it
   }
 }
 
-// Empty where nothing moves.
+// Returns nothing if nothing moves.
 std::optional<scene::Scene> begun_later(const TradeRequest& request, int number) {
   scene::Scene scene = scene::load_scene(request.scene, request.overrides);
   base::Random random(static_cast<std::uint64_t>(number));
@@ -60,7 +61,7 @@ std::optional<scene::Scene> begun_later(const TradeRequest& request, int number)
 HeldOutScenes::HeldOutScenes(const TradeRequest& request, const Representing& representing,
                              int first, int count, double seconds)
     : request_(request) {
-  // Representations are made however long that takes.
+  // The making of representations has no limit of time.
   request_.seconds = std::numeric_limits<double>::infinity();
   const std::int64_t seed = own_seed(request);
   for (int number = first; number < first + count; ++number) {
@@ -94,7 +95,7 @@ std::vector<HeldOutGrade> HeldOutScenes::grade(const Configuration& configuratio
     grade.scene = one.name;
     TradeScene& scene = *one.scene;
     const GridPoints made = expand({&grid, 1}, scene.frames, scene.library, request_.task);
-    if (made.points.size() != 1) continue;  // it makes no sense there
+    if (made.points.size() != 1) continue;  // the configuration makes no sense there
     const Evaluation found = evaluate(scene.frames, made.points, one.truth, request_.task).front();
     if (!found.ok()) continue;
     const RepresentationSpread representation =

@@ -1,3 +1,4 @@
+// Verifies advice: measures the grid, then races the choice against its rivals.
 #include "harness/trade/advice/verification.h"
 
 #include <fmt/format.h>
@@ -9,10 +10,11 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr double truth_share = 0.3;  // of the seconds, for all held-out scenes
-constexpr double race_share = 0.3;   // of the seconds; as much again and more where that was short
-constexpr std::size_t most_rivals = 6;   // in the race
-constexpr std::size_t most_graded = 18;  // on held-out scenes
+constexpr double truth_share = 0.3;  // share of the seconds, for all held-out scenes
+// share of the seconds; a second race gets as much again or more
+constexpr double race_share = 0.3;
+constexpr std::size_t most_rivals = 6;   // the number in the race
+constexpr std::size_t most_graded = 18;  // the number graded on held-out scenes
 constexpr int processes = 10;
 
 class Verifier {
@@ -106,7 +108,7 @@ class Verifier {
     found_.best_seconds = Outcome::none;
     for (std::size_t i = 1; i < points.size(); ++i) {
       const TimedPoint& rival = times.points[i];
-      // Written so that the first takes the place of none.
+      // The condition is true for a first ratio too, which is compared with none (NaN).
       if (!rival.ok() || found_.best_seconds <= rival.seconds) continue;
       found_.best = points[i].configuration.name();
       found_.best_seconds = rival.seconds;
@@ -117,7 +119,7 @@ class Verifier {
   }
 
   const AdviceProblem& problem_;
-  std::vector<TradeOutcome> rivals_;  // within the budget, by rising time
+  std::vector<TradeOutcome> rivals_;  // those within the budget, by rising time
   Verification found_;
 };
 

@@ -1,4 +1,5 @@
-// A test of advice: its choice against the whole grid, and on scenes that it was not made on.
+// A test of advice: its choice against the whole grid, and on scenes that were not used for the
+// choice.
 #pragma once
 
 #include <filesystem>
@@ -12,27 +13,29 @@
 
 namespace touchstone::trade {
 
-inline constexpr double allowed_ratio = 1.1;  // of the choice's time to that of the grid's best
+inline constexpr double allowed_ratio = 1.1;  // the choice's time over that of the grid's best
 
 enum class TimeVerdict : std::uint8_t {
   within,     // the whole interval of the ratio is at most allowed_ratio
-  beyond,     // it is above
-  undecided,  // neither, or there is no interval
+  beyond,     // the whole interval is above allowed_ratio
+  undecided,  // the interval contains allowed_ratio, or there is none
 };
 std::string_view to_string(TimeVerdict verdict);
 TimeVerdict time_verdict(const stats::MedianInterval& ratio);
 
 struct Verification {
-  TradeOutcome choice;         // with its errors on all frames that the grid is graded on
-  bool within_budget = false;  // there, and on every held-out scene
+  TradeOutcome choice;         // its errors are those on all frames that the grid is graded on
+  bool within_budget = false;  // true if it is within the budget there and on every held-out scene
   std::string held_out_on;
-  std::vector<HeldOutGrade> held_out;  // of the choice
+  std::vector<HeldOutGrade> held_out;  // grades of the choice
   std::size_t configurations = 0;
-  std::size_t rivals = 0;   // others within the budget
-  std::size_t dropped = 0;  // of these, over it on a held-out scene, as far as they were looked at
-  // The fastest other that is within the budget everywhere; empty: there is none.
+  std::size_t rivals = 0;  // the number of others within the budget
+  // the number of rivals that are over the budget on a held-out scene, among those graded
+  std::size_t dropped = 0;
+  // The fastest other configuration that is within the budget everywhere; empty if there is none.
   std::string best;
-  double seconds = Outcome::none, best_seconds = Outcome::none;  // a frame, in the same rounds
+  // seconds a frame, from the same rounds
+  double seconds = Outcome::none, best_seconds = Outcome::none;
   stats::MedianInterval ratio{Outcome::none, Outcome::none, Outcome::none,
                               0};  // of these two times
   TimeVerdict time = TimeVerdict::within;
@@ -40,11 +43,11 @@ struct Verification {
   bool holds() const { return within_budget && time == TimeVerdict::within; }
 };
 
-// Measures the request's grids, or without any those of default_grids with each kind of bodies
-// represented by itself too, as `touchstone trade` does and into that folder; then the choice
-// interleaved with the fastest that are within the budget, for longer where the interval does not
-// tell. Held-out scenes: `draws` of held_out.h from `first_draw` on, with the choice and those.
-// Takes about twice the request's seconds.
+// Measures the request's grids into that folder, as `touchstone trade` does; without grids it takes
+// those of default_grids and also represents each kind of bodies by itself. Then it times the
+// choice interleaved with the fastest configurations within the budget, for longer if the interval
+// does not decide. The held-out scenes are `draws` of held_out.h from `first_draw` on, for the
+// choice and its rivals. It takes about twice the request's seconds.
 Verification verify(const AdviceProblem& problem, const Configuration& choice, int first_draw,
                     int draws, const std::filesystem::path& folder);
 

@@ -30,7 +30,7 @@ struct VerificationRow {
   std::string choice;
   double error = Outcome::none;
   std::string held_out;
-  std::vector<double> errors;  // on each held-out scene
+  std::vector<double> errors;  // one value for each held-out scene
   YesNo within_budget = YesNo::no;
   std::int64_t configurations = 0, rivals = 0, dropped = 0;
   double seconds = Outcome::none;

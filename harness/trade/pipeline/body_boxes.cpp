@@ -1,3 +1,4 @@
+// Computes the boxes of bodies, frame by frame.
 #include "harness/trade/pipeline/body_boxes.h"
 
 #include <algorithm>

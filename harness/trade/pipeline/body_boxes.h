@@ -1,4 +1,4 @@
-// The boxes of a scene's bodies, frame by frame, as a configuration has them made.
+// The boxes of a scene's bodies, frame by frame, of the kind that a configuration chooses.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@ namespace touchstone::trade {
 
 class BodyBoxes {
  public:
-  // All outlive it.
+  // All arguments outlive it.
   BodyBoxes(const SceneFrames& frames, const StandIns& stand_ins, BoxChoice choice,
             Executor& executor);
 
-  // The boxes of a frame from nothing; fat ones begin anew.
+  // Computes the boxes of a frame from nothing; fat ones begin anew.
   void start(std::size_t frame);
-  // The boxes of the next frame: bodies that never move keep theirs, fat boxes are kept
-  // until the body leaves them. The boxes before stay valid, and those only.
+  // Computes the boxes of the next frame: bodies that never move keep theirs, and fat boxes are
+  // kept until the body leaves them. The boxes of the frame before stay valid, but no earlier ones.
   void advance(std::size_t frame);
 
   std::span<const Aabb> boxes() const { return boxes_[current_]; }
   FrameChange change() const { return {boxes(), moved_, inserted_, removed_}; }
   bool changed() const { return !moved_.empty() || !inserted_.empty() || !removed_.empty(); }
-  std::int64_t computed() const { return computed_; }  // boxes, so far
+  std::int64_t computed() const { return computed_; }  // the number of boxes so far
 
  private:
   Aabb box_of(const SceneFrame& frame, std::uint32_t body) const;
@@ -36,7 +36,7 @@ class BodyBoxes {
   const StandIns* stand_ins_;
   BoxChoice choice_;
   Executor* executor_;
-  std::vector<Aabb> boxes_[2];  // this frame's and the one before
+  std::vector<Aabb> boxes_[2];  // those of this frame and of the one before
   int current_ = 0;
   std::vector<std::uint32_t> moved_, inserted_, removed_;
   std::int64_t computed_ = 0;

@@ -1,3 +1,4 @@
+// The stages of a configuration's frame.
 #include "harness/trade/pipeline/frame_pipeline.h"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t queries_a_piece = 256;
-constexpr std::size_t pairs_a_task = 32;  // of bodies with many parts
+// the number of pairs in a task, for bodies with many parts
+constexpr std::size_t pairs_a_task = 32;
 
 double& of(StageSeconds& seconds, Stage stage) { return seconds[static_cast<std::size_t>(stage)]; }
 
@@ -26,7 +28,7 @@ FramePipeline::FramePipeline(const SceneFrames& frames, const StandIns& stand_in
       boxes_(frames, stand_ins, configuration.boxes, executor) {
   if (configuration.broad != nullptr) broad_ = configuration.broad->make(executor);
   counters_.hulls_built = stand_ins.hulls;
-  // Only the narrow phases of the chain that some pair of the scene can come to are made.
+  // Only the narrow phases of the chain that take some pair of the scene are made.
   std::vector<std::size_t> place(configuration.narrow.size(), configuration.narrow.size());
   for (const auto& [a, b] : stand_ins.kind_pairs) {
     for (std::size_t i = 0; i < configuration.narrow.size(); ++i) {
@@ -49,7 +51,7 @@ FramePipeline::FramePipeline(const SceneFrames& frames, const StandIns& stand_in
   if (!stand_ins.single) placed_at_.assign(stand_ins.shape_of.size(), 0);
 }
 
-// Boxes, and the poses of bodies of one part; the many of others are placed when they are needed.
+// Prepares boxes, and the poses of bodies of one part; bodies of many parts are placed when needed.
 void FramePipeline::prepare(std::size_t frame, bool anew) {
   frame_ = frame;
   if (broad_ != nullptr) {
@@ -90,7 +92,7 @@ void FramePipeline::find_pairs(bool anew) {
   }
   of(seconds_, Stage::update) = watch.seconds();
   watch.restart();
-  // Where no box is new, neither is any pair.
+  // If no box is new, no pair is new.
   if (changed) {
     if (broad_->find_pairs(sink_) != Status::ok) {
       throw std::runtime_error("the broad phase gave up: its store was full");
@@ -132,7 +134,7 @@ void FramePipeline::split_into_parts() {
   asked_.clear();
   reduced_ = false;
   for (const IndexPair& pair : pairs_) {
-    // Frame 0 settles the pairs of which neither body ever moves.
+    // Frame 0 settles the pairs of two bodies that never move.
     if (frame_ > 0 && frames_->moves[pair.a] == 0 && frames_->moves[pair.b] == 0) {
       ++counters_.settled;
     } else {
@@ -204,7 +206,7 @@ void FramePipeline::solve() {
     const Piece& piece = pieces_[i];
     const std::span<Outcome> outcomes =
         std::span(outcomes_).subspan(piece.outcome, piece.end - piece.begin);
-    // solve() leaves numbers that the task does not ask for as they were.
+    // solve() does not write numbers that the task does not ask for.
     if (task_ != Task::intersect) {
       for (Outcome& outcome : outcomes) outcome.distance = Outcome::none;
     }
@@ -227,7 +229,7 @@ void FramePipeline::reduce() {
   answers_.resize(asked_.size());
   const bool asks_nobody = narrow_.empty();
   for (std::size_t i = 0; i < asked_.size(); ++i) {
-    // Without any pair of parts that could meet the bodies are apart.
+    // If no pair of parts could meet, the bodies are apart.
     answers_[i] = {asked_[i], asks_nobody ? Answer::overlapping : Answer::separated, Status::ok,
                    Outcome::none};
   }
@@ -235,7 +237,7 @@ void FramePipeline::reduce() {
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
       const Outcome& outcome = outcomes_[piece.outcome + i - piece.begin];
       PairAnswer& answer = answers_[owners_[piece.batch][i]];
-      // Written so that the first number takes the place of none.
+      // The condition is true for a first number too, which is compared with none (NaN).
       if (std::isfinite(outcome.distance) && !(answer.distance <= outcome.distance)) {
         answer.distance = outcome.distance;
       }

@@ -1,3 +1,4 @@
+// Builds and traverses the tree of a body's parts.
 #include "harness/trade/pipeline/part_tree.h"
 
 #include <algorithm>
@@ -9,17 +10,17 @@
 namespace touchstone::trade {
 namespace {
 
-// Rotations are orthonormal to a thousandth at worst (of scene files); lengths across frames are
-// not better than that.
+// Rotations of scene files are orthonormal to at worst a thousandth; lengths across frames are no
+// better than that.
 constexpr double length_slack = 4e-3;
-constexpr double rounding = 1e-12;  // of the numbers that a test adds
+constexpr double rounding = 1e-12;  // bound of the rounding of the numbers that a test adds
 
 Vec3d point_of(const proxies::Part& part) {
   return part.shape.kind == ShapeKind::hull ? part.pose(part.shape.hull->vertices.front())
                                             : part.pose.translation;
 }
 
-// b's frame seen from a's.
+// The frame of b relative to that of a.
 struct Relative {
   Relative(const Pose& a, const Pose& b) {
     const Mat3d inverse_a = a.rotation.inverse(), inverse_b = b.rotation.inverse();
@@ -35,8 +36,8 @@ struct Relative {
   double scale;
 };
 
-// The distance of the boxes along the axes of either frame: at most the distance of what is in
-// them.
+// The distance of the boxes along the axes of either frame: a lower bound of the distance of their
+// contents.
 double gap(const PartTree::Node& a, const PartTree::Node& b, const Relative& r) {
   const Vec3d apart = r.turn * b.centre + r.shift - a.centre;
   const Vec3d along_a = (apart.cwiseAbs() - a.half - r.size * b.half).cwiseMax(0);
@@ -45,10 +46,10 @@ double gap(const PartTree::Node& a, const PartTree::Node& b, const Relative& r) 
   return std::max(0.0, std::max(along_a.norm(), along_b.norm()) - slack);
 }
 
-// The distance of a half-space and a box in the frame of the tree: n.x <= offset there.
+// A half-space in the frame of the tree, n.x <= offset, whose distance from a box is the gap.
 struct Plane {
   Plane(const PartTree& plane, const Pose& pose_plane, const Pose& pose_tree) {
-    // x in the tree's frame -> the plane's: one affine map.
+    // One affine map from x in the tree's frame to the plane's.
     const Mat3d inverse = pose_plane.rotation.inverse();
     normal = (inverse * pose_tree.rotation).transpose() * plane.normal();
     offset = plane.offset() -
@@ -63,7 +64,7 @@ struct Plane {
   double offset;
 };
 
-// Goes down both trees where `gap` lets it, and calls visit(part of a, part of b, gap).
+// Descends both trees while `gap` allows it, and calls visit(part of a, part of b, gap).
 template <class Gap, class Wanted, class Visit>
 void descend(const PartTree& a, const PartTree& b, const Gap& gap_of, const Wanted& wanted,
              const Visit& visit) {
@@ -86,7 +87,7 @@ void descend(const PartTree& a, const PartTree& b, const Gap& gap_of, const Want
   }
 }
 
-// With the gap that fits the two: of boxes, or of a box and a half-space on either side.
+// Traverses with the gap that fits the two: of boxes, or of a box and a half-space on either side.
 template <class Wanted, class Visit>
 void descend(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pose& pose_b,
              const Wanted& wanted, const Visit& visit) {
@@ -141,7 +142,7 @@ std::uint32_t PartTree::split(std::span<std::uint32_t> parts, std::span<const No
     return place;
   }
   Vec3d low = Vec3d::Constant(std::numeric_limits<double>::max()), high = -low;
-  Vec3d least = low, greatest = high;  // of the centres
+  Vec3d least = low, greatest = high;  // the extent of the centres
   for (const std::uint32_t part : parts) {
     const Node& box = boxes[part];
     low = low.cwiseMin(box.centre - box.half);
@@ -172,7 +173,7 @@ void meeting_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, con
 
 void nearest_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pose& pose_b,
                    std::vector<PartPair>& pairs) {
-  // Depth first: what it meets first is near, and soon leaves out the rest.
+  // The traversal is depth first: what it meets first is near, and soon excludes the rest.
   double most = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, PartPair>> found;
   const auto wanted = [&](double apart) { return apart * (1 - length_slack) <= most; };

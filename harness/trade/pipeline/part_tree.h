@@ -21,7 +21,7 @@ class PartTree {
 
   struct Node {
     Vec3d centre, half;         // metres, body frame; rounded outward
-    std::uint32_t left, right;  // nodes; of a leaf, left == leaf and right is the part
+    std::uint32_t left, right;  // nodes; in a leaf, left == leaf and right is the part
     static constexpr std::uint32_t leaf = std::numeric_limits<std::uint32_t>::max();
     bool is_leaf() const { return left == leaf; }
   };
@@ -43,19 +43,19 @@ class PartTree {
   double offset_ = 0;
 };
 
-// A part's pose in the world.
+// The pose of a part in the world.
 inline Pose placed(const Pose& body, const Pose& part) {
   return {body.rotation * part.rotation, body.rotation * part.translation + body.translation};
 }
 
-// Parts of a, and of b.
+// A part of a, and a part of b.
 using PartPair = std::pair<std::uint32_t, std::uint32_t>;
 
-// Appends every pair of parts whose boxes meet; some that do not may be among them.
+// Appends every pair of parts whose boxes meet; pairs of parts that do not meet may be among them.
 void meeting_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pose& pose_b,
                    std::vector<PartPair>& pairs);
 
-// Appends every pair of parts that may be the nearest, the one that is among them.
+// Appends pairs of parts that may be the nearest; the nearest pair is among them.
 void nearest_parts(const PartTree& a, const Pose& pose_a, const PartTree& b, const Pose& pose_b,
                    std::vector<PartPair>& pairs);
 

@@ -1,3 +1,4 @@
+// Plays a scene once and keeps the poses of its frames.
 #include "harness/trade/pipeline/scene_frames.h"
 
 #include <algorithm>

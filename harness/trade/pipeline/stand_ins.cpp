@@ -1,3 +1,4 @@
+// Makes and keeps the representations of bodies.
 #include "harness/trade/pipeline/stand_ins.h"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ bool is_plain(const Pose& pose) {
   return pose.rotation == Mat3d::Identity() && pose.translation == Vec3d::Zero();
 }
 
-// The corners of a box or a hull, in the body's frame; none of others.
+// Appends the corners of a box or a hull, in the body's frame; other shapes have none.
 bool append_corners(const proxies::Part& part, std::vector<Vec3d>& corners) {
   if (part.shape.kind == ShapeKind::hull) {
     for (const Vec3d& vertex : part.shape.hull->vertices) corners.push_back(part.pose(vertex));
@@ -37,7 +38,7 @@ bool append_corners(const proxies::Part& part, std::vector<Vec3d>& corners) {
   return true;
 }
 
-// Many flat-sided parts become the hull of all, so that the body's box costs what a hull's does.
+// Many flat-sided parts become the hull of all, so that the body's box costs as much as a hull's.
 std::vector<proxies::Part> outline_of(const std::vector<proxies::Part>& parts,
                                       std::int64_t& hulls) {
   if (parts.size() == 1) return parts;
@@ -130,7 +131,8 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
   const scene::Scene& scene = *frames_->scene;
   auto all = std::make_shared<StandIns>();
   all->first.push_back(0);
-  std::map<const StandIn*, std::vector<std::uint32_t>> shapes_of;  // of the parts of each
+  // for each representation, the shapes of its parts
+  std::map<const StandIn*, std::vector<std::uint32_t>> shapes_of;
   std::array<int, all_shape_kinds.size()> bodies_with{};
   double spent = 0;
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
@@ -146,7 +148,7 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
       all->kept_.push_back(one.stand_in);
       all->hulls += stand_in.hulls;
       for (const proxies::Part& part : stand_in.parts) {
-        // Parts of one body are often alike.
+        // Parts of one body are often equal.
         const std::size_t from = all->shapes.size() - std::min<std::size_t>(all->shapes.size(), 4);
         std::size_t at = from;
         while (at < all->shapes.size() && !same_shape(all->shapes[at], part.shape)) ++at;
@@ -162,7 +164,7 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
     std::set<ShapeKind> kinds;
     for (const proxies::Part& part : stand_in.parts) kinds.insert(part.shape.kind);
     for (const ShapeKind kind : kinds) {
-      // With each kind of the bodies before it.
+      // Each kind is paired with the kinds of the bodies before it.
       for (const ShapeKind other : all_shape_kinds) {
         if (bodies_with[static_cast<std::size_t>(other)] == 0) continue;
         const std::pair pair = std::minmax(kind, other);
@@ -192,7 +194,7 @@ std::vector<proxies::RepresentationError> StandInLibrary::errors(
     if (!one.has_error) {
       if (!errors.empty() && watch.seconds() > most_seconds_) break;
       const geometry::Mesh* mesh = frames_->mesh_of[shape];
-      // The given shape stands for itself, unless there is a mesh, whose hull it is.
+      // The given shape represents itself, unless there is a mesh, whose hull it is.
       if (representation.form != proxies::Form::as_given || mesh != nullptr) {
         one.error = representing_.error(scene.shapes[shape], mesh, one.stand_in->parts);
       }

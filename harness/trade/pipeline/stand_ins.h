@@ -1,5 +1,5 @@
-// The representations of a scene's bodies in a configuration: parts, and a tree over them where
-// there are several.
+// The representations of a scene's bodies in a configuration: parts, and a tree over them if there
+// are several.
 #pragma once
 
 #include <cstdint>
@@ -34,22 +34,23 @@ struct StandIn {
 
   std::vector<proxies::Part> parts;
   PartTree tree;
-  bool plain = false;      // one part, in the body's own frame
-  std::int64_t hulls = 0;  // that were built for it: those of the scene's own shapes are not
+  bool plain = false;      // true for one part, in the body's own frame
+  std::int64_t hulls = 0;  // the number built for it; those of the scene's own shapes do not count
   // Parts with the same tight box as all parts, in the body's frame; for one part that part.
   std::vector<proxies::Part> outline;
-  double reach = 0;  // metres: of loose boxes, from the only part's origin, or the body's
+  // metres: radius of loose boxes, from the origin of the only part, or of the body
+  double reach = 0;
 };
 
-// The representations of all bodies. Parts are numbered through: those of body k are
-// [first[k], first[k + 1]).
+// The representations of all bodies. Parts are numbered through: body k has the parts [first[k],
+// first[k + 1]).
 struct StandIns {
-  std::vector<const StandIn*> of;  // of each body
+  std::vector<const StandIn*> of;  // one for each body
   std::vector<std::uint32_t> first;
-  std::vector<Shape> shapes;            // distinct; what narrow phases are bound to
-  std::vector<std::uint32_t> shape_of;  // of each part
-  bool plain = true;                    // of every body: its parts are where it is
-  bool single = true;                   // of every body: one part
+  std::vector<Shape> shapes;            // distinct shapes, to which narrow phases are bound
+  std::vector<std::uint32_t> shape_of;  // the index of each part's shape
+  bool plain = true;                    // true if the parts of every body have its pose
+  bool single = true;                   // true if every body has one part
   std::int64_t hulls = 0;
   // Pairs of kinds, kind_a <= kind_b, that two bodies of the scene can have.
   std::vector<std::pair<ShapeKind, ShapeKind>> kind_pairs;
@@ -59,25 +60,27 @@ struct StandIns {
   std::vector<std::shared_ptr<const StandIn>> kept_;
 };
 
-// Makes each representation of each shape once, however many configurations have it.
+// Makes each representation of each shape once, for all configurations that use it.
 class StandInLibrary {
  public:
-  // The frames outlive it. A representation whose making takes longer than `seconds` for all bodies
-  // together is none.
+  // The frames outlive it. A representation is rejected if its making takes longer than `seconds`
+  // for all bodies together.
   StandInLibrary(const SceneFrames& frames, Representing representing,
                  double seconds = std::numeric_limits<double>::infinity());
 
-  // The same with as_given for kinds that the scene has and that were left open, and without those
-  // that it has not, or that are the body itself: those that mean the same for the scene are equal.
+  // Completes representations: kinds of the scene without one become as_given, and kinds that the
+  // scene does not have, or whose representation is the body itself, are removed. So
+  // representations that mean the same for the scene are equal.
   Representations complete(Representations representations) const;
-  // Of complete ones, as all below. Throws InputError where some body cannot be represented so.
+  // Takes complete representations, as the functions below do. Throws InputError if some body
+  // cannot be represented so.
   std::shared_ptr<const StandIns> get(const Representations& representations);
-  // Errors of what stands for bodies: of all, or of about 48, evenly picked; half-spaces, which
+  // Errors of the representations of all bodies, or of about 48, evenly picked; half-spaces, which
   // have no size, are left out.
   std::vector<proxies::RepresentationError> errors(const Representations& representations);
-  // Seconds that it took to make them.
+  // The time to make them, in seconds.
   double seconds(const Representations& representations) const;
-  // Built so far, for whatever was asked for.
+  // The number built so far, for all representations.
   std::int64_t hulls() const;
 
  private:

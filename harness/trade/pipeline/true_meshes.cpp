@@ -1,3 +1,4 @@
+// Solves pairs with a mesh exactly.
 #include "harness/trade/pipeline/true_meshes.h"
 
 #include <cmath>
@@ -76,7 +77,7 @@ std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& 
   const StandIn &a = *solids_->of[pair.a], &b = *solids_->of[pair.b];
   std::vector<PartPair> found;
   nearest_parts(a.tree, pose_a, b.tree, pose_b, found);
-  // The parts that occur, numbered afresh.
+  // The parts that occur, numbered anew.
   std::vector<Pose> part_poses;
   std::vector<std::uint32_t> shape_of;
   std::map<std::uint32_t, std::uint32_t> numbers;

@@ -1,4 +1,4 @@
-// The exact answer for a pair of which a body has a mesh: triangle by triangle, and inside of it.
+// The exact answer for a pair with a mesh: triangle by triangle, and inside of it.
 #pragma once
 
 #include <memory>
@@ -14,9 +14,9 @@ namespace touchstone::trade {
 // The mesh's triangles, each a flat hull, in the mesh's own frame.
 std::vector<proxies::Part> triangle_parts(const geometry::Mesh& mesh);
 
-// Tells whether a point lies inside of a closed mesh (metres, its frame) by the winding number from
-// solid angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A mesh
-// with small holes still has an inside.
+// Returns true if a point lies inside of a closed mesh (metres, its frame) by the winding number
+// from solid angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A
+// mesh with small holes still has an inside.
 bool is_inside(const geometry::Mesh& mesh, const Vec3d& point);
 
 class TrueMeshes {
@@ -24,8 +24,8 @@ class TrueMeshes {
   // Both outlive it.
   TrueMeshes(const SceneFrames& frames, Executor& executor);
 
-  // The answer and the gap; the gap is NaN in contact, as meshes have no depth. No two calls with
-  // one worker at once.
+  // Returns the answer and the gap; the gap is NaN in contact, because meshes have no depth. Calls
+  // with one worker never overlap in time.
   std::pair<Answer, double> solve(std::size_t frame, const IndexPair& pair, int worker);
 
  private:

@@ -1,3 +1,4 @@
+// Finds the exact answers of a scene's frames.
 #include "harness/trade/pipeline/truth.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ struct TrueAnswer {
   double gap = Outcome::none;
 };
 
-// The pairs to be answered in a frame.
+// The pairs to solve in a frame.
 std::vector<IndexPair> near_pairs(const SceneFrames& frames, std::size_t number,
                                   std::span<const double> sizes) {
   const scene::Scene& scene = *frames.scene;
@@ -47,7 +48,7 @@ std::vector<IndexPair> near_pairs(const SceneFrames& frames, std::size_t number,
   return pairs;
 }
 
-// Answers the pairs of a frame: convex bodies by the oracle, meshes triangle by triangle.
+// Solves the pairs of a frame: convex bodies by the oracle, meshes triangle by triangle.
 class TrueAnswers {
  public:
   TrueAnswers(const SceneFrames& frames, int threads)
@@ -115,7 +116,7 @@ std::vector<std::size_t> sampling_order(std::size_t frames) {
   std::vector<std::size_t> order = {0};
   std::vector<char> taken(frames, 0);
   taken[0] = 1;
-  // Van der Corput's sequence over the others.
+  // Van der Corput's sequence orders the other frames.
   for (std::size_t i = 1; order.size() < frames; ++i) {
     double place = 0, part = 0.5;
     for (std::size_t rest = i; rest > 0; rest /= 2, part /= 2) {
@@ -151,7 +152,7 @@ std::vector<FrameTruth> find_truth(const SceneFrames& frames, std::span<const st
                                    double seconds, int threads) {
   const std::vector<double> sizes = body_sizes(frames);
   std::vector<FrameTruth> truth;
-  std::vector<std::size_t> first = {0};  // answer of each frame
+  std::vector<std::size_t> first = {0};  // the first answer of each frame
   std::vector<std::vector<IndexPair>> pairs;
   for (const std::size_t frame : wanted) {
     pairs.push_back(near_pairs(frames, frame, sizes));

@@ -14,31 +14,32 @@ namespace touchstone::trade {
 struct TruePair {
   IndexPair pair;
   Answer answer = Answer::unknown;
-  // Metres, signed. NaN where it is not known: of meshes in contact there is no depth.
+  // Metres, signed. NaN if it is not known: meshes in contact have no depth.
   double gap = Outcome::none;
-  double size = 0;  // metres: of the smaller body, which errors are parts of
+  double size = 0;  // metres: the size of the smaller body, by which errors are divided
 };
 
 struct FrameTruth {
   std::size_t frame = 0;
-  std::vector<TruePair> pairs;  // sorted
+  std::vector<TruePair> pairs;  // the pairs, sorted
 };
 
-// Bodies are near where their boxes, tight and grown by this part of each body's own size, overlap;
-// or where the scene lists the pair.
+// Bodies are near if their boxes, tight and grown by this part of each body's own size, overlap, or
+// if the scene lists the pair.
 inline constexpr double nearness = 0.05;
 
-// All frames of a scene in the order in which samples of them are taken: frame 0, which has the
-// pairs of bodies at rest, then evenly spread however many are taken.
+// Returns all frames of a scene in the order in which they are sampled: frame 0, which has the
+// pairs of bodies at rest, then frames whose every prefix is evenly spread.
 std::vector<std::size_t> sampling_order(std::size_t frames);
 
 // The diameter of each body's box at its own attitude, metres; 0 for half-spaces.
 std::vector<double> body_sizes(const SceneFrames& frames);
 
-// The truth of these frames, one after the other until so many seconds are spent, but of the first
-// in any case. Pairs of two bodies at rest are in that of frame 0 alone. A mesh is a solid: a body
-// inside of it is in contact with it. Exact arithmetic, or `certified` for pairs of triangles; in a
-// child process with so many threads. Throws std::runtime_error where the first frame fails.
+// Finds the truth of these frames, one after the other until so many seconds are spent, but always
+// that of the first. Pairs of two bodies at rest are in that of frame 0 alone. A mesh is a solid: a
+// body inside of it is in contact with it. The answers come from exact arithmetic, or from
+// `certified` for pairs of triangles, in a child process with so many threads. Throws
+// std::runtime_error if the first frame fails.
 std::vector<FrameTruth> find_truth(const SceneFrames& frames, std::span<const std::size_t> wanted,
                                    double seconds, int threads);
 
