@@ -1,3 +1,4 @@
+// Counts the calls of the heap.
 #include "harness/measure/allocations.h"
 
 #include <atomic>
@@ -46,8 +47,8 @@ Allocations AllocationCount::so_far() const {
 }  // namespace touchstone::measure
 
 #if TOUCHSTONE_COUNTS_ALLOCATIONS
-// The C library's own functions under the names that it keeps for this purpose. (The GNU C Library
-// Reference Manual, "Replacing malloc"; free stays the library's, whose memory it is.)
+// These are the C library's own functions under the names that it keeps for this purpose (The GNU C
+// Library Reference Manual, "Replacing malloc"). free stays the library's, which owns the memory.
 extern "C" {
 void* __libc_malloc(std::size_t size) noexcept;
 void* __libc_calloc(std::size_t items, std::size_t size) noexcept;

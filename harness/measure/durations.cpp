@@ -1,3 +1,4 @@
+// Adds and finds seconds by name.
 #include "harness/measure/durations.h"
 
 #include <algorithm>

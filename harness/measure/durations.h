@@ -1,4 +1,4 @@
-// Seconds by name: what a sample took, part by part.
+// Seconds by name: the time of a sample, part by part.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ class Durations {
     std::array<char, longest_name + 1> name_{};
   };
 
-  // Adds to the duration of that name, which begins at 0. Throws std::length_error when a name is
-  // too long, or there are too many of them.
+  // Adds to the duration of that name, which begins at 0. Throws std::length_error if a name is too
+  // long, or there are too many of them.
   void add(std::string_view name, double seconds);
-  // NaN when there is no duration of that name.
+  // Returns NaN if there is no duration of that name.
   double of(std::string_view name) const;
   double sum() const;
   // The durations in the order in which their names were added.

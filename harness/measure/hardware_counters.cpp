@@ -1,3 +1,4 @@
+// Opens and reads the processor's counters.
 #include "harness/measure/hardware_counters.h"
 
 #if defined(__linux__)

@@ -1,4 +1,4 @@
-// The processor's own counters, where the kernel allows to read them (perf_event_open(2)).
+// The processor's own counters, if the kernel allows to read them (perf_event_open(2)).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace touchstone::measure {
 // starts afterwards.
 class EventCounter {
  public:
-  // `type` and `config` as in perf_event_attr.
+  // `type` and `config` have the meaning of those in perf_event_attr.
   EventCounter(std::uint32_t type, std::uint64_t config);
   ~EventCounter();
   EventCounter(const EventCounter&) = delete;
@@ -17,14 +17,13 @@ class EventCounter {
 
   bool is_open() const { return descriptor_ >= 0; }
   void start();
-  // Since start(); -1 where the kernel refused the counter, or never had the time to run it. Where
-  // it shared a register of the processor with others, what was seen is scaled up to the whole
-  // time.
+  // Returns the count since start(); -1 if the kernel refused the counter, or never ran it. If it
+  // shared a register of the processor with others, the count is scaled up to the whole time.
   std::int64_t count() const;
 
  private:
   struct Reading {
-    std::uint64_t value = 0, enabled = 0, running = 0;  // the times in nanoseconds
+    std::uint64_t value = 0, enabled = 0, running = 0;  // times in nanoseconds
   };
   Reading read() const;
 
@@ -36,12 +35,12 @@ struct HardwareCounts {
   std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
 };
 
-// To be made before the threads that it is to count, and read outside the clock.
+// Must be made before the threads that it is to count, and is read outside the clock.
 class HardwareCounters {
  public:
   HardwareCounters();
   void start();
-  HardwareCounts counts() const;  // since start()
+  HardwareCounts counts() const;  // the counts since start()
 
  private:
   EventCounter cycles_, instructions_, branch_misses_, cache_misses_;

@@ -1,3 +1,4 @@
+// Shuffles a cyclic Latin square.
 #include "harness/measure/latin_square.h"
 
 #include <numeric>

@@ -1,3 +1,4 @@
+// Squares, windows and periods of a plan.
 #include "harness/measure/measure_plan.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace touchstone::measure {
 namespace {
 
-constexpr std::array<int, 4> looks = {first_look, 12, 24, 48};  // squares of a group
+constexpr std::array<int, 4> looks = {first_look, 12, 24, 48};  // the number of squares of a group
 
 }  // namespace
 

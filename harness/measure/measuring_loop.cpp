@@ -1,3 +1,4 @@
+// The loop over sets, processes, laps, groups and rounds.
 #include "harness/measure/measuring_loop.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ void MeasuringLoop::run() {
   }
 }
 
-// The sets that share their workers: all of them, or each alone.
+// Returns the sets that share their workers: all of them, or each alone.
 std::vector<std::vector<std::size_t>> MeasuringLoop::shares() const {
   std::vector<std::size_t> all(plan_.sets.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -181,7 +182,7 @@ Sample MeasuringLoop::sample(std::size_t contestant, std::size_t set, const Samp
   return sample;
 }
 
-// Tells what ends with a round.
+// Finds out which lap or period ends with a round.
 void MeasuringLoop::judge(const Place& place, Round& round) {
   const MeasuredSet& set = plan_.sets[place.set];
   round.spent = progress_[place.set].spent;

@@ -18,7 +18,7 @@
 
 namespace touchstone::measure {
 
-// Why a set has no further rounds.
+// The reason why a set has no further rounds.
 enum class Stop : std::uint8_t {
   none,
   crashed,  // no contestant is left
@@ -30,32 +30,32 @@ std::string_view to_string(Stop stop);  // empty for `none`
 
 // The end of a contestant, which takes no further part in the plan.
 struct Loss {
-  bool wrong = false;                 // its answer was wrong; its worker had not failed
-  process::IsolationFailure failure;  // of its worker, unless the answer was wrong
+  bool wrong = false;                 // true if its answer was wrong, and its worker had not failed
+  process::IsolationFailure failure;  // the failure of its worker, unless the answer was wrong
 };
 
 struct Sample {
   std::size_t contestant = 0;
-  std::int64_t position = 0;  // in its round
+  std::int64_t position = 0;  // the position in its round
   SampleReply reply;
-  std::optional<Loss> loss;  // instead of a reply
+  std::optional<Loss> loss;  // set if there is no reply
 };
 
-// A round: every contestant of a group that is left takes one sample of the same window.
+// A round: every remaining contestant of a group takes one sample of the same window.
 struct Round {
   std::size_t set = 0, group = 0;
   int process = 0, lap = 0;
   std::int64_t square = 0, round = 0;
   SampleRequest request;
-  std::vector<Sample> samples;  // by position; never empty
-  std::string noise;            // flags, see noise.h; empty when the machine was quiet
-  double spent = 0;             // seconds, of all rounds of the set so far
-  bool ends_lap = false;        // it is the last one of this lap for all groups of the set
-  bool ends_period = false;     // the intervals may be looked at
+  std::vector<Sample> samples;  // the samples by position; never empty
+  std::string noise;            // flags of noise.h; empty if the machine was quiet
+  double spent = 0;             // seconds of all rounds of the set so far
+  bool ends_lap = false;     // true if it is the last round of this lap for all groups of the set
+  bool ends_period = false;  // true if the intervals may be looked at
   Stop stop = Stop::none;
 };
 
-// The user of the loop: it knows what is measured, and takes the results.
+// The user of the loop: it knows the subject of the measurement, and takes the results.
 class MeasuringJob {
  public:
   virtual ~MeasuringJob() = default;
@@ -67,33 +67,33 @@ class MeasuringJob {
   };
   virtual std::vector<Untimed> warm_up(std::size_t contestant, std::span<const std::size_t> sets,
                                        const ProcessLaps& process) = 0;
-  // Seconds after which a worker is given up when it was asked for so many frames.
+  // Returns the seconds after which a worker that was asked for so many frames is given up.
   virtual double deadline(std::size_t contestant, std::size_t set, std::uint32_t frames) const = 0;
-  // Tells whether an answer is the one that was checked before. It runs outside the clock.
+  // Returns true if an answer equals the checked one. It runs outside the clock.
   virtual bool is_right(std::size_t contestant, std::size_t set, const SampleRequest& request,
                         const SampleReply& reply) const = 0;
-  // Tells whether a set may begin a process, which costs time.
+  // Returns true if a set may begin a process, which costs time.
   virtual bool has_time(std::size_t set, const ProcessLaps& process) const = 0;
 
   // Takes the loss of a contestant before its first sample of a process, in this frame of a set.
   virtual void lose(std::size_t contestant, std::size_t set, int process, std::uint32_t frame,
                     const Loss& loss) = 0;
-  // Takes the samples of a round, and may set `stop` where it is `none`.
+  // Takes the samples of a round; if `stop` is `none`, it may set it.
   virtual void take(Round& round) = 0;
-  // Is called after each start of a worker and after each round; false ends the loop.
+  // Is called after each start of a worker and after each round; the loop ends if it returns false.
   virtual bool goes_on() = 0;
 };
 
-// The progress of a set, from which a run that was interrupted goes on.
+// The progress of a set, from which an interrupted run goes on.
 struct SetProgress {
   std::set<std::pair<std::int64_t, std::int64_t>> done;  // square, round
-  double spent = 0;                                      // seconds, over its rounds
+  double spent = 0;                                      // seconds over its rounds
   bool stopped = false;
 };
 
 class MeasuringLoop {
  public:
-  // The plan and the job outlive it. `progress` is that of each set; `lost` has a 1 for each
+  // The plan and the job outlive it. `progress` has one entry for each set; `lost` has a 1 for each
   // contestant that takes no part. Either may be empty.
   MeasuringLoop(const MeasurePlan& plan, MeasuringJob& job, std::vector<SetProgress> progress = {},
                 std::vector<char> lost = {});
@@ -101,11 +101,12 @@ class MeasuringLoop {
   void run();
 
  private:
-  using Workers = std::vector<std::unique_ptr<Worker>>;  // of each contestant; null: none
-  struct Place {                                         // of a round in the loop
+  // one for each contestant; null if it has none
+  using Workers = std::vector<std::unique_ptr<Worker>>;
+  struct Place {  // the place of a round in the loop
     std::size_t set;
     const ProcessLaps& process;
-    bool is_last_of_period, is_last;  // the process
+    bool is_last_of_period, is_last;  // properties of the process
     int lap;
     std::size_t group, round;
   };

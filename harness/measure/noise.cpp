@@ -1,3 +1,4 @@
+// Reads the system's pressure and steal counters, and flags noisy rounds.
 #include "harness/measure/noise.h"
 
 #include <fmt/core.h>
@@ -16,7 +17,7 @@ constexpr double steal_share = 0.01;
 constexpr double preempted_share = 0.05;
 constexpr double busy_percent = 5;
 
-// The number behind "key" on the line that begins with `line`.
+// Returns the number behind "key" on the line that begins with `line`.
 std::optional<double> pressure_value(const std::filesystem::path& proc, std::string_view key) {
   std::ifstream stream(proc / "pressure/cpu");
   for (std::string line; std::getline(stream, line);) {
@@ -91,7 +92,7 @@ std::string MachineLoad::objection() const {
         "(/proc/pressure/cpu); expected at most {:g} %",
         *pressure, busy_percent);
   }
-  // This process is one of them.
+  // This process is one of the running tasks.
   if (*running > 1) {
     return fmt::format("{} other task{} at work (/proc/loadavg); expected none", *running - 1,
                        *running == 2 ? " is" : "s are");

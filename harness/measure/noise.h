@@ -1,4 +1,4 @@
-// Other work of the machine while something was timed.
+// Noise: other work of the machine during a measurement.
 #pragma once
 
 #include <cstdint>
@@ -8,35 +8,36 @@
 
 namespace touchstone::measure {
 
-// Counters of the system, ever growing; empty where the system does not tell.
+// Counters of the system, ever growing; a counter that the system lacks is empty.
 struct NoiseReading {
   std::optional<double> waited;  // seconds in which some task waited for a processor
   std::optional<double> stolen;  // seconds that the hypervisor gave to others, over all processors
 
-  // `proc` is where the system tells.
+  // `proc` is the folder of the counters.
   static NoiseReading now(const std::filesystem::path& proc = "/proc");
 };
 
-// Flags of a round joined by '+', empty where it was quiet or nothing is known: "pressure" where
-// some task of the machine waited for a processor for over half of it (a program that does nothing
-// but measure makes a tenth to a third itself, by waking its threads), "steal" where over a
-// hundredth was stolen, "preempted" where the workers were ready for over a twentieth of it and had
-// no processor.
+// Returns the flags of a round joined by '+'; the text is empty if the round was quiet or nothing
+// is known. "pressure": some task of the machine waited for a processor for over half of the round
+// (a program that only measures makes a tenth to a third itself, by waking its threads). "steal":
+// over a hundredth was stolen. "preempted": the workers were ready for over a twentieth of it and
+// had no processor.
 std::string noise_flags(const NoiseReading& before, const NoiseReading& after, double seconds,
                         double workers_waited);
 
-// The function that flags the rounds: noise_flags, unless a test put another in its place.
+// The function that flags the rounds: noise_flags, or a substitute in a test.
 using NoiseJudge = decltype(&noise_flags);
 NoiseJudge& noise_judge();
 
-// The share of the last ten seconds in which some task waited for a processor, in percent, and how
-// many tasks run or wait to run now; empty where the system does not tell.
+// The share of the last ten seconds in which some task waited for a processor, in percent, and the
+// number of tasks that run or wait to run now; a value that the system lacks is empty.
 struct MachineLoad {
   std::optional<double> pressure;
   std::optional<int> running;
 
   static MachineLoad now(const std::filesystem::path& proc = "/proc");
-  // Why no measurement should begin; empty where it may, "unknown ..." where nothing is known.
+  // The reason against the start of a measurement; empty if it may start, "unknown ..." if nothing
+  // is known.
   std::string objection() const;
 };
 

@@ -1,3 +1,4 @@
+// Reads the run delay of this process's threads.
 #include "harness/measure/run_delay.h"
 
 #include <time.h>
@@ -32,7 +33,7 @@ std::optional<double> run_delay() {
 
 void come_to_rest() {
   constexpr std::chrono::microseconds pause(100);
-  constexpr double at_rest = 20e-6;  // what the pause itself takes
+  constexpr double at_rest = 20e-6;  // seconds that the pause itself takes
   double before = processor_seconds();
   for (int i = 0; i < 50; ++i) {
     std::this_thread::sleep_for(pause);

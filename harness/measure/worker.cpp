@@ -1,3 +1,4 @@
+// Forks a worker and exchanges requests and replies with it.
 #include "harness/measure/worker.h"
 
 #include <fcntl.h>
@@ -26,12 +27,13 @@ namespace touchstone::measure {
 namespace {
 
 constexpr int tick_milliseconds = 20;
-constexpr double seconds_to_leave = 2;  // of a worker that hung up
+// seconds until a worker that closed its line must have ended
+constexpr double seconds_to_leave = 2;
 
 // The heap, the mappings and the stack begin at a different place in each process, as they do from
-// one start of a program to the next: forked workers would all have their parent's layout.
-// (Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything obviously
-// wrong!", ASPLOS 2009.)
+// one start of a program to the next; otherwise forked workers would all have their parent's
+// layout. (Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything
+// obviously wrong!", ASPLOS 2009.)
 class Layout {
  public:
   explicit Layout(base::Random& random) {
@@ -39,7 +41,7 @@ class Layout {
       const std::size_t size = 16 + 16 * random.below(512);
       kept_.emplace_back(size, '\1');
     }
-    for (std::size_t i = 0; i < kept_.size(); i += 2) kept_[i] = {};  // holes
+    for (std::size_t i = 0; i < kept_.size(); i += 2) kept_[i] = {};  // makes holes
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
     static_cast<void>(mmap(nullptr, page * (1 + random.below(256)), PROT_NONE,
                            MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
@@ -65,15 +67,15 @@ class Usage {
       : clear_(open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC)),
         status_(open("/proc/self/status", O_RDONLY | O_CLOEXEC)) {}
 
-  // The memory in use now is the harness's: peaks are counted beyond it.
+  // The memory in use now belongs to the harness; peaks are counted beyond it.
   void be_empty() {
 #if defined(__GLIBC__)
-    malloc_trim(0);  // or the algorithm would use up what the harness has given back
+    malloc_trim(0);  // otherwise the algorithm would use memory that the harness has freed
 #endif
     own_kb_ = status().anonymous;
   }
   void start() {
-    // From here on the peak is that of what follows (proc(5), clear_refs).
+    // This write restarts the peak (proc(5), clear_refs).
     can_reset_ = clear_ >= 0 && write(clear_, "5", 1) == 1;
     getrusage(RUSAGE_SELF, &before_);
     delay_ = run_delay();
@@ -89,14 +91,14 @@ class Usage {
     reply.involuntary_switches = after.ru_nivcsw - before_.ru_nivcsw;
     if (!can_reset_ || own_kb_ < 0) return;
     const Status now = status();
-    // The peak is of all pages; those of files, programs among them, only ever grow.
+    // The peak is that of all pages; the pages of files, programs among them, only ever grow.
     if (now.peak >= 0) {
       reply.peak_kb = std::max<std::int64_t>(now.peak - now.files - now.shared - own_kb_, 0);
     }
   }
 
  private:
-  struct Status {  // kilobytes resident; -1 where the system does not tell
+  struct Status {  // kilobytes resident; -1 if the system does not report it
     std::int64_t peak = -1, anonymous = -1, files = 0, shared = 0;
   };
   Status status() const {
@@ -131,7 +133,7 @@ class Usage {
 void serve(int line, const Worker::Make& make, Usage& usage) {
   usage.be_empty();
   const std::unique_ptr<Sampler> sampler = make();
-  SampleReply reply;  // the first says that the sampler is made
+  SampleReply reply;  // the first reply says that the sampler is made
   for (;;) {
     if (send(line, &reply, sizeof reply, MSG_NOSIGNAL) < 0) return;
     SampleRequest request;
@@ -147,7 +149,7 @@ void serve(int line, const Worker::Make& make, Usage& usage) {
   }
 }
 
-// What the worker's process does, in a layout of its own.
+// The work of the worker's process, in a memory layout of its own.
 void be_worker(int line, const Worker::Make& make, const WorkerSettings& settings, Usage& usage) {
   base::Random random(settings.layout);
   const Layout layout(random);
@@ -164,7 +166,7 @@ Worker::Worker(const Make& make, const WorkerSettings& settings) {
     throw std::system_error(errno, std::generic_category(), "socketpair");
   }
   line_ = ends[0];
-  std::optional<Usage> usage;  // the child's
+  std::optional<Usage> usage;  // the usage of the child
   child_ = std::make_unique<process::ChildProcess>(
       process::ChildProcess::Settings{.memory = settings.memory,
                                       .before = [&] { usage.emplace(); }},
@@ -211,7 +213,7 @@ std::optional<SampleReply> Worker::wait(double seconds) {
   return {};
 }
 
-// A worker that hung up has ended or is about to, unless it closed its line by mistake.
+// A worker that closed its line has ended or is about to, unless it closed the line by mistake.
 void Worker::end(bool late) {
   if (late) {
     child_->stop();

@@ -1,5 +1,5 @@
-// One contestant in a process of its own, warm between samples: its failure costs only its own
-// samples.
+// A worker: one contestant in a process of its own, warm between samples. Its failure costs only
+// its own samples.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 namespace touchstone::measure {
 
 struct WorkerSettings {
-  std::size_t memory = std::size_t{4} << 30;  // bytes that it may add to what is there
-  std::uint64_t layout = 0;                   // seed of where its heap and stack begin
+  std::size_t memory = std::size_t{4} << 30;  // bytes that it may add to the memory in use
+  std::uint64_t layout = 0;                   // seed of the place where its heap and stack begin
 };
 
-// Forks in the constructor; dies in the destructor. The caller must be the only thread of its
+// It forks in the constructor and dies in the destructor. The caller must be the only thread of its
 // process (std::logic_error).
 class Worker {
  public:
@@ -30,11 +30,11 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  // Waits until `make` has returned; gives its failure, if any.
+  // Waits until `make` has returned; returns its failure, if any.
   std::optional<process::IsolationFailure> wait_until_made(double seconds);
 
-  // Empty when the worker crashed, left, threw or took longer than so many seconds: it is dead
-  // then, and failure() says how.
+  // Returns nothing if the worker crashed, left, threw or took longer than so many seconds: then it
+  // is dead, and failure() says how.
   std::optional<SampleReply> ask(const SampleRequest& request, double seconds);
   const process::IsolationFailure& failure() const { return failure_; }
   bool alive() const { return child_->alive(); }
@@ -43,7 +43,7 @@ class Worker {
   std::optional<SampleReply> wait(double seconds);
   void end(bool late);
 
-  int line_ = -1;  // requests and replies, one a packet
+  int line_ = -1;  // the socket of requests and replies, one a packet
   std::unique_ptr<process::ChildProcess> child_;
   process::IsolationFailure failure_;
 };

@@ -1,3 +1,4 @@
+// Plays a block's scene and finds its true pairs.
 #include "harness/measure/phases/block_input.h"
 
 #include <map>

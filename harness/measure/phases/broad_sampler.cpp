@@ -1,3 +1,4 @@
+// Plays frames with a broad phase, and times its parts.
 #include "harness/measure/phases/broad_sampler.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ void BroadSampler::step(std::size_t frame, SampleReply& reply) {
   at_ = static_cast<std::ptrdiff_t>(frame);
 }
 
-// The least of some repetitions; NaN when the algorithm converts nothing.
+// Returns the least of some repetitions; NaN if the algorithm converts nothing.
 double BroadSampler::time_conversion(std::size_t frame) {
   constexpr int repetitions = 3;
   const BlockFrame& now = input_->frames[frame];
@@ -55,7 +56,7 @@ double BroadSampler::time_conversion(std::size_t frame) {
   }
   auto* const peer = dynamic_cast<PeerBroadPhase*>(algorithm_.get());
   if (peer == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  peer->convert(converted);  // makes room for them
+  peer->convert(converted);  // allocates the memory for them
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < repetitions; ++i) {
     const base::Stopwatch converting;

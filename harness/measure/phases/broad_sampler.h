@@ -1,4 +1,4 @@
-// Samples of a broad phase.
+// The sampler of a broad phase.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,16 @@ namespace touchstone::measure {
 // with `rebuild`, or when there is no other frame, every frame is built and counts. When a window
 // does not continue the one before, the frames up to it are played before the clock starts.
 //
-// The durations are `build` or `update`, and `find_pairs`. When one frame is asked for `hashed`
-// there is `convert` too: the part of a library's build or update that converts boxes to its own
-// types, run and timed again by itself.
+// The durations are `build` or `update`, and `find_pairs`. A `hashed` request of one frame has
+// `convert` too: the part of a library's build or update that converts boxes to its own types, run
+// and timed again by itself.
 class BroadSampler final : public Sampler {
  public:
   BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
                Executor& executor);
 
   SampleReply sample(const SampleRequest& request) override;
-  // Plays one frame, which may be frame 0; its pairs are in sink() until the next call.
+  // Plays one frame, which may be frame 0; sink() holds its pairs until the next call.
   SampleReply play(std::size_t frame);
   const PairSink& sink() const { return sink_; }
   // Plays one frame without a clock, and counts the calls of the heap.

@@ -1,3 +1,4 @@
+// The label of a narrow phase with its settings.
 #include "harness/measure/phases/narrow_choice.h"
 
 #include <limits>

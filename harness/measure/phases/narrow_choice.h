@@ -1,4 +1,4 @@
-// A narrow phase with the settings that it is measured with.
+// A narrow phase with the settings of its measurement.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace touchstone::measure {
 struct NarrowChoice {
   const NarrowPhaseEntry* entry = nullptr;
   NarrowPhaseSettings settings;
-  bool warm = false;  // each frame is answered with what the frames before left in memory
+  bool warm = false;  // true if each frame starts from the memory that the frames before left
 
-  std::string label() const;  // as narrow_label gives it
+  std::string label() const;  // the label that narrow_label gives
 };
 
 }  // namespace touchstone::measure

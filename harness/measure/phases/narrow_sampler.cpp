@@ -1,3 +1,4 @@
+// Solves the pairs of frames with a narrow phase, cold or warm, and times it.
 #include "harness/measure/phases/narrow_sampler.h"
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 namespace touchstone::measure {
 namespace {
 
-// Pairs that one task of the executor answers: enough to hide the cost of handing it out, few
-// enough to share a small group between two threads.
+// The number of pairs that one task of the executor solves: enough to hide the cost of its
+// dispatch, few enough to share a small group between two threads.
 constexpr std::size_t pairs_a_task = 256;
 
 void count(std::int64_t& sum, std::int32_t value) {
@@ -79,7 +80,7 @@ void NarrowSampler::solve(Task task, const PairBatch& batch, std::span<Outcome> 
 double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size_t> frames) {
   const std::vector<Chunk> chunks = cut(set, frames);
   const std::vector<std::size_t> tasks = tasks_of(chunks);
-  // By reference, so that std::function does not allocate.
+  // The capture is by reference, so that std::function does not allocate.
   const auto work = [&](std::size_t task, int worker) {
     for (std::size_t i = tasks[task]; i < tasks[task + 1]; ++i) {
       const Chunk& chunk = chunks[i];
@@ -131,7 +132,7 @@ double NarrowSampler::play(Warm& warm, Task task, std::span<const std::size_t> f
   executor_->run(warm.pairs.tasks(), std::cref(work));
   const double seconds = watch.seconds();
   warm.at = static_cast<std::ptrdiff_t>(frames.back());
-  // Back into the order of the set.
+  // Restores the order of the set.
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::vector<std::uint32_t>& places = warm.pairs.frame(frames[i]).places;
     if (places.empty()) continue;
@@ -160,7 +161,7 @@ double NarrowSampler::solve_warm(const SampleRequest& request,
   double seconds = 0;
   std::size_t first = 0;
   while (!frames.empty()) {
-    // Frames in a row, until the scene begins again.
+    // A run of frames ends where the scene begins again.
     std::size_t row = 1, pairs = kept.pairs.frame(frames[0]).slots.size();
     for (; row < frames.size() && frames[row] == frames[row - 1] + 1; ++row) {
       pairs += kept.pairs.frame(frames[row]).slots.size();

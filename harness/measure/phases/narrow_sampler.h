@@ -1,4 +1,4 @@
-// Samples of a narrow phase.
+// The sampler of a narrow phase.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@
 namespace touchstone::measure {
 
 // The pairs of all frames of the window are one piece of work for the executor; the duration is
-// `narrow`. A warm narrow phase answers each frame with what the frames before left in memory, as
-// in a scene that is played again and again: at frame 0 it knows nothing, and when a window does
-// not continue the one before, the frames up to it are played before the clock starts. So an
-// answer does not depend on the window that it is in.
+// `narrow`. A warm narrow phase solves each frame with the memory that the frames before left, as
+// in a scene that is played again and again. Its memory is empty at frame 0, and if a window does
+// not continue the one before, the frames up to it are played before the clock starts. So an answer
+// does not depend on the window that it is in.
 class NarrowSampler final : public Sampler {
  public:
   // `sets` outlives it; a request names one of them by its number.
@@ -29,36 +29,36 @@ class NarrowSampler final : public Sampler {
                 std::span<const NarrowSet> sets, Executor& executor);
 
   SampleReply sample(const SampleRequest& request) override;
-  // Counts what the queries ask of the heap, without a clock and in this thread.
+  // Counts the heap calls of the queries, without a clock and in this thread.
   Allocations count_allocations(const SampleRequest& request);
-  std::span<const Outcome> outcomes() const { return outcomes_; }  // of the last sample
+  std::span<const Outcome> outcomes() const { return outcomes_; }  // those of the last sample
 
  private:
-  struct Chunk {  // pairs of one frame
+  struct Chunk {  // a run of pairs of one frame
     PairBatch batch;
-    std::size_t first;  // outcome
+    std::size_t first;  // the index of its first outcome
   };
-  struct Warm {  // what is kept of a set
+  struct Warm {  // the state of a set
     WarmPairs pairs;
-    std::vector<PairMemory> memory;  // of each slot
-    std::ptrdiff_t at = -1;          // the frame that was answered last; -1: none
+    std::vector<PairMemory> memory;  // one for each slot
+    std::ptrdiff_t at = -1;          // the last frame solved; -1: none
   };
   std::vector<std::size_t> frames_of(const SampleRequest& request) const;
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes, int worker);
 
-  // Cuts the pairs of the frames.
+  // Cuts the pairs of the frames into chunks.
   std::vector<Chunk> cut(const NarrowSet& set, std::span<const std::size_t> frames) const;
   // The first chunk of each of the executor's tasks, and the end of the last task.
   static std::vector<std::size_t> tasks_of(std::span<const Chunk> chunks);
   double solve_cold(const NarrowSet& set, std::span<const std::size_t> frames);
 
   Warm& warm(std::uint32_t set);
-  // Pairs [begin, end) of the frame, as WarmPairs has them.
+  // Returns the pairs [begin, end) of the frame, in the order of WarmPairs.
   PairBatch batch(Warm& warm, std::size_t frame, std::size_t begin, std::size_t end) const;
-  // Answers frames that follow one another, and the one before; seconds.
+  // Solves consecutive frames that continue the one before; returns seconds.
   double play(Warm& warm, Task task, std::span<const std::size_t> frames,
               std::span<Outcome> outcomes);
-  // Answers frames until the one before this frame is answered; from frame 0 on if need be.
+  // Solves frames until the one before this frame is solved, from frame 0 on if necessary.
   void play_up_to(Warm& warm, Task task, std::size_t frame);
   double solve_warm(const SampleRequest& request, std::span<const std::size_t> frames);
 
@@ -66,9 +66,9 @@ class NarrowSampler final : public Sampler {
   std::span<const NarrowSet> sets_;
   Executor* executor_;
   bool starts_warm_;
-  std::vector<std::unique_ptr<NarrowPhase>> instances_;  // one a worker
+  std::vector<std::unique_ptr<NarrowPhase>> instances_;  // one for each worker
   std::vector<Outcome> outcomes_;
-  std::vector<std::optional<Warm>> warm_;  // of each set, once it was asked about
+  std::vector<std::optional<Warm>> warm_;  // one for each set, made at its first request
 };
 
 }  // namespace touchstone::measure

@@ -1,4 +1,4 @@
-// The fingerprint of the answers to a set of pairs.
+// The hash of the answers to a set of pairs.
 #pragma once
 
 #include <bit>
@@ -13,7 +13,7 @@
 namespace touchstone::measure {
 
 // It does not depend on the order of the pairs or on the number of threads. It is a sum modulo 2^64
-// over the pairs, so the one of several frames is the sum of theirs.
+// over the pairs, so the hash of several frames is the sum of their hashes.
 inline std::uint64_t outcome_hash(const grade::PairGroup& group,
                                   std::span<const Outcome> outcomes) {
   std::uint64_t sum = 0;
@@ -22,7 +22,7 @@ inline std::uint64_t outcome_hash(const grade::PairGroup& group,
     std::uint64_t hash = base::mix((std::uint64_t{group.first[i]} << 32) + group.second[i]);
     hash = base::mix(hash ^ (static_cast<std::uint64_t>(outcome.answer) << 8) ^
                      static_cast<std::uint64_t>(outcome.status));
-    // Every NaN counts as the same: it says that there is no number.
+    // Every NaN has the same hash: it means that there is no number.
     if (!std::isnan(outcome.distance)) {
       hash = base::mix(hash ^ std::bit_cast<std::uint64_t>(outcome.distance));
     }
@@ -31,7 +31,7 @@ inline std::uint64_t outcome_hash(const grade::PairGroup& group,
   return sum;
 }
 
-// The fingerprint of the pairs of a group, as pair_hash has it.
+// The hash of the pairs of a group, made of their pair_hash.
 inline std::uint64_t group_hash(const grade::PairGroup& group) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < group.size(); ++i) {

@@ -1,3 +1,4 @@
+// Finds overlapping boxes with a binary tree.
 #include "harness/measure/phases/overlapping_pairs.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Aabb hull_of(const Aabb& a, const Aabb& b) {
   return hull;
 }
 
-// A binary tree over the boxes, split at the median centre; it is met with itself.
+// A binary tree over the boxes, split at the median centre, and traversed against itself.
 class Tree {
  public:
   explicit Tree(std::span<const Aabb> boxes) {
@@ -45,12 +46,12 @@ class Tree {
   struct Node {
     Aabb box;
     std::size_t first, last;  // items
-    std::size_t left, right;  // nodes; 0 of a leaf
+    std::size_t left, right;  // nodes; 0 in a leaf
     bool is_leaf() const { return left == 0; }
   };
   static constexpr std::size_t leaf_size = 8;
 
-  // Twice the centre.
+  // The centre times two.
   static double centre(const Item& item, std::size_t axis) {
     return static_cast<double>(item.box.min[axis]) + static_cast<double>(item.box.max[axis]);
   }

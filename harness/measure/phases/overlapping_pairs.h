@@ -1,4 +1,4 @@
-// The pairs of boxes that overlap, by the harness's own means: what broad phases are held against.
+// The pairs of boxes that overlap, found by the harness itself: the reference for broad phases.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,12 @@
 
 namespace touchstone::measure {
 
-// Up to so many boxes every pair is tested, by the naive broad phase; beyond, where that would take
-// minutes, a tree of boxes leaves out those that are certainly apart.
+// The largest number of boxes for which the naive broad phase tests every pair; with more boxes,
+// which would take minutes, a tree excludes those that are certainly apart.
 inline constexpr std::size_t most_boxes_to_test_all = 30'000;
 
-// Sorted, a < b, each once. Empty boxes have no pairs. Runs in the caller's thread.
+// Returns the pairs sorted, a < b, each once. Empty boxes have no pairs. It runs in the caller's
+// thread.
 std::vector<IndexPair> overlapping_pairs(std::span<const Aabb> boxes,
                                          std::size_t most_to_test_all = most_boxes_to_test_all);
 

@@ -1,3 +1,4 @@
+// Makes samplers of broad and narrow phases.
 #include "harness/measure/phases/phase_makers.h"
 
 #include "harness/measure/phases/broad_sampler.h"

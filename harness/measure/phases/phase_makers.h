@@ -9,7 +9,7 @@
 
 namespace touchstone::measure {
 
-// All that is passed by reference, and the sets, outlive the maker and its samplers.
+// All arguments by reference, and the sets, outlive the maker and its samplers.
 Worker::Make broad_maker(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
                          int threads);
 Worker::Make narrow_maker(const NarrowChoice& choice, const BlockInput& input,

@@ -1,3 +1,4 @@
+// Orders the pairs of a set by slot and task.
 #include "harness/measure/phases/warm_pairs.h"
 
 #include <algorithm>

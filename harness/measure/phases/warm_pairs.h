@@ -10,17 +10,19 @@
 namespace touchstone::measure {
 
 // Two bodies have the same slot of memory in every frame in which they are a pair. The slots are
-// cut into tasks, and the pairs of a frame are put in order so that those of a task are together:
-// then one worker can answer a task's pairs frame after frame, and no other writes to their memory.
+// cut into tasks, and the pairs of a frame are ordered so that those of a task are together: then
+// one worker can solve a task's pairs frame after frame, and is the only one that writes to their
+// memory.
 class WarmPairs {
  public:
   WarmPairs(const NarrowSet& set, std::size_t slots_a_task);
 
   struct Frame {
-    grade::PairGroup pairs;             // as in the set, within each task
-    std::vector<std::uint32_t> slots;   // of each pair
-    std::vector<std::uint32_t> places;  // of each pair in the set's frame; empty: the same order
-    std::vector<std::size_t> begins;    // of each task's pairs, and the end of the last
+    grade::PairGroup pairs;            // the pairs in the order of the set within each task
+    std::vector<std::uint32_t> slots;  // one for each pair
+    // for each pair, its index in the set's frame; empty: the same order
+    std::vector<std::uint32_t> places;
+    std::vector<std::size_t> begins;  // the beginning of each task's pairs, and the end of the last
   };
   const Frame& frame(std::size_t i) const { return frames_[i]; }
   std::size_t slots() const { return slots_; }
