@@ -24,7 +24,7 @@ struct GradedAnswer {
   std::int32_t iterations = -1;
   double size = 0;                          // pair_size, metres
   double scale = 0;                         // unit of errors, metres; see margins.h
-  double lower = 0, upper = 0;              // enclosure of the exact signed distance of the case, metres
+  double lower = 0, upper = 0;              // enclosure of the case's exact signed distance, metres
   double given_lower = 0, given_upper = 0;  // its enclosure for the given problem, metres
   Grade given;                              // against the given problem
   Grade end_to_end;                         // against the case

@@ -1,3 +1,4 @@
+// Draws random shapes of every kind.
 #include "harness/check/regimes/check_shapes.h"
 
 #include <algorithm>

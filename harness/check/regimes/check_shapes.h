@@ -1,4 +1,4 @@
-// Random shapes for the checks: of every kind, size and proportion.
+// Random shapes for the checks: all kinds, sizes and proportions.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace touchstone::check {
 
 enum class Proportions : std::uint8_t { compact, needle, plate };
 
-// What a random shape is to be like. A compact shape's sides are within a factor of four of each
-// other; a needle has one long side and two short ones, a plate two long sides and a short one, in
-// the ratio `aspect`. Spheres are always compact, and capsules never plates.
+// The size and proportions of a random shape. A compact shape's sides are within a factor of four
+// of each other; a needle has one long side and two short ones, a plate two long sides and a short
+// one, in the ratio `aspect`. Spheres are always compact, and capsules never plates.
 struct ShapeStyle {
   double size = 1;  // metres: the longest side is between this and twice it (hulls: or less)
   Proportions form = Proportions::compact;
@@ -22,28 +22,31 @@ struct ShapeStyle {
   friend bool operator==(const ShapeStyle&, const ShapeStyle&) = default;
 };
 
-// Boxes and hulls most, then spheres and capsules, then the other bounded kinds.
+// Draws a kind: boxes and hulls are most frequent, then spheres and capsules, then the other
+// bounded kinds.
 ShapeKind random_kind(base::Random& random);
 
-// Half of each side, the longest between size / 2 and size, in no order.
+// Returns half of each side, the longest between size / 2 and size, in random order.
 Vec3d random_sides(const ShapeStyle& style, base::Random& random);
 
-// Hulls come from the pool of the seed's (hull_pool.h). Safe to call from several threads.
+// Draws a shape of the kind. Hulls come from the seed's pool (hull_pool.h). Safe to call from
+// several threads.
 Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed,
                    base::Random& random);
 
-// A hull turned inside out: each vertex v becomes -v, exactly.
+// Returns the point reflection of a hull: each vertex v becomes -v, exactly.
 Shape mirrored(const Shape& hull);
 
-// A box with the same points as a hull of eight vertices.
+// Returns a hull of eight vertices with the points of a box.
 Shape box_as_hull(const Vec3d& half_extents);
 
 Shape hull_of(std::vector<Vec3d> points);
 
-// A point inside the shape, as far as it has an inside; body coordinates. Not for half-spaces.
+// Returns a point inside the shape, or on it if it has no inside; body coordinates. Not for
+// half-spaces.
 Vec3d inner_point(const Shape& shape);
 
-// The greatest n . x over the shape's points (metres, times the length of n), for n in body
+// Returns the greatest n . x over the shape's points (metres, times the length of n), for n in body
 // coordinates; infinite for half-spaces.
 double support_value(const Shape& shape, const Vec3d& n);
 

@@ -1,4 +1,4 @@
-// Bodies at the same place, inside each other, or with faces in one plane.
+// Draws bodies at the same place, inside each other, or with faces in one plane.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace touchstone::check {
 namespace {
 
-// Two shapes of unit size.
+// Draws two shapes of unit size.
 void draw_shapes(RegimeDraw& draw, files::Case& c) {
   c.shape_a = random_shape(random_kind(draw.random), {}, draw.seed, draw.random);
   c.shape_b = random_shape(random_kind(draw.random), {}, draw.seed, draw.random);
@@ -55,7 +55,7 @@ RegimeCase draw_contained(RegimeDraw& draw) {
   c.shape_b = random_shape(random_kind(random), {size, Proportions::compact, 1}, draw.seed, random);
   c.pose_a = random_pose(1, random);
   c.pose_b.rotation = random.rotation();
-  // At the middle, or some way off it.
+  // The body is at the middle, or some way off it.
   const Vec3d away = random.below(3) == 0 ? Vec3d(Vec3d::Zero()) : Vec3d(0.1 * random.in_ball());
   c.pose_b.translation = c.pose_a.translation +
                          base::times(c.pose_a.rotation, inner_point(c.shape_a)) + away -
@@ -81,7 +81,7 @@ RegimeCase draw_contained_touching(RegimeDraw& draw) {
   }
   const Pose pose = random_pose(1, random);
   if (random.below(2) == 0) {
-    // Up to rounding only.
+    // The turned pose is exact up to rounding only.
     c.pose_b.translation = pose(c.pose_b.translation);
     c.pose_a = pose;
     c.pose_b.rotation = pose.rotation;
@@ -116,7 +116,8 @@ RegimeCase draw_coplanar(RegimeDraw& draw) {
   };
   c.shape_a = shape(half_a);
   c.shape_b = shape(half_b);
-  // Side by side along x, the tops in one plane; along y also flush, or shifted.
+  // The bodies are side by side along x, with their tops in one plane; along y they are flush or
+  // shifted.
   const double shift = half_a.y() + half_b.y();
   const Vec3d offset(
       half_a.x() + half_b.x() + amount.value * grade::pair_size(c),

@@ -1,4 +1,4 @@
-// Gaps and depths between chosen features, at unit scale and at the extremes.
+// Draws gaps and depths between chosen features, at unit scale and at the extremes.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -11,10 +11,9 @@
 namespace touchstone::check {
 namespace {
 
-// How the two features lie to each other beyond their normals' being opposite. `parallel`: the
-// directions of two lines are along each other, up to rounding. `exact`: parallel faces or edges
-// are so exactly, because the bodies share one rotation matrix, or its columns up to order and
-// sign.
+// Alignment of the two features, beyond their opposite normals. `parallel`: the directions of two
+// lines are parallel up to rounding. `exact`: parallel faces or edges are exactly so, because the
+// bodies share one rotation matrix, up to the order and sign of its columns.
 enum class Alignment : std::uint8_t { free, parallel, exact };
 
 struct ContactPlan {
@@ -45,7 +44,8 @@ constexpr ContactPlan plans[] = {
     {base, rim, free, 1},      {base, tip, free, 1},      {base, base, free, 1},
 };
 
-// Each plan as often as its weight says within a round of indices, and no two alike in a row.
+// Selects each plan as often as its weight says within a round of indices, never the same twice in
+// a row.
 const ContactPlan& plan_of(std::uint64_t index) {
   constexpr std::uint64_t stride = 31;  // a prime that does not divide the number of places
   constexpr std::uint64_t places = [] {
@@ -87,11 +87,11 @@ ShapeKind kind_with(FeatureKind feature, bool bounded, base::Random& random) {
   return ShapeKind::cone;
 }
 
-// What a contact is made with.
+// The shapes, gap and place of a contact.
 struct ContactSetting {
   ShapeStyle style_a, style_b;
-  double gap = 0;        // as a part of the pair's size; < 0 the depth
-  double distance = -1;  // of a from the origin, metres; < 0: about the bodies' size
+  double gap = 0;        // part of the pair's size; < 0: a depth
+  double distance = -1;  // distance of a from the origin, metres; < 0: about the bodies' size
 };
 
 void finish(const ContactSetting& setting, const Feature& a, const Feature& b, files::Case& c,
@@ -100,7 +100,7 @@ void finish(const ContactSetting& setting, const Feature& a, const Feature& b, f
   place(c, a, b, setting.gap * grade::pair_size(c), fine);
 }
 
-// A body's own size may be 0 for its part (half-spaces).
+// Returns half the size of the other body; the body itself may be a half-space, of size 0.
 double reach_of(const Shape& other) { return grade::shape_size(other) / 2; }
 
 Pose first_pose(const ContactSetting& setting, double size, base::Random& random) {
@@ -112,7 +112,7 @@ Pose first_pose(const ContactSetting& setting, double size, base::Random& random
   return pose;
 }
 
-// Two boxes whose axes are parallel, their features of the kind against each other.
+// Places two boxes with parallel axes so that features of the kind face each other.
 void place_axis_parallel_boxes(FeatureKind kind, const ContactSetting& setting, files::Case& c,
                                base::Random& random) {
   const Feature a = pick_feature(c.shape_a, kind, 0, random);
@@ -122,7 +122,7 @@ void place_axis_parallel_boxes(FeatureKind kind, const ContactSetting& setting, 
   finish(setting, a, box_feature(c.shape_b.half_extents, normal, random), c, random);
 }
 
-// A hull and its point reflection: each feature is parallel to its image.
+// Places a hull and its point reflection: each feature is parallel to its image.
 void place_mirrored_hulls(FeatureKind kind, const ContactSetting& setting, files::Case& c,
                           base::Random& random) {
   c.shape_b = mirrored(c.shape_a);
@@ -134,7 +134,7 @@ void place_mirrored_hulls(FeatureKind kind, const ContactSetting& setting, files
   finish(setting, a, b, c, random);
 }
 
-// A box's edge along z and a face of a square prism whose faces' normals are (+-1, +-1, 0).
+// Places a box's edge along z on a face of a square prism with face normals (+-1, +-1, 0).
 void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, files::Case& c,
                            base::Random& random) {
   c.shape_a = random_shape(ShapeKind::box, setting.style_a, seed, random);
@@ -150,7 +150,7 @@ void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, fi
   const double sign_x = random.below(2) == 0 ? 1 : -1;
   const Vec3d signs(sign_x, random.below(2) == 0 ? 1 : -1, 0);
   const Feature a = box_feature(c.shape_a.half_extents, base::unit(signs), random);
-  // Between two of the corners, (-x s, 0) and (0, -y s), exactly.
+  // The point lies exactly between two of the corners, (-x s, 0) and (0, -y s).
   Feature b;
   b.kind = face;
   b.normal = Vec3d::Zero() - a.normal;
@@ -165,7 +165,7 @@ void place_edge_on_diamond(const ContactSetting& setting, std::uint64_t seed, fi
 void place_exactly_parallel(const ContactPlan& plan, const ContactSetting& setting,
                             std::uint64_t seed, files::Case& c, base::Random& random) {
   if (plan.a != plan.b) return place_edge_on_diamond(setting, seed, c, random);
-  // A reflection has the size of what is reflected.
+  // A reflection has the size of its original, so the styles must be equal.
   const bool boxes = random.below(2) == 0 || !(setting.style_a == setting.style_b);
   const ShapeKind kind = boxes ? ShapeKind::box : ShapeKind::hull;
   c.shape_a = random_shape(kind, setting.style_a, seed, random);
@@ -201,7 +201,7 @@ RegimeCase make_contact(RegimeDraw& draw, const ContactSetting& setting) {
   return result;
 }
 
-// One of several gaps and depths, or a random pose of shapes of any kind.
+// Makes one of several gaps and depths, or a random pose of shapes of any kind.
 RegimeCase make_at_an_amount(RegimeDraw& draw, ContactSetting setting) {
   base::Random& random = draw.random;
   const Amount amount = random_amount(random);

@@ -1,4 +1,4 @@
-// Shapes without an inside, or almost, and hulls with more points than they need.
+// Draws shapes without volume, or almost without, and hulls with redundant points.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ Vec3d in_cube(base::Random& random) {
   return {x, y, random.uniform(-1, 1)};
 }
 
-// In the plane z = 0, or in one that is tilted, in which the points are coplanar up to rounding.
+// Draws points in the plane z = 0, or in a tilted plane, where they are coplanar up to rounding.
 Points flat_points(base::Random& random) {
   Points points;
   const std::uint64_t count = random.below(2) == 0 ? 3 : 4 + random.below(13);
@@ -41,8 +41,8 @@ Points segment_points(base::Random& random) {
   return points;
 }
 
-// A solid's points with a third as many again: copies, middles of two or three of them, and points
-// inside.
+// Draws a solid's points and a third as many redundant ones: copies, midpoints of two or three
+// points, and points inside.
 Points redundant_points(base::Random& random) {
   Points points;
   const std::uint64_t count = 4 + random.below(13);
@@ -64,7 +64,7 @@ Points redundant_points(base::Random& random) {
   return points;
 }
 
-// A flat set, or a tetrahedron, pressed to 1e-3 to 1e-12 of its size.
+// Draws a flat set or a tetrahedron, flattened to 1e-3 to 1e-12 of its size.
 Points sliver_points(base::Random& random) {
   const double thickness = random.magnitude(1e-12, 1e-3);
   Points points;
@@ -81,7 +81,7 @@ Points sliver_points(base::Random& random) {
   return points;
 }
 
-// Any kind with one or more of its sizes zero, but not a hull.
+// Draws any kind but a hull, with one or more of its sizes zero.
 Shape zero_sized(std::uint64_t seed, base::Random& random) {
   ShapeKind kind = ShapeKind::hull;
   while (kind == ShapeKind::hull) kind = random_kind(random);
@@ -120,7 +120,7 @@ Shape any_degenerate(std::uint64_t seed, base::Random& random) {
   }
 }
 
-// The shape against one of any kind, half of the time against another of its own family.
+// Pairs the shape with one of any kind; half of the time with another of its own family.
 template <class MakeShape>
 RegimeCase pair_with(RegimeDraw& draw, MakeShape make_shape) {
   base::Random& random = draw.random;

@@ -1,3 +1,4 @@
+// Picks features of shapes, with points and normals in their interiors.
 #include "harness/check/regimes/features.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 8> names = {"vertex", "edge", "face", "smooth",
                                                    "side",   "rim",  "tip",  "base"};
 
-// A share of a whole, well inside it.
+// Returns a share of a whole, well inside it.
 double inside(base::Random& random) { return random.uniform(0.1, 0.9); }
 
 // --- boxes and hulls ----------------------------------------------------------------------------
@@ -34,8 +35,9 @@ Feature pick_box_feature(const Vec3d& half, FeatureKind kind, base::Random& rand
   return box_feature(half, base::unit(n), random);
 }
 
-// For hulls without faces: the vertex that is furthest along a random direction; inside a segment
-// with a normal across it, inside a flat set with one of its two normals.
+// Picks features of hulls without faces. The vertex is the furthest along a random direction.
+// Inside a segment the normal is across it; inside a flat set it is one of the two normals of the
+// plane.
 Feature pick_degenerate_feature(const Hull& hull, FeatureKind kind, base::Random& random) {
   const std::vector<Vec3d>& v = hull.vertices;
   Feature feature;
@@ -83,7 +85,7 @@ Feature pick_hull_feature(const Hull& hull, FeatureKind kind, base::Random& rand
     const Hull::Face& face = hull.faces[random.below(hull.faces.size())];
     feature.normal = face.normal;
     feature.point = vertex(face.loop.front());
-    // Weights of all corners; the first has what is left.
+    // The corners have random weights; the first has the remainder.
     double sum = random.uniform(0.2, 1);
     std::vector<double> weights;
     for (std::size_t i = 1; i < face.loop.size(); ++i) {
@@ -111,7 +113,7 @@ Feature pick_hull_feature(const Hull& hull, FeatureKind kind, base::Random& rand
   std::uint32_t index = 0;
   do {
     index = static_cast<std::uint32_t>(random.below(hull.vertices.size()));
-  } while (hull.neighbours[index].empty());  // not extreme
+  } while (hull.neighbours[index].empty());  // vertices without neighbours are not extreme
   feature.point = vertex(index);
   Vec3d n = Vec3d::Zero();
   for (const Hull::Face& face : hull.faces) {
@@ -125,7 +127,7 @@ Feature pick_hull_feature(const Hull& hull, FeatureKind kind, base::Random& rand
 
 // --- round shapes -------------------------------------------------------------------------------
 
-// A direction across the z axis, of length 1 to about 1e-31.
+// Returns a direction across the z axis, of length 1 to about 1e-31.
 DoubleDouble3 around_axis(base::Random& random) {
   const base::SinCos turn = base::sin_cos_turns(random.unit());
   return base::true_unit({turn.cos, turn.sin, 0});
@@ -144,7 +146,8 @@ Feature pick_smooth_feature(const Shape& shape, base::Random& random) {
   const Vec3d& r = shape.radii;
   const double greatest = r.maxCoeff();
   if (r.minCoeff() > 0 && random.below(2) == 0) {
-    // Over the surface rather than over the normals, which gather where it is strongly curved.
+    // The point is uniform over the surface, since normals gather where the surface is strongly
+    // curved.
     const Vec3d p = feature.normal;
     feature.normal = base::unit(p.cwiseProduct((greatest * r.cwiseInverse())));
     feature.point = base::exactly(r.cwiseProduct(p));
@@ -156,7 +159,7 @@ Feature pick_smooth_feature(const Shape& shape, base::Random& random) {
   return feature;
 }
 
-// Side, rim, tip and base of a capsule, cylinder or cone.
+// Picks the side, rim, tip or base of a capsule, cylinder or cone.
 Feature pick_axial_feature(const Shape& shape, FeatureKind kind, base::Random& random) {
   Feature feature;
   feature.kind = kind;
@@ -164,9 +167,9 @@ Feature pick_axial_feature(const Shape& shape, FeatureKind kind, base::Random& r
   const bool cone = shape.kind == ShapeKind::cone;
   const DoubleDouble3 around = around_axis(random);
   const Vec3d across = around.value();
-  const double end = cone || random.below(2) == 0 ? -1 : 1;  // which base
+  const double end = cone || random.below(2) == 0 ? -1 : 1;  // selects the base
   const double most = std::max(r, 2 * h);
-  // A cone's slope; across the axis where it has none.
+  // The slope of a cone; for other kinds it points across the axis.
   const Vec3d slope =
       most > 0 ? base::unit((2 * h / most) * across + Vec3d(0, 0, r / most)) : across;
   const Vec3d side_normal = cone ? slope : across;
@@ -213,7 +216,7 @@ Feature pick_plane_feature(const Shape& shape, double reach, base::Random& rando
   const double square = dot(n, n).value();
   const Vec3d away = base::beside(feature.normal, random.on_sphere());
   feature.point = base::exactly((reach * random.unit()) * away);
-  // Onto the plane: the second step takes away the first one's rounding.
+  // This projects onto the plane; the second step removes the first one's rounding.
   for (int step = 0; step < 2; ++step) {
     const DoubleDouble miss = DoubleDouble{shape.offset, 0} - dot(n, feature.point);
     feature.point = feature.point + base::scaled(n, {miss.value() / square, 0});

@@ -1,3 +1,4 @@
+// Builds bodies on a grid and makes them touch exactly.
 #include "harness/check/regimes/grid_bodies.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ ShapeKind polytope_kind(base::Random& random) {
 
 bool is_ball(ShapeKind kind) { return kind == ShapeKind::sphere || kind == ShapeKind::capsule; }
 
-// Of the shape without its ball.
+// Returns the extents of the shape without its ball.
 Vec3d core_extents(const Shape& shape) {
   if (!is_ball(shape.kind)) return grid_extents(shape);
   return {0, 0, shape.kind == ShapeKind::capsule ? shape.half_length : 0};
@@ -65,7 +66,7 @@ void move_both(files::Case& c, base::Random& random) {
   }
 }
 
-// A half-space, and a shape whose core is away from its plane by the shape's radius.
+// Makes a half-space, and a shape whose core is as far from its plane as the shape's radius.
 std::string touch_plane(files::Case& c, ShapeKind kind, base::Random& random) {
   c.shape_a.kind = ShapeKind::halfspace;
   c.shape_a.normal = {0, 0, std::ldexp(1.0, static_cast<int>(random.below(5)) - 2)};
@@ -91,7 +92,7 @@ void give_radii(files::Case& c, double sum, int ulps, base::Random& random) {
   for (int i = 0; i < std::abs(ulps); ++i) changed = std::nextafter(changed, towards);
 }
 
-// The point of a grid shape that is furthest along a signed axis, or one of those that are.
+// Returns the point of a grid shape furthest along a signed axis, or one of several such points.
 Vec3d furthest(const Shape& shape, const Vec3d& axis, base::Random& random) {
   const Vec3d extents = grid_extents(shape);
   const bool across = axis.z() == 0;
@@ -173,7 +174,8 @@ std::string touch_on_grid(files::Case& c, Roundness roundness, int ulps, base::R
   c.shape_a = grid_shape(kind_a, 32, random);
   c.shape_b = grid_shape(kind_b, 32, random);
 
-  // The offset of the two cores' closest points, and the axes along which the cores do not overlap.
+  // `side` is the offset of the two cores' closest points; `apart` marks the axes along which the
+  // cores do not overlap.
   Vec3d side = Vec3d::Zero(), apart;
   double diagonal = 0;
   if (balls) {

@@ -1,3 +1,4 @@
+// Builds the hulls of generated cases and keeps them.
 #include "harness/check/regimes/hull_pool.h"
 
 #include <array>
@@ -13,7 +14,7 @@
 namespace touchstone::check {
 namespace {
 
-// --- hulls, in the cube from -1 to 1 ------------------------------------------------------------
+// --- hulls, in the cube from -1 to 1 -------------------------------------------------------------
 
 using Points = std::vector<Vec3d>;
 
@@ -30,7 +31,7 @@ Points sphere_points(int level) {
   return geometry::as_polytope(ball, level).hull->vertices;
 }
 
-// Some of the points of a grid: many of them are coplanar, some collinear.
+// Draws some of the points of a grid: many are coplanar, some collinear.
 Points grid_points(base::Random& random) {
   const auto steps = static_cast<int>(1 + random.below(3));
   const auto count = static_cast<std::size_t>(8 + random.below(33));
@@ -38,7 +39,7 @@ Points grid_points(base::Random& random) {
     return static_cast<double>(static_cast<int>(random.below(2 * steps + 1)) - steps) / steps;
   };
   Points points;
-  // Corners of the grid first, so that it is solid.
+  // Four corners of the grid come first, so that the hull is solid.
   for (const auto& [x, y, z] : {std::array{-1.0, -1.0, -1.0}, {1.0, 1.0, -1.0}, {1.0, -1.0, 1.0}}) {
     points.emplace_back(x, y, z);
   }
@@ -104,7 +105,7 @@ std::shared_ptr<const Hull> build(const HullKey& key) {
   return make_hull(std::move(points));
 }
 
-// Hulls that were built, by what they were built from, which alone decides what they are.
+// The hulls that were built, by their keys. A key alone determines a hull.
 class HullPool {
  public:
   std::shared_ptr<const Hull> get(const HullKey& key) {
@@ -122,7 +123,7 @@ class HullPool {
     if (is_new) keys_.insert({place->second.get(), key});
     return place->second;
   }
-  // What the hull was built from; false where it is none of the pool's.
+  // Finds the key of a hull; returns false if the hull is not in the pool.
   bool find_key(const Hull* hull, HullKey& key) {
     const std::lock_guard lock(mutex_);
     const auto known = keys_.find(hull);

@@ -1,3 +1,4 @@
+// Places two bodies at a given gap or depth, with extended precision.
 #include "harness/check/regimes/placement.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace touchstone::check {
 namespace {
 
-// Columns n, u, n x u.
+// Returns the matrix with columns n, u, n x u.
 Mat3d frame(const Vec3d& n, const Vec3d& u) {
   Mat3d m;
   m.col(0) = n;
@@ -19,8 +20,8 @@ Mat3d frame(const Vec3d& n, const Vec3d& u) {
   return m;
 }
 
-// Whether the difference of the bodies has one normal only where the features meet, so that moving
-// along it changes the depth by as much.
+// Returns whether the difference of the bodies has one normal only where the features meet, so that
+// a move along it changes the depth by its length.
 bool have_one_normal(const Mat3d& rotation_a, const Mat3d& rotation_b, const Feature& a,
                      const Feature& b) {
   if (a.has_one_normal() || b.has_one_normal()) return true;
@@ -29,8 +30,8 @@ bool have_one_normal(const Mat3d& rotation_a, const Mat3d& rotation_b, const Fea
                                   base::times(rotation_b, b.direction))) > 0.05;
 }
 
-// Inside the body, relative to its translation, in world axes. For a half-space: below `surface`
-// (of the plane, likewise) by the size of the pair.
+// Returns a point inside the body, relative to its translation, in world axes. For a half-space the
+// point lies below `surface` (a point of the plane, in the same frame) by the size of the pair.
 Vec3d inner_offset(const Shape& shape, const Mat3d& rotation, const Vec3d& surface, double size) {
   if (shape.kind == ShapeKind::halfspace) {
     return surface - size * base::times(rotation, base::unit(shape.normal));
@@ -43,7 +44,7 @@ double width(const Shape& shape, const Mat3d& rotation, const Vec3d& world_n) {
   return support_value(shape, n) + support_value(shape, Vec3d::Zero() - n);
 }
 
-// Translation b = translation a + offset.
+// Sets translation b = translation a + offset.
 void translate(files::Case& c, const DoubleDouble3& offset, bool fine) {
   if (fine) {
     c.pose_b.translation = offset.value();
@@ -93,7 +94,7 @@ void place_at_random(files::Case& c, base::Random& random) {
   const Mat3d& rotation_a = c.pose_a.rotation;
   const Mat3d& rotation_b = c.pose_b.rotation;
   Vec3d n = random.on_sphere();
-  double share = random.uniform(0, 1.4);  // of the offset with which they touch along n
+  double share = random.uniform(0, 1.4);  // part of the offset at which they touch along n
   const auto planar = [](const Shape& shape) { return shape.kind == ShapeKind::halfspace; };
   if (planar(c.shape_a)) n = base::times(rotation_a, base::unit(c.shape_a.normal));
   if (planar(c.shape_b)) n = Vec3d::Zero() - base::times(rotation_b, base::unit(c.shape_b.normal));
@@ -105,7 +106,7 @@ void place_at_random(files::Case& c, base::Random& random) {
   };
   const Vec3d inner_a = inner_offset(c.shape_a, rotation_a, foot(c.shape_a, rotation_a), size);
   const Vec3d inner_b = inner_offset(c.shape_b, rotation_b, foot(c.shape_b, rotation_b), size);
-  // How far the body reaches along a direction from its inner point.
+  // Returns how far the body reaches along a direction from its inner point.
   const auto reach = [&](const Shape& shape, const Mat3d& rotation, const Vec3d& inner_point_,
                          const Vec3d& direction) {
     if (planar(shape)) return size;

@@ -1,4 +1,4 @@
-// Plain random poses.
+// Draws plain random poses.
 #include "harness/check/regimes/placement.h"
 #include "harness/check/regimes/regime_draws.h"
 

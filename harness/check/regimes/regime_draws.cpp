@@ -1,3 +1,4 @@
+// Poses and names that several groups of regimes use.
 #include "harness/check/regimes/regime_draws.h"
 
 #include <array>
@@ -37,7 +38,7 @@ Amount random_amount(base::Random& random) {
 
 std::string place_by_amount(files::Case& c, const Amount& amount, base::Random& random) {
   double size = grade::pair_size(c);
-  if (size == 0) size = 1;  // two points
+  if (size == 0) size = 1;  // two points have size 0
   c.pose_a = random_pose(size, random);
   c.pose_b.rotation = random.rotation();
   if (amount.random_pose) {

@@ -1,4 +1,4 @@
-// How the cases of each group of regimes are drawn; for regimes.cpp.
+// The functions that draw the cases of each group of regimes; for regimes.cpp.
 #pragma once
 
 #include "harness/check/regimes/check_shapes.h"
@@ -6,20 +6,21 @@
 
 namespace touchstone::check {
 
-// Features at a gap or depth: regime.parameter times the pair's size.
+// Places features at a gap or depth of regime.parameter times the pair's size.
 RegimeCase draw_contact(RegimeDraw& draw);
-// Features at several gaps and depths and random poses, of extreme bodies or far away:
-// regime.parameter is ...
-RegimeCase draw_aspect(RegimeDraw& draw);  // the ratio of long and short sides
-RegimeCase draw_scale(RegimeDraw& draw);   // the size of both bodies, metres
-RegimeCase draw_far(RegimeDraw& draw);     // their distance from the origin, metres
-RegimeCase draw_ratio(RegimeDraw& draw);   // the ratio of the two sizes
+// These draw features at several gaps and depths and random poses, of extreme bodies or far away.
+// The unit of regime.parameter is beside each.
+RegimeCase draw_aspect(RegimeDraw& draw);  // ratio of long and short sides
+RegimeCase draw_scale(RegimeDraw& draw);   // size of both bodies, metres
+RegimeCase draw_far(RegimeDraw& draw);     // distance from the origin, metres
+RegimeCase draw_ratio(RegimeDraw& draw);   // ratio of the two sizes
 
-// Exactly touching, in every encoding of the input.
+// These touch exactly, in every encoding of the input.
 RegimeCase draw_touching_baked(RegimeDraw& draw);
 RegimeCase draw_touching_origin(RegimeDraw& draw);
 RegimeCase draw_touching_grid(RegimeDraw& draw);
-RegimeCase draw_touching_pythagorean(RegimeDraw& draw);  // parameter: ulps that a radius is less by
+// parameter: ulps that one radius is less by
+RegimeCase draw_touching_pythagorean(RegimeDraw& draw);
 RegimeCase draw_touching_curved(RegimeDraw& draw);
 
 RegimeCase draw_identical(RegimeDraw& draw);
@@ -40,13 +41,13 @@ RegimeCase draw_scaled_degenerate(RegimeDraw& draw);
 RegimeCase draw_random_polytopes(RegimeDraw& draw);
 RegimeCase draw_random_mixed(RegimeDraw& draw);
 
-// --- what several groups share ------------------------------------------------------------------
+// --- shared by several groups --------------------------------------------------------------------
 
-// A random translation of about `size`, or none; a random rotation, or now and then none.
+// Draws a translation of about `size`, or none, and a random rotation, or now and then none.
 Pose random_pose(double size, base::Random& random);
-// The two bodies exchanged, half of the time.
+// Exchanges the two bodies half of the time.
 void swap_at_random(files::Case& c, base::Random& random);
-// Names such as "box-hull" for the id.
+// Returns names such as "box-hull" for the id.
 std::string kinds_of(const files::Case& c);
 
 // A gap (as a part of the size), a depth, or a random pose.
@@ -56,8 +57,8 @@ struct Amount {
   bool random_pose = false;
 };
 Amount random_amount(base::Random& random);
-// Places b at the amount between random features of the two shapes, which are set; sets the poses.
-// Returns what it did, for the detail.
+// Places b at the amount between random features of the two shapes, which must be set, and sets the
+// poses. Returns the detail of the case's id.
 std::string place_by_amount(files::Case& c, const Amount& amount, base::Random& random);
 
 }  // namespace touchstone::check

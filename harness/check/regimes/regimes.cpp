@@ -1,3 +1,4 @@
+// The table of all regimes, and the making of a case from its index.
 #include "harness/check/regimes/regimes.h"
 
 #include <fmt/format.h>
@@ -101,7 +102,7 @@ std::vector<Regime> all_regimes() {
   return list;
 }
 
-// FNV-1a, so that the stream of a regime stays what it is when others are added.
+// FNV-1a: the random stream of a regime stays the same when others are added.
 std::uint64_t hash_of(std::string_view name) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;

@@ -1,3 +1,4 @@
+// Makes pairs of bodies that lie face on face, by family.
 #include "harness/check/regimes/settled_pairs.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 namespace touchstone::check {
 namespace {
 
-// How the pair of a family is made; unit scale, and then the family's.
+// The recipe of a family: unit scale unless it says otherwise.
 struct Recipe {
   SettledFamily family;
   bool hull_a = false, hull_b = false;
@@ -54,11 +55,11 @@ constexpr std::array recipes = {
     Recipe{.family = {"far-1e7", "boxes, 1e7 metres from the origin"}, .far = 1e7},
 };
 
-// A body with a face that it lies on: the face's middle and outward normal, body coordinates.
+// A body with the face that it lies on: the face's middle and outward normal, body coordinates.
 struct Resting {
   Shape shape;
   Vec3d middle, normal;
-  double reach;  // about how far the face extends
+  double reach;  // approximate extent of the face
 };
 
 Resting box_of(const Vec3d& half, double side) {
@@ -71,12 +72,12 @@ Resting box_of(const Vec3d& half, double side) {
   return body;
 }
 
-// Lies on its largest face.
+// Returns a hull that lies on its largest face.
 Resting hull_of(double scale, base::Random& random) {
   std::vector<Vec3d> points(8 + random.below(17));
   const Vec3d radii{random.uniform(0.4, 1), random.uniform(0.4, 1), random.uniform(0.3, 1)};
   for (Vec3d& point : points) point = scale * random.on_sphere().cwiseProduct(radii);
-  // Cut off flat below, so that one face has many corners.
+  // The bottom is cut flat, so that one face has many corners.
   const double floor = -0.6 * scale * radii.z();
   for (Vec3d& point : points) point.z() = std::max(point.z(), floor);
   Resting body;
@@ -111,7 +112,7 @@ Vec3d random_half(base::Random& random) {
   return {random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1)};
 }
 
-// Of a turned box or hull, body coordinates.
+// Returns the lowest corner of a turned box or hull, body coordinates.
 Vec3d lowest_corner(const Shape& shape, const Mat3d& turn, const Vec3d& up) {
   Vec3d lowest = Vec3d::Zero();
   double least = std::numeric_limits<double>::infinity();
@@ -132,7 +133,7 @@ Vec3d lowest_corner(const Shape& shape, const Mat3d& turn, const Vec3d& up) {
   return lowest;
 }
 
-// Where on a's face the middle of b's is, beside a's middle. Boxes, b not turned.
+// Returns the place of b's middle on a's face, relative to a's middle. For boxes, b not turned.
 Vec3d place_on(Recipe::Place place, const Vec3d& a, const Vec3d& b, base::Random& random) {
   switch (place) {
     case Recipe::Place::inside:
@@ -176,7 +177,8 @@ files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::u
   c.id = fmt::format("{}/{}", family.name, index);
   c.shape_a = a.shape;
   c.shape_b = b.shape;
-  // About a's frame: b's face against a's, turned about the normal, tilted about its lowest point.
+  // In a's frame b's face lies against a's, turned about the normal and tilted about its lowest
+  // point.
   Mat3d turn = Eigen::Quaterniond::FromTwoVectors(b.normal, -a.normal).toRotationMatrix();
   Vec3d offset = recipe.scale * place_on(recipe.place, half_a, half_b, random);
   if (recipe.place == Place::anywhere) {
@@ -187,12 +189,12 @@ files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::u
   if (recipe.tilt > 0) {
     turn = Eigen::AngleAxisd(recipe.tilt, across(a.normal, random)).toRotationMatrix() * turn;
   }
-  // Tilted, the lowest corner is what stands on a's face.
+  // A tilted body stands on a's face with its lowest corner.
   const Vec3d foot = recipe.tilt > 0 ? lowest_corner(b.shape, turn, a.normal) : b.middle;
   Vec3d at = a.middle + offset - turn * foot;
   at -= depth * a.normal;
 
-  // Stacks stand as they do in a scene, upright; others anywhere.
+  // Stacks stand upright, as in a scene; other pairs have a random pose.
   const bool upright = recipe.place == Place::same;
   const Mat3d world = upright ? Mat3d(Mat3d::Identity()) : random.rotation();
   Vec3d from = recipe.scale * random.on_sphere();

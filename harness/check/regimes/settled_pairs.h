@@ -1,4 +1,4 @@
-// Pairs of bodies that lie on each other, face on face, as in a pile that has come to rest.
+// Pairs of bodies that lie face on face, as in a pile at rest.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace touchstone::check {
 // A family of such pairs.
 struct SettledFamily {
   std::string_view name;  // "stack", "tilt-1e-6": lower case, words joined by '-'
-  std::string_view what;  // one line for people
+  std::string_view what;  // one line of description
 };
 
-// In a stable order.
+// Returns all families in a stable order.
 std::span<const SettledFamily> settled_families();
 
-// The case of this index alone, with the id "family/index". The bodies overlap by 1e-6 to 1e-3 of
-// their size. Safe to call from several threads.
+// Makes the case of this index alone, with the id "family/index". The bodies overlap by 1e-6 to
+// 1e-3 of their size. Safe to call from several threads.
 files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace touchstone::check

@@ -1,5 +1,5 @@
-// Pairs that touch exactly, whatever the encoding of the input: for the numbers as doubles, rounded
-// to float, with the rotation as a matrix or as a quaternion.
+// Draws pairs that touch exactly in every encoding of the input: the numbers as doubles, rounded to
+// float, and with the rotation as a matrix or as a quaternion.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +27,7 @@ Vec3d integers(int most, base::Random& random) {
 
 // --- one pose, and a common plane with small whole numbers --------------------------------------
 
-// Non-zero, across k, of whole numbers; all of these come about.
+// Returns a non-zero vector of whole numbers across k; every such vector can come about.
 Vec3d across(const Vec3d& k, base::Random& random) {
   for (;;) {
     Vec3d v = base::outer(k, integers(6, random));
@@ -35,8 +35,9 @@ Vec3d across(const Vec3d& k, base::Random& random) {
   }
 }
 
-// Points of a hull that touches the plane k . x = 0 from the side where `side` * k . x > 0: in the
-// plane it has a vertex at the origin, an edge along `line` or a face with the origin inside it.
+// Returns points of a hull that touches the plane k . x = 0 from the side where `side` * k . x > 0:
+// in the plane it has a vertex at the origin, an edge along `line` or a face with the origin inside
+// it.
 Points touching_plane(std::size_t feature, const Vec3d& k, double side, const Vec3d& line,
                       base::Random& random) {
   Points points;
@@ -62,8 +63,8 @@ Points touching_plane(std::size_t feature, const Vec3d& k, double side, const Ve
 
 // --- the local origins are the common point -----------------------------------------------------
 
-// The same for the plane z = 0 and the side z > 0, with everything else at least 10 degrees off the
-// plane. All numbers are floats.
+// Returns points of a hull that touches the plane z = 0 from above in the feature at the origin;
+// all other points are at least 10 degrees off the plane. All numbers are floats.
 Points above_origin(std::size_t feature, const Vec3d& line, base::Random& random) {
   Points points;
   if (feature == 0) points.push_back(Vec3d::Zero());
@@ -90,7 +91,7 @@ Mat3d turn_about_z(base::Random& random) {
   return m;
 }
 
-// A turn about the z axis, then by an angle whose sine is at most about 0.1.
+// Returns a turn about the z axis, then by an angle whose sine is at most about 0.1.
 Mat3d small_tilt(base::Random& random) {
   const Vec3d v = 0.05 * random.in_ball();
   return base::product(base::rotation_of({1, v.x(), v.y(), 0}), turn_about_z(random));
@@ -135,7 +136,8 @@ RegimeCase draw_touching_baked(RegimeDraw& draw) {
 }
 
 RegimeCase draw_touching_origin(RegimeDraw& draw) {
-  // A face, an edge or a vertex against a vertex; two edges that cross; a half-space and a vertex.
+  // The kinds: a face, an edge or a vertex against a vertex, two edges that cross, and a half-space
+  // and a vertex.
   struct Kind {
     std::size_t a, b;
     bool planar = false;
@@ -145,7 +147,7 @@ RegimeCase draw_touching_origin(RegimeDraw& draw) {
   const Kind& kind = kinds[draw.index % kinds.size()];
   RegimeCase result{{}, std::string(names[kind.a]) + "-" + std::string(names[kind.b])};
   files::Case& c = result.pair;
-  // Both are above z = 0; a is then turned upside down.
+  // Both bodies are above z = 0; a is then turned upside down.
   const auto line = [&] {
     Vec3d v = Vec3d::Zero();
     while (v.isZero(0)) {
@@ -174,7 +176,7 @@ RegimeCase draw_touching_origin(RegimeDraw& draw) {
   if (kind.a != 1 || kind.b != 1) {
     c.pose_b.rotation = base::product(c.pose_b.rotation, small_tilt(random));
   } else {
-    // The edges stay in one plane, whichever it is after rounding.
+    // The edges stay in one plane, which rounding may tilt.
     Mat3d turn = turn_about_z(random);
     while (!crossing(over(line_a), base::times(turn, line_b))) turn = turn_about_z(random);
     c.pose_b.rotation = base::product(c.pose_b.rotation, turn);
