@@ -1,3 +1,4 @@
+// Collects findings and words their discrepancies.
 #include "harness/record/findings.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ bool Findings::ours_are_wrong() const {
 }
 
 std::string departures_text(const Findings& findings) {
-  // One line for each algorithm and manner; the first case stands for the others.
+  // There is one line for each algorithm and manner, with the first case as the example.
   std::map<std::pair<std::string, bool>, std::vector<const Departure*>> by_algorithm;
   for (const Departure& departure : findings.departures()) {
     by_algorithm[{departure.algorithm, departure.known}].push_back(&departure);

@@ -1,4 +1,4 @@
-// The findings of a campaign: the rows and discrepancies that tables and exit status come from.
+// The findings of a campaign: the rows and discrepancies from which tables and exit status follow.
 #pragma once
 
 #include <cstdint>
@@ -11,28 +11,29 @@
 
 namespace touchstone::record {
 
-// A discrepancy: one algorithm on one frame or window found something else than it should.
+// A discrepancy: one algorithm's result on one frame or window is not the expected one.
 struct Departure {
   std::int64_t block = 0;
-  std::int64_t row = -1;  // of raw.csv, from 0; -1: not added yet
+  std::int64_t row = -1;  // index into raw.csv, from 0; -1: not added yet
   std::string algorithm;
   bool ours = false;
   bool known = false;        // a known defect in the registry, or approximate by design
   std::string where;         // scene, bodies, frame, and pair kind
-  std::string what;          // in words
-  std::string reproduction;  // the file that shows it again; empty where there is none
+  std::string what;          // a sentence about the difference
+  std::string reproduction;  // the file that reproduces it; empty if there is none
 };
 
 class Findings {
  public:
   void add(RawRow row) { rows_.push_back(std::move(row)); }
-  // Adds a discrepancy of the row that was added last, unless it names another; each only once.
+  // Adds a discrepancy of the row that was added last, unless it names another; duplicates are
+  // ignored.
   void add(Departure departure);
 
   const std::vector<RawRow>& rows() const { return rows_; }
   const std::vector<Departure>& departures() const { return departures_; }
 
-  // True where an algorithm of ours has a discrepancy that is not known and accepted.
+  // Returns true if an algorithm of ours has a discrepancy that is not known and accepted.
   bool ours_are_wrong() const;
 
  private:
@@ -40,8 +41,8 @@ class Findings {
   std::vector<Departure> departures_;
 };
 
-// A paragraph for each algorithm: its first discrepancy and the file that shows it. Empty where
-// there is none.
+// Returns a paragraph for each algorithm: its first discrepancy and the file that reproduces it.
+// The text is empty if there is no discrepancy.
 std::string departures_text(const Findings& findings);
 
 // A row of departures.csv.

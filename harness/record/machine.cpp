@@ -1,3 +1,4 @@
+// Reads the facts of machine, program and source.
 #include "harness/record/machine.h"
 
 #include <fmt/core.h>
@@ -39,7 +40,7 @@ std::string first_line(const std::filesystem::path& file) {
   return std::getline(stream, line) && !line.empty() ? line : std::string(unknown);
 }
 
-// The value behind "key : value" in a file such as /proc/cpuinfo.
+// Returns the value behind "key : value" in a file such as /proc/cpuinfo.
 std::string value_of(const std::string& file, std::string_view key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -51,7 +52,7 @@ std::string value_of(const std::string& file, std::string_view key) {
   return std::string(unknown);
 }
 
-// Places as the kernel writes them: "0-3,6".
+// Returns numbers in the kernel's notation: "0-3,6".
 std::string ranges(const std::set<int>& places) {
   std::string text;
   for (auto at = places.begin(); at != places.end();) {
@@ -64,7 +65,7 @@ std::string ranges(const std::set<int>& places) {
   return text;
 }
 
-// The processors that this process may run on.
+// Returns the processors that this process may run on.
 std::string affinity() {
   cpu_set_t mask;
   if (sched_getaffinity(0, sizeof mask, &mask) != 0) return {};
@@ -75,7 +76,8 @@ std::string affinity() {
   return ranges(allowed);
 }
 
-// Cores, as pairs of package and number: processors that share one count once.
+// Returns the number of cores, as pairs of package and number: processors that share one count
+// once.
 std::string physical_cores(const std::string& folder) {
   std::set<std::string> cores;
   for (int cpu = 0;; ++cpu) {
@@ -93,7 +95,8 @@ std::string boost(const std::string& folder) {
   return first_line(folder + "cpufreq/boost");
 }
 
-// By the bit and the leaf that processors keep for it, since not every hypervisor is in /sys.
+// Reads the bit and the leaf that processors reserve for it, because some hypervisors are not in
+// /sys.
 std::string hypervisor() {
   const std::string named = first_line("/sys/hypervisor/type");
   if (named != unknown) return named;
@@ -113,8 +116,9 @@ std::string hypervisor() {
 #endif
 }
 
-// The limits that hold for this process: its group's and those above it. `first`: the file's name
-// in version 1, whose controllers are apart; `second`: in version 2.
+// Returns the limits that hold for this process: those of its group and of the groups above it.
+// `first` is the file's name in version 1, which separates the controllers; `second` is that in
+// version 2.
 std::string group_limits(const std::string& controller, const std::string& first,
                          const std::string& second) {
   const std::filesystem::path root = "/sys/fs/cgroup";
@@ -146,7 +150,7 @@ std::string command_line() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!text.empty() && text.back() == '\0') text.pop_back();
-  // The program by its name: where it lies says nothing about the results.
+  // The program appears by its name alone, because its folder has no influence on the results.
   const std::size_t end = std::min(text.find('\0'), text.size());
   text.erase(0, text.rfind('/', end) + 1);
   for (char& c : text) {
@@ -160,7 +164,7 @@ std::string preloaded() {
   return value == nullptr || *value == '\0' ? "none" : value;
 }
 
-// What git says, or "unknown" where there is no git or no repository.
+// Returns the output of git, or "unknown" without git or repository.
 std::string git(const std::string& arguments) {
   const std::string command = fmt::format("git -C '{}' {} 2>/dev/null", source_folder, arguments);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);

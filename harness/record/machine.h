@@ -1,4 +1,4 @@
-// Where and with what a campaign ran.
+// Facts of the machine and the program that a campaign ran with.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@
 
 namespace touchstone::record {
 
-// Facts as name and value, "unknown" where the system does not tell: processor, cores, caches,
-// governor, turbo, kernel, memory, limits, compiler and flags, vector instructions in use, versions
-// of the libraries, commit and whether the tree was changed since, command line.
+// Returns facts as name and value, "unknown" if the system does not report it: processor, cores,
+// caches, governor, turbo, kernel, memory, limits, compiler and flags, vector instructions in use,
+// versions of the libraries, commit, changes of the tree since, command line.
 std::vector<std::pair<std::string, std::string>> machine_facts();
-// The one that may differ when a run goes on after a stop.
+// The fact that may differ when a run is resumed.
 inline constexpr std::string_view command_line_fact = "command_line";
 
-// 16 hexadecimal digits over the bytes of this program.
+// Returns 16 hexadecimal digits, a hash of the bytes of this program.
 std::string hash_of_program();
 
-// machine.csv (name,value): what comes first, then the facts.
+// Writes machine.csv (name,value): the facts in `first`, then all others.
 void write_facts(std::vector<std::pair<std::string, std::string>> first,
                  const std::filesystem::path& file);
 

@@ -1,3 +1,4 @@
+// Names of a row's enumerations and labels.
 #include "harness/record/raw_row.h"
 
 #include <fmt/core.h>

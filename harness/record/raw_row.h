@@ -1,4 +1,4 @@
-// One measurement: a row of raw.csv.
+// A row of raw.csv: one measurement.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,19 @@
 
 namespace touchstone::record {
 
-// `convert` is the part of a peer's build or update that converts to its own types, done once more.
+// `convert` is the part of a peer's build or update that converts boxes to its own types, run once
+// more.
 enum class Phase : std::uint8_t { build, update, find_pairs, narrow, convert };
 std::string_view to_string(Phase phase);
 
 enum class RowKind : std::uint8_t {
-  check,   // one frame, verified; its time is no sample
+  check,   // one frame, verified; its time is not used as a sample
   sample,  // a timed sample of a window of frames
 };
 std::string_view to_string(RowKind kind);
 
-// The values of Status, and one that only a row has: the answers of a sample, or the pairs found,
-// are not the right ones.
+// The values of Status, and `wrong`, which only a row has: the answers of a sample, or the pairs
+// found, are wrong.
 enum class RowStatus : std::uint8_t {
   ok,
   not_converged,
@@ -66,7 +67,7 @@ struct RawRow {
   std::int64_t threads = 0;
   std::optional<Isa> isa;
   std::optional<Isa> isa_limit;  // empty: the campaign sets no limit
-  std::optional<bool> rebuild;   // true: the campaign has every frame built anew
+  std::optional<bool> rebuild;   // true if the campaign builds every frame anew
   std::string pair_kind;
   std::int64_t process = -1, square = -1, round = -1, position = -1;
   Phase phase = Phase::build;
@@ -89,7 +90,8 @@ struct RawRow {
   std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
   std::optional<RowStatus> status;
   std::string noise, words, stop;
-  std::optional<bool> warm;  // true: the narrow phase started from what the frames before left
+  // true if the narrow phase started from the memory that the frames before left
+  std::optional<bool> warm;
 
   void take(const BroadPhaseWork& work);
 
@@ -97,7 +99,7 @@ struct RawRow {
   bool is_rebuilt() const { return rebuild.value_or(false); }
   bool is_warm() const { return warm.value_or(false); }
   bool is_narrow() const { return !narrow.empty(); }
-  // The algorithm crashed or was stopped: no answer of it follows.
+  // Returns true if the algorithm crashed or was stopped, so that it has no further answers.
   bool lost() const { return status == RowStatus::crashed || status == RowStatus::timed_out; }
   bool wrong() const { return status == RowStatus::wrong; }
 };
@@ -229,11 +231,11 @@ void columns(Row& row, Visit visit) {
         "` warm`.");
 }
 
-// A narrow phase with its settings, as the tables name it: "gjk double", "gjk double 1e-06", "gjk
-// double gap 1e-08", "gjk double warm". NaN for both is the algorithm's own tolerance.
+// Returns a narrow phase with its settings, as the tables name it: "gjk double", "gjk double
+// 1e-06", "gjk double gap 1e-08", "gjk double warm". NaN for both is the algorithm's own tolerance.
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
                          double duality_gap, bool warm);
-// Label of the row's algorithm: a broad phase's name, or a narrow phase's label.
+// Returns the label of the row's algorithm: a broad phase's name, or a narrow phase's label.
 std::string label_of(const RawRow& row);
 
 }  // namespace touchstone::record

@@ -1,3 +1,4 @@
+// Locks, cuts, appends and finishes a folder of results.
 #include "harness/record/result_folder.h"
 
 #include <fcntl.h>
@@ -29,7 +30,7 @@ constexpr const char* finished_key = "finished";
 constexpr const char* units_key = "units";
 constexpr double seconds_for_others = 2;
 
-// The source folder may change beside a program that stays the same.
+// The source folder may change while the program stays equal.
 constexpr std::array<std::string_view, 2> source_facts = {"commit", "tree"};
 
 std::map<std::string, std::string> read_facts(const std::filesystem::path& file) {
@@ -40,7 +41,7 @@ std::map<std::string, std::string> read_facts(const std::filesystem::path& file)
   return facts;
 }
 
-// The length of the header's line, bytes.
+// Returns the length of the header's line, bytes.
 std::uintmax_t header_size(const RowFile& file) {
   return fmt::format("{}\n", fmt::join(file.header, ",")).size();
 }
@@ -102,7 +103,7 @@ void ResultFolder::lock() {
   }
 }
 
-// Removes what a kill left of files that were being written whole.
+// Removes the partial files that a kill left while they were written whole.
 void ResultFolder::remove_leftovers() const {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(plan_.folder, error)) {
@@ -126,7 +127,8 @@ void ResultFolder::begin_anew() {
                       plan_.work));
     }
   }
-  // machine.csv goes first and comes first: rows never stand beside the facts of other work.
+  // machine.csv is removed first and written first, so rows never stand beside the facts of other
+  // work.
   std::vector<std::filesystem::path> old = {machine(), progress()};
   for (const RowFile& file : plan_.files) old.push_back(path(file.name));
   for (const auto& file : old) {
@@ -151,7 +153,7 @@ void ResultFolder::compare_identity() {
     if (at == old.end()) fail(fmt::format("{} was '' and is '{}' now", name, value));
     const std::string& before = at->second;
     if (name == command_line_fact) {
-      // Every command that the results come from is noted once.
+      // Every command that contributes to the results is noted once.
       value = before.find(value) == std::string::npos ? before + " && " + value : before;
     } else if (std::ranges::find(source_facts, name) != source_facts.end()) {
       value = before;
@@ -190,7 +192,7 @@ void ResultFolder::cut_to_progress() {
   };
   if (any) units_ = number(units_key);
   for (const RowFile& file : plan_.files) {
-    // Without progress.csv the work was stopped before its first unit.
+    // If progress.csv is missing, the work was stopped before its first unit.
     const std::filesystem::path name = path(file.name);
     std::uintmax_t there = std::filesystem::file_size(name, error);
     if (error) there = 0;

@@ -1,12 +1,11 @@
-// A folder of results that one process fills, and that can be gone on with after a stop.
+// A folder of results that one process fills, and that can be resumed after a stop.
 //
 // The folder holds
 // - row files such as raw.csv, to which rows are appended;
-// - progress.csv (name,value): the number of units of work done, and the length of each row file
-//   then.
-//   A unit is what is measured anew when it was interrupted: a round, a job, a cell;
+// - progress.csv (name,value): the number of finished units of work, and the length of each row
+//   file at that moment. An interrupted unit (a round, a job, a cell) is measured anew;
 // - machine.csv (name,value): the identity of the work, facts of the machine, and `finished`.
-// A kill at any moment loses at most the unit at hand.
+// A kill at any moment loses at most the current unit.
 #pragma once
 
 #include <cstddef>
@@ -26,38 +25,38 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 
 enum class FolderStart : std::uint8_t {
   fresh,      // refuses a folder that holds unfinished work
-  overwrite,  // begins anew whatever the folder holds
-  resume,     // goes on with what the folder holds
+  overwrite,  // begins anew and discards the folder's results
+  resume,     // continues the folder's results
 };
 
-// FolderStart::resume where `resume` is true, else FolderStart::overwrite.
+// Returns FolderStart::resume if `resume` is true, else FolderStart::overwrite.
 inline FolderStart resume_or_overwrite(bool resume) {
   return resume ? FolderStart::resume : FolderStart::overwrite;
 }
 
 struct RowFile {
-  std::string name;  // in the folder
+  std::string name;  // relative to the folder
   std::vector<std::string> header;
 };
 
 struct ResultFolderPlan {
   std::filesystem::path folder;
   std::vector<RowFile> files;
-  // Facts of machine.csv that must be equal to resume. Some may differ: `commit` and `tree` keep
+  // Facts of machine.csv that must be equal to resume. Three may differ: `commit` and `tree` keep
   // their first value, and the values of `command_line` are joined.
   Facts identity;
   Facts notes = {};  // further facts of machine.csv, which may differ
   FolderStart start = FolderStart::fresh;
   std::string work = "run";  // for messages: run, check, sweep, ...
-  // Further files and folders of earlier work: they are removed when work begins anew.
+  // Further files and folders of earlier work, which are removed when work begins anew.
   std::vector<std::string> removed = {};
 };
 
 class ResultFolder {
  public:
-  // Makes the folder where it begins anew. To resume, cuts the row files back to the last whole
-  // unit; read them afterwards with `rows`. InputError where the folder cannot be written, is in use
-  // by another process, holds work that must not be lost, or cannot be resumed.
+  // Makes the folder if the work begins anew. To resume, cuts the row files back to the last whole
+  // unit; `rows` reads them afterwards. Throws InputError if the folder cannot be written, is in
+  // use by another process, holds work that must not be lost, or cannot be resumed.
   explicit ResultFolder(ResultFolderPlan plan);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -65,9 +64,9 @@ class ResultFolder {
 
   std::filesystem::path path(const std::string& name) const { return plan_.folder / name; }
   bool was_finished() const { return was_finished_; }
-  std::int64_t units() const { return units_; }  // done so far
+  std::int64_t units() const { return units_; }  // the number done so far
 
-  // The rows of row file `file` (its place in the plan) as they were found.
+  // Returns the rows that row file `file` (its index in the plan) held at the start.
   template <class Row, class... Context>
   std::vector<Row> rows(std::size_t file, const Context&... context) const {
     return read_rows<Row>(path(plan_.files[file].name), context...);
@@ -78,7 +77,7 @@ class ResultFolder {
     write_row(writer(file), row, context...);
   }
   files::CsvWriter& writer(std::size_t file) { return *writers_[file]; }
-  // Ends `units` units: what was written since the last call is kept from now on.
+  // Ends `units` units: everything written since the last call is permanent from now on.
   void commit(std::int64_t units = 1);
   // Writes machine.csv with `finished` and these further facts.
   void finish(const Facts& more = {});
@@ -97,10 +96,10 @@ class ResultFolder {
   void write_facts(bool finished, const Facts& more) const;
 
   ResultFolderPlan plan_;
-  int lock_ = -1;  // the folder, open
+  int lock_ = -1;  // descriptor of the folder
   bool was_finished_ = false;
   std::int64_t units_ = 0;
-  std::vector<std::unique_ptr<files::CsvWriter>> writers_;  // by file
+  std::vector<std::unique_ptr<files::CsvWriter>> writers_;  // one for each file
 };
 
 }  // namespace touchstone::record

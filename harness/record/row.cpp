@@ -1,3 +1,4 @@
+// Helpers of rows.
 #include "harness/record/row.h"
 
 namespace touchstone::record {

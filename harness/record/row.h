@@ -8,16 +8,16 @@
 //     visit("seconds", row.seconds, "Time of the whole window, seconds.");
 //   }
 //
-// Rows that hold places in lists take the lists as a further argument:
+// Rows that hold indices into lists take the lists as a further argument:
 //
 //   template <row_of<Answer> Row, class Visit>
 //   void columns(Row& row, Visit visit, const Subjects& subjects) {
 //     visit("algorithm", place_in(row.entry, subjects.size(), name_of), "The narrow phase.");
 //   }
 //
-// Fields are text, whole numbers (a signed one that is negative, or an empty optional, is an empty
-// field), floating-point numbers (NaN is an empty field), bool (0 or 1), enumerations with a
-// `to_string`, and the wrappers below. Arrays of counts are visited in a loop, a column each.
+// A field is text, a whole number (a negative signed number and an empty optional are empty
+// fields), a floating-point number (NaN is an empty field), a bool (0 or 1), an enumeration with a
+// `to_string`, or one of the wrappers below. Arrays of counts are visited in a loop, a column each.
 #pragma once
 
 #include <fmt/format.h>
@@ -41,11 +41,12 @@
 
 namespace touchstone::record {
 
-// True for a row type and its const twin: one list of columns serves reading and writing.
+// Holds for a row type and its const twin: one list of columns serves reading and writing.
 template <class Row, class Type>
 concept row_of = std::same_as<std::remove_const_t<Row>, Type>;
 
-// A field that names one of a list: `name_of(i)` is the name of place i, for i below `count`.
+// A field that names an element of a list: `name_of(i)` is the name of element i, for i below
+// `count`.
 template <class Index, class NameOf>
 struct PlaceField {
   Index& index;
@@ -57,7 +58,7 @@ PlaceField<Index, NameOf> place_in(Index& index, std::size_t count, NameOf name_
   return {index, count, std::move(name_of)};
 }
 
-// A field that follows from others: it is written and not read. `text()` gives it.
+// A field that follows from others: it is written, as `text()` returns it, and not read.
 template <class Text>
 struct DerivedField {
   Text text;
@@ -67,7 +68,7 @@ DerivedField<Text> derived(Text text) {
   return {std::move(text)};
 }
 
-// A number that is written with `digits` significant digits: it is an estimate.
+// A number written with `digits` significant digits, because it is an estimate.
 template <class Number>
 struct RoundedField {
   Number& value;
@@ -78,7 +79,7 @@ RoundedField<Number> rounded(Number& value, int digits) {
   return {value, digits};
 }
 
-// A whole number that is written as it is, negative ones too.
+// A whole number that is written unchanged, negative ones too.
 template <class Number>
 struct SignedField {
   Number& value;
@@ -88,7 +89,7 @@ SignedField<Number> with_sign(Number& value) {
   return {value};
 }
 
-// A column that older files do not have: its field keeps its default there.
+// A column that older files lack: its field keeps its default there.
 template <class Field>
 struct NewerField {
   Field& field;
@@ -118,7 +119,7 @@ concept Whole = std::integral<T> && !std::same_as<T, bool>;
 template <class T>
 concept Enumeration = std::is_enum_v<T>;
 
-// Where a field was read, for the message of a fault.
+// The place of a field that was read, for the message of an error.
 struct Cell {
   const files::CsvReader::Row& row;
   std::size_t column;
@@ -136,7 +137,7 @@ std::string names_of() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Plain fields.
+// Plain fields follow.
 template <class T>
 std::string type_of(const T&) {
   if constexpr (is_optional<T>) {
@@ -223,7 +224,7 @@ void read(const Cell& cell, T& value) {
   }
 }
 
-// The wrappers.
+// The wrappers follow.
 template <class Index, class NameOf>
 std::string type_of(const PlaceField<Index, NameOf>&) {
   return "name";
@@ -296,7 +297,7 @@ void read(const Cell& cell, NewerField<Field>& field) {
 
 }  // namespace row_detail
 
-// The names of the columns in their order.
+// Returns the names of the columns in their order.
 template <class Row, class... Context>
 std::vector<std::string> header_of(const Context&... context) {
   std::vector<std::string> names;
@@ -318,8 +319,8 @@ void write_row(files::CsvWriter& file, const Row& row, const Context&... context
   file.end_row();
 }
 
-// The row of a file that `reader_of` opens. InputError names file, line, column, what was found and
-// what is expected.
+// Reads the row of a file that `reader_of` opens. Its InputError names file, line, column, the text
+// found and the text expected.
 template <class Row, class... Context>
 Row read_row(const files::CsvReader::Row& fields, const Context&... context) {
   Row row{};
@@ -346,7 +347,7 @@ files::CsvReader reader_of(std::filesystem::path file, const Context&... context
   return {std::move(file), header_of<Row>(context...), optional};
 }
 
-// All rows of a file, which may have further columns, in any order.
+// Returns all rows of a file, which may have further columns, in any order.
 template <class Row, class... Context>
 std::vector<Row> read_rows(const std::filesystem::path& file, const Context&... context) {
   std::vector<Row> rows;
@@ -356,7 +357,7 @@ std::vector<Row> read_rows(const std::filesystem::path& file, const Context&... 
   return rows;
 }
 
-// A table in Markdown: name, type and meaning of each column.
+// Returns a table in Markdown: name, type and meaning of each column.
 template <class Row, class... Context>
 std::string column_docs(const Context&... context) {
   std::string text = "| column | type | meaning |\n|---|---|---|\n";
@@ -370,7 +371,7 @@ std::string column_docs(const Context&... context) {
   return text;
 }
 
-// Replaces what would end a line by blanks: a row is a line.
+// Replaces line ends by blanks, because a row is a line.
 std::string one_line(std::string text);
 
 }  // namespace touchstone::record

@@ -1,3 +1,4 @@
+// Tables of the best, as Markdown.
 #include "harness/stats/best_markdown.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 
 namespace touchstone::stats {
 
-// Where there are others to compare ours with.
+// The table is for sets in which ours have others to be compared with.
 std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
   std::string body;
   const auto name = [](const std::string& label) { return label.empty() ? "-" : label; };

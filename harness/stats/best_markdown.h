@@ -1,4 +1,4 @@
-// The best of ours against the best of others, for people: Markdown. Empty where there are none.
+// Markdown of the best of ours against the best of others; the text is empty if there are none.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The best of ours against the best of the others.
+// The table of broad phases: the best of ours against the best of the others.
 #include <cmath>
 #include <functional>
 #include <limits>

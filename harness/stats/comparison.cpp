@@ -1,3 +1,4 @@
+// Compares two results cell by cell.
 #include "harness/stats/comparison.h"
 
 #include <fmt/format.h>
@@ -15,9 +16,10 @@ namespace {
 
 constexpr double confidence = 0.95;
 constexpr double significance = 0.05;
-constexpr std::size_t fewest_squares = 6;  // on either side, as for the interval of a median
+// the fewest on either side, as for the interval of a median
+constexpr std::size_t fewest_squares = 6;
 
-// Facts of machine.csv that must be the same, and those that may explain a difference.
+// Facts of machine.csv that must be equal, and facts that may explain a difference.
 constexpr std::array machine_facts_compared = {"processor",
                                                "cores_online",
                                                "simultaneous_multithreading",
@@ -79,7 +81,7 @@ SetKey without_hash(SetKey key) {
   return key;
 }
 
-// The hashes of every scene as it is asked for.
+// Returns the hashes of every scene by its name and settings.
 std::set<std::string> hashes_of(const Results& results, const SetKey& key) {
   std::set<std::string> hashes;
   for (const SampleSet& set : results.sets) {
@@ -101,7 +103,7 @@ void correct(std::vector<ComparedCell>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i].p_corrected = corrected[i];
 }
 
-// log of the median over the squares: what a run counts as.
+// Returns the log of the median over the squares, which is the value of a whole run.
 double log_of_run(const Results& run, const SetKey& key, const std::string& label, Noise noise) {
   const SampleSet* const set = run.find(key);
   const Contestant* const contestant = set == nullptr ? nullptr : set->find(label);
@@ -109,7 +111,7 @@ double log_of_run(const Results& run, const SetKey& key, const std::string& labe
   return median(logs(by_square(*contestant, noise)));
 }
 
-// What a verified frame must give again, to the digit, and did not.
+// A value that a verified frame must reproduce to the digit, and that differs.
 struct Change {
   std::string name, in_a, in_b;
 };
@@ -126,8 +128,8 @@ std::optional<Change> change(const Check& a, const Check& b) {
   return std::nullopt;
 }
 
-// The same of the work. A build that cannot count something says nothing about it; and what a peer
-// asks of the heap is up to the versions of the libraries below it.
+// Returns a change of the work counters. A build that cannot count something is not compared by it;
+// and a peer's use of the heap depends on the versions of the libraries below it.
 std::optional<Change> changed_work(const Check& a, const Check& b, bool ours) {
   for (std::size_t i = 0; i < work_count; ++i) {
     const auto work = static_cast<Work>(i);
@@ -275,7 +277,7 @@ std::vector<std::string> changed_answers(const Results& a, const Results& b, Com
       if (!found) continue;
       lines.push_back(fmt::format("{}, frame {}: {} {} in {}, {} in {}", where, check.frame,
                                   found->name, found->in_a, names.a, found->in_b, names.b));
-      return;  // the first frame stands for the others
+      return;  // the first frame is the example of all
     }
   });
   return lines;
@@ -286,7 +288,7 @@ std::vector<ComparedCell> compare(const Results& a, const Results& b, Noise nois
   for_each_common(a, b, [&](const SampleSet& set, const Contestant& in_a, const Contestant& in_b) {
     const std::vector<double> of_a = logs(by_square(in_a, noise));
     const std::vector<double> of_b = logs(by_square(in_b, noise));
-    if (of_a.empty() && of_b.empty() && in_a.failure) return;  // has no times
+    if (of_a.empty() && of_b.empty() && in_a.failure) return;  // it has no times
     MedianInterval ratio = exponential(shift(of_a, of_b, confidence));
     if (ratio.n < fewest_squares) ratio.low = ratio.high = std::nan("");
     cells.push_back(

@@ -1,4 +1,4 @@
-// Two results of the same campaign, cell by cell: is B slower than A?
+// Compares two results of the same campaign, cell by cell: is B slower than A?
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace touchstone::stats {
 struct ComparedCell {
   SetKey key;
   std::string label;
-  MedianInterval ratio;    // of the times, B / A; none where there are too few squares
+  MedianInterval ratio;    // ratio of the times, B / A; NaN if there are too few squares
   double p = 1;            // Mann-Whitney
-  double p_corrected = 1;  // by Holm, over all cells
-  std::size_t squares_a = 0, squares_b = 0;  // or runs, where whole runs are compared
+  double p_corrected = 1;  // corrected by Holm, over all cells
+  std::size_t squares_a = 0, squares_b = 0;  // the number of runs, if whole runs are compared
 };
 
 enum class Verdict : std::uint8_t {
@@ -31,7 +31,7 @@ enum class Verdict : std::uint8_t {
 std::string_view to_string(Verdict verdict);
 Verdict verdict(const ComparedCell& cell, double threshold);
 
-// Names of the two results in messages.
+// The names of the two results in messages.
 struct ResultNames {
   std::string a = "A", b = "B";
 };
@@ -43,27 +43,27 @@ struct Missing {
 };
 Missing missing(const Results& a, const Results& b, const ResultNames& names = {});
 
-// Reasons why times of A and B may not be compared, each a line; empty where they may. `machines`:
-// the machines must be the same too.
+// Returns the reasons against a comparison of times, each a line; none if A and B are comparable.
+// `machines`: the machines must be equal too.
 std::vector<std::string> obstacles(const Results& a, const Results& b, bool machines);
 
 // Differences that may explain a difference in time: compiler, flags, library versions, commit,
 // algorithms that only B has.
 std::vector<std::string> remarks(const Results& a, const Results& b);
 
-// A line for each contestant of a set for which B found other pairs or another number of contacts
-// than A, or failed where A did not: a regression, however fast it is. Work counters differ between
-// versions of an algorithm, and must be the same where one version is run again.
+// Returns a line for each contestant of a set for which B found other pairs or another number of
+// contacts than A, or failed when A did not: a regression, however fast it is. Work counters differ
+// between versions of an algorithm, and must be equal if one version runs again.
 enum class Compared : std::uint8_t { answers, answers_and_work };
 std::vector<std::string> changed_answers(const Results& a, const Results& b, Compared what,
                                          const ResultNames& names = {});
 
-// Every cell for which both have times. A and B ran one after the other: nothing is paired, the
-// interval is that of the Mann-Whitney test.
+// Compares every cell for which both have times. A and B ran one after the other: nothing is
+// paired, and the interval is that of the Mann-Whitney test.
 std::vector<ComparedCell> compare(const Results& a, const Results& b, Noise noise);
 
-// a[i] and b[i] ran side by side: the ratio is the median of their paired log ratios, with a
-// sign-test interval, and each run counts once.
+// Compares results whose runs a[i] and b[i] took turns: the ratio is the median of their paired log
+// ratios, with a sign-test interval, and each run counts once.
 std::vector<ComparedCell> compare_runs(std::span<const Results> a, std::span<const Results> b,
                                        Noise noise);
 

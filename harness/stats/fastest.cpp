@@ -1,3 +1,4 @@
+// Finds the fastest contestant of a set.
 #include "harness/stats/fastest.h"
 
 #include <cmath>

@@ -10,16 +10,16 @@
 
 namespace touchstone::stats {
 
-// The fastest of those that take part, by the ratio of each to the baseline in its own squares;
-// those that failed are left out. Null where there is none.
+// Returns the fastest of those that take part, by the ratio of each to the baseline in its own
+// squares, without those that failed; null if there is none.
 const Contestant* fastest(const SampleSet& set, Noise noise,
                           const std::function<bool(const Contestant&)>& takes_part);
 
-// The fastest of those that take part and answer right.
+// Returns the fastest of those that take part and are right; null if there is none.
 const Contestant* fastest_right(const SampleSet& set, Noise noise,
                                 const std::function<bool(const Contestant&)>& takes_part);
 
-// The row of this set and label; null where there is none.
+// Returns the row of this set and label; null if there is none.
 template <class Row>
 const Row* find_row(const std::vector<Row>& rows, const SetKey& key, const std::string& label) {
   const auto at = std::ranges::find_if(

@@ -1,4 +1,5 @@
-// Speed and error of narrow phases side by side: the best of ours against the best of the others.
+// The table of narrow phases, with speed and error side by side: the best of ours against the best
+// of the others.
 #include <cmath>
 #include <limits>
 

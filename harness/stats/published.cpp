@@ -1,3 +1,4 @@
+// Reads the published results of a campaign file.
 #include "harness/stats/published.h"
 
 #include <utility>

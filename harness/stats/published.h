@@ -1,4 +1,4 @@
-// Published results on the cells of a campaign, to be put beside those measured here.
+// Published results on the cells of a campaign, for comparison with measured ones.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace touchstone::stats {
 
 struct PublishedClaim {
   enum class Kind : std::uint8_t {
-    iterations,  // of a query: mean and deviation
-    faster,      // than another algorithm, on every input
-    suffices,    // answers every pair of a kind rightly
+    iterations,  // the number for a query: mean and deviation
+    faster,      // faster than another algorithm, on every input
+    suffices,    // right for every pair of a kind
   };
   Kind kind = Kind::iterations;
-  std::string algorithm;  // as the tables name it: "gjk double", "naive"
-  std::string than;       // faster
-  // Empty: any.
+  std::string algorithm;  // its label in the tables: "gjk double", "naive"
+  std::string than;       // the slower algorithm, for `faster`
+  // An empty text means any.
   std::string scene, pair_kind;
   double mean = 0, deviation = 0;  // iterations
-  // Iterations that ours count and the source does not, such as the one that only proves that the
-  // search has ended.
+  // Iterations that our count includes and the source's does not, such as the last one, which only
+  // proves that the search has ended.
   std::int64_t uncounted = 0;
 };
 
@@ -34,7 +34,8 @@ struct Published {
   std::vector<PublishedClaim> claims;
 };
 
-// The table [published] of a campaign file; see datasets/README.md. InputError with file and line.
+// Reads the table [published] of a campaign file; see datasets/README.md. Throws InputError with
+// file and line.
 Published read_published(files::TomlTable& campaign);
 
 }  // namespace touchstone::stats

@@ -1,3 +1,4 @@
+// Checks published claims against measured results.
 #include "harness/stats/published_check.h"
 
 #include <fmt/format.h>

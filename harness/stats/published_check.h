@@ -1,4 +1,4 @@
-// Published results beside those measured here.
+// Published results beside measured ones.
 #pragma once
 
 #include <filesystem>
@@ -19,14 +19,14 @@ struct PublishedRow {
   Holds state = Holds::undecided;
 };
 
-// A count of iterations holds where the mean here is within one published deviation of the
-// published mean; `faster` where the whole interval of the ratio is; `suffices` where no answer is
-// wrong, and `here` says how many were. A claim that no set is about gives one row that says so,
-// undecided.
+// Checks each claim. A count of iterations holds if the measured mean is within one published
+// deviation of the published mean; `faster` holds if the whole interval of the ratio supports it;
+// `suffices` holds if no answer is wrong, and `here` has the number of wrong ones. A claim that
+// concerns no set gives one row that says so, undecided.
 std::vector<PublishedRow> check_published(const Published& published, const Results& results,
                                           Noise noise);
 
-// As Markdown, with the source; readable in a terminal as well.
+// Returns Markdown with the source, which is readable in a terminal as well.
 std::string published_text(const Published& published, const std::vector<PublishedRow>& rows);
 
 // Writes published.md and published.csv into the folder.

@@ -1,3 +1,4 @@
+// Sorts the rows of raw.csv into sets of samples.
 #include "harness/stats/samples.h"
 
 #include <fmt/core.h>
@@ -24,7 +25,7 @@ constexpr std::array<std::int64_t record::RawRow::*, work_count> work_fields = {
     &record::RawRow::bytes,          &record::RawRow::allocations,
     &record::RawRow::allocated_bytes};
 
-// The noise of a set's last row where the run could tell its baseline from the twin.
+// The noise of a set's last row if the run's baseline and its twin differ significantly.
 constexpr std::string_view canary = "canary";
 
 bool is_failure(std::optional<record::RowStatus> status) {
@@ -42,7 +43,7 @@ class Reader {
       fields_ = &fields;
       take(record::read_row<record::RawRow>(fields));
     });
-    // A file that was cut may end with a set's twin alone.
+    // A file that was cut may end with a set that has only a twin.
     std::erase_if(results_.sets, [](const SampleSet& set) { return set.contestants.empty(); });
     return std::move(results_);
   }
@@ -88,9 +89,9 @@ class Reader {
     contestant.checks.push_back(std::move(check));
   }
 
-  // Rows of one sample are together, a phase each.
+  // The rows of one sample are consecutive, one for each phase.
   void take_sample(Contestant& contestant, const record::RawRow& row) const {
-    if (std::isnan(row.seconds)) return;  // a failure, as the status says
+    if (std::isnan(row.seconds)) return;  // a failure, which the status names
     if (!(row.seconds >= 0) || std::isinf(row.seconds)) fail("seconds", "seconds of at least 0");
     expect_least("process", row.process, 0);
     expect_least("square", row.square, 0);
@@ -151,7 +152,7 @@ class Reader {
   }
 
   const OriginOf& origin_of_;
-  const files::CsvReader::Row* fields_ = nullptr;  // at hand
+  const files::CsvReader::Row* fields_ = nullptr;  // the current row
   Results results_;
   std::map<SetKey, std::size_t> places_;
 };

@@ -1,4 +1,4 @@
-// The timed samples of a results folder, sorted into what may be compared with what.
+// The timed samples of a results folder, sorted into sets of comparable contestants.
 #pragma once
 
 #include <array>
@@ -19,42 +19,43 @@
 
 namespace touchstone::stats {
 
-// A set: contestants that were given the same input and asked the same, so that their times may be
-// compared.
+// The key of a set: contestants with the same input and the same request, so that their times are
+// comparable.
 struct SetKey {
   std::string scene;
   std::int64_t bodies = 0;
-  std::string seed;  // empty where the file does not tell
+  std::string seed;  // empty if the file does not have it
   std::string boxes;
   std::int64_t threads = 0;
-  std::string task, pair_kind;  // of narrow phases; empty for broad phases
-  std::string pairs_of;         // narrow phases: whose pairs; empty: the true ones
+  std::string task, pair_kind;  // those of narrow phases; empty for broad phases
+  std::string pairs_of;         // the source of a narrow phase's pairs; empty: the true ones
   std::string scene_hash;
-  bool rebuild = false;   // broad phases: every frame was built anew
-  std::string isa_limit;  // of the vector instructions, where the campaign set one
+  bool rebuild = false;   // for broad phases: true if every frame was built anew
+  std::string isa_limit;  // the limit of vector instructions, if the campaign sets one
 
   bool narrow() const { return !task.empty(); }
   auto operator<=>(const SetKey&) const = default;
-  std::string words() const;  // "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"
+  // a text such as "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"
+  std::string words() const;
 };
 
 inline constexpr std::size_t phase_count = base::enumerators<record::Phase>.size();
 
-// One contestant's work on the same run of frames: its phases together. Seconds, NaN for a part
-// that it did not have.
+// One contestant's work on one window of frames, all phases together. Times are in seconds, NaN for
+// an absent part.
 struct Sample {
   std::int64_t process = 0, square = 0, round = 0, position = 0;
   std::array<double, phase_count> parts;  // by phase
-  double units = 0;                       // frames of a broad phase, queries of a narrow one
+  double units = 0;  // the number of frames of a broad phase, of queries of a narrow one
   bool noisy = false;
 
-  double seconds() const;  // all parts; NaN where nothing was timed
+  double seconds() const;  // the sum of all parts; NaN if nothing was timed
 };
 
-// Work counters, by their columns.
+// Work counters, named by their columns.
 enum class Work : std::uint8_t {
   iterations,
-  iterations_squared,  // for their deviation
+  iterations_squared,  // sum of squares, for the deviation
   support_calls,
   box_tests,
   node_visits,
@@ -66,12 +67,12 @@ enum class Work : std::uint8_t {
 std::string_view to_string(Work work);
 inline constexpr std::size_t work_count = base::enumerators<Work>.size();
 
-// The verified answer to one frame. Counts of -1 are not known.
+// The verified answer to one frame. A count of -1 is not known.
 struct Check {
   std::int64_t frame = 0;
   record::Phase phase = record::Phase::build;
-  double seconds = 0;      // no sample: NaN where it failed
-  double worst_error = 0;  // of a distance or depth; NaN where there is none
+  double seconds = 0;      // not a sample; NaN if the check failed
+  double worst_error = 0;  // error of a distance or depth; NaN if there is none
   std::optional<record::RowStatus> status;
   std::string pair_hash, outcome_hash;
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
@@ -88,15 +89,15 @@ struct Check {
   }
 };
 
-// Label of the lower bound of a broad phase, which is measured like a contestant.
+// The label of the lower bound of a broad phase, which is measured like a contestant.
 inline constexpr const char* limit_label = "limit";
 
 struct Contestant {
-  std::string label;                        // "sweep-and-prune", "gjk double 1e-06"
-  std::optional<record::RowOrigin> origin;  // empty where an older file does not say
+  std::string label;  // a label such as "sweep-and-prune" or "gjk double 1e-06"
+  std::optional<record::RowOrigin> origin;  // empty if an older file does not have it
   std::vector<Sample> samples;
   std::vector<Check> checks;
-  // Set where the status of a row is crashed, timed_out, unsupported or wrong.
+  // Set if the status of a row is crashed, timed_out, unsupported or wrong.
   std::optional<record::RowStatus> failure;
 
   bool is_ours() const { return origin == record::RowOrigin::ours; }
@@ -106,14 +107,14 @@ struct SampleSet {
   SetKey key;
   std::vector<Contestant> contestants;  // in the order of the file
   Contestant twin;                      // the baseline's second registration
-  std::string stop;                     // why repetition ended
-  // The baseline was told from its twin by more than the campaign's width: something that is no
-  // algorithm is in these times, and nothing that they say is to be relied on.
+  std::string stop;                     // the reason why repetition ended
+  // True if the baseline differs from its twin by more than the campaign's width: then something
+  // other than the algorithms is in these times, and none of them is reliable.
   bool suspect = false;
 
   const Contestant* find(const std::string& label) const;
-  // What the others are measured by: the one with a twin, else sweep-and-prune or gjk in double,
-  // else the first of ours, else the first.
+  // Returns the reference of the ratios: the contestant with a twin, else sweep-and-prune or gjk in
+  // double, else the first of ours, else the first.
   const Contestant& baseline() const;
 };
 
@@ -121,35 +122,35 @@ struct Results {
   std::filesystem::path file;
   std::string campaign;
   std::set<std::string> isa;                   // vector instructions in use
-  std::map<std::string, std::string> machine;  // machine.csv; empty where there is none
+  std::map<std::string, std::string> machine;  // the facts of machine.csv; empty if there is none
   std::vector<SampleSet> sets;                 // in the order of the file
 
   const SampleSet* find(const SetKey& key) const;
 };
 
-// Gives the origin of an algorithm by its name, for files that have no column `origin`.
+// Returns the origin of an algorithm by its name, for files that have no column `origin`.
 using OriginOf =
     std::function<std::optional<record::RowOrigin>(bool narrow, const std::string& name)>;
 
-// Reads a raw.csv, or the one of a folder, and the machine.csv beside it. InputError with file and
-// line.
+// Reads a raw.csv, or the one of a folder, and the machine.csv beside it. Throws InputError with
+// file and line.
 Results read_results(const std::filesystem::path& folder_or_file, const OriginOf& origin_of = {});
 
-// Adds a phase's seconds to its sample: the phases of one sample come one after the other. `sample`
+// Adds a phase's seconds to its sample; the phases of one sample are consecutive. `sample`
 // identifies it, without its parts.
 void add_phase(Contestant& contestant, record::Phase phase, Sample sample, double seconds);
 
-// Seconds a frame or a query, of each square: the median over the square's rounds. Noisy rounds are
-// left out unless they are asked for.
+// Returns seconds a frame or a query, for each square: the median over the square's rounds. Noisy
+// rounds count only on request.
 using SquareKey = std::pair<std::int64_t, std::int64_t>;  // process, square
 enum class Noise : std::uint8_t { left_out, kept };
 std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise);
 
-// log(a / b) for every square that both were in: the values of paired statistics.
+// Returns log(a / b) for every square that both were in: the values of paired statistics.
 std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, Noise noise);
 
-// log(a / b) with the p of its being 0. Those that were never in one square are compared by what
-// each has to the baseline in its own squares (Mann-Whitney).
+// log(a / b), and the p of the hypothesis that it is 0. Contestants that were never in one square
+// are compared by their ratios to the baseline in their own squares (Mann-Whitney).
 struct LogRatio {
   MedianInterval value;
   double p = 1;

@@ -1,3 +1,4 @@
+// Medians, intervals and tests.
 #include "harness/stats/statistics.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,8 @@ double median_of_sorted(std::span<const double> values) {
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-// The interval between the rank-th smallest and the rank-th greatest value; rank 0: none.
+// Returns the interval between the rank-th smallest and the rank-th greatest value; none for rank
+// 0.
 MedianInterval between_ranks(const std::vector<double>& sorted, std::size_t rank, std::size_t n) {
   if (rank == 0) return {median_of_sorted(sorted), nan, nan, n};
   return {median_of_sorted(sorted), sorted[rank - 1], sorted[sorted.size() - rank], n};
@@ -55,13 +57,13 @@ struct DoubledRanks {
   }
 };
 
-constexpr std::size_t most_exact = 60;  // values in all: 10 million additions
+constexpr std::size_t most_exact = 60;  // values in both samples: 10 million additions
 
-// How likely each sum of `size` of these ranks is, by the shift algorithm: element s is the
-// probability of the sum s.
+// Returns the probability of each sum of `size` of these ranks, by the shift algorithm: element s
+// is the probability of the sum s.
 std::vector<double> rank_sum_distribution(const std::vector<std::size_t>& ranks, std::size_t size) {
   const std::size_t greatest = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
-  // ways[k][s]: subsets of k of the ranks seen so far with the sum s.
+  // ways[k][s] is the number of subsets of k of the ranks seen so far with the sum s.
   std::vector<std::vector<double>> ways(size + 1, std::vector<double>(greatest + 1, 0));
   ways[0][0] = 1;
   std::size_t reached = 0;
@@ -77,8 +79,8 @@ std::vector<double> rank_sum_distribution(const std::vector<std::size_t>& ranks,
   return of_size;
 }
 
-// The greatest k for which fewer than k of the n * m differences are on one side of the true shift
-// with a probability of at most `tail`; 0 where there is none.
+// Returns the greatest k for which fewer than k of the n * m differences are on one side of the
+// true shift with a probability of at most `tail`; 0 if there is none.
 std::size_t shift_rank(std::size_t n, std::size_t m, double tail) {
   if (n + m <= most_exact) {
     std::vector<std::size_t> ranks(n + m);
@@ -110,7 +112,7 @@ MedianInterval median_interval(std::vector<double> values, double confidence) {
   const std::size_t n = values.size();
   const double tail = (1 - confidence) / 2;
   const boost::math::binomial heads(static_cast<double>(n), 0.5);
-  // The median is below the rank-th smallest value where fewer than `rank` values are below it.
+  // The median is below the rank-th smallest value if fewer than `rank` values are below it.
   std::size_t rank = 0;
   while (2 * rank < n && boost::math::cdf(heads, static_cast<double>(rank)) <= tail) ++rank;
   return between_ranks(values, rank, n);

@@ -8,54 +8,55 @@
 
 namespace touchstone::stats {
 
-// The middle value, or the mean of the middle two; NaN for none. No value is NaN.
+// Returns the middle value, or the mean of the middle two; NaN for none. No value is NaN.
 double median(std::vector<double> values);
 
-// An estimate with an interval that covers the true value with at least the confidence asked for;
-// `low` and `high` are NaN where `n` values cannot give such an interval.
+// An estimate with an interval that covers the true value with at least the requested confidence;
+// `low` and `high` are NaN if `n` values cannot give such an interval.
 struct MedianInterval {
   double median, low, high;
   std::size_t n;
 };
 
-// The median of the distribution that the values are drawn from, between two order statistics
-// chosen by the sign test (Conover, "Practical Nonparametric Statistics", sec. 3.2): valid for any
-// distribution. 0 < confidence < 1. At 0.95 there is no interval below 6 values.
+// Returns the median of the distribution that the values are drawn from, between two order
+// statistics chosen by the sign test (Conover, "Practical Nonparametric Statistics", sec. 3.2):
+// valid for any distribution. 0 < confidence < 1. At 0.95 there is no interval below 6 values.
 MedianInterval median_interval(std::vector<double> values, double confidence);
 
-// The interval's two ends to four digits, times `scale`; "-" where there is none.
+// Returns the interval's two ends to four digits, times `scale`; "-" if there is none.
 std::string interval_cell(const MedianInterval& values, double scale = 1);
 
-// Of logarithms, back to what they are the logarithms of.
+// Converts an estimate of logarithms to one of their arguments.
 MedianInterval exponential(const MedianInterval& of_logs);
 
 // Two-sided sign test of a median of 0: the probability of signs at least so uneven. Zeros are left
-// out (Dixon and Mood 1946); 1 where nothing is left.
+// out (Dixon and Mood 1946); the result is 1 if no value is left.
 double sign_test(std::span<const double> values);
 
-// Two-sided Mann-Whitney test: the probability, where both come from one distribution, of ranks at
-// least so uneven. Exact, with ties, up to 60 values in all (Streitberg and Roehmel 1986); beyond,
-// the normal approximation with corrections for ties and continuity. 1 where either is empty.
+// Two-sided Mann-Whitney test: the probability, if both samples come from one distribution, of
+// ranks at least so uneven. It is exact, with ties, up to 60 values in all (Streitberg and Roehmel
+// 1986); beyond, it is the normal approximation with corrections for ties and continuity. It is 1
+// if either sample is empty.
 double mann_whitney(std::span<const double> a, std::span<const double> b);
 
-// How far b lies above a: the median of all differences b[j] - a[i] (Hodges and Lehmann 1963) with
-// the interval that Mann-Whitney's test gives (Moses; Hollander and Wolfe, sec. 4.3). `n` is the
-// number of values of the smaller sample.
+// Returns the shift of b against a: the median of all differences b[j] - a[i] (Hodges and Lehmann
+// 1963) with the interval that Mann-Whitney's test gives (Moses; Hollander and Wolfe, sec. 4.3).
+// `n` is the number of values of the smaller sample.
 MedianInterval shift(std::span<const double> a, std::span<const double> b, double confidence);
 
 // Holm's step-down correction (1979) over a table of tests: corrected probabilities, in the order
-// of `p`. To reject where the corrected one is below a level keeps the chance of even one false
-// rejection below that level.
+// of `p`. If every test whose corrected probability is below a level is rejected, the chance of
+// even one false rejection is below that level.
 std::vector<double> holm(std::span<const double> p);
 
-// The modified z score of each value, 0.6745 (x - median) / MAD (Iglewicz and Hoaglin 1993). Where
-// more than half of the values are equal the mean absolute deviation stands in for the MAD.
+// The modified z score of each value, 0.6745 (x - median) / MAD (Iglewicz and Hoaglin 1993). If
+// more than half of the values are equal, the mean absolute deviation replaces the MAD.
 std::vector<double> modified_z(std::span<const double> values);
-inline constexpr double outlier_z = 3.5;  // beyond it, in size, a value is flagged, never deleted
+inline constexpr double outlier_z = 3.5;  // a value with a greater |z| is flagged, never deleted
 
-// y = factor * x^exponent, by least squares on the logarithms; the interval of the exponent is
-// Student's, which measures how far the points are from a power law: NaN below three distinct x,
-// the exponent itself below two. All x and y > 0.
+// y = factor * x^exponent, by least squares on the logarithms. The interval of the exponent is
+// Student's, which measures the distance of the points from a power law: it is NaN below three
+// distinct x, and the exponent itself is NaN below two. All x and y > 0.
 struct PowerLaw {
   double exponent, low, high, factor;
   std::size_t n;

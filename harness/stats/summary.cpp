@@ -1,3 +1,4 @@
+// Words the end of a run.
 #include "harness/stats/summary.h"
 
 #include <fmt/format.h>
@@ -15,15 +16,16 @@
 namespace touchstone::stats {
 namespace {
 
-constexpr std::size_t unlimited_width = 1000;  // the table is not cut: a line is a group
+// characters, so that no line is cut: a line is a group
+constexpr std::size_t unlimited_width = 1000;
 constexpr std::size_t most_groups = 9;
 constexpr std::size_t most_faults = 5;
 
-// A set's best of ours and best library; a label is empty where there is none.
+// The best of ours and the best library of a set; a label is empty if there is none.
 struct Duel {
   std::string scene, kind;  // kind: "broad phases", or a task
   std::string ours, library;
-  MedianInterval ratio;  // of the library's time over that of ours
+  MedianInterval ratio;  // ratio of the library's time to that of ours
 };
 
 std::vector<Duel> duels_of(const Tables& tables) {
@@ -39,7 +41,7 @@ std::vector<Duel> duels_of(const Tables& tables) {
   return duels;
 }
 
-// The name that comes most often, with its share where there are others.
+// Returns the most frequent name, with its share if there are others.
 std::string most_often(const std::vector<std::string>& names) {
   std::map<std::string, std::size_t> counts;
   for (const std::string& name : names) ++counts[name];
@@ -50,7 +52,7 @@ std::string most_often(const std::vector<std::string>& names) {
                             : fmt::format("{} ({}/{})", most->first, most->second, names.size());
 }
 
-// The geometric mean of the ratios; its interval takes their errors as independent.
+// Returns the geometric mean of the ratios; its interval takes their errors as independent.
 MedianInterval mean_of(const std::vector<MedianInterval>& ratios) {
   double middle = 0, below = 0, above = 0;
   for (const MedianInterval& ratio : ratios) {
@@ -70,7 +72,7 @@ std::string ratio_text(const MedianInterval& ratio) {
              : fmt::format("{:.2f} ({:.2f} to {:.2f})", ratio.median, ratio.low, ratio.high);
 }
 
-// Scenes are groups of their own, unless they are too many.
+// Each scene is a group of its own, unless there are too many.
 std::string winners_text(const Tables& tables) {
   const std::vector<Duel> duels = duels_of(tables);
   std::set<std::pair<std::string, std::string>> groups;
@@ -106,8 +108,8 @@ struct Fault {
   std::string label;
   bool ours = false, known = true;
   std::string what;                   // the first discrepancy
-  std::size_t more = 0;               // further ones
-  double worst_error = std::nan("");  // of a distance or depth beyond the stated error
+  std::size_t more = 0;               // the number of further discrepancies
+  double worst_error = std::nan("");  // error of a distance or depth beyond the stated error
   std::int64_t unknown = 0, queries = 0;
 };
 

@@ -1,4 +1,4 @@
-// The end of a run in a few lines, for the screen: winners, faults, files.
+// The summary of a run in a few lines, for the screen: winners, faults, files.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@ namespace touchstone::stats {
 
 inline constexpr std::size_t most_summary_lines = 25;
 
-// The fastest of ours against the fastest library for each group of scenes, with the ratio and its
-// 95 % interval; algorithms that were wrong, and by how much; where the files are. At most
-// most_summary_lines lines.
+// Returns the fastest of ours against the fastest library for each group of scenes, with the ratio
+// and its 95 % interval; the algorithms that were wrong, with their errors; and the paths of the
+// files. The text has at most most_summary_lines lines.
 std::string summary(const Results& results, const Tables& tables,
                     std::span<const record::Departure> departures,
                     const std::filesystem::path& folder);

@@ -1,3 +1,4 @@
+// Checks the ratios of a table against other results.
 #include "harness/stats/table_check.h"
 
 #include <limits>
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// The cells as the table states them, without those of the canaries.
+// Returns the cells of the table, without those of the canaries.
 std::vector<CheckedCell> read_bands(const std::filesystem::path& file) {
   std::vector<CheckedCell> cells;
   files::CsvReader(
@@ -54,7 +55,7 @@ std::string_view to_string(Holds holds) {
 }
 
 Holds holds(const MedianInterval& ratio, double band_low, double band_high) {
-  // Comparisons with what is missing (NaN) are false.
+  // Comparisons with a missing number (NaN) are false.
   if (ratio.low >= band_low && ratio.high <= band_high) return Holds::pass;
   if (ratio.low > band_high || ratio.high < band_low) return Holds::fail;
   return Holds::undecided;

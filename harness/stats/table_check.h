@@ -21,22 +21,21 @@ Holds holds(const MedianInterval& ratio, double band_low, double band_high);
 struct CheckedCell {
   SetKey key;
   std::string label, baseline;
-  double stated = 0, band_low = 0, band_high = 0;  // by the table
-  MedianInterval ratio;                            // here
+  double stated = 0, band_low = 0, band_high = 0;  // stated by the table
+  MedianInterval ratio;                            // measured in the other results
   Holds state = Holds::undecided;
 };
 
 struct TableCheck {
-  // Hashes, pair counts, contact counts and work counters that are not the same to the digit.
+  // Hashes, pair counts, contact counts and work counters that differ in any digit.
   std::vector<std::string> changed;
-  // Not looked at: an algorithm that is not built here, a scene that was left out.
+  // Cells that were not checked: an algorithm that is not built here, a scene that was left out.
   std::vector<std::string> left_out;
   std::vector<CheckedCell> cells;
 };
 
-// The stated bands are those of library_ratios.csv in the reference's folder, or of ratios.csv
-// where it has no such file; raw.csv and machine.csv stand there too. InputError with file and
-// line.
+// The stated bands are those of library_ratios.csv in the reference's folder, or of ratios.csv if
+// it has no such file; raw.csv and machine.csv are beside it. Throws InputError with file and line.
 TableCheck check_tables(const std::filesystem::path& reference, const Results& here, Noise noise);
 
 }  // namespace touchstone::stats

@@ -1,3 +1,4 @@
+// Computes the tables from samples.
 #include "harness/stats/tables.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ std::vector<double> logs(std::vector<double> values) {
   return values;
 }
 
-// What is corrected over a table: each row's p becomes its p_corrected.
+// Corrects over a table: each row's p becomes its p_corrected.
 template <class Row>
 void correct(std::vector<Row>& rows, const auto& counts) {
   std::vector<double> p;
@@ -106,7 +107,7 @@ RatioRow ratio_row(const SampleSet& set, const Contestant& a, const Contestant& 
           set.suspect};
 }
 
-// The first library of the set that was timed and answers right; null where there is none.
+// Returns the first library of the set that was timed and is right; null if there is none.
 const Contestant* library_of(const SampleSet& set, double depth_error) {
   for (const Contestant& contestant : set.contestants) {
     if (contestant.origin == record::RowOrigin::peer && !contestant.samples.empty() &&
@@ -118,7 +119,7 @@ const Contestant* library_of(const SampleSet& set, double depth_error) {
   return nullptr;
 }
 
-// Ratios to a library, or to the set's baseline where it has no library.
+// Adds ratios to a library, or to the set's baseline if it has no library.
 void add_library_ratios(const SampleSet& set, Noise noise, double depth_error,
                         std::vector<RatioRow>& rows) {
   const Contestant* const library = library_of(set, depth_error);
@@ -131,7 +132,8 @@ void add_library_ratios(const SampleSet& set, Noise noise, double depth_error,
   }
 }
 
-// The log ratios of a contestant to the baseline: how those that were never in one square meet.
+// Returns the log ratios of a contestant to the baseline, which compare contestants without a
+// common square.
 std::vector<double> to_baseline(const SampleSet& set, const Contestant& contestant, Noise noise) {
   return paired_log_ratios(contestant, set.baseline(), noise);
 }
@@ -139,7 +141,7 @@ std::vector<double> to_baseline(const SampleSet& set, const Contestant& contesta
 std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise, double depth_error) {
   struct Entry {
     const Contestant* contestant;
-    double ratio;  // log, to the baseline
+    double ratio;  // logarithm of the ratio to the baseline
   };
   std::vector<Entry> entries;
   for (const Contestant& contestant : set.contestants) {
@@ -205,7 +207,7 @@ std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times) {
 std::vector<SpeedUpRow> speed_up_rows(const Results& results, Noise noise) {
   std::vector<SpeedUpRow> rows;
   for (const SampleSet& set : results.sets) {
-    // The same set with the fewest threads.
+    // The base is the same set with the fewest threads.
     const SampleSet* base = &set;
     bool alone = true;
     for (const SampleSet& other : results.sets) {
@@ -270,7 +272,7 @@ bool is_wrong(const SampleSet& set, const Contestant& contestant) {
     return std::ranges::any_of(contestant.checks,
                                [](const Check& check) { return check.disagreements > 0; });
   }
-  // The pairs of each frame by those of 'naive', else by what most found.
+  // The reference of each frame is the pairs of 'naive', else those that most contestants found.
   const Contestant* const naive = set.find("naive");
   return std::ranges::any_of(contestant.checks, [&](const Check& check) {
     if (check.pair_hash.empty()) return false;

@@ -1,4 +1,4 @@
-// The tables as files.
+// Writes the tables as CSV files.
 #include <fmt/format.h>
 
 #include <cmath>

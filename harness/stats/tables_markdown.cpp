@@ -1,4 +1,4 @@
-// The tables for people: Markdown.
+// Writes the tables as Markdown.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string remark(const TimeRow& row, double depth_error) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// The times of one set, each beside its ratio to the baseline.
+// Returns the times of one set, each beside its ratio to the baseline.
 std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) {
   const TimeRow& first = tables.times[begin];
   const bool broad = !first.key.narrow();
@@ -82,7 +82,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   return all + base::markdown_header(names) + body + "\n";
 }
 
-// Sums over the inputs and kinds of pairs, which are in agreement.csv.
+// Sums over the inputs and kinds of pairs, whose details are in agreement.csv.
 std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
   std::vector<AgreementRow> sums;
   for (const AgreementRow& row : rows) {
@@ -101,7 +101,7 @@ std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
   return sums;
 }
 
-// Means over the inputs and kinds of pairs, which are in work.csv, a query each.
+// Means for a query over the inputs and kinds of pairs, whose details are in work.csv.
 class MeanWork {
  public:
   explicit MeanWork(const WorkRow& row) : row_(row) {}
@@ -127,11 +127,11 @@ class MeanWork {
   }
 
  private:
-  WorkRow row_;  // the first
+  WorkRow row_;  // the first row
   std::array<double, 4> sums_{}, queries_{};
 };
 
-// Work is counted at one thread, whatever the set is timed at: a table for each input, once.
+// Work is counted at one thread for all sets, so each input has one table.
 std::string work_tables(const std::vector<WorkRow>& rows) {
   std::string all;
   std::vector<SetKey> told;
