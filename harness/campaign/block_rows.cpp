@@ -1,3 +1,4 @@
+// Makes rows and departures from rounds of samples.
 #include "harness/campaign/block_rows.h"
 
 #include <fmt/core.h>

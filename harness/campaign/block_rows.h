@@ -15,15 +15,15 @@ class BlockRows {
   BlockRows(const RunContext& context, const Schedule& schedule)
       : context_(context), schedule_(schedule) {}
 
-  // A row of a candidate in a set, with what the block decides.
+  // Returns a row of a candidate in a set, with the columns that the block decides.
   record::RawRow empty(std::size_t candidate, std::size_t set, std::size_t frame) const;
-  // A row of a candidate with the place of a sample.
+  // Returns a row of a candidate with the place of a sample.
   record::RawRow of_sample(const measure::Round& round, const measure::Sample& sample) const;
-  // A row for each duration of the reply; the last one has its counters. `gave_up`: the check
-  // found honest failures among the candidate's answers.
+  // Returns a row for each duration of the reply; the last one has its counters. `gave_up`: the
+  // check found honest failures among the candidate's answers.
   std::vector<record::RawRow> of_reply(const measure::Round& round, const measure::Sample& sample,
                                        bool gave_up) const;
-  // Writes into the row how the candidate was lost. `wrong` says what a wrong answer is.
+  // Writes into the row how the candidate was lost. `wrong` describes a wrong answer.
   record::Departure mark_lost(record::RawRow& row, std::size_t candidate, const measure::Loss& loss,
                               const std::string& wrong) const;
 

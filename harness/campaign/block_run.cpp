@@ -1,3 +1,4 @@
+// Plans the samples of a block and decides when a set stops.
 #include "harness/campaign/block_run.h"
 
 #include <fmt/core.h>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double confidence = 0.95;
 constexpr double patience = 4;  // times its share of the budget, for a set without an interval
-constexpr double slack = 10;    // times its time in the check, before a sample is stopped
+constexpr double slack = 10;    // times its time in the check, until a sample is stopped
 
 }  // namespace
 
@@ -37,7 +38,7 @@ void BlockRun::take_over(const record::RawRow& row) {
   if (row.lost() || row.wrong()) {
     for (std::size_t i = 0; i < lost_.size(); ++i) {
       const Candidate& candidate = schedule_.candidates[i];
-      // A failure of the check pass is one of a set, and the schedule knows it.
+      // A failure of the check pass is one of a set, and the schedule has it already.
       if (row.process >= 0 && candidate.label() == record::label_of(row) &&
           candidate.control == row.is_twin()) {
         lost_[i] = 1;
@@ -84,7 +85,7 @@ const Checked& BlockRun::checked(std::size_t c, std::size_t set) const {
   return *checks_.find(schedule_.candidates[c].label(), schedule_.pairs[set]);
 }
 
-// Every frame once, to hold the answers in this process against those of the check.
+// Plays every frame once, to compare the answers in this process with those of the check.
 std::vector<measure::MeasuringJob::Untimed> BlockRun::warm_up(std::size_t,
                                                               std::span<const std::size_t> sets,
                                                               const measure::ProcessLaps&) {
@@ -103,7 +104,7 @@ std::vector<measure::MeasuringJob::Untimed> BlockRun::warm_up(std::size_t,
 }
 
 double BlockRun::deadline(std::size_t c, std::size_t set, std::uint32_t frames) const {
-  // The frames up to a window may have to be played first.
+  // The time includes the frames before the window, which may have to be played first.
   return context_.block->group->time_limit +
          slack * static_cast<double>(frames + input_.frames.size()) *
              checked(c, set).greatest_seconds();
@@ -143,7 +144,7 @@ void BlockRun::lose(std::size_t c, std::size_t set, int process, std::uint32_t f
 
 void BlockRun::take(measure::Round& round) {
   struct Taken {
-    std::vector<record::RawRow> rows;  // of one sample
+    std::vector<record::RawRow> rows;  // the rows of one sample
     std::optional<record::Departure> departure;
   };
   std::vector<Taken> all;
@@ -174,7 +175,8 @@ measure::Stop BlockRun::reason_to_stop(const measure::Round& round) const {
   const CampaignGroup& group = *context_.block->group;
   if (!round.ends_lap || group.squares) return measure::Stop::none;
   if (round.ends_period && all_narrow(round.set)) return measure::Stop::width;
-  // Below the squares of the first look there is no interval: worth some time beyond the budget.
+  // With fewer squares than the first look there is no interval, which is worth some time beyond
+  // the budget.
   const double share = group.seconds / static_cast<double>(schedule_.sets.size());
   const bool looked = round.lap + 1 >= measure::first_look;
   return round.spent > (looked ? 1 : patience) * share ? measure::Stop::budget
@@ -192,7 +194,7 @@ bool BlockRun::all_narrow(std::size_t set) const {
   return true;
 }
 
-// The A/A control differs from the baseline by more than the width that is asked for.
+// Returns true if the A/A control differs from the baseline by more than the requested width.
 bool BlockRun::control_failed(std::size_t set) const {
   const SetTimes& times = times_[set];
   const double width = context_.block->group->width;

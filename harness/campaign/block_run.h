@@ -15,14 +15,14 @@ namespace touchstone::campaign {
 
 class BlockRun final : private measure::MeasuringJob {
  public:
-  // All but the schedule outlive it. The findings may hold rows of this block's samples, whole
-  // rounds of them: it goes on behind them.
+  // All arguments but the schedule outlive it. The findings may hold whole rounds of this block's
+  // samples: it continues behind them.
   BlockRun(const RunContext& context, const measure::BlockInput& input,
            std::span<const measure::NarrowSet> narrow, const CheckTable& checks, Schedule schedule);
-  BlockRun(const BlockRun&) = delete;  // its members know each other's places
+  BlockRun(const BlockRun&) = delete;  // its members hold references to each other
   BlockRun& operator=(const BlockRun&) = delete;
 
-  // Calls `commit` whenever a round has been added to the findings; ends early when that returns
+  // Calls `commit` after each round that is added to the findings; ends early if `commit` returns
   // false.
   void run(const std::function<bool()>& commit);
 
@@ -51,9 +51,9 @@ class BlockRun final : private measure::MeasuringJob {
   const CheckTable& checks_;
   Schedule schedule_;
   BlockRows rows_;
-  std::vector<SetTimes> times_;                 // of each set
-  std::vector<measure::SetProgress> progress_;  // of each set, when it begins
-  std::vector<char> lost_;                      // of each candidate, when it begins
+  std::vector<SetTimes> times_;                 // one for each set
+  std::vector<measure::SetProgress> progress_;  // one for each set, as at the start
+  std::vector<char> lost_;                      // one for each candidate, as at the start
   std::function<bool()> commit_;
 };
 

@@ -1,3 +1,4 @@
+// The rules and the description of a campaign.
 #include "harness/campaign/campaign.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace touchstone::campaign {
 namespace {
 
-// "hulls_8" is the name of "hulls_8 gap 0.1" too.
+// "hulls_8" is also a name of "hulls_8 gap 0.1".
 bool is_called(std::string_view scene, std::string_view name) {
   if (!scene.starts_with(name)) return false;
   const std::string_view rest = scene.substr(name.size());

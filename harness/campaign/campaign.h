@@ -17,27 +17,27 @@
 
 namespace touchstone::campaign {
 
-// Combination of broad and narrow phases.
+// The combination of broad and narrow phases.
 enum class Pairing : std::uint8_t {
   separate,  // each narrow phase once a frame, on the true pairs
-  product,   // each narrow phase on the pairs of each broad phase, as that one reports them
+  product,   // each narrow phase on the pairs of each broad phase, as reported
 };
 
-// A rule applies to the cells that match everything it names.
+// A rule applies to the cells that match every criterion it has.
 struct CampaignRule {
-  std::optional<std::string> broad, narrow;  // a rule that names one matches no cell of the other
-  std::optional<std::string> scene;          // its name, which may leave out the gap
+  std::optional<std::string> broad, narrow;  // a rule with one of them matches no cell of the other
+  std::optional<std::string> scene;          // a scene's name, with or without the gap
   std::optional<Precision> scalar;
   std::optional<Task> task;
   std::optional<std::string> pair_kind;  // "box-sphere"
   std::optional<scene::BoxKind> boxes;
   std::optional<int> threads;
   std::optional<bool> warm;
-  std::optional<std::int64_t> counts_above, counts_below;  // bodies
+  std::optional<std::int64_t> counts_above, counts_below;  // limits of the number of bodies
 };
 
-// One algorithm in one set of a block. Of a broad phase, the fields from `narrow` on are empty; of
-// a narrow phase, `broad` is the one that found the pairs, or empty.
+// One algorithm in one set of a block. If it is a broad phase, the fields from `narrow` on are
+// empty; if it is a narrow phase, `broad` is the broad phase that found the pairs, or empty.
 struct CampaignCell {
   std::string scene;
   std::int64_t bodies = 0;
@@ -54,38 +54,38 @@ struct CampaignCell {
 // algorithm of the group meets the same frames.
 struct CampaignGroup {
   std::vector<std::filesystem::path> scenes;
-  std::vector<std::int64_t> counts = {-1};  // -1: as the scene says
+  std::vector<std::int64_t> counts = {-1};  // -1: the scene's own
   std::vector<std::int64_t> seeds = {-1};
-  std::vector<std::optional<double>> gaps = {std::nullopt};  // metres; none: as the scene says
+  std::vector<std::optional<double>> gaps = {std::nullopt};  // metres; none: the scene's own
   int frames = -1;
   std::vector<scene::BoxKind> boxes = {scene::BoxKind::tight};
   std::vector<int> threads = {2};
-  // The most vector instructions that our kernels may use; none: what the run may use.
+  // The highest level of vector instructions for our kernels; none: the limit of the run.
   std::vector<std::optional<Isa>> isa = {std::nullopt};
-  bool rebuild = false;  // every frame is built anew instead of updated
+  bool rebuild = false;  // true if every frame is built anew instead of updated
   std::vector<const BroadPhaseEntry*> broad;
-  bool limit = false;  // the lower bound (algorithms/limit.h) is measured beside the others
+  bool limit = false;  // true if the lower bound (algorithms/limit.h) is measured too
   std::vector<measure::NarrowChoice> narrow;
   std::vector<Task> tasks = {Task::intersect};
   Pairing pairing = Pairing::separate;
   std::vector<CampaignRule> include, exclude;
-  // Seconds for one frame; an algorithm that takes longer is left out of the block.
+  // The limit for one frame, seconds; a slower algorithm is left out of the block.
   double time_limit = 10;
   std::size_t memory_limit = std::size_t{4} << 30;  // bytes that one algorithm may take
-  // Repetition ends where the half-width of every ratio's interval is at most `width`, or these
-  // seconds are spent, shared over the sets of a block; or after so many squares.
+  // Repetition ends if the half-width of every ratio's interval is at most `width`, or these
+  // seconds are spent, shared over the sets of a block, or this number of squares is done.
   double width = 0.02;
   double seconds = 10;
   std::optional<int> squares;
-  std::optional<int> rounds;  // taken of each square; none: all
-  int processes = 3;          // that each contestant has until the intervals are looked at
+  std::optional<int> rounds;  // rounds of each square that run; none: all
+  int processes = 3;          // the number for each contestant before the intervals are looked at
 
   bool admits(const CampaignCell& cell) const;
 };
 
 struct Campaign {
   std::string name;
-  std::uint64_t seed = 1;  // of the order in which algorithms run
+  std::uint64_t seed = 1;  // the seed of the order in which algorithms run
   std::vector<CampaignGroup> groups;
   stats::Published published;
 };
@@ -95,12 +95,12 @@ struct Campaign {
 // was expected.
 Campaign read_campaign(const std::filesystem::path& file);
 
-// Facts that decide a campaign's measurements: its name, seed and content, the hashes of its scenes
-// and of the program, and the machine.
+// Returns the facts that decide a campaign's measurements: its name, seed and content, the hashes
+// of its scenes and of the program, and the machine.
 std::vector<std::pair<std::string, std::string>> campaign_facts(
     const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes);
 
-// The campaign's settings as one text, which is the same for equal campaigns only.
+// Returns the campaign's settings as one text, which is equal for equal campaigns only.
 std::string description(const Campaign& campaign);
 
 }  // namespace touchstone::campaign

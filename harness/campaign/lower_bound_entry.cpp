@@ -1,3 +1,4 @@
+// A broad phase that only writes known pairs.
 #include "harness/campaign/lower_bound_entry.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ class LowerBound final : public BroadPhase {
   }
   void update(const FrameChange& change) override { build(change.boxes); }
   Status find_pairs(PairSink& sink) override {
-    // The frame that these boxes are of.
+    // The frame to which these boxes belong.
     const auto frame = std::ranges::find_if(input_.frames, [&](const measure::BlockFrame& own) {
       return own.boxes.data() == boxes_.data();
     });

@@ -6,8 +6,9 @@
 
 namespace touchstone::campaign {
 
-// It is measured like the broad phases of the block, named stats::limit_label in its rows, and "finds"
-// the pairs that the input holds. It is only for the boxes of this input, which outlives it.
+// It is measured like the broad phases of the block, named stats::limit_label in its rows, and
+// "finds" the pairs that the input holds. It works only with the boxes of this input, which
+// outlives it.
 BroadPhaseEntry lower_bound_entry(const measure::BlockInput& input);
 
 }  // namespace touchstone::campaign

@@ -1,3 +1,4 @@
+// Reads campaign files.
 #include "harness/campaign/campaign.h"
 
 #include <fmt/format.h>
@@ -22,17 +23,18 @@ enum class IsaChoice : std::uint8_t { all, avx2, baseline };
 constexpr std::array<std::string_view, 2> pairing_names = {"separate", "product"};
 constexpr std::int64_t greatest_count = 100'000'000;
 
-// The group's value where it has one, else the file's.
+// The group's value if it has one, else the file's.
 class Settings {
  public:
   Settings(files::TomlTable& file, files::TomlTable& group) : file_(&file), group_(&group) {}
 
   files::TomlTable& of(std::string_view key) {
     const bool own = group_->has(key);
-    file_->has(key);  // known there too, whether it counts or not
+    file_->has(key);  // marks the file's key as known, even if the group's value replaces it
     return own ? *group_ : *file_;
   }
-  // The elements of an array; one value stands for an array of it. Empty where there is none.
+  // Returns the elements of an array; a single value is an array of one. The result is empty if the
+  // key is missing.
   std::vector<const toml::node*> elements(std::string_view key) {
     files::TomlTable& table = of(key);
     const toml::node* node = table.node(key);
@@ -68,7 +70,7 @@ class Settings {
     if (values.empty()) values.push_back(fallback);
     return values;
   }
-  // Numbers of -`greatest` to `greatest`.
+  // Returns numbers from -`greatest` to `greatest`.
   std::vector<double> numbers(std::string_view key, double greatest) {
     std::vector<double> values;
     for (const toml::node* node : elements(key)) {
@@ -106,7 +108,7 @@ std::vector<const Entry*> algorithms(Settings& settings, const std::string& key,
   }
 }
 
-// Cold, warm, or both, cold first.
+// Returns cold, warm, or both, cold first.
 std::vector<bool> warm_starts(Settings& settings) {
   bool cold = false, warm = false;
   for (const toml::node* node : settings.elements("warm")) {
@@ -120,7 +122,7 @@ std::vector<bool> warm_starts(Settings& settings) {
   return starts;
 }
 
-// Each algorithm with each scalar that it offers, each tolerance and each start that it knows.
+// Returns each algorithm with each of its scalars, each tolerance and each start that it offers.
 std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
   const auto scalars = settings.choices<Precision>("scalars", scalar_names,
                                                    {Precision::float32, Precision::float64});
@@ -158,7 +160,7 @@ std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
                                       .tolerance = tolerance,
                                       .max_iterations = max_iterations,
                                       .duality_gap = duality_gap};
-        // What knows no other start is cold, once.
+        // An algorithm without warm starts is measured once, cold.
         if (!entry->traits.starts_warm) choices.push_back({entry, own});
         for (const bool warm : starts) {
           if (entry->traits.starts_warm) choices.push_back({entry, own, warm});
@@ -281,7 +283,7 @@ Campaign read_campaign(const std::filesystem::path& file) {
   const toml::table nothing;
   files::TomlTable empty(nothing, file.string(), "");
   if (table.has("group")) {
-    // A wrong default is told even where every group has a value of its own.
+    // A wrong default is reported even if every group has a value of its own.
     read_group(Settings(table, empty), folder, Whole::defaults);
     for (files::TomlTable& group : table.tables("group")) {
       campaign.groups.push_back(read_group(Settings(table, group), folder, Whole::group));

@@ -1,3 +1,4 @@
+// Rows, places and algorithms of the current block.
 #include "harness/campaign/run_context.h"
 
 #include <fmt/core.h>
@@ -57,7 +58,8 @@ std::vector<const BroadPhaseEntry*> RunContext::broad() const {
 }
 
 bool RunContext::admits(const BroadPhaseEntry& entry) const {
-  if (!scene->pairs.empty()) return false;  // nothing is left to find
+  // the scene lists its pairs, so a broad phase has no work
+  if (!scene->pairs.empty()) return false;
   return block->group->admits({.scene = scene->name,
                                .bodies = static_cast<std::int64_t>(scene->size()),
                                .boxes = block->boxes,

@@ -1,3 +1,4 @@
+// Reads and appends the rows of a run's folder.
 #include "harness/campaign/run_folder.h"
 
 #include <utility>

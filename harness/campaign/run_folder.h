@@ -12,18 +12,18 @@ namespace touchstone::campaign {
 // A unit is a block's check pass, a worker's first pass, or a round.
 class RunFolder {
  public:
-  // Fills the findings from the folder where the run is resumed.
+  // Fills the findings from the folder if the run is resumed.
   RunFolder(std::filesystem::path folder, record::Facts facts, record::FolderStart start,
             record::Findings& findings);
 
   bool was_finished() const { return folder_.was_finished(); }
-  // Appends what is new in the findings, as a unit; without anything new does nothing.
+  // Appends the new findings, as a unit; does nothing if there are none.
   void commit(const record::Findings& findings);
   void finish() { folder_.finish(); }
 
  private:
   record::ResultFolder folder_;
-  std::size_t rows_ = 0, departures_ = 0;  // written
+  std::size_t rows_ = 0, departures_ = 0;  // numbers written
 };
 
 }  // namespace touchstone::campaign

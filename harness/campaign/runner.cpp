@@ -1,3 +1,4 @@
+// Runs a campaign block by block: check pass, then samples.
 #include "harness/campaign/runner.h"
 
 #include <fmt/core.h>
@@ -27,7 +28,7 @@ constexpr int tried_frames = 2;
 
 volatile std::sig_atomic_t interrupt = 0;
 
-// Lets the round at hand end on SIGINT; a second one ends the program as usual.
+// SIGINT ends the run after the current round; a second one ends the program as usual.
 class InterruptGuard {
  public:
   InterruptGuard() {
@@ -76,7 +77,7 @@ std::string label(const Block& block, const scene::Scene& scene) {
                      block.isa ? fmt::format(", {} instructions", to_string(*block.isa)) : "");
 }
 
-// Holds the kernels down to what the block allows, in this process and those forked from it.
+// Limits the kernels to the block's instructions, in this process and those forked from it.
 class IsaGuard {
  public:
   explicit IsaGuard(const Block& block) : before_(isa()) {
@@ -100,7 +101,7 @@ void expect_frames(const Block& block, const scene::Scene& scene) {
       "more, in the scene or the campaign");
 }
 
-// Each distinct scene once.
+// The scenes of a campaign, each loaded once.
 class Scenes {
  public:
   struct Loaded {
@@ -120,7 +121,7 @@ class Scenes {
     }
   }
   const Loaded& of(const Block& block) const { return loaded_.at(key(block)); }
-  // By name and count.
+  // Returns the hashes by name and count.
   std::map<std::string, std::string> hashes() const {
     std::map<std::string, std::string> hashes;
     for (const auto& [key, loaded] : loaded_) {
@@ -145,12 +146,12 @@ bool has_narrow(const RunContext& context) {
   return !context.block->group->narrow.empty() && context.scene->recording.empty();
 }
 
-// True where narrow phases are asked about the pairs that each broad phase finds.
+// Returns true if narrow phases solve the pairs that each broad phase finds.
 bool finds_pairs(const RunContext& context) {
   return context.block->group->pairing == Pairing::product && context.scene->pairs.empty();
 }
 
-// The sets of true pairs, and those of what broad phases found.
+// The sets of true pairs, and the sets of the broad phases' pairs.
 struct NarrowInput {
   std::vector<measure::NarrowSet> checked, measured;
 };
@@ -162,7 +163,7 @@ std::vector<std::vector<IndexPair>> true_pairs(const measure::BlockInput& input)
 }
 
 // Checks the broad phases and returns the pairs for the narrow phases. Rows go to
-// `context.findings`. `again`: the rows are known, and only the pairs are wanted.
+// `context.findings`. With `again` the rows are known, and only the pairs are new.
 NarrowInput check_broad_phases(const RunContext& context, const measure::BlockInput& input,
                                bool again) {
   const CampaignGroup& group = *context.block->group;
@@ -176,7 +177,7 @@ NarrowInput check_broad_phases(const RunContext& context, const measure::BlockIn
     const CheckedBroad check = check_broad(context, input, *entry, product);
     if (!product || !check.whole || entry == context.limit) continue;
     auto found = measure::narrow_sets(input, entry->info.name, check.pairs, group.tasks);
-    // Other pairs than the true ones have answers of their own.
+    // Pairs that differ from the true ones have answers of their own.
     if (!check.right) sets.checked.insert(sets.checked.end(), found.begin(), found.end());
     sets.measured.insert(sets.measured.end(), found.begin(), found.end());
   }
@@ -192,7 +193,7 @@ void run_block(RunContext context, bool checked, base::Progress& progress, RunFo
   if (context.block->group->limit) context.limit = &limit;
   NarrowInput narrow;
   if (checked) {
-    // The rows are there; what the broad phases found has to be found again.
+    // The rows are there, but the broad phases' pairs have to be found again.
     record::Findings known;
     RunContext silent = context;
     silent.findings = &known;
@@ -223,7 +224,8 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
   RunFolder files(folder, campaign_facts(campaign, scenes.hashes()), start, result.findings);
   if (files.was_finished()) return result;
   const auto& rows = result.findings.rows();
-  const std::int64_t at = rows.empty() ? -1 : rows.back().block;  // where it stopped
+  // the block at which the run stopped
+  const std::int64_t at = rows.empty() ? -1 : rows.back().block;
   {
     const InterruptGuard guard;
     base::Progress progress(blocks.size());
@@ -300,7 +302,7 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     std::vector<std::string> listed = broad;
     if (group.limit && !broad.empty()) listed.emplace_back(stats::limit_label);
     add("broad phases", listed);
-    // Without narrow phases the first frames give the time of all.
+    // Without narrow phases the first frames determine the time of all.
     const bool has_pairs = has_narrow(context);
     scene::Scene scene = loaded.scene;
     const auto frames = static_cast<std::size_t>(

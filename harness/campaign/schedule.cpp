@@ -1,3 +1,4 @@
+// Plans the sets, groups and windows of a block.
 #include "harness/campaign/schedule.h"
 
 #include <algorithm>
@@ -10,8 +11,8 @@ namespace {
 
 constexpr std::size_t group_size = 4;
 
-// Seconds of a sample of the median candidate: long enough for the clock and short enough for many
-// rounds. They are fewer where a set's share of the time would not last for the first look.
+// The time of a sample of the median candidate, seconds: long enough for the clock and short enough
+// for many rounds. It is shorter if a set's share of the time would end before the first look.
 constexpr double longest_sample = 3e-3;
 constexpr double shortest_sample = 0.25e-3;
 constexpr double greatest_window = 4096;  // frames
@@ -47,7 +48,7 @@ void add_set(Schedule& schedule, measure::MeasuredSet set, const measure::Narrow
   for (const Candidate& candidate : candidates) {
     set.members.push_back(index_of(schedule.candidates, candidate));
   }
-  // The groups are as even as can be, so that no candidate meets the baseline alone.
+  // The groups are as even as possible, so that no candidate meets the baseline alone.
   const std::size_t others = set.members.size() - 1;
   const std::size_t groups = (others + group_size - 2) / (group_size - 1);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -114,7 +115,7 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
     }
     const auto is_warm = [](const Candidate& candidate) { return candidate.narrow->warm; };
     if (set.starts.back() == 0) {
-      std::erase_if(candidates, is_warm);  // nothing comes before
+      std::erase_if(candidates, is_warm);  // there is no frame before
       if (candidates.empty()) continue;
     }
     set.skips_first = std::ranges::any_of(candidates, is_warm);
@@ -133,7 +134,7 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
       }
       means.push_back(sum / static_cast<double>(frames - set.starts.front()));
     }
-    double samples = 0;  // until the first look
+    double samples = 0;  // the number until the first look
     for (std::size_t g = 0; g < set.groups.size(); ++g) {
       samples += measure::first_look * static_cast<double>(set.groups[g].size() * set.rounds(g));
     }

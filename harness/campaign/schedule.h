@@ -11,24 +11,24 @@
 
 namespace touchstone::campaign {
 
-// One algorithm of a block. The control is a second registration of a baseline (an A/A control): the
-// difference between the two is the error of the measurement.
+// One algorithm of a block. The control is a second registration of a baseline (an A/A control):
+// the difference of their times is the error of the measurement.
 struct Candidate {
-  const BroadPhaseEntry* broad = nullptr;  // or
+  const BroadPhaseEntry* broad = nullptr;  // null for a narrow phase
   const measure::NarrowChoice* narrow = nullptr;
   bool control = false;
 
   const AlgorithmInfo& info() const { return broad != nullptr ? broad->info : narrow->entry->info; }
-  std::string label() const;  // does not name the control
+  std::string label() const;  // the label, which is equal for an algorithm and its control
   bool operator==(const Candidate&) const = default;
 };
 
-// The sets of a block, and its candidates, those that the check left in. The baseline is the first
-// member of its set and in each of its groups; the control is the second member.
+// The sets of a block, and its candidates that passed the check. The baseline is the first member
+// of its set and of each of its groups; the control is the second member.
 struct Schedule {
   std::vector<Candidate> candidates;  // the contestants of the sets
   std::vector<measure::MeasuredSet> sets;
-  std::vector<const measure::NarrowSet*> pairs;  // of each set; null: the broad phases
+  std::vector<const measure::NarrowSet*> pairs;  // one for each set; null: the broad phases
 
   std::string key(std::size_t set) const {
     return pairs[set] == nullptr ? "" : set_key(*pairs[set]);

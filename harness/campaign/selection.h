@@ -1,4 +1,4 @@
-// Algorithms by the names that a user gave.
+// Selects algorithms by names that the user gives.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 namespace touchstone::campaign {
 
-// The names of a list such as "sap,naive".
+// Returns the names of a list such as "sap,naive".
 inline std::vector<std::string> split_names(std::string_view list) {
   std::vector<std::string> names;
   for (;;) {
@@ -26,10 +26,10 @@ inline std::vector<std::string> split_names(std::string_view list) {
   }
 }
 
-// The entries of these names, in the order named, each once. "all" stands for every one that is
-// built, "ours", "peers" and "oracle" for those of that origin, "none" for none. InputError for an
-// unknown name, with those that there are, and for one that is not built, with the reason. `what`
-// is "broad phase" or "narrow phase".
+// Returns the entries of these names, in the order named, each once. "all" means every one that is
+// built; "ours", "peers" and "oracle" mean those of that origin; "none" means none. Throws
+// InputError for an unknown name, with the list of known names, and for one that is not built, with
+// the reason. `what` is "broad phase" or "narrow phase".
 template <class Entry>
 std::vector<const Entry*> select(std::span<const Entry> entries,
                                  const std::vector<std::string>& names, std::string_view what) {
@@ -67,7 +67,7 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
   return chosen;
 }
 
-// For a message to who asked others to.
+// Returns the list for a message about a wrong request.
 inline std::string names_stopping_by_duality_gap() {
   std::string names;
   for (const NarrowPhaseEntry& entry : narrow_phases()) {

@@ -1,3 +1,4 @@
+// Sorts rows of samples into the times of a set.
 #include "harness/campaign/set_times.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The timed samples of one set, as its rows tell them.
+// The timed samples of one set, from its rows.
 #pragma once
 
 #include <map>
@@ -12,22 +12,23 @@ namespace touchstone::campaign {
 
 class SetTimes {
  public:
-  // The rows of one sample come one after the other.
+  // Adds a row; the rows of one sample are consecutive.
   void add(const record::RawRow& row);
 
-  // The name of the baseline's second registration, the A/A control.
+  // Returns the name of the baseline's second registration, the A/A control.
   static std::string twin_of(const std::string& label) { return label + " (twin)"; }
 
   bool has(const std::string& label) const { return contestants_.contains(label); }
   std::vector<std::string> labels() const;
-  // The contestant with a control; empty where there is none.
+  // Returns the contestant with a control; empty if there is none.
   const std::string& baseline() const { return baseline_; }
-  // All samples that count, seconds a frame or a query. Rounds with flags do not count, unless
-  // `noisy`.
+  // Returns all samples that count, in seconds a frame or a query. Rounds with flags count only
+  // with `noisy`.
   std::vector<double> times(const std::string& label, bool noisy) const;
-  // log(a / b) of the squares that both were in.
+  // Returns log(a / b) of the squares that both were in.
   std::vector<double> log_ratios(const std::string& a, const std::string& b, bool noisy) const;
-  // log(a / b) with its interval; of those that never met, by what each has to the baseline.
+  // Returns log(a / b) with its interval; contestants without a common square are compared by their
+  // ratios to the baseline.
   stats::MedianInterval log_ratio(const std::string& a, const std::string& b, bool noisy,
                                   double confidence) const;
 
@@ -38,7 +39,8 @@ class SetTimes {
   std::string baseline_;
 };
 
-// The half-width of an interval of a ratio, as a part of it; NaN where there is no interval.
+// Returns the half-width of a ratio's interval, as a part of the ratio; NaN if there is no
+// interval.
 double half_width(const stats::MedianInterval& log_ratio);
 
 }  // namespace touchstone::campaign

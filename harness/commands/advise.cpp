@@ -1,4 +1,4 @@
-// touchstone advise: the cheapest configuration that is right enough for a scene.
+// touchstone advise: finds the cheapest configuration whose error on a scene is within a budget.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Command lines with CLI11: options, checks, help.
 #include "harness/commands/arguments.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ bool read(const std::string& word, std::optional<T>& value) {
   return read(word, value.emplace());
 }
 
-// As a stream writes it: six digits of a double.
+// Formats a value as a stream does: six digits of a double.
 template <class T>
 std::string shown(const T& value) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -61,7 +62,7 @@ std::string join(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ","));
 }
 
-// A word as the shell reads it back.
+// Quotes a word for the shell.
 std::string quoted(const std::string& word) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
@@ -73,7 +74,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// A check that shows `what` behind the option's type in --help.
+// Adds a check that shows `what` behind the option's type in --help.
 Option add_check(CLI::Option* option, const std::string& what,
                  std::function<std::string(const std::string&)> fault) {
   option->check(
@@ -92,7 +93,7 @@ Option add_range(CLI::Option* option, const std::string& what, T low, T high) {
 
 }  // namespace
 
-// --- an option ---
+// --- options ---
 
 Option Option::required() {
   option_->required();
@@ -176,7 +177,7 @@ Option Option::check(std::function<std::string(const std::string&)> fault) {
 
 bool Option::given() const { return option_->count() > 0; }
 
-// --- a command's ---
+// --- commands ---
 
 Option Arguments::text(const std::string& name, std::string& value, const std::string& help) {
   const auto take = [&value](const Words& words) {
@@ -277,7 +278,7 @@ void Arguments::before_commands(std::function<void()> work) {
   app_->parse_complete_callback(std::move(work));
 }
 
-// --- the program's ---
+// --- the program ---
 
 CommandLine::CommandLine(const std::string& about)
     : app_(std::make_unique<CLI::App>(about, "touchstone")) {

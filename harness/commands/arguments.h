@@ -1,6 +1,6 @@
-// The command line: commands, their options, and the checks of what is given to them. Only
-// arguments.cpp includes the library that parses it, whose templates take longer to compile than
-// all commands together.
+// The command line: commands, their options, and the checks of their values. Only arguments.cpp
+// includes the library that parses it, whose templates take longer to compile than all commands
+// together.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class Option {
   Option value_optional();  // the option may stand without a value
   Option once_each();       // each value stands behind a name of its own
 
-  // --help shows the present value, or this text.
+  // Shows the present value, or this text, in --help.
   Option show_default();
   Option show_default(const std::string& text);
 
@@ -42,23 +42,23 @@ class Option {
   Option within_real(double low, double high);
   Option positive();
   Option not_negative();
-  // `fault` says what is wrong with a value; empty where nothing is.
+  // `fault` describes the error in a value, with an empty text if there is none.
   Option check(std::function<std::string(const std::string&)> fault);
 
-  // True where the command line has it.
+  // Returns true if the command line has it.
   bool given() const;
 
  private:
   CLI::Option* option_;
 };
 
-// The options of a command. A value that is not given stays as it is. References must live until
+// The options of a command. A value that is not given stays unchanged. References must live until
 // the command has run.
 class Arguments {
  public:
   Arguments(CLI::App* app, int* status) : app_(app), status_(status) {}
 
-  // Names begin with "--"; those of arguments that are known by their place do not.
+  // Names of options begin with "--"; names of positional arguments do not.
   Option text(const std::string& name, std::string& value, const std::string& help);
   Option texts(const std::string& name, std::vector<std::string>& values, const std::string& help);
   Option flag(const std::string& name, bool& value, const std::string& help);
@@ -71,8 +71,8 @@ class Arguments {
   Option numbers(const std::string& name, std::vector<T>& values, const std::string& help);
 
   template <class E>
-  using Choices = std::vector<std::pair<std::string, E>>;  // names and what they mean
-  // One of the choices. `value` is an E, or std::optional<E>.
+  using Choices = std::vector<std::pair<std::string, E>>;  // names and their values
+  // Adds a choice of one value. `value` is an E, or std::optional<E>.
   template <class E, class Value>
   Option one_of(const std::string& name, Value& value, const Choices<E>& choices,
                 const std::string& help) {
@@ -80,7 +80,7 @@ class Arguments {
       value = choices[chosen.front()].second;
     });
   }
-  // Some of the choices, separated by commas or blanks.
+  // Adds a choice of several values, separated by commas or blanks.
   template <class E>
   Option some_of(const std::string& name, std::vector<E>& values, const Choices<E>& choices,
                  const std::string& help) {
@@ -90,19 +90,19 @@ class Arguments {
     });
   }
 
-  // The option of this name, which was added before.
+  // Returns the option of this name, which was added before.
   Option option(const std::string& name) const;
-  // Excludes every other option that the command has until now, but --help.
+  // Excludes every other option that the command has until now, except --help.
   void exclude_others(const std::string& name);
-  // The text below the options in --help.
+  // Sets the text below the options in --help.
   void footer(const std::string& text);
 
-  // The line of a shell that gives this command the same options, without those that are left out.
+  // Returns a shell line that gives this command the same options, except those that are left out.
   std::string shell_line(std::string_view left_out) const;
 
-  // What the command does once all options are read; returns the program's exit status.
+  // Sets the work that follows after all options are read; it returns the program's exit status.
   void job(std::function<int()> work);
-  // For what concerns every command: runs before a command does.
+  // Sets work that runs before every command.
   void before_commands(std::function<void()> work);
 
  private:
@@ -128,13 +128,13 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  // Options that may stand anywhere.
+  // Returns the options that may stand anywhere.
   Arguments everywhere();
   Arguments add_command(const std::string& name, const std::string& about);
 
-  // Does what the words ask for, of which the first is not the program's name. Prints --help, or
-  // what is wrong with the words and what was expected. Returns the exit status; exceptions of the
-  // command's job pass through.
+  // Runs the command of these words, which do not include the program's name. Prints --help, or the
+  // error in the words and what was expected. Returns the exit status; exceptions of the command's
+  // job pass through.
   int run(const std::vector<std::string>& words);
 
  private:

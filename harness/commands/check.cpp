@@ -23,7 +23,7 @@ struct Options {
   check::CheckRequest request;
 };
 
-// Returns the regimes of these names and of these groups, or all where both are empty.
+// Returns the regimes of these names and of these groups, or all if both are empty.
 std::vector<const check::Regime*> chosen_regimes(const std::string& names,
                                                  const std::string& groups) {
   std::vector<std::string> wanted, wanted_groups;

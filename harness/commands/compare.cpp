@@ -119,7 +119,7 @@ int compare_files(const Options& options) {
 stats::Results run(const std::string& program, const std::string& campaign,
                    const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  std::filesystem::remove(folder / "raw.csv");  // a rest of an earlier comparison
+  std::filesystem::remove(folder / "raw.csv");  // it is left from an earlier comparison
   const std::filesystem::path log = folder / "output.txt";
   const int status =
       process::run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
@@ -151,7 +151,7 @@ int compare_programs(const Options& options) {
                                .work = "comparison"});
   std::vector<stats::Results> a, b;
   for (int i = 0; i < options.runs; ++i) {
-    // A B, B A, A B, ...: a machine that grows slower or faster is fair to both.
+    // A B, B A, A B, ... is fair to both on a machine whose speed drifts.
     for (const bool is_a : {i % 2 == 0, i % 2 != 0}) {
       fmt::print(stderr, "run {} of {}, {}\n", i + 1, options.runs, is_a ? 'A' : 'B');
       (is_a ? a : b)

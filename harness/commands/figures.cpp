@@ -1,3 +1,4 @@
+// Runs the scripts of plots/.
 #include "harness/commands/figures.h"
 
 #include "harness/process/subprocess.h"

@@ -1,4 +1,4 @@
-// touchstone list: lists all algorithms, with the reasons of those that are not built.
+// touchstone list: lists all algorithms, and why some are not built.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// touchstone manifold: asks contact manifolds for the points of cases, and grades them.
+// touchstone manifold: runs manifold algorithms on cases, and grades their points.
 #include <fmt/format.h>
 
 #include <limits>
@@ -27,14 +27,14 @@ namespace {
 
 struct ManifoldOptions {
   std::string cases, algorithms = "all", out, page;
-  std::optional<std::uint64_t> settled;  // pairs of each family
+  std::optional<std::uint64_t> settled;  // the number of pairs of each family
   std::uint64_t seed = 1;
   std::optional<Precision> scalar;
   bool grade = false;
   double time_limit = 5;  // seconds a query
 };
 
-// A case, with the family that it is counted in.
+// A case, with its family.
 struct Asked {
   files::Case pair;
   std::string family;
@@ -44,7 +44,8 @@ struct Asked {
 struct Contestant {
   const ManifoldEntry* entry;
   Precision scalar;
-  std::vector<Manifold> manifolds;  // one a case; `unsupported` for kinds it lacks
+  // one for each case; `unsupported` for kinds that the algorithm lacks
+  std::vector<Manifold> manifolds;
 
   std::string name() const { return fmt::format("{} {}", entry->info.name, to_string(scalar)); }
 };
@@ -67,7 +68,7 @@ std::vector<Asked> read_or_make_cases(const ManifoldOptions& options) {
   return asked;
 }
 
-// Asks in a child process. Prints the failures.
+// Runs the algorithm in a child process. Prints the failures.
 void ask(Contestant& contestant, const std::vector<Asked>& asked, double time_limit) {
   const ManifoldEntry& entry = *contestant.entry;
   contestant.manifolds.resize(asked.size());

@@ -1,4 +1,4 @@
-// touchstone pairs: gives the boxes of a file to broad phases, and writes a row for each frame and
+// touchstone pairs: runs broad phases on the boxes of a file, and writes a row for each frame and
 // algorithm.
 #include <fmt/format.h>
 #include <sys/types.h>
@@ -125,7 +125,7 @@ class Contender {
   }
 
   void keep(const PairSink& sink, Result& result) {
-    // The place is behind all that an earlier child wrote, even in part.
+    // The place is behind all data of an earlier child, even partial data.
     bool good = fseeko(kept_.get(), 0, SEEK_END) == 0;
     result.kept_at = ftello(kept_.get());
     for (const PairBuffer& chunk : sink.chunks()) {
@@ -202,7 +202,7 @@ void pairs(const PairsOptions& options) {
       write_row(csv, frames[i], *contender, contender->result(i), options.threads);
     }
   }
-  csv.flush();  // finds a full disk before either file is there
+  csv.flush();  // reveals a full disk before either file is there
   if (!options.pairs.empty()) {
     files::CsvWriter pairs_csv(options.pairs, {"frame", "algorithm", "a", "b"});
     for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -1,3 +1,4 @@
+// The main function that both executables share.
 #include "harness/commands/program.h"
 
 #include <fmt/format.h>
@@ -102,7 +103,7 @@ int run_program(int argc, char** argv, std::initializer_list<OwnCommand> own) {
   try {
     return run_command(std::vector<std::string>(argv + 1, argv + argc), own);
   } catch (const base::InputError& error) {
-    std::fprintf(stderr, "touchstone: %s\n", error.what());  // fmt would throw where it fails
+    std::fprintf(stderr, "touchstone: %s\n", error.what());  // fmt would throw if the write fails
   } catch (const std::bad_alloc&) {
     std::fputs("touchstone: out of memory\n", stderr);
   } catch (const std::exception& error) {

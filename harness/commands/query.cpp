@@ -1,4 +1,4 @@
-// touchstone query: asks narrow phases about cases, and writes a row for each answer.
+// touchstone query: runs narrow phases on cases, and writes a row for each answer.
 #include <fmt/format.h>
 
 #include <array>
@@ -35,7 +35,7 @@ struct Answers {
   std::vector<Outcome> outcomes;
 };
 
-// Asks about all cases that the algorithm takes, in a child process. Prints the failures.
+// Solves all cases that the algorithm takes, in a child process. Prints the failures.
 Answers ask(const NarrowPhaseEntry& entry, const std::vector<files::Case>& cases,
             const QueryOptions& options) {
   Answers answers = {&entry, std::vector<Outcome>(cases.size())};

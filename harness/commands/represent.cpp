@@ -53,7 +53,7 @@ struct Measured {
   proxies::RepresentationError error;
   std::size_t parts = 0, vertices = 0;
   double seconds = 0;
-  std::string words;  // the reason why there is none
+  std::string words;  // the reason of a failure
 };
 
 Measured measure(const Shape& shape, const geometry::Mesh* mesh, const proxies::Representation& r) {
@@ -77,7 +77,7 @@ Measured measure(const Shape& shape, const geometry::Mesh* mesh, const proxies::
 
 // The errors of one representation over all shapes.
 struct Summary {
-  std::vector<double> volume, hausdorff;  // shares of the volume; shares of the size
+  std::vector<double> volume, hausdorff;  // parts of the volume; parts of the size
   std::size_t missing = 0, flat = 0, parts = 0;
   double seconds = 0;
 };

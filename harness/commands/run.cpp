@@ -22,7 +22,7 @@ namespace {
 
 struct Options {
   std::string campaign, out;
-  // A campaign of one group, from the command line.
+  // These options describe a campaign of one group on the command line.
   std::vector<std::string> scenes;
   std::string broad = "ours,peers", narrow = "ours,peers";
   std::vector<Task> tasks = {Task::intersect};
@@ -34,7 +34,7 @@ struct Options {
   int frames = -1;
   double tolerance = 0, time_limit = 10;
   bool product = false, rebuild = false, warm = false;
-  // The way in which it is measured.
+  // These options decide how the campaign is measured.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
   bool tables = false;
   double depth_error = stats::usual_depth_error;
@@ -105,7 +105,7 @@ record::FolderStart start_of(const Options& options) {
   return options.overwrite ? record::FolderStart::overwrite : record::FolderStart::fresh;
 }
 
-// The file is one of a trade instead of a campaign, which has no option but --out.
+// Runs the file of a trade instead of a campaign; it has no option but --out.
 int run_trade_file(const Options& options) {
   if (options.resume || options.overwrite || options.strict || options.noisy || options.dry_run) {
     throw base::InputError(options.campaign +
@@ -114,7 +114,7 @@ int run_trade_file(const Options& options) {
   hand_over();
 }
 
-// Writes tables.md and prints the summary, or all tables where they are asked for.
+// Writes tables.md and prints the summary, or all tables on request.
 void report(const campaign::Campaign& campaign, const campaign::RunResult& result,
             const std::filesystem::path& folder, const Options& options) {
   const stats::Noise noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out;

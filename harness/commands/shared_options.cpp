@@ -1,3 +1,4 @@
+// Options, results folders and choices of algorithms.
 #include "harness/commands/shared_options.h"
 
 #include <fmt/format.h>

@@ -20,18 +20,18 @@ const Arguments::Choices<Task>& task_choices();
 const Arguments::Choices<Precision>& scalar_choices();
 const Arguments::Choices<scene::BoxKind>& box_choices();
 
-// --count and --seed of a generated scene.
+// Adds --count and --seed of a generated scene.
 void add_scene_overrides(Arguments& command, scene::SceneOverrides& overrides);
-// --time-limit in seconds.
+// Adds --time-limit in seconds.
 Option add_time_limit(Arguments& command, double& seconds,
                       const std::string& help = "Seconds that a query may take");
-// --depth-error of tables.
+// Adds --depth-error of tables.
 Option add_depth_error(Arguments& command, double& error);
-// --threads of an executor.
+// Adds --threads of an executor.
 Option add_threads(Arguments& command, int& threads, const std::string& help = "Threads");
 
-// The options of the commands that ask narrow phases about generated cases in many processes.
-// `folder` is the results folder's default name, `work` what --resume goes on with.
+// Adds the options of the commands that run narrow phases on generated cases in many processes.
+// `folder` is the results folder's default name, `work` is the subject that --resume continues.
 template <class Request>
 void add_case_options(Arguments& command, Request& request, std::string& narrow, std::string& out,
                       const std::string& folder, const std::string& work) {
@@ -48,12 +48,12 @@ void add_case_options(Arguments& command, Request& request, std::string& narrow,
   command.flag("--resume", request.resume, "Go on with the " + work + " in this folder");
 }
 
-// The folder `out`; results/local/NAME in the project where it is empty.
+// Returns the folder `out`; if that is empty, results/local/NAME in the project.
 std::filesystem::path results_folder(const std::string& out, const std::string& name);
 
-// The narrow phases of these names and groups. The oracle belongs to no group: it does not grade
-// itself, unless it is named. Throws InputError for a name that is unknown, or that has none of the
-// scalars.
+// Returns the narrow phases of these names and groups. The oracle belongs to no group: it does not
+// grade itself, unless it is named. Throws InputError for a name that is unknown, or that has none
+// of the scalars.
 std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
                                                             std::span<const Precision> scalars);
 

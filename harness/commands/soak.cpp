@@ -1,4 +1,4 @@
-// touchstone soak: counts verdicts by the million against exact ones.
+// touchstone soak: compares millions of verdicts with exact ones.
 #include "harness/check/soak.h"
 
 #include <fmt/format.h>

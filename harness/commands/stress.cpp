@@ -1,4 +1,4 @@
-// touchstone stress: finds how far each algorithm can be trusted, axis by axis.
+// touchstone stress: finds the limits of each algorithm's reliability, axis by axis.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -67,7 +67,7 @@ int stress(Options& options, const std::string& command) {
   if (options.quick) request.cases = quick_cases;
   request.out = results_folder(options.out, "stress");
   if (!options.page.empty()) {
-    // The page may lie in the folder that the sweep is about to make.
+    // The page may be in the folder that the sweep is about to make.
     std::error_code ignored;
     std::filesystem::create_directories(request.out, ignored);
     files::check_output(options.page);

@@ -42,7 +42,7 @@ std::optional<record::RowOrigin> origin_among(std::span<const Entry> entries,
   return record::row_origin(at->info.origin);
 }
 
-// For results of before the column `origin`.
+// Supplies origins for results without the column `origin`.
 std::optional<record::RowOrigin> origin_of(bool narrow, const std::string& name) {
   if (!narrow && name == stats::limit_label) return record::RowOrigin::limit;
   return narrow ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
@@ -74,7 +74,7 @@ std::filesystem::path run_again(const std::filesystem::path& reference, const Op
   }
   const std::filesystem::path out = results_folder(options.out, "tables");
   std::filesystem::create_directories(out);
-  std::filesystem::remove(out / "raw.csv");  // a rest of an earlier check
+  std::filesystem::remove(out / "raw.csv");  // it is left from an earlier check
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
              (out / "output.txt").string());
   const int status = process::run_and_wait(

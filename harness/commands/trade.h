@@ -10,12 +10,12 @@
 
 namespace touchstone::commands {
 
-// The library's own representations.
+// Returns the library's own representations.
 inline trade::Representing representing() {
   return {proxies::represent, proxies::representation_error};
 }
 
-// Returns `out`, or results/local/trade-NAME where it is empty.
+// Returns `out`, or results/local/trade-NAME if it is empty.
 std::filesystem::path trade_folder(const std::string& out, const std::string& name);
 
 // Measures, writes, prints and draws. Returns the exit status.
@@ -25,7 +25,7 @@ int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, 
 void add_trade_axes(Arguments& command, trade::TradeRequest& request);
 // Adds --error, whose value take_measure reads.
 void add_error_measure(Arguments& command, std::string& name);
-// Sets the measure of this name, or the task's own where it is empty.
+// Sets the measure of this name, or the task's own if it is empty.
 void take_measure(const std::string& name, trade::TradeRequest& request);
 
 }  // namespace touchstone::commands

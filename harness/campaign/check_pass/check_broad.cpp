@@ -1,3 +1,4 @@
+// Plays a broad phase in a child process and compares its pairs with the true ones.
 #include "harness/campaign/check_pass/check_broad.h"
 
 #include <fmt/core.h>
@@ -17,16 +18,18 @@ namespace touchstone::campaign {
 namespace {
 
 constexpr double setup_seconds = 60;
-// For a box or a pair, at most: the frame's pairs are sorted and compared, its work is counted.
+// An upper bound for a box or a pair: the frame's pairs are sorted and compared, its work is
+// counted.
 constexpr double seconds_to_verify = 5e-6;
-constexpr double longest_grace = 2;     // seconds, for what others take the processor for
-constexpr double longest_to_count = 3;  // seconds of all frames: allocations are counted below
+constexpr double longest_grace = 2;  // seconds that other processes may take the processor for
+// seconds of all frames; a slower pass counts no allocations
+constexpr double longest_to_count = 3;
 
-// The child's findings in one frame.
+// The child's result of one frame.
 struct ChildAnswer {
   measure::SampleReply reply;
   grade::PairFaults faults;
-  std::size_t pairs_at = 0;  // in the array of all pairs, where they are kept
+  std::size_t pairs_at = 0;  // an index into the array of all pairs, if pairs are kept
 };
 
 std::span<const Aabb> boxes_before(const measure::BlockInput& input, std::size_t frame) {
@@ -34,9 +37,9 @@ std::span<const Aabb> boxes_before(const measure::BlockInput& input, std::size_t
                     : std::span<const Aabb>(input.frames[frame - 1].boxes);
 }
 
-// A pass of its own, in a child of its own: the frames are played once to warm the algorithm up,
-// and counted the second time, when what it keeps from frame to frame is there. What fails here is
-// not counted; the check tells of failures.
+// Counts in a pass of its own, in a child of its own: the frames are played once to warm the
+// algorithm up, and counted the second time, when its data from frame to frame exist. A failure
+// here leaves counts out; the check reports failures.
 std::vector<measure::BroadSampler::FrameAllocations> count_allocations(
     const measure::BlockInput& input, const BroadPhaseEntry& entry, bool rebuild,
     const process::IsolationLimits& limits) {
@@ -59,9 +62,9 @@ std::vector<measure::BroadSampler::FrameAllocations> count_allocations(
   return {counts.span().begin(), counts.span().end()};
 }
 
-// A broad phase takes at least in proportion to the number of boxes: one that was over its limit
-// with fewer of the same scene will be over this one too. Returns the reason; empty where it is to
-// be tried.
+// Returns the reason to skip a broad phase, or an empty text. The time of a broad phase grows at
+// least in proportion to the number of boxes, so one that was over its limit with fewer boxes of
+// the same scene is over this limit too.
 std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& entry) {
   const record::RawRow here = context.row(0, entry, record::Phase::find_pairs);
   for (const record::RawRow& row : context.findings->rows()) {
@@ -92,7 +95,7 @@ std::string write_frames(const RunContext& context, const measure::BlockInput& i
       context.reproductions /
       context.file_name(fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name,
                                     context.scene->size(), frame));
-  // The frame before comes too: an update may be what went wrong.
+  // The frame before is included, because an update may be the cause of the error.
   std::vector<std::vector<Aabb>> frames;
   if (frame > 0) frames.push_back(input.frames[frame - 1].boxes);
   frames.push_back(input.frames[frame].boxes);
@@ -101,7 +104,8 @@ std::string write_frames(const RunContext& context, const measure::BlockInput& i
   return file.string();
 }
 
-// Seconds of a frame; the conversion, where it is timed again by itself, is a part of the others.
+// Returns the seconds of a frame; a conversion that is timed again by itself is a part of the
+// others.
 double frame_seconds(const measure::SampleReply& reply) {
   const double conversion = reply.durations.of(to_string(record::Phase::convert));
   return reply.durations.sum() - (conversion >= 0 ? conversion : 0);
@@ -132,13 +136,13 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
     leave(0, Status::timed_out, why, why);
     return result;
   }
-  std::size_t room = 0;  // far more than there are: memory that is not written to costs nothing
+  std::size_t room = 0;  // far more than needed: memory that is not written to costs nothing
   for (const measure::BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
   process::SharedArray<ChildAnswer> answers(count);
   process::SharedArray<IndexPair> kept(with_pairs ? room : 0);
   process::SharedArray<std::size_t> too_slow(
-      1);                    // 0: no frame was, else the frame's number and one
-  std::size_t greatest = 0;  // boxes and pairs of a frame
+      1);                    // 0: no frame is too slow, else the frame's number plus one
+  std::size_t greatest = 0;  // the largest number of boxes and pairs of a frame
   for (const measure::BlockFrame& frame : input.frames) {
     greatest = std::max(greatest, frame.boxes.size() + frame.truth.size());
   }

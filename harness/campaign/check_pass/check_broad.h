@@ -9,12 +9,12 @@
 
 namespace touchstone::campaign {
 
-// Plays the scene in a child process and writes a row a frame and phase, and a departure for each
-// frame whose pairs are not the true ones. Pairs of each frame as they were found, where asked for;
-// all are there when the algorithm came to the end.
+// Plays the scene in a child process and writes a row for each frame and phase, and a departure for
+// each frame whose pairs are not the true ones. On request it returns the found pairs of each
+// frame; all are there if the algorithm reached the end.
 struct CheckedBroad {
-  bool whole = false;  // it came to the end
-  bool right = false;  // and found the true pairs
+  bool whole = false;  // true if it reached the end
+  bool right = false;  // true if it also found the true pairs
   std::vector<std::vector<IndexPair>> pairs;
 };
 CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& input,

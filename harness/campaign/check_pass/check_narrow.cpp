@@ -1,3 +1,4 @@
+// Solves every pair in child processes and compares the outcomes with the oracle's.
 #include "harness/campaign/check_pass/check_narrow.h"
 
 #include <fmt/core.h>
@@ -19,9 +20,9 @@ namespace {
 
 constexpr double setup_seconds = 60;
 constexpr std::size_t outcomes_at_once = 250'000;  // about 50 MB
-constexpr double longest_to_count = 10;  // seconds of a batch: allocations are counted below
+constexpr double longest_to_count = 10;  // seconds of a batch; a slower one counts no allocations
 
-// The child's sums over one piece; the outcomes themselves are elsewhere.
+// The child's sums over one piece; the outcomes themselves are in shared memory.
 struct ChildAnswer {
   double seconds = 0;
   std::uint64_t outcome_hash = 0;
@@ -53,7 +54,7 @@ void NarrowCheck::run() {
     batch = {};
   };
   for (std::size_t frame = 0; frame < input_->frames.size(); ++frame) {
-    // The exact answer to a pair is the same for every task: one for all sets of these pairs.
+    // The exact answer to a pair is equal for every task, so all sets of these pairs share one.
     std::map<std::tuple<std::string, ShapeKind, ShapeKind>, std::size_t> known;
     for (std::size_t set = 0; set < sets_.size(); ++set) {
       const grade::PairGroup& pairs = sets_[set].frames[frame];
@@ -103,7 +104,7 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
   process::SharedArray<Outcome> outcomes(batch.outcomes);
   process::SharedArray<ChildAnswer> answers(pieces.size());
   process::SharedArray<char> lost(
-      sets_.size());  // 1 while the set is at work; it stays when that kills
+      sets_.size());  // 1 while the set is being solved; it stays if that kills the child
   const process::IsolationLimits limits = {.item_seconds = settings.time_limit,
                                            .setup_seconds = setup_seconds,
                                            .memory = settings.memory_limit};
@@ -224,7 +225,7 @@ void NarrowCheck::lose(const Piece& piece, const measure::NarrowChoice& choice,
   if (at != outcomes.end()) {
     faults.worst_pair = static_cast<std::size_t>(at - outcomes.begin());
   } else {
-    // Each pair alone is answered; only all of them together are not.
+    // Each pair alone is solved; only all of them together fail.
     (status == Status::crashed ? faults.crashed : faults.timed_out) =
         static_cast<std::int64_t>(outcomes.size());
     faults.worst_pair.reset();

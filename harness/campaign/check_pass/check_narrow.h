@@ -24,17 +24,17 @@ class NarrowCheck {
               std::span<const measure::NarrowSet> sets);
 
   // Takes every algorithm's answers for every set and writes a row for each frame. Each algorithm
-  // runs in a child process. One that crashes or hangs on the pairs of a set is asked again pair by
+  // runs in a child process. If it crashes or hangs on the pairs of a set, it is run again pair by
   // pair, to find the pair, and is then left out of that set.
   void run();
 
  private:
   struct Piece {  // the pairs of one set in one frame
     std::size_t set, frame;
-    std::size_t first;  // outcome
+    std::size_t first;  // the index of its first outcome
     std::size_t reference;
   };
-  struct Batch {  // of pieces whose outcomes fit into memory together
+  struct Batch {  // pieces whose outcomes fit into memory together
     std::vector<Piece> pieces;
     std::vector<std::vector<grade::ReferenceOutcome>> references;
     std::size_t outcomes = 0;
@@ -44,8 +44,9 @@ class NarrowCheck {
   }
   static measure::SampleRequest request(const Piece& piece);
   void run(const Batch& batch, const measure::NarrowChoice& choice);
-  // A pass of its own, in a child of its own: each piece is solved once to warm the algorithm up,
-  // and counted the second time. What fails here is not counted; the check tells of failures.
+  // Counts in a pass of its own, in a child of its own: each piece is solved once to warm the
+  // algorithm up, and counted the second time. A failure here leaves counts out; the check reports
+  // failures.
   std::vector<measure::Allocations> count_allocations(std::span<const Piece> pieces,
                                                       const measure::NarrowChoice& choice,
                                                       process::IsolationLimits limits) const;
@@ -61,13 +62,14 @@ class NarrowCheck {
                          std::size_t pair) const;
   record::RawRow row(const Piece& piece, const measure::NarrowChoice& choice) const;
 
-  using Key = std::tuple<const measure::NarrowChoice*, std::size_t>;  // and the set
+  // a choice and the index of a set
+  using Key = std::tuple<const measure::NarrowChoice*, std::size_t>;
 
   const RunContext* context_;
   const measure::BlockInput* input_;
   std::span<const measure::NarrowSet> sets_;
   std::set<Key> out_;       // crashed, hung or too slow on such pairs: no longer run
-  std::set<Key> reported_;  // a discrepancy is reported once a block
+  std::set<Key> reported_;  // discrepancies are reported once a block
 };
 
 }  // namespace touchstone::campaign

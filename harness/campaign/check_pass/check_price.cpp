@@ -1,3 +1,4 @@
+// Estimates the cost of a check by trials.
 #include "harness/campaign/check_pass/check_price.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace touchstone::campaign {
 namespace {
 
 constexpr std::size_t tried_frames = 2;  // one is built, one an update
-constexpr std::size_t tried_pairs = 48;  // of a set, from all frames
+constexpr std::size_t tried_pairs = 48;  // the number of each set, from all frames
 
 // A block's check with findings of its own and without files.
 struct Trial {
@@ -81,7 +82,8 @@ measure::NarrowSet some_of(const measure::NarrowSet& set) {
 double price_of_narrow(const RunContext& context, const measure::BlockInput& input,
                        std::span<const measure::NarrowSet> sets) {
   std::vector<measure::NarrowSet> some;
-  std::map<std::string, double> more;  // times that many pairs on top, of each set
+  // for each set: the number of further pairs, in multiples of those tried
+  std::map<std::string, double> more;
   std::set<std::tuple<std::string, ShapeKind, ShapeKind>> priced;
   Executor executor(1);
   grade::Reference oracle(input.shapes, executor);

@@ -1,4 +1,4 @@
-// Cost estimate of a block's check pass.
+// A cost estimate of a block's check pass.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace touchstone::campaign {
 
-// Seconds, about: from checking the first frames and some pairs of each set, in child processes and
-// without leaving a file. `frames`: how many there are, where the input has only the first ones.
+// Returns approximate seconds, from a check of the first frames and some pairs of each set, in
+// child processes and without files. `frames` is the number of all frames, if the input has only
+// the first ones.
 double price_of_check(const RunContext& context, const measure::BlockInput& input,
                       std::size_t frames, std::span<const measure::NarrowSet> sets);
 

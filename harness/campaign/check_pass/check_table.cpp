@@ -1,3 +1,4 @@
+// Sorts the rows of a check pass by algorithm and set.
 #include "harness/campaign/check_pass/check_table.h"
 
 #include <algorithm>

@@ -14,18 +14,18 @@
 
 namespace touchstone::campaign {
 
-// "BROAD|TASK|KIND": a set of narrow phases; that of the broad phases is "".
+// Returns "BROAD|TASK|KIND" for a set of narrow phases; the set of the broad phases is "".
 std::string set_key(const measure::NarrowSet& set);
 std::string set_key(const record::RawRow& row);
 
-// One algorithm on one set, at one thread.
+// The results of one algorithm on one set, at one thread.
 struct Checked {
-  bool out = false;                         // crashed, too slow or wrong: it is not timed
-  std::vector<std::int64_t> pairs;          // of each frame; 0 where there is no row
-  std::vector<std::uint64_t> hash;          // of the pairs, or of the outcomes
-  std::vector<double> seconds;              // all phases
-  std::vector<std::int64_t> disagreements;  // of narrow phases
-  bool gave_up = false;                     // some answer is an honest failure
+  bool out = false;                 // true if it crashed, was too slow or wrong: it is not timed
+  std::vector<std::int64_t> pairs;  // one for each frame; 0 if there is no row
+  std::vector<std::uint64_t> hash;  // hash of the pairs, or of the outcomes
+  std::vector<double> seconds;      // seconds of all phases
+  std::vector<std::int64_t> disagreements;  // counts of narrow phases
+  bool gave_up = false;                     // true if some answer is an honest failure
 
   double greatest_seconds() const;
 };
@@ -34,8 +34,8 @@ class CheckTable {
  public:
   // Takes the rows of this block's check pass.
   CheckTable(std::span<const record::RawRow> rows, std::int64_t block, std::size_t frames);
-  // Null where the algorithm was never given such pairs. A broad phase that found the true pairs
-  // has no entry of its own: its pairs are checked as the true ones.
+  // Returns null if the algorithm never got such pairs. A broad phase that found the true pairs has
+  // no entry of its own: its pairs are checked as the true ones.
   const Checked* find(const std::string& label, const measure::NarrowSet* set) const;
 
  private:
