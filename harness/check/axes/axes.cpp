@@ -1,3 +1,4 @@
+// The table of all axes, and the cells of a sweep.
 #include "harness/check/axes/axes.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace touchstone::check {
 namespace {
 
-// The nearest double of a power of ten.
+// The double nearest to each power of ten.
 constexpr std::array<double, 17> powers = {1e0, 1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7, 1e8,
                                            1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16};
 constexpr std::array<double, 17> parts = {1e0,   1e-1,  1e-2,  1e-3,  1e-4,  1e-5,
@@ -34,7 +35,7 @@ std::vector<AxisValue> from_zero(std::vector<AxisValue> values) {
   values.insert(values.begin(), {"0", 0});
   return values;
 }
-// The same from a tenth on.
+// Drops the value 1, so that the values begin at a tenth.
 std::vector<AxisValue> from_a_tenth(std::vector<AxisValue> values) {
   values.erase(values.begin());
   return values;
@@ -50,11 +51,12 @@ std::vector<AxisValue> counts() {
   return values;
 }
 
-// Within a tenth of what is asked for.
+// Accepts gaps within a tenth of the requested one.
 bool has_gap(double value, const oracle::Measure& exact, double size) {
   return exact.lower > 0.9 * value * size && exact.upper < 1.1 * value * size;
 }
-// A depth is only known to come out at most as great as asked for, and may be all that there is.
+// Accepts depths from three tenths of the requested one up to a tenth above it: where another
+// direction is shorter, the bodies overlap by less than requested.
 bool has_depth(double value, const oracle::Measure& exact, double size) {
   return exact.upper < -0.3 * value * size && exact.lower > -1.1 * value * size;
 }

@@ -2,7 +2,7 @@
 //
 // Everything else stays mild: bodies of a metre whose sides are within a factor of four of each
 // other, near the origin, at gaps and depths of a tenth to a thousandth. So the first value at
-// which an algorithm fails says what that property alone did to it.
+// which an algorithm fails shows the effect of that property alone.
 #pragma once
 
 #include <cstddef>
@@ -18,38 +18,38 @@
 namespace touchstone::check {
 
 struct AxisValue {
-  std::string name;  // "1e-3"; "0" where the property is not there at all
+  std::string name;  // such as "1e-3"; "0" if the property is absent
   double value = 0;
 };
 
 struct StressAxis {
   std::string name;               // "scale-down": lower case, words joined by '-'
-  std::string unit;               // of the values, in words
-  std::string what;               // one line for people
+  std::string unit;               // unit of the values, in words
+  std::string what;               // one line of description
   std::vector<AxisValue> values;  // from mild to extreme
   bool extreme = true;            // see Regime
   RegimeCase (*draw)(RegimeDraw&) = nullptr;
-  // Whether the exact answer is what the value asks for (size: pair_size, metres). Null: what the
-  // bodies are decides the value, and not how they lie.
+  // Returns whether the exact answer is the requested one (size: pair_size, metres). Null if the
+  // shapes alone decide the value, and not their poses.
   bool (*accepts)(double value, const oracle::Measure& exact, double size) = nullptr;
-  // Of the cases of a value; the rest is not drawn where bodies are large.
+  // Returns the limit on the cases of a value; it is lower where bodies are large.
   std::uint64_t most_cases(double value) const;
 };
 
-// A place on an axis, and the regime that its cases are drawn from.
+// A value of an axis, and the regime that draws its cases.
 struct StressCell {
   const StressAxis* axis = nullptr;
-  std::size_t place = 0;  // in the axis' values
+  std::size_t place = 0;  // place in the axis' values
   Regime regime;          // its parameter is the value
 
   const AxisValue& value() const { return axis->values[place]; }
 };
 
 std::span<const StressAxis> axes();
-// Those of these axes, in order. The axes stay alive.
+// Returns the cells of these axes, in order. The axes must outlive the result.
 std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes);
 
-// A case's index in its regime: of several tries to draw a slot the first that is accepted counts.
+// A slot of a cell has this many case indices: it takes the first case that is accepted.
 inline constexpr std::uint64_t tries = 8;
 inline std::uint64_t slot_of(std::uint64_t index) { return index / tries; }
 

@@ -1,3 +1,4 @@
+// Draws the cases of most axes.
 #include "harness/check/axes/axis_draws.h"
 
 #include <algorithm>
@@ -12,7 +13,8 @@
 namespace touchstone::check {
 namespace {
 
-// Two compact bodies of these sizes (metres) of the slot's kinds, the first in a random pose.
+// Draws two compact bodies of these sizes (metres) and of the slot's kinds, the first in a random
+// pose.
 RegimeCase compact_pair(RegimeDraw& draw, double size_a, double size_b) {
   base::Random& random = draw.random;
   const KindPair kinds = kinds_of_slot(slot_of(draw.index));
@@ -27,7 +29,7 @@ RegimeCase compact_pair(RegimeDraw& draw, double size_a, double size_b) {
 RegimeCase draw_at_signed_distance(RegimeDraw& draw, double value, const char* name) {
   RegimeCase result = compact_pair(draw, 1, 1);
   files::Case& c = result.pair;
-  // Fine, or the rounding of a translation would be more than the gap.
+  // `fine` is true, since otherwise the rounding of a translation would exceed the gap.
   result.detail = place_at_features(c, value * grade::pair_size(c), true, draw.random) + "-" + name;
   swap_at_random(c, draw.random);
   return result;

@@ -1,3 +1,4 @@
+// Places pairs of given kinds in a mild contact.
 #include "harness/check/axes/mild_pair.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// What the draws of several axes share: pairs of given kinds in a mild contact.
+// Pairs of given kinds in a mild contact, for the draws of several axes.
 #pragma once
 
 #include <string>
@@ -12,21 +12,24 @@ namespace touchstone::check {
 struct KindPair {
   ShapeKind a, b;
 };
-// Each algorithm's kinds come in every sixteen slots, polytopes most.
+// Returns the kinds of a slot. Every algorithm's kinds come within sixteen slots, polytopes most
+// often.
 KindPair kinds_of_slot(std::uint64_t slot);
 
-// Of a tenth, a hundredth or a thousandth; < 0: a depth.
+// A gap of a tenth, a hundredth or a thousandth; < 0: a depth.
 struct MildAmount {
-  std::string name;  // "gap-1e-2"
-  double value;      // as a part of some length
+  std::string name;  // such as "gap-1e-2"
+  double value;      // part of a length
 };
 MildAmount mild_amount(base::Random& random);
 
-// Puts b of a case whose shapes and whose pose of a are set at `gap` (metres; < 0: a depth) between
-// random features, and turns it. `fine` as in placement.h. Returns the features' names.
+// Places b at `gap` (metres; < 0: a depth) between random features of both bodies, and turns it.
+// The shapes and the pose of a must be set; `fine` is as in placement.h. Returns the features'
+// names.
 std::string place_at_features(files::Case& c, double gap, bool fine, base::Random& random);
 
-// The same at a mild part of `length` (metres), or now and then anywhere. Returns what it did.
+// Places b at a mild part of `length` (metres), or now and then anywhere. Returns the detail of the
+// case.
 std::string place_mildly(files::Case& c, double length, base::Random& random);
 
 }  // namespace touchstone::check

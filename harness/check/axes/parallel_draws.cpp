@@ -1,5 +1,6 @@
-// Features that are nearly in one plane, or nearly parallel. The angle or the offset is exact: what
-// would round it is left out where it is small, and the bodies' axes then lie along the world's.
+// Draws features that are nearly in one plane, or nearly parallel. The angle or the offset is
+// exact: where it is small, nothing is added that would round it, so the bodies' axes lie along the
+// world's.
 #include <array>
 
 #include "harness/base/plain_math.h"
@@ -27,7 +28,7 @@ Mat3d about_z(const base::SinCos& turn) {
 }
 base::SinCos radians(double angle) { return base::sin_cos_turns(angle * 0.15915494309189533577); }
 
-// Takes z to x, x to y and y to z.
+// Returns the rotation of z to x, x to y and y to z.
 Mat3d z_to_x() {
   Mat3d m;
   m << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -43,7 +44,7 @@ Shape box_of(const Vec3d& half) {
 
 // --- near coplanar ------------------------------------------------------------------------------
 
-// Equally high boxes that stand beside each other, the second by `step` (metres) higher.
+// Places equally high boxes beside each other, the second higher by `step` (metres).
 RegimeCase side_by_side(RegimeDraw& draw, bool second_as_hull) {
   base::Random& random = draw.random;
   const double step = draw.regime.parameter;
@@ -62,7 +63,7 @@ RegimeCase side_by_side(RegimeDraw& draw, bool second_as_hull) {
   return result;
 }
 
-// The middle of the cap, with the cap's normal.
+// Returns the middle of the cap, with the cap's normal.
 Feature top_of(const Shape& prism) {
   Feature top;
   top.point = base::exactly(prism.hull->vertices.back());
@@ -94,8 +95,8 @@ RegimeCase on_a_cap(RegimeDraw& draw, ShapeKind kind, bool two_caps) {
 
 // --- near parallel ------------------------------------------------------------------------------
 
-// A body of which a feature looks along z (the first body's) or against it (the second's), with its
-// direction along x; then turned by the angle.
+// A body with a feature that faces along z (first body) or against it (second body) and has its
+// direction along x. The angle turns it afterwards.
 struct Posed {
   Shape shape;
   Mat3d rotation;
@@ -104,7 +105,7 @@ struct Posed {
 
 constexpr double side(bool first) { return first ? 1 : -1; }
 
-// An edge along x.
+// Makes a body with an edge along x.
 Posed with_edge(bool as_hull, bool first, base::Random& random) {
   const Vec3d half = compact_half(1, random);
   Posed posed;
@@ -115,7 +116,7 @@ Posed with_edge(bool as_hull, bool first, base::Random& random) {
   return posed;
 }
 
-// The side of a capsule or cylinder.
+// Makes a capsule or cylinder with its side along x.
 Posed with_side(ShapeKind kind, bool first, std::uint64_t seed, base::Random& random) {
   Posed posed;
   posed.shape = shape_of_extents(kind, compact_half(1, random), seed, random);
@@ -129,7 +130,8 @@ Posed with_side(ShapeKind kind, bool first, std::uint64_t seed, base::Random& ra
   return posed;
 }
 
-// A face across z; the second's, which will be turned about x, is met at its lowest edge.
+// Makes a body with a face across z. The second body is to be turned about x, so its feature is the
+// face's lowest edge.
 Posed with_face(bool as_hull, bool first, double angle, base::Random& random) {
   const Vec3d half = compact_half(1, random);
   Posed posed;

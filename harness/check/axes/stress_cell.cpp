@@ -1,3 +1,4 @@
+// Draws the cases of a cell, asks every algorithm, and counts its answers.
 #include "harness/check/axes/stress_cell.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace touchstone::check {
 namespace {
 
-// How bad a silent error is: a wrong side of contact before a wrong number.
+// Returns how bad a silent error is: a wrong side of contact is worse than a wrong number.
 double badness(const NarrowPhaseEntry& entry, const grade::GradedAnswer& answer) {
   const double margin = grade::wrong_margin(entry, answer);
   if (margin >= 0) return 1e3 * (1 + margin);
@@ -46,7 +47,7 @@ class CellWork {
   void ask(std::uint32_t entry, Precision scalar, Task task) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
     std::vector<process::LimitedQuery> queries;
-    std::vector<grade::TrueCase*> of;  // of each query
+    std::vector<grade::TrueCase*> of;  // one for each query
     for (grade::TrueCase& c : cases_) {
       const files::Case& pair = c.pair();
       if (!offers(algorithm, pair.shape_a.kind, pair.shape_b.kind, task)) continue;

@@ -1,4 +1,4 @@
-// A part of a stress sweep: one value of one axis, through every algorithm.
+// A part of a stress sweep: one value of one axis, for all algorithms.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace touchstone::check {
 
 struct CellSummary {
   std::uint32_t cell = 0;
-  std::int32_t cases = 0;       // that were drawn, and are what the value says
-  std::int32_t dropped = 0;     // slots of which no try was
-  std::int32_t unresolved = 0;  // the oracle's enclosure does not tell the side of contact
+  std::int32_t cases = 0;       // drawn cases with the requested value
+  std::int32_t dropped = 0;     // slots without such a case
+  std::int32_t unresolved = 0;  // the oracle's enclosure leaves the side of contact open
 };
 
 template <record::row_of<CellSummary> Row, class Visit>
@@ -37,10 +37,10 @@ struct CellResult {
   }
 };
 
-// Asks every algorithm of the request in each of its scalars for each task that it offers.
+// Asks every algorithm of the request, in each of its scalars, each task that it offers.
 CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle);
 
-// The cell's cases with their exact answers.
+// Returns the cell's cases with their exact answers.
 std::vector<grade::TrueCase> true_cases(const StressRequest& request, std::size_t cell,
                                         oracle::Oracle& oracle, CellSummary& summary);
 

@@ -1,4 +1,4 @@
-// The tables of a sweep for people.
+// Formats a sweep as tables for the terminal and for a page.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,7 +11,7 @@
 namespace touchstone::check {
 namespace {
 
-constexpr std::size_t most_lines = 40;  // of broken promises
+constexpr std::size_t most_lines = 40;  // number of broken promises
 
 using Rows = std::vector<std::vector<std::string>>;
 

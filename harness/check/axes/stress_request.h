@@ -9,8 +9,8 @@
 
 namespace touchstone::check {
 
-// `cases` are those of each cell; `time_limit` is of the processor's time. `regimes`, `broad` and
-// `seconds` are not read: as_check() fills in the first.
+// `cases` is the number in each cell; `time_limit` is processor time. `regimes`, `broad` and
+// `seconds` are not read: as_check() fills in `regimes`.
 struct StressRequest : CheckRequest {
   std::vector<StressCell> cells;
 
@@ -18,7 +18,7 @@ struct StressRequest : CheckRequest {
     cases = 48;
     time_limit = 0.5;
   }
-  // The check whose regimes are the cells'. It is valid as long as this.
+  // Returns the check whose regimes are the cells'. It is valid as long as this request.
   CheckRequest as_check() const {
     CheckRequest check = *this;
     check.regimes.clear();
@@ -27,7 +27,7 @@ struct StressRequest : CheckRequest {
   }
 };
 
-// After so many crashes or hangs of an algorithm in a cell the rest of the cell is skipped.
+// The rest of a cell is skipped after this many crashes or hangs of an algorithm and task.
 inline constexpr std::size_t most_lost = 3;
 
 }  // namespace touchstone::check

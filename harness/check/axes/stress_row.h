@@ -1,4 +1,4 @@
-// A row of stress.csv: the answers of one algorithm to one task in one cell, counted.
+// A row of stress.csv: counts of one algorithm's answers to one task in one cell.
 #pragma once
 
 #include <algorithm>
@@ -20,27 +20,26 @@ struct StressRow {
   Task task{};
   std::array<std::int32_t, grade::all_answer_classes.size()> counts{};
   std::int32_t skipped = 0;       // not asked, after too many crashes and hangs
-  double margin = Outcome::none;  // the greatest of the cell: see wrong_margin and worst_error
+  double margin = Outcome::none;  // greatest of the cell: see wrong_margin and worst_error
   double error = Outcome::none;
-  // Indices of cases, -1 where there is none: of the silent error that is furthest off, and of the
-  // first query that crashed or hung.
+  // Indices of cases, or -1: the worst silent error, and the first query that crashed or hung.
   std::int64_t worst = -1;
   std::int64_t lost = -1;
 
   std::int32_t count(grade::AnswerClass outcome) const {
     return counts[static_cast<std::size_t>(outcome)];
   }
-  // Answers that were asked for and graded.
+  // Returns the number of answers that were asked for and graded.
   std::int32_t answers() const {
     return std::accumulate(counts.begin(), counts.end(), std::int32_t{0});
   }
   void add(grade::AnswerClass outcome) { ++counts[static_cast<std::size_t>(outcome)]; }
 };
 
-// The axes that the request's cells are of, in order.
+// Returns the axes of the request's cells, in order.
 std::vector<const StressAxis*> axes_of(const StressRequest& request);
 
-// The columns axis and value, which name the row's cell.
+// Visits the columns `axis` and `value`, which identify the row's cell.
 template <class Row, class Visit>
 void cell_columns(Row& row, Visit& visit, const StressRequest& request) {
   const std::vector<const StressAxis*> axes = axes_of(request);
@@ -48,7 +47,7 @@ void cell_columns(Row& row, Visit& visit, const StressRequest& request) {
   auto axis = static_cast<std::size_t>(std::ranges::find(axes, of_row) - axes.begin());
   visit("axis", record::place_in(axis, axes.size(), [&](std::size_t i) { return axes[i]->name; }),
         "The axis.");
-  std::vector<std::uint32_t> cells;  // those of the axis
+  std::vector<std::uint32_t> cells;  // cells of the axis
   for (std::uint32_t i = 0; i < request.cells.size(); ++i) {
     if (request.cells[i].axis == axes[axis]) cells.push_back(i);
   }

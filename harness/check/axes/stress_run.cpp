@@ -1,3 +1,4 @@
+// Runs all cells of a sweep and writes its files.
 #include "harness/check/axes/stress_run.h"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ StressResult run_stress(const StressRequest& request) {
   do_cells(request, folder);
   folder.finish();
   StressResult result;
-  // From the files, so that a sweep that was resumed tells the same as a whole one.
+  // Rows come from the files, so that a resumed sweep has the same result as a whole one.
   result.rows = folder.rows<StressRow>(rows_file, request);
   result.cells = folder.rows<CellSummary>(cells_file, request);
   result.reaches = envelope(request, result.rows);

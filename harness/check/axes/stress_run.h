@@ -15,20 +15,20 @@ struct StressResult {
   std::vector<CellSummary> cells;
   std::vector<Reach> reaches;
   std::vector<FailureCase> failures;
-  std::vector<std::string> broken;  // promises of ours in double; a line each
+  std::vector<std::string> broken;  // broken promises of ours in double, one line each
 };
 
 // Asks everything and writes stress.csv, cells.csv, progress.csv, envelope.csv, machine.csv and
-// failures/ into the request's folder, which is made. Progress goes to standard error. InputError
-// where the folder cannot be written, or cannot be gone on with. The request outlives the result.
+// failures/ into the request's folder, which it creates. Progress goes to standard error. Throws
+// InputError if the folder cannot be written or resumed. The request must outlive the result.
 StressResult run_stress(const StressRequest& request);
 
-// For the terminal.
+// Returns the text for the terminal.
 std::string stress_text(const StressRequest& request, const StressResult& result,
                         std::size_t page_width);
 
-// The Markdown page of where each algorithm breaks. `command` is what made it; the maps are looked
-// for where `pictures` (a path from the page's folder) says; empty: without them.
+// Returns the Markdown page of the first failures. `command` is the command that made it.
+// `pictures` is the path of the maps from the page's folder; if it is empty, the page has no maps.
 std::string stress_page(const StressRequest& request, const StressResult& result,
                         const std::string& command, const std::string& pictures);
 

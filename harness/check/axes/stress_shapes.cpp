@@ -1,3 +1,4 @@
+// Builds shapes of given proportions, vertex counts and flatness.
 #include "harness/check/axes/stress_shapes.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Vec3d in_no_order(std::array<double, 3> half, base::Random& random) {
   return {half[0], half[1], half[2]};
 }
 
-// One of the pool's hulls of unit size, stretched to these half extents about its middle.
+// Stretches one of the pool's hulls of unit size to these half extents about its middle.
 Shape stretched_hull(const Vec3d& half, std::uint64_t seed, base::Random& random) {
   const std::shared_ptr<const Hull> hull = pooled_hull(seed, random.below(160), {});
   std::vector<Vec3d> points = hull->vertices;
@@ -37,12 +38,12 @@ Shape stretched_hull(const Vec3d& half, std::uint64_t seed, base::Random& random
 // --- hulls of many vertices ---------------------------------------------------------------------
 
 struct Rings {
-  std::size_t count, points;  // rings, and points of each
+  std::size_t count, points;  // number of rings, and points of each
 };
 
 Rings rings_of(std::size_t vertices) {
-  // Half a step along a ring is shorter than the way from ring to ring, so that no face has an
-  // obtuse angle at its tip: then each is the hull's.
+  // Half a step along a ring is shorter than the way from ring to ring. So no face has an obtuse
+  // angle at its tip, and each face is one of the hull's.
   constexpr std::array<std::pair<std::size_t, Rings>, 5> known = {
       {{10, {2, 5}}, {100, {5, 20}}, {1000, {25, 40}}, {10'000, {80, 125}}, {100'000, {250, 400}}}};
   for (const auto& [count, rings] : known) {
@@ -53,7 +54,7 @@ Rings rings_of(std::size_t vertices) {
 
 std::uint32_t number(std::size_t i) { return static_cast<std::uint32_t>(i); }
 
-// A face through the first three of the loop.
+// Adds a face with the plane through the first three of the loop.
 void add_face(Hull& hull, std::vector<std::uint32_t> loop) {
   const Vec3d &p = hull.vertices[loop[0]], &q = hull.vertices[loop[1]], &r = hull.vertices[loop[2]];
   const Vec3d n = base::outer(q - p, r - p);
@@ -68,8 +69,8 @@ void add_faces_and_edges(Hull& hull, const Rings& rings) {
     bottom[i] = at(0, m - i);
     top[i] = at(rings.count - 1, i);
   }
-  // Faces 0 and 1 are the ends; of band r, 2 + 2 m r + i stands on edge i of the ring below, and m
-  // further is the face that hangs from edge i of the ring above.
+  // Faces 0 and 1 are the ends. In band r, face 2 + 2 m r + i stands on edge i of the ring below;
+  // the face m further hangs from edge i of the ring above.
   add_face(hull, std::move(bottom));
   add_face(hull, std::move(top));
   const auto standing = [&](std::size_t r, std::size_t i) { return number(2 + 2 * m * r + i % m); };
@@ -84,7 +85,8 @@ void add_faces_and_edges(Hull& hull, const Rings& rings) {
       add_face(hull, {at(r + 1, i + 1), at(r + 1, i), at(r, i + 1 - shift)});
     }
     for (std::size_t i = 0; i < m; ++i) {
-      // From point i up to its standing face's tip, and on to the right of that.
+      // The edges run from point i up to the tip of its standing face, and from the next point to
+      // that tip.
       hull.edges.push_back(
           {at(r, i), at(r + 1, i + shift), hanging(r, i + shift + m - 1), standing(r, i)});
       hull.edges.push_back(
@@ -201,7 +203,7 @@ Shape capped_prism(int sides, double bulge) {
     const base::SinCos corner = base::sin_cos_turns(static_cast<double>(i) / sides);
     points.emplace_back(corner.cos / 2, corner.sin / 2, -0.5);
     points.emplace_back(corner.cos / 2, corner.sin / 2, 0);
-    // On a paraboloid, so that no facet of the cap is in the plane of another.
+    // The points lie on a paraboloid, so that no two facets of the cap are in one plane.
     points.emplace_back(corner.cos / 4, corner.sin / 4, 0.75 * bulge);
   }
   points.emplace_back(0, 0, bulge);

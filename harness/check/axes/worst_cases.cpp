@@ -1,3 +1,4 @@
+// Selects the worst cases of a sweep and asks them again.
 #include "harness/check/axes/worst_cases.h"
 
 #include <algorithm>
@@ -13,14 +14,14 @@ namespace touchstone::check {
 namespace {
 
 constexpr std::size_t axes_of_a_peer = 3;
-constexpr double most_vertices = 100;  // that somebody would read
+constexpr double most_vertices = 100;  // limit of a readable case
 
 struct Found {
   const StressRow* row;
   std::int64_t index;
 };
 
-// A wrong side of contact before a wrong number.
+// Returns how bad a row is: a wrong side of contact is worse than a wrong number.
 double badness(const StressRow& row) {
   if (!std::isnan(row.margin)) return 1e3 * (1 + row.margin);
   return std::isnan(row.error) ? 0 : std::min(row.error, 1e3);

@@ -1,4 +1,4 @@
-// The cases of a sweep that are worth a file.
+// Selects the cases of a sweep that get a file.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace touchstone::check {
 
-// Of ours in double every axis on which a task is silently wrong or lost, at its first value; of a
-// peer in a scalar the worst silent errors of three axes, and one query that it crashes or hangs
-// in. Hulls of more than a hundred vertices are left out. Each is asked again, since only that it
-// failed is known.
+// Returns, for ours in double, one case of each axis on which a task is silently wrong or lost, at
+// the first such value; for a peer in a scalar, the worst silent errors of three axes, and one
+// query that it crashes or hangs in. Hulls of more than a hundred vertices are left out. Each case
+// is asked again, since the rows say only that it failed.
 std::vector<grade::GradedAnswer> worst_cases(const StressRequest& request,
                                              std::span<const StressRow> rows);
 

@@ -14,7 +14,7 @@
 namespace touchstone::check {
 namespace {
 
-// --- hulls, in the cube from -1 to 1 -------------------------------------------------------------
+// --- hulls, in the cube from -1 to 1 ------------------------------------------------------------
 
 using Points = std::vector<Vec3d>;
 

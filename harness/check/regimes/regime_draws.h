@@ -41,7 +41,7 @@ RegimeCase draw_scaled_degenerate(RegimeDraw& draw);
 RegimeCase draw_random_polytopes(RegimeDraw& draw);
 RegimeCase draw_random_mixed(RegimeDraw& draw);
 
-// --- shared by several groups --------------------------------------------------------------------
+// --- shared by several groups -------------------------------------------------------------------
 
 // Draws a translation of about `size`, or none, and a random rotation, or now and then none.
 Pose random_pose(double size, base::Random& random);

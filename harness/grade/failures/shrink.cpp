@@ -86,7 +86,7 @@ class Shrinker {
     return true;
   }
 
-  // --- vertices ----------------------------------------------------------------------------------
+  // --- vertices ---------------------------------------------------------------------------------
 
   void drop_vertices(Shape files::Case::*shape) {
     if ((best_.*shape).kind != ShapeKind::hull) return;
@@ -104,7 +104,7 @@ class Shrinker {
     }
   }
 
-  // --- kinds of shapes ---------------------------------------------------------------------------
+  // --- kinds of shapes --------------------------------------------------------------------------
 
   void simplify_shapes() {
     for (Shape files::Case::*shape : {&files::Case::shape_a, &files::Case::shape_b}) {
@@ -120,7 +120,7 @@ class Shrinker {
     }
   }
 
-  // --- places and rotations ----------------------------------------------------------------------
+  // --- places and rotations ---------------------------------------------------------------------
 
   // Gives hulls the identity as rotation, and makes their first vertex the local origin.
   void bake_poses() {
@@ -228,7 +228,7 @@ class Shrinker {
     return {q.w() / greatest, q.x() / greatest, q.y() / greatest, q.z() / greatest};
   }
 
-  // --- numbers -----------------------------------------------------------------------------------
+  // --- numbers ----------------------------------------------------------------------------------
 
   // All lengths and coordinates of a case, in an order that depends only on its shapes. Those of
   // hulls are in `vertices`, from which the hulls must be rebuilt.
