@@ -1,3 +1,4 @@
+// Writes and verifies files of certificates.
 #include "harness/check/certificate_files.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Files of the oracle's proofs: made for the cases of a check, and verified.
+// Files of the oracle's certificates: made for the cases of a check, and verified.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace touchstone::check {
 
-// Proves the exact answers of the first round's cases, as they are given, and writes a certificate
-// a line. How many.
+// Proves the exact answers of the first round's cases, as given, and writes one certificate per
+// line. Returns their number.
 std::int64_t save_certificates(const CheckRequest& request, const std::filesystem::path& file);
 
 struct CertificateVerdicts {
   std::int64_t verified = 0;
-  std::vector<std::string> refused;  // "FILE:LINE: id: why", the first thousand
+  std::vector<std::string> refused;  // "FILE:LINE: id: why", at most a thousand
   std::int64_t refused_count = 0;
 };
 
-// Verifies every certificate of a file. InputError where the file cannot be read.
+// Verifies every certificate of a file. Throws InputError if the file cannot be read.
 CertificateVerdicts verify_certificates(const std::filesystem::path& file);
 
 }  // namespace touchstone::check

@@ -1,3 +1,4 @@
+// Draws the cases of a job, asks every algorithm about them, and grades the answers.
 #include "harness/check/check_job.h"
 
 #include <algorithm>
@@ -15,9 +16,9 @@
 namespace touchstone::check {
 namespace {
 
-// One query: a case, or one of its other forms.
+// One query: a case, or one of its variants.
 struct Item {
-  std::size_t place;  // of the case
+  std::size_t place;  // place of the case
   const Variant* variant;
   Task task;
 };
@@ -26,7 +27,7 @@ void note_worst(JobSummary& summary, bool is_first, std::uint64_t index) {
   if (is_first) summary.worst_index = index;
 }
 
-// Of a job's queries; a hang costs a time limit each.
+// limit for the queries of one algorithm in a job, since each hang costs a time limit
 constexpr std::size_t most_failures = 100;
 
 class Job {
@@ -60,7 +61,7 @@ class Job {
  private:
   const Regime& regime() const { return *request_.regimes[result_.summary.regime]; }
 
-  // What has to be true whatever the algorithms say.
+  // Checks the certificate and the boxes of a case, which do not depend on any algorithm.
   void check_case(grade::TrueCase& c) {
     JobSummary& summary = result_.summary;
     const grade::TrueCase::Truth& truth = c.truth(Encoding::as_given);
@@ -86,7 +87,7 @@ class Job {
     check_boxes(c.pair().shape_b, c.pair().pose_b, truth.pair.b());
   }
 
-  // All that is asked of one algorithm, in a child process.
+  // Asks one algorithm all its queries, in a child process.
   void ask(std::uint32_t entry, Precision scalar) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
     std::vector<Item> items;
@@ -172,7 +173,7 @@ class Job {
   const CheckRequest& request_;
   oracle::Oracle& oracle_;
   std::vector<grade::TrueCase> cases_;
-  std::vector<std::vector<Variant>> variants_;  // of each case
+  std::vector<std::vector<Variant>> variants_;  // variants of each case
   std::map<std::tuple<std::uint32_t, Precision, Task, std::string>, VariantCount> counts_;
   JobResult result_;
 };

@@ -1,4 +1,4 @@
-// A part of a check: the cases of one regime in one round, through every algorithm.
+// A part of a check: the cases of one regime in one round, for all algorithms.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace touchstone::check {
 
-// An algorithm's answers about cases in one other form (harness/check/metamorphic.h), against its
-// own about the cases themselves.
+// Counts of an algorithm's answers for one kind of variant (harness/check/metamorphic.h), compared
+// with its own answers for the original cases.
 struct VariantCount {
   std::uint32_t regime = 0;  // place in the request
   std::uint64_t round = 0;
   std::uint32_t entry = 0;  // place in the request
   Precision scalar{};
   Task task{};
-  std::string kind;               // of the variants: "rotation"
-  std::int64_t compared = 0;      // both were answered
-  std::int64_t flips = 0;         // on different sides of contact, bodies that do not touch
-  std::int64_t lost = 0;          // the other form crashed or hung, the case itself did not
-  std::int64_t beyond = 0;        // ours, and more than its documented margins
-  double worst_flip = 0;          // the exact |signed distance|, as a part of the scale
-  double worst_difference = 0;    // of distances or depths, as a part of the scale
-  std::uint64_t worst_index = 0;  // the case of the first beyond, or else of the worst flip
+  std::string kind;           // kind of the variants, such as "rotation"
+  std::int64_t compared = 0;  // pairs of answers that were compared
+  std::int64_t flips = 0;     // answers on different sides of contact, for bodies that do not touch
+  std::int64_t lost = 0;      // variants that crashed or hung, unlike the case itself
+  std::int64_t beyond = 0;    // differences of ours beyond the documented margins
+  double worst_flip = 0;      // exact |signed distance| of a flip, part of the scale
+  double worst_difference = 0;    // difference of distances or depths, part of the scale
+  std::uint64_t worst_index = 0;  // case of the first beyond, or else of the worst flip
 
   template <class Visit>
   void for_each_field(Visit visit) {
@@ -43,17 +43,17 @@ struct VariantCount {
   }
 };
 
-// Of the regime's cases in the round.
+// Counts over the regime's cases in the round.
 struct JobSummary {
   std::uint32_t regime = 0;
   std::uint64_t round = 0;
   std::int64_t cases = 0;
-  std::int64_t unresolved = 0;    // the oracle's enclosure does not tell the side of contact
+  std::int64_t unresolved = 0;    // cases whose side of contact the oracle's enclosure leaves open
   std::int64_t proven = 0;        // exact answers whose certificate was verified
-  std::int64_t refused = 0;       // ... and refused
+  std::int64_t refused = 0;       // exact answers whose certificate was refused
   std::int64_t boxes = 0;         // tight and loose boxes of bodies
-  std::int64_t boxes_broken = 0;  // ... that do not hold their body
-  std::uint64_t worst_index = 0;  // the case of the first refusal or broken box
+  std::int64_t boxes_broken = 0;  // boxes that do not contain their body
+  std::uint64_t worst_index = 0;  // case of the first refusal or broken box
 };
 
 struct JobResult {
@@ -69,13 +69,13 @@ struct JobResult {
   }
 };
 
-// Job number -> regime and round: all regimes of a round, then the next.
+// Does a job. Its number gives regime and round: all regimes of a round, then the next round.
 JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle);
 
-// The other forms that a sampled case is asked about in.
+// Returns the variants of a sampled case, and none for other cases.
 std::vector<Variant> sampled_variants(const files::Case& c, std::uint64_t seed,
                                       std::uint64_t index);
-// "rotation" of "rotation+y+z+x".
+// Returns "rotation" for "rotation+y+z+x".
 std::string kind_of(const Variant& variant);
 
 }  // namespace touchstone::check

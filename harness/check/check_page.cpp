@@ -1,4 +1,4 @@
-// The Markdown page of who is wrong where.
+// Writes the Markdown page of a check: the errors of each algorithm.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string count(std::int64_t n) { return std::to_string(n); }
 
-// The first column is to the left, the others to the right, or all to the left where they are
-// texts.
+// Formats rows as a table. The first column is left-aligned, and so are the others if they are
+// texts; numbers are right-aligned.
 std::string markdown(const Rows& rows, bool are_texts = false) {
   std::string text = base::markdown_header(rows.front(), are_texts ? rows.front().size() : 1);
   for (std::size_t i = 1; i < rows.size(); ++i) text += base::markdown_row(rows[i]);

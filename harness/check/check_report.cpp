@@ -1,3 +1,4 @@
+// Writes the summary of a check as text and as CSV.
 #include "harness/check/check_report.h"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ Rows summary_rows(const GroupedCounts& grouped) {
   return rows;
 }
 
-constexpr std::size_t shown_lines = 30;  // of what is wrong of ours
+constexpr std::size_t shown_lines = 30;  // lines shown of faults of ours
 
 constexpr std::string_view summary_key =
     "silent: on the wrong side of contact, with a status that does not tell; margin: the greatest\n"

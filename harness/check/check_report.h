@@ -1,4 +1,4 @@
-// What a check found, as tables: for the terminal, as a CSV file and as a page.
+// The findings of a check as tables: for the terminal, as a CSV file and as a page.
 #pragma once
 
 #include <filesystem>
@@ -15,22 +15,24 @@ namespace touchstone::check {
 struct CheckReport {
   const CheckRequest* request = nullptr;
   const Tally* tally = nullptr;
-  std::vector<FailureCase> failures;  // of ours and of others
+  std::vector<FailureCase> failures;  // failures of ours and of others
   std::vector<VariantFailure> variant_failures;
   std::vector<TruthFailure> truth_failures;
   std::vector<BroadCheck> broad;
 
-  // What of ours is wrong beyond its documented margin, a line each; empty where nothing is.
+  // Lists the faults of ours beyond their documented margins, one line each; empty if there are
+  // none.
   std::vector<std::string> ours_wrong() const;
 };
 
-// A line for each algorithm and scalar, then what was checked beside them.
+// Returns a line for each algorithm and scalar, then the checks of certificates, boxes and broad
+// phases.
 std::string summary_text(const CheckReport& report, std::size_t page_width);
 
-// summary.csv: a row for each algorithm, scalar and regime.
+// Writes summary.csv: a row for each algorithm, scalar and regime.
 void write_summary(const CheckReport& report, const std::filesystem::path& file);
 
-// The Markdown page of who is wrong where. `command` is what made it.
+// Returns the Markdown page of errors. `command` is the command that made it.
 std::string page_text(const CheckReport& report, const std::string& command);
 
 }  // namespace touchstone::check

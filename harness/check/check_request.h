@@ -1,4 +1,4 @@
-// What a check is asked to do.
+// The request of a check.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace touchstone::check {
 
-// The lists in which rows have their regimes and algorithms as places.
+// The lists of algorithms and regimes; rows refer to them by place.
 struct CheckSubjects {
   std::span<const NarrowPhaseEntry* const> narrow;
   std::span<const Regime* const> regimes;
@@ -31,17 +31,17 @@ struct CheckRequest {
   std::vector<Precision> scalars = {Precision::float64, Precision::float32};
   std::vector<const Regime*> regimes;
   std::uint64_t seed = 1;
-  int cases = 200;         // of each regime in a round
-  double seconds = 0;      // rounds are done until these are over; 0: one round
-  int workers = 2;         // processes
-  double time_limit = 10;  // seconds a query
+  int cases = 200;         // number of cases of each regime in a round
+  double seconds = 0;      // rounds go on for so long; 0: one round
+  int workers = 2;         // number of processes
+  double time_limit = 10;  // seconds for one query
   std::filesystem::path out;
-  bool resume = false;  // go on where the folder's last run ended
+  bool resume = false;  // resumes the work in the folder
 
   CheckSubjects subjects() const { return {narrow, regimes}; }
 };
 
-// Every fifth case is also asked about in other forms, and its exact answer is proven.
+// Returns whether the case is also asked in other forms and its exact answer proven: every fifth.
 inline bool is_sampled(std::uint64_t index) { return index % 5 == 0; }
 
 }  // namespace touchstone::check

@@ -1,3 +1,4 @@
+// Runs the jobs of a check, tallies their results and writes the files.
 #include "harness/check/check_run.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 namespace touchstone::check {
 namespace {
 
-constexpr double broad_seconds = 20;  // that a broad phase may take over a scene
+constexpr double broad_seconds = 20;  // time limit of a broad phase for a scene
 
 enum : std::size_t { grades_file, variants_file, jobs_file };
 
@@ -28,7 +29,7 @@ record::ResultFolderPlan plan_of(const CheckRequest& request) {
                      {"jobs.csv", record::header_of<JobSummary>(subjects)}});
 }
 
-// Counts the rows that an interrupted check left.
+// Counts the rows of an interrupted check.
 void take_up(const record::ResultFolder& folder, const CheckSubjects& subjects, Tally& tally) {
   const auto add = [&]<class Row>(std::size_t file) {
     for (const Row& row : folder.rows<Row>(file, subjects)) tally.add(row);

@@ -9,7 +9,7 @@
 
 namespace touchstone::check {
 
-// Owns what the report refers to but for the request.
+// The result owns all that its report refers to, except the request.
 struct CheckResult {
   Tally tally;
   std::vector<BoxScene> scenes;
@@ -17,8 +17,8 @@ struct CheckResult {
 };
 
 // Grades everything and writes grades.csv, variants.csv, jobs.csv, progress.csv, summary.csv,
-// machine.csv and failures/ into the request's folder, which is made. Progress goes to standard
-// error. InputError where the folder cannot be written, or cannot be gone on with.
+// machine.csv and failures/ into the request's folder, which it creates. Progress goes to standard
+// error. Throws InputError if the folder cannot be written or resumed.
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request);
 
 }  // namespace touchstone::check

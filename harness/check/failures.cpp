@@ -1,3 +1,4 @@
+// Shrinks failing cases and writes them to files.
 #include "harness/check/failures.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 namespace touchstone::check {
 namespace {
 
-// "gjk-double-distance"
+// Returns a file name such as "gjk-double-distance".
 std::string stem(const CheckRequest& request, const grade::Query& query) {
   return fmt::format("{}-{}-{}", request.narrow[query.entry]->info.name, to_string(query.scalar),
                      to_string(query.task));

@@ -1,4 +1,4 @@
-// Case files of what an algorithm answered wrongly.
+// Case files of wrong answers.
 #pragma once
 
 #include <filesystem>
@@ -10,41 +10,41 @@
 namespace touchstone::check {
 
 struct FailureCase {
-  grade::GradedAnswer answer;  // of the case as it is in the file
-  std::string id;              // of the case that it was shrunk from
-  std::string what;            // is wrong with the answer, in words
+  grade::GradedAnswer answer;  // answer for the case in the file
+  std::string id;              // id of the case before it was shrunk
+  std::string what;            // description of the fault
   std::filesystem::path file;
 
-  // That shows it again.
+  // Returns the command that reproduces the failure.
   std::string command(const CheckRequest& request) const;
 };
 
-// One of ours that answers a case and another form of it differently.
+// An algorithm of ours whose answers for a case and a variant of it differ.
 struct VariantFailure {
   grade::Query query;
-  std::string id;  // of the first such case
+  std::string id;  // id of the first such case
   VariantCount count;
-  std::filesystem::path file;  // the case and its other form
+  std::filesystem::path file;  // contains the case and its variant
 };
 
-// A case whose proof was refused, or a box of a body that does not hold it.
+// A case whose certificate was refused, or whose boxes do not contain their body.
 struct TruthFailure {
   JobSummary job;
-  std::string id;  // of the first such case
+  std::string id;  // id of the first such case
   std::filesystem::path file;
 };
 
-// That shows the cases of a file again.
+// Returns the command that asks about the cases of a file again.
 std::string query_command(const CheckRequest& request, const grade::Query& query,
                           const std::filesystem::path& file);
 
-// Writes the cases of these answers, each shrunk as far as it still fails in the same way, into the
-// request's folder: failures/ALGORITHM-SCALAR-TASK.jsonl, one case a line. Case files of an earlier
-// check there are removed first.
+// Writes the cases of these answers, each shrunk while it still fails in the same way, to
+// failures/ALGORITHM-SCALAR-TASK.jsonl in the request's folder, one case per line. First it removes
+// the case files of an earlier check.
 std::vector<FailureCase> write_failures(const CheckRequest& request,
                                         const std::vector<grade::GradedAnswer>& failures);
-// The same for failures/ALGORITHM-SCALAR-TASK-variants.jsonl and failures/truth.jsonl, not shrunk.
-// After write_failures.
+// Write failures/ALGORITHM-SCALAR-TASK-variants.jsonl and failures/truth.jsonl; these cases are not
+// shrunk. To be called after write_failures.
 std::vector<VariantFailure> write_variant_failures(const CheckRequest& request, const Tally& tally);
 std::vector<TruthFailure> write_truth_failures(const CheckRequest& request, const Tally& tally);
 

@@ -1,3 +1,4 @@
+// Sums the counts of a check by algorithm, scalar and group of regimes.
 #include "harness/check/grouped_counts.h"
 
 #include <fmt/format.h>
@@ -72,7 +73,7 @@ std::string checked_text(const CheckReport& report) {
       "certificate, {} refused.\n{} boxes of bodies hold all of their body, {} do not.\n",
       checked.cases, checked.unresolved, checked.proven, checked.refused,
       checked.boxes - checked.boxes_broken, checked.boxes_broken);
-  std::map<const BroadPhaseEntry*, std::pair<int, int>> broad;  // good, all
+  std::map<const BroadPhaseEntry*, std::pair<int, int>> broad;  // good ones, and all
   std::int64_t pairs = 0;
   for (const BroadCheck& check : report.broad) {
     auto& [good, all] = broad[check.entry];

@@ -1,4 +1,4 @@
-// What a check found, by algorithm and scalar, and by group of regimes: what its tables share.
+// Counts of a check by algorithm, scalar and group of regimes, for all its tables.
 #pragma once
 
 #include <map>
@@ -29,9 +29,9 @@ class GroupedCounts {
 
   const std::map<Label, Totals>& totals() const { return totals_; }
   const std::vector<std::string>& groups() const { return groups_; }
-  // Null where there is none.
+  // Returns null if the algorithm has no answers in the group.
   const grade::AnswerCount* of(const Label& label, const std::string& group) const;
-  std::string name(const Label& label) const;  // "gjk double"
+  std::string name(const Label& label) const;  // such as "gjk double"
   bool is_ours(const Label& label) const;
 
  private:
@@ -41,10 +41,10 @@ class GroupedCounts {
   std::vector<std::string> groups_;
 };
 
-// The first digit and the exponent of an error; "-" where none was seen.
+// Returns the first digit and the exponent of an error, or "-" for NaN.
 std::string digits(double x);
 
-// What was checked beside the algorithms: cases, certificates, boxes, broad phases.
+// Describes the checks of cases, certificates, boxes and broad phases.
 std::string checked_text(const CheckReport& report);
 
 }  // namespace touchstone::check

@@ -1,3 +1,4 @@
+// Describes the result folder of a check or sweep.
 #include "harness/check/job_folder.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What every run over regimes shares: a folder that can be resumed, filled by jobs in order.
+// The resumable folder of a run over regimes, filled by jobs in order.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,15 @@
 
 namespace touchstone::check {
 
-// The folder of a request. `work` is "check" or "sweep"; `subject` names what it goes over, which
-// must be the same to resume, as all of the request but its folder, time and processes must.
+// Describes the folder of a request. `work` is "check" or "sweep"; `subject` names the regimes or
+// axes. To resume, `subject` and the rest of the request must be equal, except the folder, the time
+// and the number of processes.
 record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
                                     std::pair<std::string, std::string> subject,
                                     std::vector<record::RowFile> files);
 
-// Does the jobs that the folder does not hold yet, below `end`: work(job, oracle) in a worker, then
-// take(job, result) here, in order, which returns false to end the run. Each is a unit of the
+// Does the jobs below `end` that the folder does not hold yet: work(job, oracle) in a worker, then
+// take(job, result) here, in order. If `take` returns false the run ends. Each job is a unit of the
 // folder.
 template <class Result, class Work, class Take>
 void do_jobs(record::ResultFolder& folder, const CheckRequest& request, std::size_t end,
@@ -29,7 +30,7 @@ void do_jobs(record::ResultFolder& folder, const CheckRequest& request, std::siz
   process::run_jobs<Result>(
       static_cast<std::size_t>(folder.units()), end, request.workers,
       [&] {
-        // One oracle for each process: it keeps its memory from query to query.
+        // Each process has one oracle, which keeps its memory from query to query.
         const auto oracle = std::make_shared<oracle::Oracle>();
         return [&work, oracle](std::size_t job) { return work(job, *oracle); };
       },

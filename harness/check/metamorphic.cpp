@@ -1,3 +1,4 @@
+// Makes exact variants of a case, and maps their outcomes back.
 #include "harness/check/metamorphic.h"
 
 #include <array>
@@ -20,13 +21,13 @@ Variant named(const files::Case& c, std::string name) {
   return variant;
 }
 
-// x + d without rounding.
+// Returns whether x + d is exact.
 bool adds_exactly(double x, double d) {
   const double sum = x + d;
   return std::isfinite(sum) && sum - d == x && sum - x == d;
 }
 
-// Multiplies by powers of two, and remembers whether each time nothing was lost.
+// Multiplies by powers of two, and records whether all products were exact.
 class Scaling {
  public:
   explicit Scaling(int exponent) : exponent_(exponent) {}
@@ -47,7 +48,7 @@ class Scaling {
     (*this)(shape.radii);
     (*this)(shape.offset);
     if (shape.kind != ShapeKind::hull) return;
-    // Faces and edges stay what they are, and so do the unit normals.
+    // Faces, edges and unit normals do not change.
     auto hull = std::make_shared<Hull>(*shape.hull);
     for (Vec3d& v : hull->vertices) (*this)(v);
     shape.hull = std::move(hull);
@@ -97,7 +98,7 @@ std::vector<Variant> translation_variants(const files::Case& c, base::Random& ra
   Vec3d& a = variant.transformed.pose_a.translation;
   Vec3d& b = variant.transformed.pose_b.translation;
   for (int axis = 0; axis < 3; ++axis) {
-    // A random one is a few units of a power of two, of about the coordinates' size.
+    // The random candidate is a few units of a power of two, of about the coordinates' size.
     const double greatest = std::max(std::abs(a[axis]), std::abs(b[axis]));
     const int exponent = greatest > 0 ? std::ilogb(greatest) : 0;
     const double wild = std::ldexp(static_cast<double>(random.below(15)) - 7, exponent - 2);

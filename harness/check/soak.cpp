@@ -1,3 +1,4 @@
+// Draws cases in jobs, counts the verdicts of each algorithm, and writes soak.csv.
 #include "harness/check/soak.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,8 @@ namespace touchstone::check {
 namespace {
 
 constexpr std::int64_t cases_a_job = 1000;
-constexpr std::size_t most_failures = 20;  // of an algorithm in a job; a hang costs a time limit
+// limit of an algorithm in a job, since each hang costs a time limit
+constexpr std::size_t most_failures = 20;
 constexpr double seconds_between_writes = 1;
 
 struct SoakRow {
@@ -78,8 +80,8 @@ std::vector<Subject> subjects_of(const SoakRequest& request) {
   return subjects;
 }
 
-// The cases of a job as the algorithms get them: body 2i and 2i + 1 are case i's, in order of
-// kinds.
+// The cases of a job in the form that algorithms take: bodies 2i and 2i + 1 are case i's, in order
+// of kinds.
 class Cases {
  public:
   Cases(const Regime& regime, std::uint64_t seed, std::int64_t first, oracle::Oracle& oracle)
@@ -136,7 +138,7 @@ class Cases {
                       .poses = poses_}};
   }
 
-  // Against what the algorithm is given.
+  // Returns the exact answer for the problem that the algorithm is given.
   Answer truth(std::size_t i, Encoding encoding) {
     std::vector<std::optional<Answer>>& known = truths_[static_cast<std::size_t>(encoding)];
     known.resize(cases_.size());
@@ -222,7 +224,7 @@ class Soak {
   }
 
   std::function<JobCounts(std::size_t)> work() const {
-    // One oracle for each process: it keeps its memory from query to query.
+    // Each process has one oracle, which keeps its memory from query to query.
     const auto oracle = std::make_shared<oracle::Oracle>();
     return [this, oracle](std::size_t job) {
       const auto round = static_cast<std::int64_t>(job / request_.regimes.size());
@@ -278,7 +280,7 @@ class Soak {
       result_.drawn = row.drawn;
       result_.counts[{row.entry, row.scalar, row.regime}] = row.count;
     });
-    // Before each regime had its turn there are fewer rows.
+    // There are fewer rows until each regime has had its turn.
     const std::size_t rounds =
         std::min(static_cast<std::size_t>(result_.drawn / cases_a_job), request_.regimes.size());
     if (result_.counts.size() != rounds * subjects_.size()) {

@@ -1,3 +1,4 @@
+// Adds up the answers of a check and keeps the worst.
 #include "harness/check/tally.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ void FlipCount::add(const VariantCount& count) {
 void Tally::add(const grade::GradedAnswer& answer) {
   const Key key = {answer.entry, answer.scalar, answer.regime};
   answers_[key].add(answer);
-  // Ours beyond the margins come before all that is within them.
+  // Answers of ours beyond the margins come before all that are within them.
   const double bad = answer.beyond ? 1e10 + badness(answer) : badness(answer);
   if (bad == 0) return;
   std::vector<Failure>& worst = failures_[key];
@@ -39,7 +40,8 @@ std::vector<grade::GradedAnswer> Tally::failures(const CheckRequest& request) co
   for (const auto& [key, worst] : failures_) {
     const bool ours = request.narrow[key.entry]->info.origin == Origin::ours;
     for (const Failure& failure : worst) {
-      // Of ours, what is within the margins is no failure; of others one is enough.
+      // An answer of ours within the margins is no failure; of other algorithms one failure is
+      // enough.
       if (ours && !failure.answer.beyond) continue;
       all.push_back(failure.answer);
       if (!ours) break;

@@ -1,4 +1,4 @@
-// What a check found, counted.
+// Counts of a check, and its worst answers.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace touchstone::check {
 
-// Variants of one algorithm in one scalar.
+// Counts over variants for one algorithm in one scalar.
 struct FlipCount {
   std::int64_t compared = 0, flips = 0, lost = 0, beyond = 0;
   double worst_flip = 0, worst_difference = 0;
@@ -37,11 +37,11 @@ class Tally {
   const std::map<Key, FlipCount>& flips() const { return flips_; }
   const std::vector<JobSummary>& jobs() const { return jobs_; }
 
-  // Counts with some of ours beyond the margins.
+  // The counts that contain differences of ours beyond the margins.
   const std::vector<VariantCount>& variants_beyond() const { return variants_beyond_; }
 
-  // Answers that are worth a case file, the worst first: of ours what is beyond the margins, of
-  // others crashes, silent errors, and numbers off by more than our margins would allow.
+  // Returns the answers that get a case file, the worst first: for ours those beyond the margins;
+  // for others crashes, silent errors, and numbers whose error exceeds our margins.
   std::vector<grade::GradedAnswer> failures(const CheckRequest& request) const;
 
   bool ours_are_wrong() const;
@@ -51,7 +51,7 @@ class Tally {
     double badness;
     grade::GradedAnswer answer;
   };
-  static constexpr std::size_t kept = 3;  // failures of a key
+  static constexpr std::size_t kept = 3;  // number of failures of a key
 
   std::map<Key, grade::AnswerCount> answers_;
   std::map<Key, FlipCount> flips_;

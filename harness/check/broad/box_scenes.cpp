@@ -1,3 +1,4 @@
+// Draws the scenes of boxes, frame by frame.
 #include "harness/check/broad/box_scenes.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ Vec3d point(base::Random& random) {
   return {x, y, z};
 }
 
-// A point of the grid 0, 1, ..., n - 1 on each axis.
+// Returns a point of the grid 0, 1, ..., n - 1 on each axis.
 Vec3d grid_point(base::Random& random, std::uint64_t n) {
   const auto x = random.below(n), y = random.below(n), z = random.below(n);
   return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};

@@ -1,5 +1,5 @@
-// Small scenes of boxes that broad phases are checked on: where boxes touch exactly, have no
-// volume, coincide, are huge, tiny, far away or of very different sizes.
+// Small scenes of boxes for checks of broad phases: boxes that touch exactly, have no volume,
+// coincide, are huge, tiny or far away, or differ much in size.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct BoxScene {
   std::vector<std::vector<Aabb>> frames;
 };
 
-// The same for a seed on every platform.
+// Returns the scenes of a seed, equal on every platform.
 std::vector<BoxScene> box_scenes(std::uint64_t seed);
 
 }  // namespace touchstone::check

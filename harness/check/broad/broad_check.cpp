@@ -1,3 +1,4 @@
+// Runs broad phases in child processes and compares their pairs with all pairs.
 #include "harness/check/broad/broad_check.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t most_frames = 16;
 constexpr int threads = 2;
 
-// What a child tells of a scene.
+// The findings of a child about one scene.
 struct Found {
   Status status = Status::ok;
   std::size_t frames = 0;
@@ -33,7 +34,7 @@ std::vector<IndexPair> true_pairs(std::span<const Aabb> boxes) {
   return pairs;
 }
 
-// Of its coordinates: as numbers, 0 and -0 are equal.
+// Returns the bits of the coordinates; as numbers, 0 and -0 would be equal.
 std::array<std::uint32_t, 6> bits(const Aabb& box) {
   return std::bit_cast<std::array<std::uint32_t, 6>>(box);
 }

@@ -1,4 +1,4 @@
-// Broad phases against the pairs that there are.
+// Checks broad phases against the true pairs.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,18 @@ namespace touchstone::check {
 struct BroadCheck {
   const BroadPhaseEntry* entry = nullptr;
   const BoxScene* scene = nullptr;
-  Status status = Status::ok;             // the worst of the frames; crashed and timed_out too
-  std::int64_t pairs = 0;                 // that there are, over all frames
-  std::vector<grade::PairFaults> frames;  // of each frame that was answered with ok
-  std::string failure;                    // what became of a lost one, in words
+  Status status = Status::ok;             // worst status of the frames, also crashed and timed_out
+  std::int64_t pairs = 0;                 // true pairs over all frames
+  std::vector<grade::PairFaults> frames;  // one for each frame with status ok
+  std::string failure;                    // reason of a crash or hang, in words
 
   bool good() const;
-  std::string faults() const;  // in words; empty where it is good
+  std::string faults() const;  // faults in words; empty if there are none
 };
 
-// Each broad phase on each scene, in a process of its own: the first frame is built, the others are
-// updates. The truth is every pair of closed boxes that share a point, found by testing all.
+// Checks each broad phase on each scene, in a process of its own: the first frame is built, the
+// others are updates. The true pairs are all pairs of closed boxes that share a point, found by
+// testing all.
 std::vector<BroadCheck> check_broad_phases(std::span<const BroadPhaseEntry* const> entries,
                                            std::span<const BoxScene> scenes, double time_limit);
 
