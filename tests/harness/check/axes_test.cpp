@@ -1,4 +1,4 @@
-// Each axis makes what it says.
+// Tests that each axis of a sweep draws what it states.
 #include "harness/check/axes/axes.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ const check::StressAxis& axis(const std::string& name) {
   return *std::ranges::find(check::axes(), name, &check::StressAxis::name);
 }
 
-// What a cell has for each of its cases, and in how many they are apart and overlap.
+// The cases of a cell, and how many of them are apart and overlap.
 struct Drawn {
   std::vector<grade::TrueCase> cases;
   check::CellSummary summary;
@@ -207,7 +207,8 @@ TEST_F(Axes, Coplanar) {
   expect_both_outcomes();
 }
 
-// The least angle between an axis of one body and one of the other, but right angles and zero.
+// Returns the least angle between an axis of one body and one of the other, except right angles and
+// zero.
 double least_angle(const files::Case& c) {
   double least = 10;
   for (int i = 0; i < 3; ++i) {
@@ -228,7 +229,7 @@ TEST_F(Axes, Parallel) {
       const std::size_t at = id.find('/', id.find('/') + 1) + 1;
       features.insert(id.substr(at, id.find("-gap") == std::string::npos ? id.find("-depth") - at
                                                                          : id.find("-gap") - at));
-      // Boxes' other axes may be nearer to each other by chance where the angle is large.
+      // Other axes of boxes may be nearer to each other by chance if the angle is large.
       if (value > 0 && value < 0.01) {
         EXPECT_NEAR(least_angle(c.pair()) / value, 1, 1e-6) << c.pair().id;
       }
@@ -253,7 +254,7 @@ void expect_good_hull(const Hull& hull, std::size_t vertices) {
     }
     return false;
   };
-  // Locally convex everywhere and closed: convex.
+  // A closed surface that is locally convex everywhere is convex.
   std::size_t bad = 0;
   for (const Hull::Edge& edge : hull.edges) {
     if (!has_side(edge.left, edge.tail, edge.head)) ++bad;
@@ -284,7 +285,7 @@ TEST(RingedHull, IsConvexAndClosedAtEveryCount) {
   }
 }
 
-// Instead of taking seconds.
+// SAT refuses these at once instead of taking seconds.
 TEST(RingedHull, TwoLargeOnesAreMoreThanSatWillLookAt) {
   const auto solved = [](std::size_t vertices, double apart, const char* name) {
     files::Case c;

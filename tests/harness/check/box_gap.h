@@ -50,7 +50,7 @@ inline long double distance_to(const WideSegment& s, const WideVector& p) {
 inline long double distance_between(const WideSegment& s, const WideSegment& t) {
   long double least = std::min(
       {distance_to(s, t[0]), distance_to(s, t[1]), distance_to(t, s[0]), distance_to(t, s[1])});
-  // Where the lines' closest points are inside both.
+  // The lines' closest points count if they are inside both segments.
   const WideVector u = s[1] - s[0], v = t[1] - t[0], w = s[0] - t[0];
   const WideVector n = u.cross(v);
   const long double square = n.dot(n);
@@ -64,7 +64,7 @@ inline long double distance_between(const WideSegment& s, const WideSegment& t) 
   return least;
 }
 
-// Of a point to the faces of a box, where it is over one of them.
+// Returns the distance of a point to those faces of a box that it is over.
 inline long double distance_to_faces(const WideBox& box, const WideVector& p) {
   long double least = std::numeric_limits<long double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -82,7 +82,7 @@ inline long double distance_to_faces(const WideBox& box, const WideVector& p) {
   return least;
 }
 
-// Of boxes that are apart.
+// Returns the distance of two boxes that are apart.
 inline long double box_distance(const files::Case& c) {
   const WideBox a(c.shape_a, c.pose_a), b(c.shape_b, c.pose_b);
   long double least = std::numeric_limits<long double>::infinity();
@@ -94,7 +94,7 @@ inline long double box_distance(const files::Case& c) {
   return least;
 }
 
-// The least overlap of the shadows on the normals of faces and of pairs of edges.
+// Returns the least overlap of the shadows on the normals of faces and of pairs of edges.
 inline long double box_depth(const files::Case& c) {
   const WideBox a(c.shape_a, c.pose_a), b(c.shape_b, c.pose_b);
   std::vector<WideVector> axes;

@@ -1,3 +1,4 @@
+// Tests that saved certificates are verified, and damaged ones refused.
 #include "harness/check/certificate_files.h"
 
 #include <gmock/gmock.h>
@@ -30,7 +31,7 @@ TEST(CertificateFiles, WhatIsSavedIsVerified) {
   EXPECT_EQ(verdicts.verified, 40);
   EXPECT_EQ(verdicts.refused_count, 0);
 
-  // One that claims the opposite, and one whose body was moved.
+  // One certificate claims the opposite, and one has a moved body.
   std::string text = folder.read("proofs.jsonl");
   const auto line = [&](int number) {
     std::size_t at = 0;

@@ -1,3 +1,4 @@
+// Tests whole checks with planted algorithms and regimes.
 #include "harness/check/check_run.h"
 
 #include <gmock/gmock.h>
@@ -44,7 +45,7 @@ class CheckRun : public ::testing::Test {
     }
     return all;
   }
-  // Of the only algorithm in the only regime.
+  // Returns the counts of the only algorithm in the only regime.
   static const grade::AnswerCount& count(const check::CheckResult& result) {
     return result.tally.answers().begin()->second;
   }
@@ -79,10 +80,10 @@ TEST_F(CheckRun, AnAlgorithmThatIsRight) {
 struct HarmCase {
   Harm harm;
   NarrowPhaseEntry (*entry)(const std::string&, Origin);
-  std::int64_t grade::AnswerCount::*counted;  // what it shows in
+  std::int64_t grade::AnswerCount::*counted;  // the count in which the harm shows
   std::int64_t expected;
-  bool is_fault;      // of ours
-  std::string words;  // in the report
+  bool is_fault;      // fault if the algorithm is ours
+  std::string words;  // words of the report
 
   friend void PrintTo(const HarmCase& harm, std::ostream* out) {
     *out << static_cast<int>(harm.harm);
@@ -112,7 +113,7 @@ TEST_P(CheckRunHarm, IsFoundInOursAndInAPeers) {
       EXPECT_THAT(wrong, Contains(HasSubstr(failure.what)));
       EXPECT_THAT(check::summary_text(result->report, 120), HasSubstr(failure.command(request)));
     }
-    // The case file shows it, and is a case.
+    // The case file has a case that shows the fault.
     const std::vector<files::Case> cases = files::read_cases(failure.file);
     ASSERT_THAT(cases, Not(IsEmpty()));
     EXPECT_THAT(failure.command(request), HasSubstr("--narrow bad --task "));
@@ -145,7 +146,7 @@ TEST_F(CheckRun, AHangIsARow) {
   EXPECT_THAT(read("grades.csv"), HasSubstr("timed_out"));
 }
 
-// Wrong on one side only, so it answers the swapped pair otherwise.
+// The algorithm is wrong on one side only, so its answer for the swapped pair differs.
 TEST_F(CheckRun, AnotherFormOfAPairHasTheSameAnswer) {
   const NarrowPhaseEntry entry = planted<Harm::wrong_side>("bad", Origin::ours);
   const check::CheckRequest request = request_for({&entry});
@@ -231,7 +232,7 @@ TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
     EXPECT_EQ(result->tally.jobs()[i].round, i / 2);
     EXPECT_EQ(result->tally.jobs()[i].regime, i % 2);
   }
-  // No case twice.
+  // No case comes twice.
   std::map<std::string, int> seen;
   files::CsvReader(request.out / "grades.csv", {"regime", "index", "task"})
       .read([&](const files::CsvReader::Row& row) {

@@ -1,3 +1,4 @@
+// Tests that variants keep the exact answer, and map outcomes back exactly.
 #include "harness/check/metamorphic.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +60,7 @@ TEST(Metamorphic, VariantsHaveTheSameExactAnswer) {
         const std::string& id = variant.transformed.id;
         EXPECT_EQ(id, c.id + "/" + variant.name);
         if (!exact.exact || !measure.exact) {
-          // Of curved cores: enclosures of one number, which may differ.
+          // Curved cores have enclosures of one number, which may differ.
           EXPECT_TRUE(is_curved(c.shape_a) || is_curved(c.shape_b)) << id;
           EXPECT_LE(std::ldexp(measure.lower, -variant.exponent), exact.upper) << id;
           EXPECT_GE(std::ldexp(measure.upper, -variant.exponent), exact.lower) << id;

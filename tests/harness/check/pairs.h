@@ -1,4 +1,4 @@
-// Pairs of boxes and balls whose exact answers anybody can name.
+// Pairs of boxes and balls with simple exact answers.
 #pragma once
 
 #include "harness/files/cases.h"
@@ -19,7 +19,7 @@ inline Shape cube(double half) {
   return shape;
 }
 
-// Two bodies of these shapes, the second moved along x.
+// Makes two bodies of these shapes, the second moved along x.
 inline files::Case along_x(const Shape& a, const Shape& b, double x) {
   files::Case c;
   c.id = "along-x";

@@ -1,4 +1,4 @@
-// Algorithms and regimes that a test plants in a check.
+// Algorithms and regimes for tests of checks.
 #pragma once
 
 #include <unistd.h>
@@ -14,11 +14,11 @@
 
 namespace touchstone {
 
-// What each case's first translation says on z: an algorithm that is right but for one of these.
+// The faults of a planted algorithm.
 enum class Harm : int { none, wrong_side, wrong_depth, bad_bounds, gives_up, crashes, hangs, nan };
 
-// Balls answer by the formula; what the harm says is done to the pairs whose second ball is to the
-// right of the first.
+// Answers for balls by the formula, and applies the harm to pairs whose second ball is to the right
+// of the first.
 class Planted final : public NarrowPhase {
  public:
   explicit Planted(Harm harm, int microseconds) : harm_(harm), microseconds_(microseconds) {}
@@ -73,7 +73,7 @@ NarrowPhaseEntry planted(const std::string& name, Origin origin) {
           }};
 }
 
-// Balls of radius 1, apart and overlapping in turn, on both sides of each other.
+// Draws balls of radius 1, alternately apart and overlapping, on both sides of each other.
 inline check::Regime balls_regime(const std::string& name = "balls",
                                   const std::string& group = "test") {
   return {.name = name, .group = group, .what = "two balls", .draw = [](check::RegimeDraw& draw) {
@@ -85,9 +85,9 @@ inline check::Regime balls_regime(const std::string& name = "balls",
           }};
 }
 
-// Balls of radius 1, apart and overlapping in turn, on both sides of each other. From the value 2
-// on the second is further to the right, where the planted algorithms do harm, in half of the
-// slots.
+// Draws balls of radius 1, alternately apart and overlapping. From the value 2 on the second ball
+// is on the right in half of the slots, where the planted algorithms do harm; otherwise it is on
+// the left.
 inline check::RegimeCase draw_balls(check::RegimeDraw& draw) {
   const std::uint64_t slot = check::slot_of(draw.index);
   const double gap = slot % 2 == 0 ? 0.5 : -0.5;

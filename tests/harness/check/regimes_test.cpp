@@ -1,3 +1,4 @@
+// Tests that regimes draw good cases with the features, sizes and gaps that they state.
 #include "harness/check/regimes/regimes.h"
 
 #include <gmock/gmock.h>
@@ -117,8 +118,8 @@ TEST(Regimes, MakeTheSameCaseAgainInAnyOrderAndFromAnyThread) {
   EXPECT_NE(files::to_json(make(regime, 3, 1)), files::to_json(make(regime, 4, 1)));
 }
 
-// The same bits on every platform: whoever changes the generators changes this number. Without
-// hulls, whose faces come in Qhull's order.
+// The cases have the same bits on every platform, so a change of the generators changes this
+// number. Hulls are left out, since their faces come in Qhull's order.
 TEST(Regimes, MakeTheSameCasesEverywhere) {
   std::uint64_t hash = 0;
   for (const check::Regime& regime : check::regimes()) {
@@ -170,7 +171,7 @@ TEST(Regimes, ProduceEveryPairOfFeaturesAndOfKinds) {
     EXPECT_TRUE(details.contains(expected)) << expected;
   }
   for (std::uint64_t i = 0; i < 3000; ++i) kinds.insert(parts_of(make(*regime, 1, i).id)[1]);
-  // All but two half-spaces, in either order; a tip's pairs are few, so not quite all of them.
+  // All but two half-spaces come, in either order; tips have few pairs, so some may be missing.
   EXPECT_GE(kinds.size(), 60u);
 }
 
@@ -221,8 +222,8 @@ TEST(Regimes, HaveNeedlesAndPlates) {
   EXPECT_GT(plates, 10);
 }
 
-// The gaps asked for are achieved as far as the rounding of one translation allows, and of one
-// rotation where features are parallel.
+// Gaps are as requested up to the rounding of one translation and, if features are parallel, of one
+// rotation.
 TEST(Regimes, AchieveTheirGapsBetweenBoxes) {
   int checked = 0;
   for (const char* name : {"1e0", "1e-1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-14", "1e-15"}) {
@@ -240,7 +241,7 @@ TEST(Regimes, AchieveTheirGapsBetweenBoxes) {
   EXPECT_GT(checked, 200);
 }
 
-// On faces the depth is exactly what was asked for, and between crossing edges but for a few that
+// On faces the depth is exactly as requested; between crossing edges it is, except for a few that
 // are nearly parallel.
 TEST(Regimes, AchieveTheirDepthsBetweenBoxes) {
   int checked = 0, exact = 0;
@@ -255,7 +256,7 @@ TEST(Regimes, AchieveTheirDepthsBetweenBoxes) {
       const auto depth = static_cast<double>(box_depth(c));
       if (detail.starts_with("vertex-vertex") || detail.starts_with("vertex-edge") ||
           detail.starts_with("edge-edge-")) {
-        // Moved towards the middle, so that it is less, but of that order.
+        // The body is moved towards the middle, so that the depth is less, but of that order.
         EXPECT_GT(depth, 0.05 * asked - 8e-16 * size) << c.id;
         EXPECT_LT(depth, asked + 8e-16 * size) << c.id;
       } else {

@@ -1,4 +1,4 @@
-// A run over regimes, or over values of axes, goes on after a kill, and only with its own folder.
+// Tests that a check or sweep resumes after a kill, and only in its own folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -43,7 +43,7 @@ struct CheckWork {
   static std::vector<std::string> files() {
     return {"grades.csv", "variants.csv", "jobs.csv", "summary.csv"};
   }
-  // What a kill in the middle of a job leaves.
+  // Returns files as a kill in the middle of a job leaves them.
   static std::map<std::string, std::string> leftovers() {
     return {{"grades.csv", "balls-6,3,sphere,sph"}, {"jobs.csv", "balls-6,test,0,8,0,0,0,0,0,0\n"}};
   }
@@ -87,7 +87,7 @@ class Resume : public ::testing::Test {
     return input_fault([&] { stats::Work::run(request); });
   }
 
-  // Kills the work when so many units are done.
+  // Kills the work after so many units.
   void kill_after(std::size_t units) {
     const pid_t child = fork();
     if (child == 0) {
@@ -138,7 +138,7 @@ TYPED_TEST(Resume, NoRowIsLostOrDoubled) {
   for (const auto& [name, text] : found) EXPECT_EQ(text, this->read(name)) << name;
   EXPECT_EQ(cases, this->read("failures/bad-double-intersect.jsonl"));
 
-  // What is done is not done again, and tells the same.
+  // Finished work is not done again, and the result is equal.
   this->request.resume = true;
   TypeParam::run(this->request);
   for (const auto& [name, text] : found) EXPECT_EQ(text, this->read(name)) << name;

@@ -1,3 +1,4 @@
+// Tests that a soak counts faults of planted algorithms, and resumes.
 #include "harness/check/soak.h"
 
 #include <gmock/gmock.h>
@@ -63,7 +64,7 @@ TEST_F(SoakRun, CountsWhatIsTrueAndWhoIsWrong) {
 TEST_F(SoakRun, ACrashIsLostAndTheRestGoesOn) {
   const NarrowPhaseEntry entry = planted<Harm::crashes>("crashes", Origin::peer);
   check::SoakRequest request = request_for({&entry});
-  request.pairs = 1;  // a whole job is the least
+  request.pairs = 1;  // one whole job is the least
   const check::SoakResult result = check::run_soak(request);
   EXPECT_EQ(result.drawn, 1000);
   EXPECT_GT(result.counts.begin()->second.lost, 0);

@@ -1,3 +1,4 @@
+// Tests whole sweeps with planted algorithms on one axis.
 #include "harness/check/axes/stress_run.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-// Never ends, and is busy all the time.
+// Never ends, and uses the processor all the time.
 class Busy final : public NarrowPhase {
  public:
   void bind(std::span<const Shape>) override {}
@@ -53,7 +54,7 @@ class StressRun : public ::testing::Test {
     return request;
   }
   std::string read(const std::string& name) const { return folder.read("out/" + name); }
-  // Over all tasks and values.
+  // Sums over all tasks and values.
   static std::int64_t count(const check::StressResult& result, grade::AnswerClass outcome) {
     return result.reaches.at(0).counts[static_cast<std::size_t>(outcome)];
   }
@@ -80,7 +81,7 @@ struct HarmCase {
   Harm harm;
   NarrowPhaseEntry (*entry)(const std::string&, Origin);
   grade::AnswerClass outcome;
-  std::int64_t counted;  // of the four harmed slots in two values: all tasks, or some
+  std::int64_t counted;  // queries of the four harmed slots in two values, over all tasks or some
   std::int64_t skipped;
 
   friend void PrintTo(const HarmCase& harm, std::ostream* out) {
@@ -131,7 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
         HarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>, grade::AnswerClass::silent, 24, 0},
         HarmCase{Harm::nan, planted<Harm::nan>, grade::AnswerClass::silent, 8, 0},
         HarmCase{Harm::gives_up, planted<Harm::gives_up>, grade::AnswerClass::honest, 24, 0},
-        // After three in a task and value the rest is skipped: of slots 0, 1, 4 those from 5 on.
+        // After three crashes in a task and value the rest is skipped: slots 0, 1 and 4 crash,
+        // those from 5 on are not asked.
         HarmCase{Harm::crashes, planted<Harm::crashes>, grade::AnswerClass::crashed, 18, 18}));
 
 TEST_F(StressRun, AHangThatIsBusyOrAsleepEndsAtItsLimit) {
@@ -150,7 +152,7 @@ TEST_F(StressRun, ApproximateAndBoundsAreJudgedAsTheyState) {
   NarrowPhaseEntry approximate = planted<Harm::wrong_side>("bad", Origin::ours);
   approximate.traits.approximate = true;
   const check::StressRequest request = request_for({&approximate});
-  // Those that are apart and called overlapping are excused; the others are not.
+  // A pair that is apart and called overlapping is excused; the reverse is not.
   EXPECT_EQ(count(check::run_stress(request), grade::AnswerClass::silent), 12);
   NarrowPhaseEntry bound = planted<Harm::wrong_depth>("bad", Origin::ours);
   bound.traits.depth_is_bound = true;

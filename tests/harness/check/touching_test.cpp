@@ -1,3 +1,4 @@
+// Tests that touching regimes touch exactly, or miss by the ulps that they state.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -13,7 +14,7 @@ constexpr std::uint64_t count = 200;
 
 Vec3d to_float(const Vec3d& v) { return v.cast<float>().cast<double>(); }
 
-// The case with every number rounded to float; no length of these regimes changes by it.
+// Rounds every number of the case to float; no length of these regimes changes by it.
 files::Case in_float(files::Case c) {
   for (Pose* pose : {&c.pose_a, &c.pose_b}) {
     pose->rotation = pose->rotation.cast<float>().cast<double>();
@@ -22,7 +23,7 @@ files::Case in_float(files::Case c) {
   return c;
 }
 
-// The rotations of both bodies as quaternions, exactly orthonormal.
+// Answers with the rotations of both bodies as quaternions, exactly orthonormal.
 Answer answer_with_quaternions(oracle::Oracle& oracle, const files::Case& c) {
   const auto body = [](const oracle::Solid& solid, const Pose& pose) {
     const Eigen::Quaterniond q(pose.rotation);
@@ -44,7 +45,7 @@ TEST(TouchingRegimes, TouchExactlyInEveryEncoding) {
         for (const Vec3d& v : shape->hull->vertices) EXPECT_EQ(v, to_float(v)) << c.id;
       }
       EXPECT_EQ(exact_verdict(oracle, in_float(c)), Answer::touching) << c.id;
-      // Quarter turns are exact as quaternions only where the quaternion is.
+      // Quarter turns are exact as quaternions only if the quaternion is.
       const std::string regime = name;
       if (regime == "touching-baked" || regime == "touching-origin") {
         EXPECT_EQ(answer_with_quaternions(oracle, c), Answer::touching) << c.id;
@@ -79,7 +80,7 @@ TEST(TouchingRegimes, CurvedBodiesTouchAsFarAsCanBeTold) {
   }
 }
 
-// What each regime is for comes about.
+// Each regime produces the outcomes that it is for.
 TEST(Regimes, HaveBothOutcomes) {
   oracle::Oracle oracle;
   for (const check::Regime& regime : check::regimes()) {

@@ -1,3 +1,4 @@
+// Tests the exact problems of all encodings, and that entries state the right one.
 #include "harness/grade/encoding.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +61,7 @@ TEST(Encoding, RelativeFloatsAreAboutTheFirstBody) {
   const Vec3d offset = c.pose_b(centre) - c.pose_a.translation;
   EXPECT_EQ(pair.b().translation.y(), as_float(offset.y()));
   EXPECT_EQ(pair.b().solid->vertices[3].x(), as_float(10.1 - centre.x()));
-  // The same pair up to the rounding of small numbers, far away as it is.
+  // The pair is the same up to the rounding of small numbers, although it is far away.
   oracle::Oracle oracle;
   const grade::EncodedPair exact(c, Encoding::as_given);
   EXPECT_NEAR(oracle.measure(pair.a(), pair.b()).middle(),
@@ -124,18 +125,18 @@ TEST(Encoding, RelativeKeepsDoubles) {
               oracle.measure(exact.a(), exact.b()).middle(), 1e-12);
 }
 
-// Each library's own answer is near the exact one for what the entry says that it is given, even
-// where the conversion has moved the bodies by much more.
+// Each library's answer is near the exact one for the encoding that its entry states, even if the
+// conversion moves the bodies by much more.
 TEST(Encoding, WhatTheEntriesSayIsWhatTheLibrariesGet) {
   oracle::Oracle oracle;
   base::Random random(11);
   int compared = 0;
-  int moved = 0;  // the conversion did more than the library
+  int moved = 0;  // pairs that the conversion changes more than the library errs
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
     if (!is_built(entry.info) || !offers(entry, Task::distance)) continue;
     for (const Precision scalar : entry.scalars) {
       for (int i = 0; i < 20; ++i) {
-        // Balls: exact for every library, so that the conversion alone is seen.
+        // Balls are exact in every library, so that only the conversion shows.
         files::Case c = along_x(ball(0.3), ball(0.4), 0);
         c.pose_a.rotation = random.rotation();
         c.pose_b.rotation = random.rotation();

@@ -1,3 +1,4 @@
+// Tests verdicts and errors of answers about cubes, balls and half-spaces.
 #include "harness/grade/grade.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-// A pair of unit cubes (half extents 1) with the second at x, and its exact answer.
+// A pair of cubes with half extents 1, the second at x, and its exact answer.
 struct Cubes {
   oracle::Oracle oracle;
   grade::EncodedPair pair;
@@ -115,7 +116,7 @@ TEST(grade::Grade, ErrorsOfDistances) {
   EXPECT_EQ(error(0.75), -0.25);
   EXPECT_EQ(error(inf), inf);
   EXPECT_TRUE(std::isnan(error(Outcome::none)));
-  // Not asked, not stood by, or about bodies that overlap.
+  // These numbers were not asked for, not stood by, or are about bodies that overlap.
   const Outcome far = outcome(Answer::separated, Status::ok, 2);
   EXPECT_TRUE(std::isnan(apart.grade(far, Task::penetration).distance_error));
   EXPECT_TRUE(
@@ -136,19 +137,19 @@ TEST(grade::Grade, ErrorsOfDepthsAndTheirTranslations) {
   EXPECT_EQ(right.depth_error, 0);
   EXPECT_EQ(right.separation_error, 0);
   EXPECT_EQ(right.excess, 0);
-  // Too shallow: its translation leaves a quarter.
+  // The depth is too small: its translation leaves a quarter.
   const grade::Grade shallow = grade(0.25, {1, 0, 0});
   EXPECT_EQ(shallow.depth_error, -0.25);
   EXPECT_EQ(shallow.separation_error, 0.25);
   EXPECT_EQ(shallow.excess, 0);
-  // Another axis, and what it takes along it; a normal of any length states the direction.
+  // Another axis needs a longer translation. A normal of any length states the direction.
   const grade::Grade side = grade(2, {0, 5, 0});
   EXPECT_EQ(side.depth_error, 1.5);
   EXPECT_EQ(side.separation_error, 0);
   EXPECT_EQ(side.excess, 1.5);
-  // Away from it: the whole length of both.
+  // The opposite direction needs the whole length of both.
   EXPECT_EQ(grade(0.5, {-1, 0, 0}).separation_error, 3);
-  // No direction, no translation.
+  // Without a direction there is no translation.
   EXPECT_TRUE(std::isnan(grade(0.5, Vec3d::Zero()).separation_error));
   EXPECT_TRUE(std::isnan(grade(0.5, Vec3d::Constant(Outcome::none)).excess));
   EXPECT_EQ(grade(0.75, Vec3d::Zero()).depth_error, 0.25);
@@ -179,7 +180,7 @@ TEST(grade::Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
     return touchstone::grade(o, Task::penetration, exact, pair.a(), pair.b());
   };
   EXPECT_EQ(grade({0, 0, -1}).separation_error, 0);
-  // Turned by a rounding error, it is as good up to that.
+  // A turn by a rounding error costs no more than that.
   EXPECT_NEAR(grade({1e-8, 0, -1}).separation_error, 0, 1e-15);
   EXPECT_NEAR(grade({1, 0, -1}).separation_error, std::sqrt(0.5) - 0.5, 1e-15);
   EXPECT_EQ(grade({0, 0, 1}).separation_error, inf);
@@ -218,7 +219,7 @@ TEST(grade::Grade, CertifiedBounds) {
   EXPECT_EQ(error(0.25, Outcome::none), 0);
   EXPECT_EQ(error(Outcome::none, 0.5), 0.5);
   EXPECT_EQ(error(2, 0), 1);  // empty
-  // Whatever became of the answer.
+  // Bounds are graded even if the search did not converge.
   EXPECT_EQ(error(1.25, 2, Status::not_converged), 0.25);
   EXPECT_TRUE(std::isnan(error(1.25, 2, Status::crashed)));
 }
@@ -237,14 +238,14 @@ TEST(grade::Grade, WitnessPoints) {
 
   o.witness_a = {1, 1.25, 0.5};
   EXPECT_EQ(apart.witnesses(o, Task::distance).off_body, 0.25);
-  o.witness_a = {0.5, 0.5, 0.5};  // inside counts as on it
+  o.witness_a = {0.5, 0.5, 0.5};  // inside counts as on the body
   o.normal = {2, 0, 0};
   grade = apart.witnesses(o, Task::distance);
   EXPECT_EQ(grade.off_body, 0);
   EXPECT_EQ(grade.length_error, 0.5);
   EXPECT_EQ(grade.normal_error, 1);
 
-  // Of a depth, they are one translation apart.
+  // For a depth, the points are one translation apart.
   Cubes meet(1.5);
   o = outcome(Answer::overlapping, Status::ok, -0.5);
   o.witness_a = {1, 0, 0};
@@ -269,7 +270,7 @@ TEST(grade::Grade, NotANumber) {
     return cubes.witnesses(o, task).not_a_number;
   };
   Outcome o = outcome(Answer::separated, Status::ok, 1);
-  EXPECT_FALSE(bad(apart, o, Task::distance));  // vectors that are not known at all
+  EXPECT_FALSE(bad(apart, o, Task::distance));  // the vectors are wholly unknown
   o.normal = {1, Outcome::none, 0};
   EXPECT_TRUE(bad(apart, o, Task::distance));
   EXPECT_FALSE(bad(apart, o, Task::intersect));

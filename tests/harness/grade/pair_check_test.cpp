@@ -1,3 +1,4 @@
+// Tests the comparison of found pairs with true ones.
 #include "harness/grade/pair_check.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ TEST(PairCheck, TellsTheKindsApart) {
   const Pairs truth = {{0, 1}, {0, 2}, {3, 4}};
   Pairs found = {{5, 6}, {0, 2}, {0, 2}, {4, 3}, {5, 7}, {0, 1}};
   const grade::PairFaults faults = grade::check_pairs(found, truth, before);
-  EXPECT_EQ(faults.missing, 1);    // 3-4: it was reported the wrong way round
+  EXPECT_EQ(faults.missing, 1);    // 3-4: the pair was reported as (4, 3)
   EXPECT_EQ(faults.duplicate, 2);  // 0-2 twice, 4-3
   EXPECT_EQ(faults.stale, 1);
   EXPECT_EQ(faults.extra, 1);
@@ -37,7 +38,7 @@ TEST(PairCheck, TellsTheKindsApart) {
 }
 
 TEST(PairHash, IsTheContracts) {
-  // mix(1) of SplitMix64, and the sum over a set, in any order.
+  // The hash is mix(1) of SplitMix64, summed over a set in any order.
   EXPECT_EQ(base::mix(0), 0xe220a8397b1dcdafu);
   const Pairs some = {{0, 1}, {2, 3}};
   const Pairs turned = {{2, 3}, {0, 1}};

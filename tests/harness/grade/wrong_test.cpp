@@ -1,3 +1,4 @@
+// Tests which graded answers count as wrong.
 #include "harness/grade/wrong.h"
 
 #include <gmock/gmock.h>
@@ -64,7 +65,7 @@ TEST_F(Beyond, DistancesAndDepths) {
   answer.end_to_end.depth_error = 0;
   answer.end_to_end.separation_error = 1.1e-8;
   EXPECT_THAT(beyond(), HasSubstr("does not separate"));
-  answer.task = Task::distance;  // a direction across a small gap is known less well
+  answer.task = Task::distance;  // the direction across a small gap is known less well
   EXPECT_EQ(beyond(), "");
   answer.end_to_end.distance_error = -1.1e-8;
   EXPECT_THAT(beyond(), HasSubstr("the distance is wrong by 1.1e-08 m, 1.1e-09 of the size"));

@@ -1,3 +1,4 @@
+// Tests that isolated work survives crashes, hangs and floods of output.
 #include "harness/process/isolate.h"
 
 #include <gmock/gmock.h>
@@ -21,11 +22,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// For what ends by itself, on the busiest machine too, and for what does not.
+// Limits for work that ends by itself, also on a busy machine, and for work that never ends.
 constexpr process::IsolationLimits patient = {.item_seconds = 60, .setup_seconds = 60};
 constexpr process::IsolationLimits quick = {.item_seconds = 1, .setup_seconds = 1};
 
-// Seven items that write their squares, but for item 3, which does `harm`.
+// Seven items that write their squares, except item 3, which does `harm`.
 struct SevenItems {
   process::SharedArray<int> squares{7};
   process::IsolationReport report;

@@ -1,3 +1,4 @@
+// Tests that a worker pool takes results in order and reports lost workers.
 #include "harness/process/worker_pool.h"
 
 #include <gmock/gmock.h>

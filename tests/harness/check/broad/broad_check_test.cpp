@@ -1,3 +1,4 @@
+// Tests that checks of broad phases accept ours and find planted faults.
 #include "harness/check/broad/broad_check.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +18,7 @@ using ::testing::HasSubstr;
 
 using Find = std::function<Status(std::span<const Aabb>, PairSink&)>;
 
-// Looks at all pairs, which `find` writes or spoils.
+// Tests all pairs, which `find` writes or spoils.
 class Planted final : public BroadPhase {
  public:
   explicit Planted(Find find) : find_(std::move(find)) {}
@@ -35,7 +36,7 @@ BroadPhaseEntry planted(const Find& find, Origin origin = Origin::ours) {
           .make = [=](Executor&) { return std::make_unique<Planted>(find); }};
 }
 
-// All pairs whose boxes overlap, but the last `dropped` of each frame.
+// Writes all pairs whose boxes overlap, except the last `dropped` of each frame.
 Status all_but(std::size_t dropped, std::span<const Aabb> boxes, PairSink& sink) {
   std::vector<IndexPair> pairs;
   for (std::uint32_t a = 0; a < boxes.size(); ++a) {

@@ -1,3 +1,4 @@
+// Tests that shrinking keeps failures and makes cases small.
 #include "harness/grade/failures/shrink.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ files::Case made(const char* regime, std::uint64_t index) {
   return make(*check::find_regime(regime), 1, index);
 }
 
-// The first case of the regime that fails.
+// Returns the first case of the regime that fails.
 files::Case first_failing(const char* regime, const grade::FailurePredicate& fails) {
   for (std::uint64_t i = 0; i < 1000; ++i) {
     files::Case c = made(regime, i);
@@ -45,7 +46,7 @@ TEST(Shrink, FindsTheOneVertexThatMatters) {
   const files::Case small = grade::shrink(c, fails);
   EXPECT_TRUE(fails(small));
   EXPECT_EQ(small.id, c.id);
-  // It takes four for a solid.
+  // A solid has at least four vertices.
   EXPECT_EQ(small.shape_a.hull->vertices.size(), 4u);
   EXPECT_EQ(small.shape_a.hull->dimension, 3);
   int long_numbers = 0;
@@ -116,12 +117,12 @@ TEST(Shrink, EndsAndGivesCasesThatCanBeRead) {
       int calls = 0;
       const files::Case c = made(regime.name.c_str(), 1);
       const ShapeKind kind = c.shape_b.kind;
-      // What nothing can be done about.
+      // The first predicate allows no change.
       const files::Case same = grade::shrink(
           c, [&](const files::Case&) { return ++calls < 0; }, 100'000);
       EXPECT_EQ(files::to_json(same), files::to_json(c));
       EXPECT_LT(calls, 60'000);
-      // What everything can be done about.
+      // The second predicate allows every change that keeps the kind.
       calls = 0;
       const files::Case small = grade::shrink(
           c, [&](const files::Case& x) { return ++calls > 0 && x.shape_b.kind == kind; }, 100'000);

@@ -1,4 +1,4 @@
-// Ours against the oracle and the touching area, and the grader against answers that are wrong.
+// Tests our manifolds against the oracle and the touching area, and the grader on wrong answers.
 #include "harness/grade/manifold/manifold_grade.h"
 
 #include <fmt/format.h>
@@ -48,8 +48,8 @@ TEST(grade::ManifoldGrade, OursOnEveryFamily) {
   }
 }
 
-// Pairs of every kind and pose, at every gap and depth, degenerate and extreme: points are on their
-// bodies, and the deepest is among them.
+// Pairs have every kind and pose, every gap and depth, and are degenerate or extreme: points lie on
+// their bodies, and the deepest is among them.
 TEST(grade::ManifoldGrade, OursOnEveryRegime) {
   int apart = 0, common = 0, several = 0;
   for (const check::Regime& regime : check::regimes()) {
@@ -72,7 +72,7 @@ TEST(grade::ManifoldGrade, OursOnEveryRegime) {
         EXPECT_LE(graded.off_body, limit + rounding) << c.id;
         EXPECT_EQ(graded.apart, 0) << c.id;
         if (manifold.status != Status::ok) continue;
-        // Curved bodies are as far off the line as EPA's tolerance.
+        // Curved bodies are off the line by up to EPA's tolerance.
         const auto is_curved = [](const Shape& shape) {
           return shape.kind == ShapeKind::cylinder || shape.kind == ShapeKind::cone ||
                  shape.kind == ShapeKind::ellipsoid;

@@ -1,3 +1,4 @@
+// Tests that a guarded solve loses only the pairs that fail.
 #include "harness/process/queries/guarded_solve.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 
 using namespace touchstone;
 
-// Does to each pair what the index of its first body says.
+// Treats each pair as the index of its first body says.
 class Misbehaving final : public NarrowPhase {
  public:
   void bind(std::span<const Shape>) override {}

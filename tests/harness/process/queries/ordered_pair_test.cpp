@@ -1,3 +1,4 @@
+// Tests the exchange of bodies in a pair and its outcome.
 #include "harness/process/queries/ordered_pair.h"
 
 #include <gtest/gtest.h>
