@@ -1,3 +1,4 @@
+// Tests of campaign files.
 #include "harness/campaign/campaign.h"
 
 #include <gmock/gmock.h>

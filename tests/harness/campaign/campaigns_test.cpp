@@ -1,4 +1,4 @@
-// The campaigns that come with the project can be read, and name scenes that are there.
+// Tests that the project's campaigns can be read, and that their scenes exist.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace touchstone {
 namespace {
 
 TEST(Campaigns, AllAreReadAndTheirScenesAreThere) {
-  // They name peers.
+  // The campaigns name peers, which must be built.
   for (const BroadPhaseEntry& entry : broad_phases()) {
     if (!is_built(entry.info)) GTEST_SKIP() << entry.info.name << ": " << entry.info.reason;
   }

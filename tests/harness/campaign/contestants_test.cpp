@@ -1,4 +1,4 @@
-// What contestants do wrong costs only themselves, and what they do slowly is found.
+// Tests that the errors of contestants cost only themselves, and that slowness is found.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ struct Harm {
   FakeCampaign fakes;
   campaign::RunResult result;
   std::vector<record::RawRow> lost;    // rows of the bad one without a good status
-  std::map<std::string, int> samples;  // rows of find_pairs
+  std::map<std::string, int> samples;  // the number of rows of find_pairs
 
   Harm(int when, const FakeBroadPhase::Hook& harm, std::string_view status,
        double time_limit = 60) {
@@ -71,8 +71,8 @@ struct Harm {
   }
 };
 
-// In the check pass, in a worker's first pass, and in its samples: each instance starts to count
-// anew, and the first pass goes over the same frames as the check.
+// These are calls in the check pass, in a worker's first pass, and in its samples: each instance
+// counts from 1, and the first pass plays the frames of the check.
 constexpr int in_check = 2;
 // The pass that counts allocations plays the frames twice.
 constexpr int in_samples = 2 * FakeCampaign::frames + 2;
@@ -136,7 +136,7 @@ TEST(Contestants, AWrongAnswerIsNotTimed) {
 TEST(Contestants, AnotherAnswerInAWorkerThanInTheCheckIsWrong) {
   FakeCampaign fakes;
   fakes.fakes = {fake("good", [](int, PairSink&) {})};
-  fakes.fakes[0].info.origin = Origin::ours;  // the baseline, which has a twin
+  fakes.fakes[0].info.origin = Origin::ours;  // it is the baseline, which has a twin
   BroadPhaseEntry wide;
   wide.info.name = "wide";
   wide.info.origin = Origin::ours;
@@ -161,7 +161,7 @@ TEST(Contestants, AnotherAnswerInAWorkerThanInTheCheckIsWrong) {
 }
 
 TEST(Contestants, WhatARoundToldGoesWithItWhenItIsMeasuredAgain) {
-  // Crashes once, whoever asks.
+  // It crashes once, in whichever process comes first.
   const auto crashes = std::make_shared<process::SharedArray<std::atomic<int>>>(1);
   FakeCampaign fakes;
   fakes.fakes = {fake("good", [](int, PairSink&) {}), fake("bad", [=](int call, PairSink&) {
@@ -174,9 +174,9 @@ TEST(Contestants, WhatARoundToldGoesWithItWhenItIsMeasuredAgain) {
   EXPECT_EQ(first.findings.rows()[row].status, record::RowStatus::crashed);
   EXPECT_EQ(record::read_rows<record::Departure>(fakes.out() / "departures.csv").size(), 1u);
 
-  // As if it had been stopped in that round.
+  // The file is cut as if the run had been stopped in that round.
   const std::string raw = fakes.folder.read("out/raw.csv");
-  // It was the first round after the check.
+  // That round was the first after the check.
   const std::size_t crash = raw.find(",crashed,");
   stop_run(fakes.out(), raw.find('\n', raw.rfind(",check,", crash)) + 1, raw.find('\n', crash) + 1);
   const campaign::RunResult again =
@@ -188,7 +188,7 @@ TEST(Contestants, WhatARoundToldGoesWithItWhenItIsMeasuredAgain) {
 }
 
 TEST(Contestants, WhereAWholeGroupIsGoneTheOthersStopAllTheSame) {
-  // Two groups of one set; the second, with the baseline, is gone from its first sample on.
+  // The set has two groups; the second, with the baseline, is lost from its first sample on.
   const auto crash = [](int call, PairSink&) {
     if (call >= in_samples) std::raise(SIGSEGV);
   };
@@ -221,15 +221,15 @@ TEST(Contestants, OneThatSleepsLongerIsSlower) {
   for (const double seconds : times.times("second", true)) EXPECT_GE(seconds, 4000e-6);
 }
 
-// From here on times are exact: those of fakes on a clock of their own.
+// The times below are exact: they are those of fakes on a clock of their own.
 double jittered(double seconds, base::Random& random) {
   return seconds * std::exp(random.uniform(-0.2, 0.2));
 }
 
 class ExactTimes : public testing::Test {
  protected:
-  // Three contestants whose times are spread by a tenth: one, its like, and one that has 5 % more
-  // to do.
+  // Makes three contestants whose times are spread by a tenth: one, its equal, and one with 5 %
+  // more work.
   void fill() {
     const auto like = [](int, base::Random& random) { return jittered(100e-6, random); };
     fakes_.fakes = {timed_fake("first", 1, like), timed_fake("like", 2, like),
@@ -271,7 +271,7 @@ TEST_F(ExactTimes, AFewPercentMoreToDoAreFoundAndTwinsAreNotToldApart) {
   }
 }
 
-// The last row of the only set.
+// Returns the last row of the only set.
 record::RawRow last_row(const campaign::RunResult& result) { return result.findings.rows().back(); }
 
 TEST_F(ExactTimes, RepetitionEndsWhereTheIntervalIsNarrow) {
@@ -297,7 +297,7 @@ TEST_F(ExactTimes, RepetitionEndsWithTheLastLook) {
 TEST_F(ExactTimes, RepetitionEndsWithTheBudget) {
   fill();
   campaign::Campaign campaign = fakes_.campaign({});
-  campaign.groups[0].seconds = 1e-9;  // four times as much before there is an interval
+  campaign.groups[0].seconds = 1e-9;  // four times as much are spent before there is an interval
   const campaign::RunResult result = campaign::run_campaign(campaign, fakes_.out());
   EXPECT_EQ(last_row(result).stop, "budget");
   EXPECT_EQ(last_row(result).square, 0);
@@ -332,7 +332,7 @@ TEST_F(ExactTimes, ATwinThatIsOneMakesNoneSuspect) {
 }
 
 TEST_F(ExactTimes, ARoundThatWasDisturbedDoesNotCount) {
-  // Every round: there is then no interval to end by, and none to make a set suspect.
+  // Every round is flagged: then there is no interval that could end the set or make it suspect.
   measure::noise_judge() = [](const measure::NoiseReading&, const measure::NoiseReading&, double,
                               double) { return std::string("steal"); };
   fill();

@@ -1,4 +1,4 @@
-// Broad phases that are right until they do something, and campaigns of them.
+// Broad phases that are right until a hook interferes, and campaigns of them.
 #pragma once
 
 #include <atomic>
@@ -21,8 +21,8 @@
 
 namespace touchstone {
 
-// The naive one, which calls hook(call, sink) at the end of each find_pairs; calls are counted from
-// 1 in each instance.
+// The naive broad phase, which calls hook(call, sink) at the end of each find_pairs; calls are
+// counted from 1 in each instance.
 class FakeBroadPhase final : public BroadPhase {
  public:
   using Hook = std::function<void(int call, PairSink& sink)>;
@@ -52,8 +52,8 @@ inline BroadPhaseEntry fake(const std::string& name, const FakeBroadPhase::Hook&
   return entry;
 }
 
-// The clock of the process that a fake works in: nothing but its work moves it, so that times are
-// exact on any machine.
+// The clock of the process that a fake works in: only the fake's work moves it, so times are exact
+// on any machine.
 class FakeClock {
  public:
   static void start() {
@@ -68,8 +68,9 @@ class FakeClock {
   inline static base::Stopwatch::Clock::time_point now_;
 };
 
-// One that takes so many seconds for a frame by that clock. Its instances are numbered in the order
-// in which they are made: 0 is the check's; then each process of a campaign makes one, and where it
+// The seconds that a broad phase takes for a frame by that clock. Its instances are numbered in the
+// order of their construction: 0 is the check's; then each process of a campaign makes one, or for
+// the baseline two, itself and its twin.
 // is the baseline two, itself and its twin.
 using Cost = std::function<double(int instance, base::Random& random)>;
 inline BroadPhaseEntry timed_fake(const std::string& name, std::uint64_t seed, const Cost& cost) {
@@ -85,7 +86,7 @@ inline BroadPhaseEntry timed_fake(const std::string& name, std::uint64_t seed, c
   return entry;
 }
 
-// No round is flagged while it lives, whatever else the machine does.
+// While it lives no round is flagged, whatever other work the machine does.
 class QuietMachine {
  public:
   QuietMachine() {
@@ -97,11 +98,11 @@ class QuietMachine {
   QuietMachine& operator=(const QuietMachine&) = delete;
 };
 
-// One block of a small scene, without narrow phases.
+// A campaign of one block of a small scene, without narrow phases.
 struct FakeCampaign {
   static constexpr int frames = 3;
   TemporaryFolder folder;
-  std::vector<BroadPhaseEntry> fakes;  // to be filled before campaign()
+  std::vector<BroadPhaseEntry> fakes;  // the test fills it before campaign()
   double time_limit = 60;              // more than a frame takes on the busiest machine
 
   campaign::Campaign campaign(std::optional<int> squares) const {
@@ -114,7 +115,7 @@ struct FakeCampaign {
     group.threads = {1};
     for (const BroadPhaseEntry& entry : fakes) group.broad.push_back(&entry);
     group.squares = squares;
-    group.seconds = 0.05;  // short samples
+    group.seconds = 0.05;  // gives short samples
     group.time_limit = time_limit;
     group.memory_limit = std::size_t{256} << 20;
     campaign.groups.push_back(group);

@@ -1,4 +1,4 @@
-// A run that was stopped at any moment and goes on ends with the rows of one that was not.
+// Tests that a run that is stopped at any moment and resumed has the rows of an uninterrupted run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -40,7 +40,7 @@ class Resume : public testing::Test {
   campaign::Campaign campaign() const { return campaign::read_campaign(folder_.path() / "c.toml"); }
   std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
 
-  // Rows by what tells them apart, with how often each is there.
+  // The identifying columns of rows, with the number of rows that have them.
   using Key =
       std::tuple<record::RowKind, std::int64_t, std::string, std::optional<Task>, std::string, bool,
                  std::int64_t, std::int64_t, std::int64_t, std::int64_t, record::Phase, bool>;
@@ -55,7 +55,8 @@ class Resume : public testing::Test {
     return keys;
   }
 
-  // The run in a process of its own: its status as waitpid tells it. `seconds` < 0: not killed.
+  // Runs in a process of its own and returns its status, as from waitpid. `seconds` < 0: not
+  // killed.
   int run_apart(
       const std::string& name, record::FolderStart start, double seconds,
       const std::function<void()>& prepare = [] {}) const {
@@ -148,7 +149,7 @@ TEST_F(ResumeStopped, AFreshRunDoesNotOverwriteIt) {
   EXPECT_EQ(folder_.read("out/raw.csv"), before);
   campaign::run_campaign(campaign(), out("out"), record::FolderStart::overwrite);
   EXPECT_EQ(keys(out("out")), expected_);
-  campaign::run_campaign(campaign(), out("out"));  // it was finished
+  campaign::run_campaign(campaign(), out("out"));  // the run was finished
 }
 
 TEST_F(ResumeStopped, AnotherCampaignSceneOrMachineIsRefused) {

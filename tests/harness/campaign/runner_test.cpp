@@ -1,3 +1,4 @@
+// Tests of the rows of whole runs.
 #include "harness/campaign/runner.h"
 
 #include <gmock/gmock.h>
@@ -60,19 +61,20 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
   EXPECT_EQ(checks[record::Phase::build], 2);
   EXPECT_EQ(checks[record::Phase::update], 4);
   EXPECT_EQ(checks[record::Phase::find_pairs], 6);
-  // gjk and sat, two tasks, three frames, six kinds of pairs.
+  // The factors are gjk and sat, two tasks, three frames, six kinds of pairs.
   EXPECT_EQ(checks[record::Phase::narrow], 2 * 2 * 3 * 6);
   ASSERT_EQ(hashes.size(), 3u);
   for (const auto& [frame, set] : hashes) EXPECT_EQ(set.size(), 1u);
-  // Two contestants and the twin: squares of three rounds.
+  // Two contestants and the twin make squares of three rounds.
   EXPECT_EQ(samples[record::Phase::update], 6 * 3 * 3);
   EXPECT_EQ(samples[record::Phase::find_pairs], 6 * 3 * 3);
   EXPECT_EQ(processes["uniform-grid"], (std::set<std::int64_t>{0, 1, 2}));
-  EXPECT_EQ(stops, 1 + 2 * 6);  // a set
+  EXPECT_EQ(stops, 1 + 2 * 6);  // one for each set
   EXPECT_TRUE(std::filesystem::exists(out() / "machine.csv"));
 }
 
-// Every broad phase with some narrow phases, and every narrow phase with one broad phase.
+// The campaign has every broad phase with some narrow phases, and every narrow phase with one broad
+// phase.
 TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
   const campaign::Campaign c = campaign(
       "threads = [1, 3]\npairing = 'product'\nframes = 2\n"
@@ -99,7 +101,7 @@ TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
   EXPECT_GE(combinations.size(), 20u);
 }
 
-// What comes and goes, jumps or moves is checked frame by frame like everything else.
+// Bodies that come and go, jump or move are checked frame by frame like all others.
 TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
   const campaign::Campaign c =
       campaign("broad = ['ours', 'peers']\nnarrow = 'gjk'\nsquares = 6\nthreads = 2");
@@ -152,7 +154,7 @@ TEST_F(Runner, RebuildsHoldsInstructionsDownAndMeasuresTheLimit) {
   ASSERT_EQ(samples.size(), 4u);
   const std::map<std::string, int> each = {{"naive", 6}, {"sweep-and-prune", 6}, {"limit", 6}};
   for (const auto& [block, counts] : samples) EXPECT_EQ(counts, each) << block;
-  // Four sets, not one.
+  // The results have four sets, not one.
   const stats::Results read = stats::read_results(out());
   EXPECT_EQ(read.sets.size(), 4u);
   const stats::Tables tables = stats::make_tables(read, stats::Noise::kept);
@@ -174,7 +176,7 @@ TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
       "counts = [100, 200]\nframes = 2\n";
   const campaign::RunResult all = campaign::run_campaign(campaign(text), out());
   for (const record::RawRow& row : all.findings.rows()) EXPECT_FALSE(row.lost());
-  // Nobody is so fast.
+  // No algorithm is so fast.
   const campaign::RunResult none =
       campaign::run_campaign(campaign(text + "time_limit = 1e-9"), out());
   int tried = 0, left_out = 0;
@@ -187,7 +189,7 @@ TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
   }
   EXPECT_EQ(tried, 2);
   EXPECT_EQ(left_out, 2 * 3) << "the same at two threads, and with more bodies";
-  // A limit that grows faster than the count is another question.
+  // A limit that grows faster than the count is not skipped.
   const campaign::RunResult more = campaign::run_campaign(
       campaign("broad = 'naive'\nnarrow = 'none'\nthreads = 1\nsquares = 6\nframes = 2\n"
                "[[group]]\ncounts = 100\ntime_limit = 1e-9\n"
@@ -207,7 +209,7 @@ TEST_F(Runner, TablesNameEveryAlgorithm) {
   for (const BroadPhaseEntry* entry : c.groups[0].broad) {
     EXPECT_THAT(text, testing::HasSubstr("| " + entry->info.name + " |"));
   }
-  // Those that take a pair of kinds that the scene has.
+  // These are the narrow phases that take a pair of kinds of the scene.
   constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::box, ShapeKind::hull};
   for (const measure::NarrowChoice& choice : c.groups[0].narrow) {
     bool takes_some = false;

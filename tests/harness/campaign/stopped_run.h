@@ -1,4 +1,4 @@
-// A finished run that is made to look as if it had been killed.
+// A finished run that is cut as if it had been killed.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ inline std::string whole_file(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Where the first line ends, behind its line feed.
+// Returns the end of the first line, behind its line feed.
 inline std::size_t end_of_first_line(const std::string& text) { return text.find('\n') + 1; }
 
 // Cuts raw.csv after `bytes`; the last whole unit ends after `whole` bytes of it. departures.csv is
@@ -54,7 +54,7 @@ inline void stop_run(const std::filesystem::path& folder, double part) {
     std::string round;
     for (std::size_t i = 0; i < names.size(); ++i) {
       for (const char* name : {"kind", "block", "task", "pair_kind", "square", "round"}) {
-        // A check pass is one unit, whatever its rows are about.
+        // A check pass is one unit, even if its rows are about several algorithms.
         if (names[i] == name && (row[1] == "sample" || i <= 2)) round += row[i] + ",";
       }
     }

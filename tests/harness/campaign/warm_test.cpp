@@ -1,4 +1,4 @@
-// Warm contestants: each pair's memory, the order of frames, and what a campaign says of them.
+// Tests of warm contestants: each pair's memory, the order of frames, and the rows of a campaign.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ measure::NarrowSet random_set(base::Random& random, std::uint32_t bodies, std::s
     for (std::uint32_t a = 0; a < bodies; ++a) {
       for (std::uint32_t b = 0; b < a; ++b) {
         if (random.below(3) != 0) continue;
-        const bool swap = (a + b) % 2 == 0;  // the first of a kind may have the greater number
+        const bool swap = (a + b) % 2 == 0;  // then the first of a kind has the greater number
         group.first.push_back(swap ? a : b);
         group.second.push_back(swap ? b : a);
       }
@@ -97,7 +97,7 @@ class Warm : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// Whatever windows are asked for, and by however many workers, a frame's answers are the same.
+// The answers to a frame are equal for all windows and numbers of workers.
 TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
   const scene::Scene scene = scene::load_scene(folder_.path() / "pairs.toml");
   const measure::BlockInput input(scene, scene::BoxKind::tight, true);
@@ -134,13 +134,13 @@ TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
       }
       EXPECT_EQ(narrow.sample(request).outcome_hash, expected);
       EXPECT_EQ(wide.sample(request).outcome_hash, expected);
-      // And they are in the order of the set.
+      // The answers are in the order of the set.
       const std::size_t first = outcomes[request.frame].size();
       ASSERT_GE(wide.outcomes().size(), first);
       for (std::size_t i = 0; i < first; ++i) {
         EXPECT_EQ(wide.outcomes()[i].answer, outcomes[request.frame][i].answer);
       }
-      // Counting between does not change what follows.
+      // A count between samples does not change later answers.
       narrow.sample({.set = set, .frame = 3});
       narrow.count_allocations({.set = set, .frame = 3});
       EXPECT_EQ(narrow.sample({.set = set, .frame = 4}).outcome_hash, hash[4]);
@@ -198,7 +198,7 @@ TEST_F(Warm, StandsBesideColdOnesInRowsAndTables) {
   EXPECT_THAT(planned, testing::Contains("sat double warm"));
 }
 
-// Pairs that come and go, on what broad phases report.
+// The pairs come and go, as broad phases report them.
 TEST_F(Warm, TakesPairsThatComeAndGo) {
   const campaign::Campaign c = campaign(
       "scenes = 'moving.toml'\nnarrow = ['gjk']\nwarm = true\npairing = 'product'\n[[group]]\n"

@@ -1,4 +1,4 @@
-// The counters that stand beside the times: in the check's rows, and in those of the samples.
+// Tests of the counters beside the times: in the check's rows, and in those of the samples.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@
 namespace touchstone {
 namespace {
 
-// Like the fakes, with counters; and it allocates a little in each update and find_pairs.
+// A naive broad phase with counters, which allocates a little in each update and find_pairs.
 class Counting final : public BroadPhase {
  public:
   explicit Counting(Executor& executor) : naive_(find_broad_phase("naive")->make(executor)) {}
@@ -32,7 +32,7 @@ class Counting final : public BroadPhase {
   Status find_pairs(PairSink& sink) override {
     ask_for(100);
     ask_for(200);
-    if (!warm_) kept_.resize(1 << 20);  // only ever once
+    if (!warm_) kept_.resize(1 << 20);  // allocates only once
     warm_ = true;
     return naive_->find_pairs(sink);
   }
@@ -76,7 +76,7 @@ TEST(WorkColumns, OfTheCheck) {
       EXPECT_EQ(row.allocated_bytes, -1);
       continue;
     }
-    // Warm: the naive one below asks for nothing, and what is kept is there.
+    // The algorithm is warm: the naive one inside allocates nothing, and its buffers exist.
     const bool update = row.phase == record::Phase::update;
     EXPECT_EQ(row.allocations, query ? 2 : update ? 1 : 0) << row.frame;
     EXPECT_EQ(row.allocated_bytes, query ? 300 : update ? 10 : 0) << row.frame;
@@ -84,7 +84,7 @@ TEST(WorkColumns, OfTheCheck) {
   EXPECT_EQ(rows, 2 * FakeCampaign::frames);
 }
 
-// Converts its boxes in a time that depends on how many there are; the first time is cold.
+// A peer that converts boxes in a time proportional to their number; the first time is cold.
 class Converting final : public PeerBroadPhase {
  public:
   explicit Converting(Executor& executor) : naive_(find_broad_phase("naive")->make(executor)) {
@@ -134,7 +134,7 @@ TEST(WorkColumns, NothingIsCountedWhereTimeIsTaken) {
   EXPECT_GT(rows, 0);
 }
 
-// The pass that counts is apart: what goes wrong in it alone is not counted, and is no failure of
+// The pass that counts is separate: a failure in it alone leaves counts out, and is no failure of
 // the check.
 TEST(WorkColumns, ACrashWhileCountingLeavesThemEmpty) {
   const campaign::RunResult result = run_counting(true);
@@ -151,7 +151,7 @@ TEST(WorkColumns, ACrashWhileCountingLeavesThemEmpty) {
   EXPECT_TRUE(checked);
 }
 
-// Takes so much in its frame 1, and gives it back.
+// Takes this much memory in its frame 1, and frees it.
 class Greedy final : public measure::Sampler {
  public:
   explicit Greedy(std::size_t bytes) : bytes_(bytes) {}
@@ -173,7 +173,7 @@ TEST(PeakMemory, IsWhatTheContestantTookBeyondTheHarness) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer's own memory comes on top";
 #endif
-  const std::vector<char> harness(std::size_t{200} << 20, 'x');  // none of the worker's
+  const std::vector<char> harness(std::size_t{200} << 20, 'x');  // it does not belong to the worker
   constexpr std::int64_t taken_kb = 64 << 10;
   measure::Worker worker([] { return std::make_unique<Greedy>(std::size_t{taken_kb} << 10); },
                          {.layout = 3});

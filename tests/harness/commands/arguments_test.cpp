@@ -1,3 +1,4 @@
+// Tests of the command line.
 #include "harness/commands/arguments.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of touchstone check.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,7 +64,7 @@ TEST_F(CheckCommand, GradesOursAndFindsThemWithinTheirMargins) {
 
 TEST_F(CheckCommand, APeersDefectIsNoFailureAndIsReplayed) {
   if (find_narrow_phase("libccd-gjk")->make == nullptr) GTEST_SKIP() << "libccd is not built";
-  // Gaps that libccd takes for overlaps.
+  // libccd reports these gaps as overlaps.
   const Ran ran = check("--narrow libccd-gjk --broad none --regimes gap-1e-9 --cases 20");
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(column("grades.csv", "verdict"), testing::Contains("silent_error"));

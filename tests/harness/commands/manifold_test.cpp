@@ -1,3 +1,4 @@
+// Tests of touchstone manifold.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ const std::vector<std::string> columns = {"id",       "algorithm", "scalar",   "
                                           "depth",    "a_x",       "a_y",      "a_z",    "b_x",
                                           "b_y",      "b_z",       "feature"};
 
-// A cube on a box, one far above it, and a ball in a plane.
+// The cases are a cube on a box, one far above it, and a ball in a plane.
 const std::string cube_on_cube =
     R"({"id":"on","a":{"shape":{"type":"box","half_extents":[2,2,1]}},)"
     R"("b":{"shape":{"type":"box","half_extents":[1,1,1]},"translation":[0,0,1.75]}})"

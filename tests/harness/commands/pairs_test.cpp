@@ -1,3 +1,4 @@
+// Tests of touchstone pairs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ constexpr const char* header = "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n";
 const std::vector<std::string> columns = {"frame",      "algorithm", "threads", "status",
                                           "pair_count", "pair_hash", "seconds"};
 
-// Some frames in which boxes move, come and go.
+// Makes some frames in which boxes move, come and go.
 std::string random_boxes(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> check::place(0, 10), size(0, 3);
@@ -50,7 +51,7 @@ std::string random_boxes(unsigned seed) {
   return text;
 }
 
-// By the definition, one list a frame.
+// Finds the pairs by the definition, one list a frame.
 std::vector<std::vector<IndexPair>> all_pairs(const std::filesystem::path& file) {
   std::vector<std::vector<IndexPair>> lists;
   for (const scene::BoxFrame& frame : scene::read_box_frames(file)) {
@@ -104,7 +105,8 @@ TEST_F(PairsCommand, EveryBroadPhaseGivesTheRowsOfTheContract) {
 }
 
 TEST_F(PairsCommand, TheHashIsTheContracts) {
-  // The sum over the pairs (0,1) and (0,2), each mixed as the contract says, worked out apart.
+  // The expected hash is the sum over the pairs (0,1) and (0,2), each mixed as the contract says,
+  // computed separately.
   const auto file = folder.write(
       "in.csv", std::string(header) + "0,0,0,0,0,9,9,9\n0,1,1,1,1,2,2,2\n0,2,9,9,9,9,9,9\n");
   ASSERT_EQ(

@@ -1,4 +1,4 @@
-// The scripts in plots/, as `touchstone plot` runs them.
+// Tests of the scripts in plots/, through `touchstone plot`.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -8,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-// Runs the first Python with matplotlib.
+// The command runs the first Python with matplotlib.
 const std::string python = std::string(project_folder) + "/plots/python";
 
 bool has_matplotlib() { return run_shell(python + " -c ''").status == 0; }
@@ -18,7 +18,7 @@ Ran plot(const std::string& arguments) {
                    "/plots/plot.py --program " TOUCHSTONE_PROGRAM " " + arguments);
 }
 
-// Scenes at three counts and two widths, with a peer, and narrow phases that fail and err.
+// Makes scenes at three counts and two widths, with a peer, and narrow phases that fail and err.
 FakeRun varied_run() {
   FakeRun run;
   for (const std::string scene : {"uniform", "rotating_gravity"}) {

@@ -1,4 +1,4 @@
-// The program, run as a user runs it.
+// Runs the program as a user runs it.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -18,8 +18,8 @@
 namespace touchstone {
 
 struct Ran {
-  int status = -1;   // the exit status; -1 where a signal ended it
-  std::string text;  // what it printed, to either stream
+  int status = -1;   // the exit status; -1 if a signal ended it
+  std::string text;  // its output, of both streams
 };
 
 // Runs a command of the shell.
@@ -41,7 +41,7 @@ inline Ran run_program(const std::string& arguments) {
   return run_shell(TOUCHSTONE_PROGRAM " " + arguments);
 }
 
-// Runs it, and expects status 2, this text and nothing left behind in the folder.
+// Runs it, and expects status 2, this text and no new file in the folder.
 inline void expect_refusal(const std::string& arguments, const std::string& text,
                            const TemporaryFolder& folder) {
   const auto before = folder.names();
@@ -51,7 +51,7 @@ inline void expect_refusal(const std::string& arguments, const std::string& text
   EXPECT_EQ(folder.names(), before) << arguments;
 }
 
-// The rows of a CSV file with these columns.
+// Returns the rows of a CSV file with these columns.
 inline std::vector<std::vector<std::string>> read_rows(const std::filesystem::path& file,
                                                        const std::vector<std::string>& columns) {
   std::vector<std::vector<std::string>> rows;

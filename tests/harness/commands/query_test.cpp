@@ -1,3 +1,4 @@
+// Tests of touchstone query.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,8 +24,8 @@ const std::vector<std::string> columns = {
     "lower", "upper",     "normal_x", "normal_y", "normal_z",   "a_x",          "a_y",
     "a_z",   "b_x",       "b_y",      "b_z",      "iterations", "support_calls"};
 
-// Two balls of radius 1 whose centres are this far apart on x, in either order of their kinds with
-// a box of the same reach.
+// Returns two balls of radius 1 whose centres are this far apart on x, in either order of their
+// kinds with a box of equal reach.
 std::string two_balls(const std::string& id, double distance) {
   return fmt::format(R"({{"id":"{}","a":{{"shape":{{"type":"sphere","radius":1}}}},)"
                      R"("b":{{"shape":{{"type":"sphere","radius":1}},"translation":[{},0,0]}}}})"
@@ -57,7 +58,7 @@ class QueryCommand : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder.path() / name).string(); }
 
-  // The rows for all that is built, after checks that hold for every algorithm.
+  // Returns the rows of all algorithms that are built, after checks that hold for every algorithm.
   std::vector<std::vector<std::string>> query(const std::string& cases, const std::string& task,
                                               const std::string& more = "") {
     const auto file = folder.write("in.jsonl", cases);
@@ -125,7 +126,7 @@ TEST_F(QueryCommand, PlainCasesByEveryAlgorithm) {
 
 TEST_F(QueryCommand, DistancesWitnessesAndNormalsInTheOrderOfTheCase) {
   if (built_names().empty()) GTEST_SKIP() << "no narrow phase is built";
-  // The box comes first although kinds are handed over as (sphere, box).
+  // The box comes first although kinds are passed as (sphere, box).
   for (const auto& row : query(box_and_ball("far", 4) + box_and_ball("deep", 1.5), "distance")) {
     if (row[5] != "ok" && row[5] != "not_reported") continue;
     if (row[0] == "deep") {
@@ -224,7 +225,7 @@ TEST_F(QueryCommand, BadRequests) {
   }
 }
 
-// Cases that broke libraries, where they are at hand.
+// The cases are those that broke libraries, if they are present.
 TEST_F(QueryCommand, SharedCases) {
   const char* const shared = std::getenv("TOUCHSTONE_SHARED");
   if (shared == nullptr) GTEST_SKIP() << "TOUCHSTONE_SHARED is not set";

@@ -1,3 +1,4 @@
+// Tests of touchstone record.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// touchstone run and draw, as a user runs them.
+// Tests of touchstone run and draw, through the program.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/prctl.h>
@@ -107,7 +107,7 @@ TEST_F(RunCommand, ADryRunTellsCellsAndTimesAndLeavesNothing) {
   EXPECT_THAT(ran.text, testing::HasSubstr("about 28 s for the samples"));
 }
 
-// A processor is asked for by somebody else all the time.
+// A process that uses a processor all the time.
 class Spinner {
  public:
   Spinner() : pid_(fork()) {
@@ -135,7 +135,7 @@ TEST_F(RunCommand, StrictRefusesABusyMachine) {
 
 class StoppedRun : public RunCommand {
  protected:
-  // A run of which half is gone, as after a kill.
+  // Makes a run of which half is gone, as after a kill.
   StoppedRun() {
     write_campaign("");
     const Ran ran = commands::run_program(command(""));
@@ -161,7 +161,7 @@ class StoppedRun : public RunCommand {
     ASSERT_NE(at, std::string::npos) << old;
     folder_.write("out/" + name, all.replace(at, old.size(), text));
   }
-  // Refuses with no unit of the files lost; one that was cut off may go.
+  // Expects a refusal that loses no unit of the files; a line that was cut off may go.
   void expect_refused(const std::string& text, const std::string& flags = "--resume") {
     const std::string raw = folder_.read("out/raw.csv");
     const std::string machine = folder_.read("out/machine.csv");
@@ -195,7 +195,7 @@ TEST_F(StoppedRun, GoesOnWhereNoRowWasWrittenYet) {
 TEST_F(StoppedRun, IsOverwrittenOnRequestOnly) {
   expect_refused("--overwrite", "");
   expect_whole("--overwrite");
-  expect_whole("");  // it was finished
+  expect_whole("");  // the run was finished
 }
 
 TEST_F(StoppedRun, ResumeAndOverwriteExcludeEachOther) {

@@ -1,3 +1,4 @@
+// Tests of the counts of heap calls.
 #include "harness/measure/allocations.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ class Counted : public testing::Test {
   }
 };
 
-// Kept from being optimised away.
+// A global that keeps the compiler from removing allocations.
 void* volatile kept = nullptr;
 
 TEST_F(Counted, WhatIsAskedFor) {
@@ -63,7 +64,7 @@ TEST_F(Counted, WhatOperatorNewAndTheCLibraryAskFor) {
   operator delete[](kept, line);
   EXPECT_EQ(count.so_far().calls, 2);
   EXPECT_EQ(count.so_far().bytes, 232);
-  char* const copy = strdup("seven..");  // a library's own call
+  char* const copy = strdup("seven..");  // a call inside a library
   kept = copy;
   std::free(copy);
   EXPECT_EQ(count.so_far().calls, 3);
@@ -79,7 +80,7 @@ TEST_F(Counted, OtherThreadsToo) {
     }
   }).join();
   EXPECT_GE(count.so_far().calls, 1000);
-  EXPECT_LT(count.so_far().calls, 1020);  // the thread itself
+  EXPECT_LT(count.so_far().calls, 1020);  // the thread's own calls are among them
   EXPECT_GE(count.so_far().bytes, 1000 << 10);
 }
 

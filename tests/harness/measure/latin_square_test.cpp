@@ -1,3 +1,4 @@
+// Tests of the order of contestants.
 #include "harness/measure/latin_square.h"
 
 #include <gtest/gtest.h>

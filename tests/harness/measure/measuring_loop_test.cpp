@@ -1,3 +1,4 @@
+// Tests of the measuring loop with contestants that only count.
 #include "harness/measure/measuring_loop.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +17,7 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::SizeIs;
 
-// Anything can be measured: it tells how often it was asked, and crashes at a call of its choice.
+// A sampler that reports the number of its calls, and crashes at a chosen call.
 class Counter final : public measure::Sampler {
  public:
   explicit Counter(int crash_at) : crash_at_(crash_at) {}
@@ -41,7 +42,7 @@ class Job : public measure::MeasuringJob {
  public:
   std::vector<measure::Round> rounds;
   std::vector<std::size_t> lost_at_start;
-  std::set<std::size_t> without_time;  // processes
+  std::set<std::size_t> without_time;  // numbers of processes
   std::int64_t wrong_pairs = -1;
   int most_calls = 1 << 20;
 
@@ -114,7 +115,8 @@ TEST(measure::MeasuringLoop, EveryRoundHasEachContestantInAnOrderOfItsOwn) {
       EXPECT_EQ(sample.contestant, order[i % 3][position]);
       EXPECT_EQ(sample.position, static_cast<std::int64_t>(position));
       EXPECT_EQ(sample.reply.durations.of("work"), 2e-3);
-      // A worker is warm within its process: one untimed call, and the samples before this one.
+      // A worker is warm within its process: it has had one untimed call, and the samples before
+      // this one.
       EXPECT_EQ(sample.reply.pairs, static_cast<std::int64_t>(2 + i % 6));
       of_position[{round.square, sample.position}].insert(sample.contestant);
     }
@@ -187,12 +189,12 @@ TEST(measure::MeasuringLoop, SetsOfTheirOwnWorkersBeginAsLongAsThereIsTime) {
   }
   EXPECT_THAT(order, ElementsAre(std::pair(0u, 0), std::pair(0u, 0), std::pair(1u, 0),
                                  std::pair(0u, 2), std::pair(0u, 2), std::pair(1u, 2)));
-  EXPECT_EQ(job.rounds[2].request.frame, 3u);  // behind the untimed window
+  EXPECT_EQ(job.rounds[2].request.frame, 3u);  // it begins behind the untimed window
 }
 
 TEST(measure::MeasuringLoop, EndsWhereTheJobSays) {
   Job job;
-  job.most_calls = 4;  // two starts, and a round after which it goes on
+  job.most_calls = 4;  // two starts, and a round after which it continues
   measure::MeasuringLoop(plan_of({counter("a"), counter("b")}, 6, 1), job).run();
   EXPECT_THAT(job.rounds, SizeIs(2));
 }

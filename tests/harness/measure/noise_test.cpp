@@ -1,3 +1,4 @@
+// Tests of the flags of noisy rounds.
 #include "harness/measure/noise.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A second in which so many seconds were waited and stolen.
+// Returns the flags of a second with these seconds waited and stolen.
 std::string flags(std::optional<double> waited, std::optional<double> stolen,
                   double preempted = 0) {
   measure::NoiseReading before{.waited = 100, .stolen = 7};

@@ -1,3 +1,4 @@
+// Tests that the columns of result files are documented.
 #include "harness/record/findings.h"
 #include "harness/record/raw_row.h"
 #include "tests/harness/columns_page.h"

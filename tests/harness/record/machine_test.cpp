@@ -1,3 +1,4 @@
+// Tests of the facts of the machine.
 #include "harness/record/machine.h"
 
 #include <gmock/gmock.h>
@@ -85,7 +86,7 @@ TEST(Machine, AffinityIsThatOfTheProcess) {
   ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 
-// Facts decide whether a run may go on: they must not change by themselves.
+// Facts decide whether a run may be resumed, so they must not change by themselves.
 TEST(Machine, SaysTheSameTwice) { EXPECT_EQ(record::machine_facts(), record::machine_facts()); }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Tests of folders of results: starts, stops, resumption.
 #include "harness/record/result_folder.h"
 
 #include <gmock/gmock.h>
@@ -125,7 +126,7 @@ TEST_F(ResultFolderTest, UnfinishedWorkIsNotOverwrittenUnasked) {
   EXPECT_EQ(folder_.read("out/a.csv"), "unit,value\n");
   EXPECT_EQ(folder_.read("out/other"), "kept");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/reproductions"));
-  EXPECT_EQ(fault(plan(record::FolderStart::fresh)), "");  // it was finished
+  EXPECT_EQ(fault(plan(record::FolderStart::fresh)), "");  // the earlier work is finished
 }
 
 TEST_F(ResultFolderTest, OtherWorkIsNotResumed) {

@@ -1,3 +1,4 @@
+// Tests of rows: writing, reading, errors, documentation.
 #include "harness/record/row.h"
 
 #include <gmock/gmock.h>
@@ -29,7 +30,7 @@ struct Basket {
   Fruit fruit = Fruit::apple;
   std::optional<Fruit> other;
   std::optional<int> shelf;
-  std::array<std::int64_t, 3> counts{};  // by fruit
+  std::array<std::int64_t, 3> counts{};  // one for each fruit
   double estimate = std::nan("");
   std::int64_t balance = 0;
   std::array<char, 8> code{};
@@ -150,7 +151,7 @@ TEST(Row, ItsColumnsAreDocumented) {
   EXPECT_THAT(docs, HasSubstr("| `plum` | whole number | A count of one fruit. |\n"));
 }
 
-// A row of a request: its fields are places in the request's lists.
+// A row of a request, whose fields are indices into the request's lists.
 struct Owners {
   std::vector<std::string> names, towns;
 };

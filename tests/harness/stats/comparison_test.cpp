@@ -1,3 +1,4 @@
+// Tests of the comparison of two results.
 #include "harness/stats/comparison.h"
 
 #include <gmock/gmock.h>
@@ -76,7 +77,7 @@ TEST_F(Comparison, InterleavedRunsCancelWhatTheyShare) {
   for (int i = 0; i < 8; ++i) {
     FakeRun run = fake_run();
     run.seed = static_cast<std::uint64_t>(i) + 10;
-    // The machine grows slower from run to run, for both.
+    // The machine becomes slower from run to run, for both.
     for (FakeBlock& block : run.blocks) {
       for (FakeContestant& c : block.contestants) c.seconds *= 1 + 0.1 * i;
     }

@@ -1,3 +1,4 @@
+// Tests of published claims.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ TEST(stats::Published, IterationsOfGjkOnEllipsoidsAreAsPublished) {
   const TemporaryFolder folder;
   campaign::run_campaign(campaign, folder.path());
   const stats::Results results = stats::read_results(folder.path());
-  EXPECT_EQ(results.sets.size(), 3u);  // no broad phases: the scenes list their pairs
+  EXPECT_EQ(results.sets.size(), 3u);  // there are no broad phases: the scenes list their pairs
   const auto rows = stats::check_published(campaign.published, results, stats::Noise::kept);
   ASSERT_EQ(rows.size(), 6u);
   for (const stats::PublishedRow& row : rows) {
@@ -36,7 +37,7 @@ TEST(stats::Published, IterationsOfGjkOnEllipsoidsAreAsPublished) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "published.md"));
 }
 
-// Results as the claims meet them.
+// Results that satisfy the claims.
 stats::Results made_up() {
   stats::Results results;
   stats::SampleSet& broad = results.sets.emplace_back();

@@ -1,4 +1,4 @@
-// Results folders with made-up times, for the tests of what reads them.
+// Results folders with made-up times, for tests of their readers.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,13 +16,13 @@ namespace touchstone {
 
 struct FakeContestant {
   std::string name;
-  double seconds = 1e-3;  // of a frame, or of a query
+  double seconds = 1e-3;  // time of a frame, or of a query
   std::string pair_hash = "00000000000000aa";
   std::string status = "ok";
   int disagreements = 0;
   // Columns of its check rows: iterations to allocated_bytes, "" where not counted.
   std::string work = ",,,,,,,";
-  std::string worst_error = {};  // of each of its check rows
+  std::string worst_error = {};  // the value in each of its check rows
 };
 
 inline const char* origin_of(const std::string& name) {
@@ -35,18 +35,19 @@ struct FakeBlock {
   std::string scene = "uniform", scene_hash = "0123456789abcdef";
   int bodies = 1000;
   int threads = 2;
-  std::string task, pair_kind;  // narrow where not empty
+  std::string task, pair_kind;  // set for a narrow phase, else empty
   std::vector<FakeContestant> contestants;
-  bool twin = true;  // of the first contestant
+  bool twin = true;  // true if the first contestant has a twin
   double twin_factor = 1;
-  bool suspect = false;  // the last row says so
+  bool suspect = false;  // true if the last row marks the set as suspect
 };
 
 struct FakeRun {
   std::vector<FakeBlock> blocks;
   int processes = 3, squares = 4, rounds = 4, frames = 8;
-  double spread = 0.002;        // standard deviation of a time's logarithm
-  double square_spread = 0.05;  // the same of what all of a square share
+  double spread = 0.002;  // standard deviation of a time's logarithm
+  // standard deviation of the logarithm that all times of a square share
+  double square_spread = 0.05;
   std::uint64_t seed = 1;
   int noisy_squares = 0;  // the first ones of each process, ten times as slow
   std::string isa = "avx2";
@@ -112,7 +113,7 @@ struct FakeRun {
     return text;
   }
 
-  // The folder, made with raw.csv and machine.csv in it.
+  // Makes the folder with raw.csv and machine.csv, and returns it.
   std::filesystem::path write(const std::filesystem::path& folder) const {
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "raw.csv") << raw();
@@ -123,7 +124,7 @@ struct FakeRun {
   }
 };
 
-// Three broad phases of 1, 2 and 5 ms, and two narrow phases of 100 and 130 ns.
+// Returns three broad phases of 1, 2 and 5 ms, and two narrow phases of 100 and 130 ns.
 inline FakeRun fake_run() {
   FakeRun run;
   FakeBlock broad;

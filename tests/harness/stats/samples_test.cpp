@@ -1,3 +1,4 @@
+// Tests of the reading of samples.
 #include "harness/stats/samples.h"
 
 #include <gmock/gmock.h>
@@ -63,7 +64,7 @@ TEST_F(Samples, TimesAreASumOfPhasesForAUnit) {
 }
 
 TEST_F(Samples, RatiosArePairedBySquare) {
-  // What a square shares, here a factor that varies by half, cancels.
+  // The factor that a square shares, which here varies by half, cancels.
   FakeRun run = fake_run();
   run.square_spread = 0.5;
   const stats::Results results = read(run);
@@ -106,7 +107,8 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
   EXPECT_THAT(fault("ok,check", "ok,chequed"),
               HasSubstr("raw.csv:2: column kind: found 'chequed'; expected one of check, sample"));
   EXPECT_THAT(fault(",find_pairs,", ",find,"), HasSubstr("raw.csv:2: column phase: found 'find'"));
-  EXPECT_THAT(fault(",find_pairs,0.001,", ",find_pairs,-1,"), testing::IsEmpty());  // not read
+  // this row is not read
+  EXPECT_THAT(fault(",find_pairs,0.001,", ",find_pairs,-1,"), testing::IsEmpty());
   EXPECT_THAT(
       fault("sample,0,0,0,0,0,8", "sample,0,0,0,0,0,0"),
       HasSubstr("raw.csv:26: column frames: found '0'; expected a whole number of at least 1"));

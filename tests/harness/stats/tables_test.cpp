@@ -1,3 +1,4 @@
+// Tests of the tables of a results folder.
 #include "harness/stats/tables.h"
 #include "harness/stats/summary.h"
 
@@ -85,7 +86,7 @@ TEST_F(TablesOf, TheBestOfOursAgainstTheBestOfOthers) {
       const double ours = (bodies == 1000 ? 5e-6 : 1e-6 * bodies) / (threads == 2 ? 1.6 : 1);
       block.contestants = {{"sweep-and-prune", 2 * ours},
                            {"uniform-grid", ours},
-                           {"naive", 0.5 * ours, "00000000000000bb"},  // wrong
+                           {"naive", 0.5 * ours, "00000000000000bb"},  // a wrong hash
                            {"limit", 0.25 * ours}};
       if (threads == 1) {
         block.contestants.push_back({"some-peer", 3 * ours});
@@ -96,7 +97,7 @@ TEST_F(TablesOf, TheBestOfOursAgainstTheBestOfOthers) {
       run.blocks.push_back(block);
     }
   }
-  // 'naive' stands for the truth where it is there: here most are right.
+  // 'naive' is the reference if it is present: here most are right.
   for (FakeBlock& block : run.blocks) block.contestants[2].name = "loose-octree";
   const stats::Tables tables = make(run);
   for (const stats::WinnerRow& row : tables.winners) EXPECT_EQ(row.winner, "uniform-grid");
@@ -213,11 +214,11 @@ TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
 }
 
 TEST_F(TablesOf, WorkABodyAPairAndAQuery) {
-  FakeRun run = fake_run();  // 8 frames of 50 pairs, 1000 bodies
+  FakeRun run = fake_run();  // it has 8 frames of 50 pairs, 1000 bodies
   run.blocks[0].contestants[1].work = ",,4000,500,75,32000,3,120";
   run.blocks[1].contestants[0].work = "200,250,,,,,0,0";
   const stats::Tables tables = make(run);
-  ASSERT_EQ(tables.work.size(), 2u);  // who counts nothing has no row
+  ASSERT_EQ(tables.work.size(), 2u);  // a contestant without counts has no row
   const stats::WorkRow& grid = tables.work[0];
   EXPECT_EQ(grid.label, "uniform-grid");
   EXPECT_EQ(grid.frames, 8);
@@ -307,7 +308,7 @@ TEST_F(TablesOf, WorkOfAReferenceIsCheckedToTheDigit) {
                                 HasSubstr("box tests 4000 in the reference, 4001 in these"))));
   EXPECT_THAT(changed("uniform-grid", work, ",,4000,500,75,32000,4,120"),
               ElementsAre(HasSubstr("allocations 3 in the reference, 4 in these")));
-  // A library's allocations are up to its version, and some builds do not count them.
+  // A library's allocations depend on its version, and some builds do not count them.
   EXPECT_THAT(changed("bullet-tree", work, ",,4000,500,75,32000,4,120"), IsEmpty());
   EXPECT_THAT(changed("bullet-tree", work, ",,4000,500,76,32000,3,120"),
               ElementsAre(HasSubstr("candidates 75 in the reference, 76 in these")));
@@ -343,7 +344,7 @@ TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
     }
     return all;
   };
-  // Another, slower machine with the same ratios.
+  // This machine is slower, with the same ratios.
   FakeRun run = fake_run();
   run.seed = 7;
   run.machine["processor"] = "Slow CPU";
@@ -364,7 +365,7 @@ TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
                                                 HasSubstr("is not in these results"))));
 
   run = fake_run();
-  run.squares = 1;  // three squares: no interval
+  run.squares = 1;  // three squares give no interval
   EXPECT_THAT(states(check(run)),
               ElementsAre("uniform-grid undecided", "naive undecided", "mpr double undecided"));
 
@@ -373,7 +374,7 @@ TEST_F(TablesOf, AReferenceIsCheckedCellByCell) {
   EXPECT_THAT(check(run).changed, ElementsAre(HasSubstr("pair hash 00000000000000aa in the "
                                                         "reference, 00000000000000bb in these "
                                                         "results")));
-  // A counter that either does not know is not compared.
+  // A counter that is missing in either is not compared.
   run = fake_run();
   run.blocks[0].contestants[1].work = ",,5,,,,,";
   EXPECT_THAT(check(run).changed, IsEmpty());

@@ -1,3 +1,4 @@
+// Tests of advice.
 #include "harness/trade/advice/advise.h"
 
 #include <gmock/gmock.h>
@@ -31,10 +32,10 @@ TEST(Advise, MeetsTheBudgetThereAndElsewhere) {
     EXPECT_EQ(grade.error, 0);
     EXPECT_GT(grade.near, 100);
   }
-  EXPECT_FALSE(exact.next_better);  // no error is left
+  EXPECT_FALSE(exact.next_better);  // the best has no error
   EXPECT_LT(exact.within_budget, exact.configurations);
 
-  // Without a narrow phase it is the quickest, and wrong; a better one is named.
+  // The configuration without a narrow phase is the quickest, and wrong; a better one is named.
   const trade::Advice rough = asked.advice({.most = 1, .no_false_negatives = true});
   ASSERT_TRUE(rough.best);
   EXPECT_EQ(rough.best->evaluation.errors.false_negatives, 0);
@@ -44,7 +45,7 @@ TEST(Advise, MeetsTheBudgetThereAndElsewhere) {
   EXPECT_LT(rough.next_better->error, rough.best->error);
 }
 
-// Of the usual grids, which have hulls for all kinds of bodies.
+// The request uses the default grids, which have hulls for all kinds of bodies.
 TEST(Advise, SpheresGetTheClosedFormAndNoHullIsBuiltOnTheWay) {
   Asked asked(boxes + "shapes = [\"sphere\"]\n");
   asked.request.grids.clear();
@@ -117,7 +118,7 @@ TEST(Advise, ABudgetWithoutMissesCountsUnansweredContacts) {
   evaluation.errors.bins[0].failed = evaluation.errors.failed = 1;
   EXPECT_EQ(both(), std::pair(true, false));
   evaluation.errors.bins[0].failed = 0;
-  evaluation.errors.bins[trade::gap_bins - 1].failed = 1;  // apart
+  evaluation.errors.bins[trade::gap_bins - 1].failed = 1;  // the bin of separated pairs
   EXPECT_EQ(both(), std::pair(true, true));
   evaluation.errors.false_negatives = 1;
   EXPECT_EQ(both(), std::pair(true, false));

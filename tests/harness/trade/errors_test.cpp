@@ -1,3 +1,4 @@
+// Tests of error counts.
 #include "harness/trade/errors.h"
 
 #include <gmock/gmock.h>
@@ -48,9 +49,9 @@ TEST(TradeErrors, VerdictsAreCountedAtTheirTrueGap) {
   const std::vector<trade::PairAnswer> answers = {
       said(2, 3, Answer::overlapping), said(0, 1, Answer::overlapping),  // false positive
       said(0, 2, Answer::separated),                                     // false negative
-      said(1, 3, Answer::unknown),     said(4, 5, Answer::overlapping),  // not even near
+      said(1, 3, Answer::unknown),     said(4, 5, Answer::overlapping),  // 4-5 is not even near
       said(4, 6, Answer::separated)};
-  count.add(frame, answers);  // 1-2 was not found: false negative
+  count.add(frame, answers);  // 1-2 was not found: a false negative
   const trade::PointErrors errors = count.errors();
   EXPECT_EQ(errors.near, 5);
   EXPECT_EQ(errors.contacts, 3);
@@ -60,7 +61,7 @@ TEST(TradeErrors, VerdictsAreCountedAtTheirTrueGap) {
   EXPECT_EQ(errors.far, 1);
   EXPECT_DOUBLE_EQ(errors.wrong_share(), 5.0 / 6);
   EXPECT_DOUBLE_EQ(errors.false_negative_share(), 2.0 / 3);
-  // 0.05 of a body of size 2.
+  // The gap is 0.05 of a body of size 2.
   EXPECT_EQ(errors.bins[trade::gap_bin(Answer::separated, 0.025)].wrong, 1);
   EXPECT_EQ(errors.bins[trade::gap_bin(Answer::overlapping, -0.3)].wrong, 1);
   EXPECT_EQ(errors.bins[trade::gap_bin(Answer::overlapping, -0.3)].pairs, 2);
@@ -75,15 +76,15 @@ TEST(TradeErrors, ValuesArePartsOfTheSize) {
                                               said(0, 2, Answer::separated, 0.0625),
                                               said(2, 3, Answer::unknown)});
   const trade::PointErrors errors = distance.errors();
-  EXPECT_EQ(errors.values, 3);                 // 1-2 was not asked about
-  EXPECT_DOUBLE_EQ(errors.value.greatest, 1);  // no number
+  EXPECT_EQ(errors.values, 3);                 // 1-2 was not found, so it has no distance
+  EXPECT_DOUBLE_EQ(errors.value.greatest, 1);  // an answer without a number
   EXPECT_DOUBLE_EQ(errors.value.mean, (0.125 + 0.0625 + 1) / 3);
 
   trade::ErrorCount depth(Task::penetration);
   depth.add({0, {truth(0, 1, -0.5), truth(0, 2, 0.25), truth(1, 2, -0.125)}},
             std::vector<trade::PairAnswer>{said(0, 1, Answer::overlapping, -0.25),
                                            said(0, 2, Answer::overlapping, -0.0625)});
-  EXPECT_EQ(depth.errors().values, 3);  // 1-2 was missed: by its depth
+  EXPECT_EQ(depth.errors().values, 3);  // 1-2 was missed, which is an error of its depth
   EXPECT_DOUBLE_EQ(depth.errors().value.mean, (0.25 + 0.0625 + 0.125) / 3);
 }
 

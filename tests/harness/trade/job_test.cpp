@@ -1,4 +1,4 @@
-// The whole of it, in little time.
+// A test of a whole trade in little time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
       });
   EXPECT_EQ(stages.size(), trade::stage_names.size());
   EXPECT_EQ(samples % trade::stage_names.size(), 0u);
-  // What was measured can be asked for again.
+  // The request that is written can be read again.
   const trade::TradeRequest again = trade::read_trade(folder.path() / "trade.toml");
   EXPECT_EQ(again.name, "small");
   EXPECT_TRUE(std::filesystem::equivalent(again.scene, request.scene));

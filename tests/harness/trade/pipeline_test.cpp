@@ -1,3 +1,4 @@
+// Tests of the pipeline of a configuration.
 #include "harness/trade/pipeline/frame_pipeline.h"
 
 #include <gmock/gmock.h>
@@ -36,7 +37,7 @@ overlaps = 6
 moving = 0
 )";
 
-// A scene with all that a test needs of it.
+// A scene with everything that a test needs for it.
 struct World {
   explicit World(const std::string& text, Task asked = Task::intersect)
       : task(asked),
@@ -153,12 +154,12 @@ TEST(TradePipeline, WhatRestsIsSettledOnceAndFatBoxesAreKept) {
   EXPECT_GT(pipeline.counters().settled, 50);
   EXPECT_LT(pipeline.counters().pairs,
             first * static_cast<std::int64_t>(world.frames.frames.size()));
-  // Some update found no box new, and looked for no pairs.
+  // In some update no box is new, so no pairs are searched.
   EXPECT_LT(pipeline.counters().searches, static_cast<std::int64_t>(world.frames.frames.size()));
   EXPECT_EQ(pipeline.counters().builds, 1);
 }
 
-// A box and its eight octants are the same set of points.
+// A box and its eight octants are equal sets of points.
 TEST(TradePipeline, PartsAnswerAsTheWhole) {
   for (const Task task : {Task::intersect, Task::distance}) {
     World world(boxes, task);
@@ -182,7 +183,7 @@ TEST(TradePipeline, PartsAnswerAsTheWhole) {
     std::size_t contacts = 0, apart = 0;
     for (const trade::PairAnswer& answer : b.answers()) {
       const auto of_whole = expected.find({answer.pair.a, answer.pair.b});
-      if (of_whole == expected.end()) continue;  // boxes that rounding made larger
+      if (of_whole == expected.end()) continue;  // a pair of boxes that rounding enlarged
       ASSERT_EQ(grade::is_contact(answer.answer), grade::is_contact(of_whole->second.answer));
       ++(grade::is_contact(answer.answer) ? contacts : apart);
       if (task == Task::distance && !grade::is_contact(answer.answer)) {
@@ -194,7 +195,7 @@ TEST(TradePipeline, PartsAnswerAsTheWhole) {
   }
 }
 
-// A crash of one configuration is a row of its own.
+// A configuration that crashes has a row of its own, and the others are complete.
 TEST(TradePipeline, WhatThrowsCostsItselfAlone) {
   World world(boxes);
   const auto truth = world.truth();

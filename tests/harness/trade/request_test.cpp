@@ -1,3 +1,4 @@
+// Tests of a trade's request and of its grids.
 #include "harness/trade/trade_request.h"
 
 #include <gmock/gmock.h>
@@ -73,7 +74,7 @@ max_iterations = [1, 8]
   EXPECT_EQ(before.left_out, after.left_out);
   EXPECT_GT(before.points.size(), 20u);
 
-  // One configuration, as advice is written.
+  // Each point is written as advice is, as one configuration.
   for (const trade::TradePoint& point : before.points) {
     trade::TradeRequest one = request;
     one.grids = {trade::grid_of(point.configuration)};
@@ -118,13 +119,13 @@ TEST(trade::TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
   grid.scalars = {Precision::float64, Precision::float32};
   grid.representations = {{}, all_as(proxies::Form::capsule)};
   const trade::GridPoints intersect = trade::expand({&grid, 1}, frames, library, Task::intersect);
-  EXPECT_EQ(intersect.points.size(), 6u);  // sat+gjk and gjk in both, certified, none
+  EXPECT_EQ(intersect.points.size(), 6u);  // sat+gjk and gjk in both scalars, certified, none
   EXPECT_EQ(std::ranges::count_if(intersect.left_out,
                                   [](const auto& reason) {
                                     return reason.first.starts_with("sat does not take sphere-");
                                   }),
             1);
-  EXPECT_EQ(intersect.left_out.at("the same as another"), 2);  // gjk+sat is gjk
+  EXPECT_EQ(intersect.left_out.at("the same as another"), 2);  // gjk+sat equals gjk
   EXPECT_EQ(intersect.left_out.at("certified has no float"), 1);
   EXPECT_EQ(intersect.left_out.at("capsule: no such representation in this test"), 1);
   const trade::GridPoints distance = trade::expand({&grid, 1}, frames, library, Task::distance);

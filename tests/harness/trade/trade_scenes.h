@@ -1,4 +1,4 @@
-// Small scenes, and who represents their bodies in tests: balls, and boxes cut into eight.
+// Small scenes and simple representations for tests: balls, and boxes cut into eight.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,8 @@
 
 namespace touchstone {
 
-// sphere: a ball about the body's origin, which holds it. parts: a box as its eight octants.
+// A sphere is a ball about the body's origin that encloses it; parts are the eight octants of a
+// box.
 inline std::vector<proxies::Part> represent_simply(const Shape& shape, const geometry::Mesh*,
                                                    const proxies::Representation& wanted) {
   if (wanted.form == proxies::Form::sphere && wanted.side == proxies::Side::outer) {
@@ -37,7 +38,7 @@ inline std::vector<proxies::Part> represent_simply(const Shape& shape, const geo
   throw base::InputError("no such representation in this test");
 }
 
-// For scenes that need nobody to stand for their bodies.
+// Is for scenes whose bodies need no representation.
 inline std::vector<proxies::Part> represent_no_body(const Shape&, const geometry::Mesh*,
                                                     const proxies::Representation&) {
   throw std::logic_error("a body was represented that need not be");
@@ -50,7 +51,7 @@ inline trade::Representing simple_representing() {
           }};
 }
 
-// A scene from the text of its file.
+// Makes a scene from the text of its file.
 inline scene::Scene scene_of(const std::string& text) {
   const TemporaryFolder folder;
   return scene::load_scene(folder.write("scene.toml", text));
@@ -62,7 +63,7 @@ inline trade::Representations all_as(proxies::Form form) {
   return all;
 }
 
-// The only configuration of a grid.
+// Returns the only configuration of a grid.
 inline trade::TradePoint point_of(const trade::TradeGrid& grid, const trade::SceneFrames& frames,
                                   trade::StandInLibrary& library, Task task = Task::intersect) {
   const trade::GridPoints made = trade::expand({&grid, 1}, frames, library, task);

@@ -1,3 +1,4 @@
+// Tests of the exact answers of scenes.
 #include "harness/trade/pipeline/truth.h"
 
 #include <gmock/gmock.h>
@@ -15,14 +16,14 @@ TEST(TradeTruth, SamplesEveryFrameOnceAndSpreadsThem) {
   const std::vector<std::size_t> order = trade::sampling_order(65);
   EXPECT_EQ(order[0], 0u);
   EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), 65u);
-  // Of the first five, one in each quarter.
+  // After frame 0, the first frames lie one in each quarter.
   const std::set<std::size_t> first(order.begin() + 1, order.begin() + 5);
   std::size_t quarter = 0;
   for (const std::size_t frame : first) EXPECT_EQ((frame - 1) / 16, quarter++);
   EXPECT_EQ(trade::sampling_order(1), std::vector<std::size_t>{0});
 }
 
-// The surface of a box, as triangles.
+// Returns the surface of a box, as triangles.
 geometry::Mesh mesh_of_box(const Vec3d& half) {
   geometry::Mesh mesh;
   for (int corner = 0; corner < 8; ++corner) {

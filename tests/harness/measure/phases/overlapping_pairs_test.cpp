@@ -1,4 +1,4 @@
-// The pairs that broad phases are held against: two ways to find them, and the plain definition.
+// Tests of the reference pairs of broad phases: two ways to find them, and the plain definition.
 #include "harness/measure/phases/overlapping_pairs.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(OverlappingPairs, AreThoseOfTheDefinition) {
     base::Random random(seed);
     std::vector<Aabb> boxes;
     const std::uint64_t count = random.below(300);
-    const bool on_grid = seed % 3 == 0;  // many that touch exactly, and many that coincide
+    const bool on_grid = seed % 3 == 0;  // then many boxes touch exactly, and many coincide
     const double side = random.magnitude(1, 30);
     for (std::uint64_t i = 0; i < count; ++i) {
       if (random.below(20) == 0) {
