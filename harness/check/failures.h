@@ -24,7 +24,7 @@ struct VariantFailure {
   grade::Query query;
   std::string id;  // id of the first such case
   VariantCount count;
-  std::filesystem::path file;  // contains the case and its variant
+  std::filesystem::path file;  // the case and its variants of the kind
 };
 
 // A case whose certificate was refused, or whose boxes do not contain their body.

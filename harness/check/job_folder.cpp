@@ -1,4 +1,4 @@
-// Describes the result folder of a check or sweep.
+// Describes the result folder of a check or stress sweep.
 #include "harness/check/job_folder.h"
 
 #include <fmt/format.h>

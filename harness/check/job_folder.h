@@ -14,7 +14,7 @@
 
 namespace touchstone::check {
 
-// Describes the folder of a request. `work` is "check" or "sweep"; `subject` names the regimes or
+// Describes the folder of a request. `work` is "check" or "stress"; `subject` names the regimes or
 // axes. To resume, `subject` and the rest of the request must be equal, except the folder, the time
 // and the number of processes.
 record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,

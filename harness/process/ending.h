@@ -1,4 +1,4 @@
-// How work in a child process ended.
+// The ending of work in a child process.
 #pragma once
 
 #include <cstddef>
