@@ -318,6 +318,13 @@ std::shared_ptr<const Hull> make_hull(std::vector<Vec3d> points) {
   return hull;
 }
 
+Shape hull_of(std::vector<Vec3d> points) {
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = make_hull(std::move(points));
+  return shape;
+}
+
 std::shared_ptr<const Hull> make_reduced_hull(const std::vector<Vec3d>& points) {
   Hull hull;
   hull.vertices = points;

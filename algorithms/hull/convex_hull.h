@@ -17,6 +17,9 @@ namespace touchstone {
 // report `degenerate`.
 std::shared_ptr<const Hull> make_hull(std::vector<Vec3d> points);
 
+// Returns a shape of kind hull with that hull.
+Shape hull_of(std::vector<Vec3d> points);
+
 // Like make_hull, but drops the points that are not vertices of the hull, for the reduction of
 // meshes. The result is never empty.
 std::shared_ptr<const Hull> make_reduced_hull(const std::vector<Vec3d>& points);

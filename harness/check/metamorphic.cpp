@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "algorithms/hull/convex_hull.h"
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/process/queries/ordered_pair.h"
 

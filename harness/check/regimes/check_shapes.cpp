@@ -99,8 +99,6 @@ Shape random_shape(ShapeKind kind, const ShapeStyle& style, std::uint64_t seed,
 
 Shape mirrored(const Shape& hull) { return hull_shape(mirrored_hull(*hull.hull)); }
 
-Shape hull_of(std::vector<Vec3d> points) { return hull_shape(make_hull(std::move(points))); }
-
 Shape box_as_hull(const Vec3d& half_extents) {
   std::vector<Vec3d> points;
   for (int i = 0; i < 8; ++i) {

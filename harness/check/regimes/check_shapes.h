@@ -40,8 +40,6 @@ Shape mirrored(const Shape& hull);
 // Returns a hull of eight vertices with the points of a box.
 Shape box_as_hull(const Vec3d& half_extents);
 
-Shape hull_of(std::vector<Vec3d> points);
-
 // Returns a point inside the shape, or on it if it has no inside; body coordinates. Not for
 // half-spaces.
 Vec3d inner_point(const Shape& shape);

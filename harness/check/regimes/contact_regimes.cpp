@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
 #include "harness/check/regimes/placement.h"
 #include "harness/check/regimes/regime_draws.h"

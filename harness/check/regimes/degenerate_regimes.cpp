@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
 #include "harness/check/regimes/regime_draws.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
 #include "harness/check/regimes/grid_bodies.h"
 #include "harness/check/regimes/regime_draws.h"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
-#include "harness/check/regimes/check_shapes.h"
 #include "harness/geometry/signed_permutation.h"
 
 namespace touchstone::grade {
@@ -98,7 +98,7 @@ class Shrinker {
         const auto begin = vertices.begin() + static_cast<std::ptrdiff_t>(first);
         vertices.erase(begin, begin + static_cast<std::ptrdiff_t>(dropped));
         files::Case candidate = best_;
-        candidate.*shape = check::hull_of(std::move(vertices));
+        candidate.*shape = hull_of(std::move(vertices));
         if (!keep_if_fails(std::move(candidate))) first += chunk;
       }
     }
@@ -132,7 +132,7 @@ class Shrinker {
         std::vector<Vec3d> vertices = (best_.*shape).hull->vertices;
         for (Vec3d& v : vertices) v = change(v);
         files::Case candidate = best_;
-        candidate.*shape = check::hull_of(std::move(vertices));
+        candidate.*shape = hull_of(std::move(vertices));
         candidate.*pose = new_pose;
         keep_if_fails(std::move(candidate));
       };
@@ -287,7 +287,7 @@ class Shrinker {
     for (std::size_t body = 0; body < 2; ++body) {
       Shape& shape = body == 0 ? candidate.shape_a : candidate.shape_b;
       if (shape.kind == ShapeKind::hull && shape.hull->vertices != numbers.vertices[body]) {
-        shape = check::hull_of(std::move(numbers.vertices[body]));
+        shape = hull_of(std::move(numbers.vertices[body]));
       }
     }
     return keep_if_fails(std::move(candidate));

@@ -21,18 +21,18 @@ namespace {
 
 constexpr std::array names = {"bullet-gjk-epa", "bullet-box-box", "bullet-sat", "bullet-mpr"};
 
-Shape box(Random& random) {
+Shape box(base::Random& random) {
   Shape shape;
   shape.kind = ShapeKind::box;
   for (double& half : shape.half_extents) half = random.uniform(0.3, 1);
   return shape;
 }
-Shape sphere(Random& random) {
+Shape sphere(base::Random& random) {
   Shape shape;
   shape.radius = random.uniform(0.3, 1);
   return shape;
 }
-Shape hull(Random& random) {
+Shape hull(base::Random& random) {
   std::vector<Vec3d> points;
   for (int i = 0; i < 16; ++i) points.push_back(random.on_sphere() + Vec3d(0.3, 0.1, 0.2));
   Shape shape;
@@ -49,8 +49,8 @@ struct Pairs {
   std::vector<Pose> poses;
   std::vector<std::uint32_t> first, second, shape_of;
 
-  explicit Pairs(Shape (*shape_a)(Random&), Shape (*shape_b)(Random&)) {
-    Random random(3);
+  explicit Pairs(Shape (*shape_a)(base::Random&), Shape (*shape_b)(base::Random&)) {
+    base::Random random(3);
     for (std::uint32_t i = 0; i < count; ++i) {
       shapes.push_back(shape_a(random));
       shapes.push_back(shape_b(random));

@@ -34,7 +34,7 @@ TEST(PortableMath, CubeRootsAreRight) {
   }
 }
 
-TEST(base::Random, NormalNumbersAreNormal) {
+TEST(Random, NormalNumbersAreNormal) {
   base::Random random(7);
   constexpr int count = 1'000'000;
   double sum = 0, squares = 0, fourths = 0;
@@ -57,21 +57,21 @@ TEST(base::Random, NormalNumbersAreNormal) {
   }
 }
 
-TEST(base::Random, IsWhatItWas) {
+TEST(Random, IsWhatItWas) {
   base::Random random(42);
   EXPECT_EQ(random.next(), 11206042627743653740u);
   EXPECT_NE(base::Random(42, 1).next(), base::Random(42, 0).next());
   EXPECT_NE(base::Random(42, 1).next(), base::Random(1, 42).next());
 }
 
-TEST(base::Random, BelowIsEven) {
+TEST(Random, BelowIsEven) {
   base::Random random(3);
   int seen[7] = {};
   for (int i = 0; i < 70'000; ++i) ++seen[random.below(7)];
   for (const int count : seen) EXPECT_NEAR(count, 10'000, 500);
 }
 
-TEST(base::Random, MagnitudesAreEvenAndInside) {
+TEST(Random, MagnitudesAreEvenAndInside) {
   base::Random random(4);
   int seen[4] = {};
   for (int i = 0; i < 40'000; ++i) {
@@ -84,7 +84,7 @@ TEST(base::Random, MagnitudesAreEvenAndInside) {
   EXPECT_EQ(random.magnitude(3, 3), 3);
 }
 
-TEST(base::Random, RotationsAreOrthonormalAndEven) {
+TEST(Random, RotationsAreOrthonormalAndEven) {
   base::Random random(5);
   Vec3d sum = Vec3d::Zero();
   for (int i = 0; i < 20'000; ++i) {
@@ -96,7 +96,7 @@ TEST(base::Random, RotationsAreOrthonormalAndEven) {
   EXPECT_LT(sum.norm() / 20'000, 0.02);
 }
 
-TEST(base::Random, BallAndSphere) {
+TEST(Random, BallAndSphere) {
   base::Random random(6);
   int inner = 0;
   for (int i = 0; i < 16'000; ++i) {

@@ -6,8 +6,8 @@ namespace {
 
 using touchstone::base::TextTable;
 
-TEST(base::TextTable, AlignsTheFirstColumnLeftAndTheOthersRight) {
-  base::TextTable table({"", "a", "bb"});
+TEST(TextTable, AlignsTheFirstColumnLeftAndTheOthersRight) {
+  TextTable table({"", "a", "bb"});
   table.add({"row", "1.5", "2"});
   EXPECT_EQ(table.text(80),
             "       a  bb\n"
@@ -15,8 +15,8 @@ TEST(base::TextTable, AlignsTheFirstColumnLeftAndTheOthersRight) {
             "row  1.5   2\n");
 }
 
-TEST(base::TextTable, IsCutWhereThePageEnds) {
-  base::TextTable table({"", "aaaa", "bbbb"});
+TEST(TextTable, IsCutWhereThePageEnds) {
+  TextTable table({"", "aaaa", "bbbb"});
   table.add({"r", "1", "2"});
   EXPECT_EQ(table.text(8),
             "   aaaa\n"

@@ -46,7 +46,7 @@ std::set<std::string> listed() {
   return names;
 }
 
-TEST(bench::PlacedPairs, StandAtTheDistanceOfTheirRegime) {
+TEST(PlacedPairs, StandAtTheDistanceOfTheirRegime) {
   oracle::Oracle oracle;
   for (const char* name : {"sphere", "box", "cone", "hull-32", "icosphere-42"}) {
     for (const bench::PairRegime& regime : bench::pair_regimes()) {
@@ -69,7 +69,7 @@ TEST(bench::PlacedPairs, StandAtTheDistanceOfTheirRegime) {
   }
 }
 
-TEST(bench::PlacedPairs, HoldEveryTwoKindsAndEachFamilyOfHulls) {
+TEST(PlacedPairs, HoldEveryTwoKindsAndEachFamilyOfHulls) {
   std::set<std::pair<ShapeKind, ShapeKind>> kinds;
   std::set<std::string> names;
   for (const bench::FamilyPair& pair : bench::family_pairs()) {

@@ -93,7 +93,7 @@ class QuietMachine {
     measure::noise_judge() = [](const measure::NoiseReading&, const measure::NoiseReading&, double,
                                 double) { return std::string(); };
   }
-  ~QuietMachine() { measure::noise_judge() = &noise_flags; }
+  ~QuietMachine() { measure::noise_judge() = &measure::noise_flags; }
   QuietMachine(const QuietMachine&) = delete;
   QuietMachine& operator=(const QuietMachine&) = delete;
 };

@@ -1,4 +1,4 @@
-// Compares the committed reference with the answers of this program, without a clock.
+// The committed reference against the answers of this program, without a clock.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ stats::Results answers_now(const campaign::Campaign& campaign, const std::filesy
   return stats::read_results(file);
 }
 
-// Returns frames of algorithms of ours whose outcomes have another hash.
+// Frames of algorithms of ours with another hash of their outcomes.
 std::vector<std::string> changed_outcomes(const stats::Results& stated,
                                           const stats::Results& here) {
   std::vector<std::string> changed;
@@ -61,8 +61,8 @@ std::vector<std::string> changed_outcomes(const stats::Results& stated,
   return changed;
 }
 
-// The test is disabled while the committed reference is older than the program.
-TEST(grade::Reference, DISABLED_HasTheAnswersOfThisProgram) {
+// Disabled while the committed reference is older than the program.
+TEST(Reference, DISABLED_HasTheAnswersOfThisProgram) {
   const stats::Results stated = stats::read_results(reference_folder());
   const campaign::Campaign campaign =
       campaign::read_campaign(std::filesystem::path(project_folder) / "datasets" / "campaigns" /

@@ -38,7 +38,7 @@ measure::NarrowSet random_set(base::Random& random, std::uint32_t bodies, std::s
   return set;
 }
 
-TEST(measure::WarmPairs, APairHasOneSlotAndATaskItsOwn) {
+TEST(WarmPairs, APairHasOneSlotAndATaskItsOwn) {
   base::Random random(3, 1);
   const measure::NarrowSet set = random_set(random, 30, 9);
   constexpr std::size_t slots_a_task = 16;

@@ -40,7 +40,7 @@ class Axes : public ::testing::Test {
     check::StressRequest request;
     request.cells = check::cells_of(list);
     request.cases = cases;
-    for (std::size_t cell = 0; base::cell < request.cells.size(); ++cell) {
+    for (std::size_t cell = 0; cell < request.cells.size(); ++cell) {
       const check::AxisValue& value = request.cells[cell].value();
       if (value.value > greatest) continue;
       SCOPED_TRACE(name + " " + value.name);

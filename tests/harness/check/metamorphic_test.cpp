@@ -29,7 +29,7 @@ bool is_curved(const Shape& shape) {
          shape.kind == ShapeKind::ellipsoid;
 }
 
-TEST(geometry::SignedPermutation, IsEachRotationOfTheCubeOnce) {
+TEST(SignedPermutation, IsEachRotationOfTheCubeOnce) {
   std::set<std::string> names;
   for (const geometry::SignedPermutation& turn : geometry::signed_permutations()) {
     EXPECT_TRUE(names.insert(turn.name()).second);

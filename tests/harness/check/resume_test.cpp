@@ -69,10 +69,10 @@ struct StressWork {
   std::vector<const check::StressAxis*> axes = {&balls};
 };
 
-template <class stats::Work>
+template <class Work>
 class Resume : public ::testing::Test {
  protected:
-  using Request = typename stats::Work::Request;
+  using Request = typename Work::Request;
 
   Resume() {
     request.narrow = {&slow, &bad};
@@ -84,7 +84,7 @@ class Resume : public ::testing::Test {
   }
   std::string read(const std::string& name) const { return folder.read("out/" + name); }
   std::string fault() const {
-    return input_fault([&] { stats::Work::run(request); });
+    return input_fault([&] { Work::run(request); });
   }
 
   // Kills the work after so many units.
@@ -92,7 +92,7 @@ class Resume : public ::testing::Test {
     const pid_t child = fork();
     if (child == 0) {
       std::freopen("/dev/null", "w", stderr);
-      stats::Work::run(request);
+      Work::run(request);
       _exit(0);
     }
     const std::string wanted = "\nunits,";
@@ -111,7 +111,7 @@ class Resume : public ::testing::Test {
   }
 
   TemporaryFolder folder;
-  stats::Work work;
+  Work work;
   NarrowPhaseEntry slow = planted<Harm::none, 300>("slow", Origin::ours);
   NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
   Request request;

@@ -1,4 +1,4 @@
-// Tests of touchstone advise.
+// touchstone advise.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -16,24 +16,24 @@ TEST(AdviseCommand, WritesAFileThatMeasuresItsChoiceAgain) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", spheres).string();
   const std::string out = (folder.path() / "out").string();
-  const Ran ran = commands::run_program(
-      "advise " + scene + " --max-error 0 --no-false-negatives --threads 1 --seconds 1 --out " +
-      out);
+  const Ran ran =
+      run_program("advise " + scene +
+                  " --max-error 0 --no-false-negatives --threads 1 --seconds 1 --out " + out);
   ASSERT_EQ(ran.status, 0) << ran.text;
   const std::string advice = folder.read("out/advice.txt");
   EXPECT_THAT(ran.text, HasSubstr(advice));
   EXPECT_THAT(advice, HasSubstr("verdicts at most 0, no contact missed"));
-  // The advice has the scene's requirements, and nothing more.
+  // What the scene requires, and no more.
   EXPECT_THAT(advice, HasSubstr("narrow phase   closed-form "));
   EXPECT_THAT(advice, HasSubstr("error          0 (verdicts)"));
   EXPECT_THAT(advice, HasSubstr("needs          0 hulls built"));
   EXPECT_THAT(advice, HasSubstr(" queries, 0 witness points"));
   EXPECT_THAT(advice, HasSubstr("0 missed"));
 
-  const Ran again = commands::run_program("run " + out + "/advice.toml --out " + out + "/again");
+  const Ran again = run_program("run " + out + "/advice.toml --out " + out + "/again");
   ASSERT_EQ(again.status, 0) << again.text;
-  const auto rows = record::read_rows(folder.path() / "out/again/points.csv",
-                                      {"point", "error", "false_negatives", "hulls_built"});
+  const auto rows = read_rows(folder.path() / "out/again/points.csv",
+                              {"point", "error", "false_negatives", "hulls_built"});
   ASSERT_FALSE(rows.empty());
   EXPECT_THAT(advice, HasSubstr("Cheapest: " + rows[0][0] + "\n"));
   EXPECT_EQ(rows[0][1], "0");
@@ -45,7 +45,7 @@ TEST(AdviseCommand, WhatRestsIsNotUpdatedAndDistancesHaveWitnessPoints) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", still).string();
   const std::string out = (folder.path() / "out").string();
-  const Ran ran = commands::run_program(
+  const Ran ran = run_program(
       "advise " + scene + " --task distance --max-error 1e-6 --threads 1 --seconds 1 --out " + out);
   ASSERT_EQ(ran.status, 0) << ran.text;
   const std::string advice = folder.read("out/advice.txt");
@@ -64,14 +64,13 @@ TEST(AdviseCommand, VerifiesAListOfScenes) {
                                       "max_error = 1\n")
                                .string();
   const std::string out = (folder.path() / "out").string();
-  const Ran ran = commands::run_program("advise --list " + list +
-                                        " --verify --seeds 2 --threads 1 --seconds 1 --out " + out);
-  // A busy machine may leave open whether its time is within 10 %.
+  const Ran ran = run_program("advise --list " + list +
+                              " --verify --seeds 2 --threads 1 --seconds 1 --out " + out);
+  // Whether its time is within 10 % a busy machine may leave open.
   ASSERT_TRUE(ran.status == 0 || ran.status == 1) << ran.text;
-  const auto rows =
-      record::read_rows(folder.path() / "out/verification.csv",
-                        {"scene", "max_error", "error", "held_out", "error_1", "error_2",
-                         "within_budget", "verified", "within_time", "choice"});
+  const auto rows = read_rows(folder.path() / "out/verification.csv",
+                              {"scene", "max_error", "error", "held_out", "error_1", "error_2",
+                               "within_budget", "verified", "within_time", "choice"});
   ASSERT_EQ(rows.size(), 2u);
   bool all = true;
   for (const auto& row : rows) {

@@ -94,7 +94,7 @@ TEST_F(TheCommandLine, SaysWhatWasExpected) {
       {{"--other"}, "The following argument was not expected: --other"},
   };
   for (const auto& [words, text] : faults) {
-    EXPECT_EQ(run(words), exit_bad_request) << text;
+    EXPECT_EQ(run(words), commands::exit_bad_request) << text;
     EXPECT_THAT(error_, testing::HasSubstr(text));
   }
 }
@@ -106,7 +106,7 @@ TEST_F(TheCommandLine, IsRebuiltAsAShellReadsIt) {
 
 TEST_F(TheCommandLine, NamesTheCommandsWhereItKnowsNone) {
   testing::internal::CaptureStderr();
-  EXPECT_EQ(line_.run({"draw"}), exit_bad_request);
+  EXPECT_EQ(line_.run({"draw"}), commands::exit_bad_request);
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
               testing::HasSubstr("Expected a command, one of: paint."));
 }

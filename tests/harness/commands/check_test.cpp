@@ -27,11 +27,11 @@ class CheckCommand : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder.path() / name).string(); }
   std::string out() const { return " --out " + path("out"); }
   Ran check(const std::string& arguments) const {
-    return commands::run_program("check " + arguments + out());
+    return run_program("check " + arguments + out());
   }
   std::set<std::string> column(const std::string& file, const std::string& name) const {
     std::set<std::string> values;
-    for (const auto& row : record::read_rows(path("out/" + file), {name})) values.insert(row[0]);
+    for (const auto& row : read_rows(path("out/" + file), {name})) values.insert(row[0]);
     return values;
   }
   void expect_refusal(const std::string& arguments, const std::string& text) {
@@ -71,11 +71,11 @@ TEST_F(CheckCommand, APeersDefectIsNoFailureAndIsReplayed) {
   const std::string file = path("out/failures/libccd-gjk-double-intersect.jsonl");
   const std::vector<files::Case> cases = files::read_cases(file);
   ASSERT_FALSE(cases.empty());
-  const Ran again = commands::run_program(
-      "query " + file + " --narrow libccd-gjk,gjk --task intersect --scalar double --out " +
-      path("answers.csv"));
+  const Ran again = run_program("query " + file +
+                                " --narrow libccd-gjk,gjk --task intersect --scalar double --out " +
+                                path("answers.csv"));
   EXPECT_EQ(again.status, 0) << again.text;
-  const auto rows = record::read_rows(path("answers.csv"), {"algorithm", "answer"});
+  const auto rows = read_rows(path("answers.csv"), {"algorithm", "answer"});
   for (std::size_t i = 0; i < rows.size(); i += 2) {
     EXPECT_EQ(rows[i][1], "overlapping");
     EXPECT_EQ(rows[i + 1][1], "separated");
@@ -112,16 +112,16 @@ TEST_F(CheckCommand, BroadPhasesAlone) {
 
 TEST_F(CheckCommand, CertificatesAreSavedAndVerified) {
   const std::string file = path("proofs.jsonl");
-  Ran ran = commands::run_program("check --save-certificates " + file + " --group gap --cases 2");
+  Ran ran = run_program("check --save-certificates " + file + " --group gap --cases 2");
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("certificates in " + file));
-  ran = commands::run_program("check --certificates " + file);
+  ran = run_program("check --certificates " + file);
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr(" certificates verified, 0 refused"));
   std::string text = folder.read("proofs.jsonl");
   text.replace(text.find("\"separated\""), 11, "\"overlapping\"");
   folder.write("proofs.jsonl", text);
-  ran = commands::run_program("check --certificates " + file);
+  ran = run_program("check --certificates " + file);
   EXPECT_EQ(ran.status, 1) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr(file + ":1: gap-"));
   EXPECT_THAT(ran.text, HasSubstr(", 1 refused"));
@@ -147,12 +147,12 @@ TEST_F(CheckCommand, KilledInTheMiddleAndGoneOnWith) {
   while (jobs_done() < 3 && watch.seconds() < 60) usleep(500);
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  const Ran resumed = commands::run_program(arguments + " --resume");
+  const Ran resumed = run_program(arguments + " --resume");
   EXPECT_EQ(resumed.status, 0) << resumed.text;
   const std::string rows = folder.read("out/grades.csv");
-  EXPECT_EQ(commands::run_program(arguments).status, 0);
+  EXPECT_EQ(run_program(arguments).status, 0);
   EXPECT_EQ(folder.read("out/grades.csv"), rows);
-  const Ran other = commands::run_program(arguments + " --resume --seed 2");
+  const Ran other = run_program(arguments + " --resume --seed 2");
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.text, HasSubstr("had seed '1', and this one has '2'"));
   EXPECT_EQ(folder.read("out/grades.csv"), rows);

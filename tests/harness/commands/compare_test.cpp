@@ -1,4 +1,4 @@
-// Tests of touchstone compare and tables, through the program.
+// touchstone compare and tables, as a user runs them.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -18,7 +18,7 @@ class CompareCommand : public testing::Test {
   // Writes run_ as B and compares.
   Ran compare(const std::string& options = "") {
     run_.write(folder_.path() / "b");
-    return commands::run_program("compare " + path("a") + " " + path("b") + " " + options);
+    return run_program("compare " + path("a") + " " + path("b") + " " + options);
   }
   TemporaryFolder folder_;
   FakeRun run_ = fake_run();
@@ -28,12 +28,11 @@ TEST_F(CompareCommand, TheSameIsStatusZero) {
   const Ran ran = compare("--csv " + path("cells.csv"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("5 cells: 0 slower, 0 undecided, 5 same"));
-  const auto rows = record::read_rows(folder_.path() / "cells.csv", {"algorithm", "verdict"});
+  const auto rows = read_rows(folder_.path() / "cells.csv", {"algorithm", "verdict"});
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[0], (std::vector<std::string>{"sweep-and-prune", "same"}));
-  // raw.csv files are accepted like folders.
-  EXPECT_EQ(commands::run_program("compare " + path("a/raw.csv") + " " + path("b/raw.csv")).status,
-            0);
+  // raw.csv files do as well as folders.
+  EXPECT_EQ(run_program("compare " + path("a/raw.csv") + " " + path("b/raw.csv")).status, 0);
 }
 
 TEST_F(CompareCommand, ARegressionIsStatusOne) {
@@ -41,8 +40,8 @@ TEST_F(CompareCommand, ARegressionIsStatusOne) {
   EXPECT_EQ(compare().status, 1);
   EXPECT_THAT(compare().text, testing::HasSubstr("SLOWER"));
   EXPECT_EQ(compare("--threshold 0.1").status, 0);
-  // In the other direction it is faster.
-  EXPECT_EQ(commands::run_program("compare " + path("b") + " " + path("a")).status, 0);
+  // The other way round it is faster.
+  EXPECT_EQ(run_program("compare " + path("b") + " " + path("a")).status, 0);
 }
 
 TEST_F(CompareCommand, OtherPairsAreStatusOne) {
@@ -60,7 +59,7 @@ TEST_F(CompareCommand, WhatIsNotComparableIsStatusTwoAndTold) {
   run_.isa = "baseline";
   EXPECT_EQ(compare("--any-machine").status, 2);
   std::filesystem::remove(folder_.path() / "b/machine.csv");
-  ran = commands::run_program("compare " + path("a") + " " + path("b"));
+  ran = run_program("compare " + path("a") + " " + path("b"));
   EXPECT_EQ(ran.status, 2);
   EXPECT_THAT(ran.text, testing::HasSubstr("no machine.csv"));
 }
@@ -81,15 +80,15 @@ TEST_F(CompareCommand, BadRequests) {
   expect_refusal("compare --exe true", "expected it twice", folder_);
   expect_refusal("compare --exe true --exe true " + path("none.toml"), "none.toml", folder_);
   folder_.write("broken.csv", run_.raw() + "one,more\n");
-  const Ran ran = commands::run_program("compare " + path("a") + " " + path("broken.csv"));
+  const Ran ran = run_program("compare " + path("a") + " " + path("broken.csv"));
   EXPECT_EQ(ran.status, 2);
   EXPECT_THAT(ran.text, testing::HasSubstr("broken.csv:"));
   EXPECT_THAT(ran.text, testing::HasSubstr("2 fields; expected 42"));
-  EXPECT_THAT(commands::run_program("compare --help").text, testing::HasSubstr("3  undecided"));
+  EXPECT_THAT(run_program("compare --help").text, testing::HasSubstr("3  undecided"));
 }
 
 TEST_F(CompareCommand, ProgramsAreRunInTurns) {
-  // The programs write made-up results, B's being 10 % slower, and log their names.
+  // Programs that hand out made-up results, B's being 10 % slower, and say who ran.
   for (const bool is_a : {true, false}) {
     const std::string name = is_a ? "prog-a" : "prog-b";
     if (!is_a) {
@@ -106,35 +105,35 @@ TEST_F(CompareCommand, ProgramsAreRunInTurns) {
   folder_.write("c.toml", "");
   const std::string request = "compare --exe " + path("prog-a") + " --exe " + path("prog-b") +
                               " --out " + path("out") + " ";
-  const Ran ran = commands::run_program(request + "--runs 8 " + path("c.toml"));
+  const Ran ran = run_program(request + "--runs 8 " + path("c.toml"));
   EXPECT_EQ(ran.status, 1) << ran.text;
   EXPECT_EQ(folder_.read("order"), "abbaabbaabbaabba");
   EXPECT_THAT(ran.text, testing::HasSubstr("5 cells: 5 slower"));
-  // These are too few runs for an interval.
-  EXPECT_EQ(commands::run_program(request + "--runs 3 " + path("c.toml")).status, 3);
-  // This program fails.
+  // Too few runs for an interval.
+  EXPECT_EQ(run_program(request + "--runs 3 " + path("c.toml")).status, 3);
+  // A program that fails.
   folder_.write("prog-b", "#!/bin/sh\nexit 2\n");
-  const Ran failed = commands::run_program(request + path("c.toml"));
+  const Ran failed = run_program(request + path("c.toml"));
   EXPECT_EQ(failed.status, 2);
   EXPECT_THAT(failed.text, testing::HasSubstr("ended with status 2"));
-  EXPECT_EQ(commands::run_program("compare --exe /none/a --exe /none/b " + path("c.toml") +
-                                  " --out " + path("out"))
-                .status,
-            2);
+  EXPECT_EQ(
+      run_program("compare --exe /none/a --exe /none/b " + path("c.toml") + " --out " + path("out"))
+          .status,
+      2);
 }
 
 TEST_F(CompareCommand, TablesAreWrittenAndChecked) {
-  const Ran written = commands::run_program("tables " + path("a") + " --band 1.1");
+  const Ran written = run_program("tables " + path("a") + " --band 1.1");
   EXPECT_EQ(written.status, 0) << written.text;
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a/tables.md"));
   run_.write(folder_.path() / "b");
   const std::string check = "tables " + path("b") + " --check " + path("a");
-  Ran ran = commands::run_program(check);
+  Ran ran = run_program(check);
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 3 pass, 0 fail, 0 undecided; 0 answers"));
   run_.blocks[0].contestants[1].seconds *= 2;
   run_.write(folder_.path() / "b");
-  ran = commands::run_program(check);
+  ran = run_program(check);
   EXPECT_EQ(ran.status, 1) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 2 pass, 1 fail, 0 undecided"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b/tables.md"));

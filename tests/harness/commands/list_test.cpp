@@ -15,13 +15,13 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
-  const Ran ran = commands::run_program("list --format csv");
+  const Ran ran = run_program("list --format csv");
   EXPECT_EQ(ran.status, 0);
   EXPECT_THAT(ran.text, StartsWith("name,kind,origin,built,reason,tasks,scalars,citation\n"));
   const TemporaryFolder folder;
-  const auto rows = record::read_rows(
-      folder.write("list.csv", ran.text),
-      {"name", "kind", "origin", "built", "reason", "tasks", "scalars", "citation"});
+  const auto rows =
+      read_rows(folder.write("list.csv", ran.text),
+                {"name", "kind", "origin", "built", "reason", "tasks", "scalars", "citation"});
   ASSERT_EQ(rows.size(),
             broad_phases().size() + narrow_phases().size() + contact_manifolds().size());
   std::set<std::pair<std::string, std::string>> names;
@@ -46,7 +46,7 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
 }
 
 TEST(ListCommand, TableNamesEveryAlgorithm) {
-  const Ran ran = commands::run_program("list");
+  const Ran ran = run_program("list");
   EXPECT_EQ(ran.status, 0);
   for (const BroadPhaseEntry& entry : broad_phases()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
@@ -63,11 +63,11 @@ TEST(ListCommand, TableNamesEveryAlgorithm) {
 }
 
 TEST(ListCommand, WrongRequests) {
-  EXPECT_EQ(commands::run_program("list --format xml").status, 2);
-  EXPECT_EQ(commands::run_program("list more").status, 2);
-  EXPECT_EQ(commands::run_program("").status, 2);
-  EXPECT_EQ(commands::run_program("lists").status, 2);
-  EXPECT_EQ(commands::run_program("list >/dev/full").status,
+  EXPECT_EQ(run_program("list --format xml").status, 2);
+  EXPECT_EQ(run_program("list more").status, 2);
+  EXPECT_EQ(run_program("").status, 2);
+  EXPECT_EQ(run_program("lists").status, 2);
+  EXPECT_EQ(run_program("list >/dev/full").status,
             2);  // its message cannot be written either
 }
 

@@ -39,11 +39,10 @@ TEST(ManifoldCommand, OneRowForEachPoint) {
   const TemporaryFolder folder;
   const auto cases = folder.write("in.jsonl", cube_on_cube + cube_off_cube + plane_and_ball);
   const auto out = folder.path() / "out.csv";
-  const Ran ran =
-      commands::run_program("manifold " + cases.string() +
-                            " --algorithm clipped-faces --scalar double --out " + out.string());
+  const Ran ran = run_program("manifold " + cases.string() +
+                              " --algorithm clipped-faces --scalar double --out " + out.string());
   EXPECT_EQ(ran.status, 0) << ran.text;
-  const auto rows = record::read_rows(out, columns);
+  const auto rows = read_rows(out, columns);
   ASSERT_EQ(rows.size(), 6u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(rows[i][0], "on");
@@ -74,7 +73,7 @@ TEST(ManifoldCommand, OneRowForEachPoint) {
 TEST(ManifoldCommand, GradesEveryFamilyOfEveryAlgorithm) {
   const TemporaryFolder folder;
   const auto page = folder.path() / "page.md";
-  const Ran ran = commands::run_program("manifold --settled 3 --grade --page " + page.string());
+  const Ran ran = run_program("manifold --settled 3 --grade --page " + page.string());
   EXPECT_EQ(ran.status, 0) << ran.text;
   for (const ManifoldEntry& entry : contact_manifolds()) {
     if (is_built(entry.info)) {
@@ -90,7 +89,7 @@ TEST(ManifoldCommand, GradesEveryFamilyOfEveryAlgorithm) {
 TEST(ManifoldCommand, CasesOfAnyShapesAreGraded) {
   const TemporaryFolder folder;
   const auto cases = folder.write("in.jsonl", cube_on_cube + cube_off_cube + plane_and_ball);
-  const Ran ran = commands::run_program("manifold " + cases.string() + " --algorithm ours --grade");
+  const Ran ran = run_program("manifold " + cases.string() + " --algorithm ours --grade");
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("clipped-faces double"));
 }

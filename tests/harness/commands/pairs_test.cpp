@@ -29,7 +29,7 @@ const std::vector<std::string> columns = {"frame",      "algorithm", "threads", 
 // Makes some frames in which boxes move, come and go.
 std::string random_boxes(unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<float> check::place(0, 10), size(0, 3);
+  std::uniform_real_distribution<float> place(0, 10), size(0, 3);
   std::string text = header;
   std::vector<std::array<float, 6>> boxes;
   for (int frame = 0; frame < 6; ++frame) {
@@ -39,7 +39,7 @@ std::string random_boxes(unsigned seed) {
       auto& box = boxes[id];
       if (box[5] == 0 || random() % 3 == 0) {
         for (std::size_t i = 0; i < 3; ++i) {
-          box[i] = check::place(random);
+          box[i] = place(random);
           box[i + 3] = box[i] + size(random);
         }
       }
@@ -78,10 +78,10 @@ TEST_F(PairsCommand, EveryBroadPhaseGivesTheRowsOfTheContract) {
   const auto file = folder.write("in.csv", random_boxes(1));
   const auto expected = all_pairs(file);
   for (const char* how : {"", " --rebuild", " --threads 1", " --threads 3"}) {
-    const Ran ran = commands::run_program("pairs " + file.string() + " --broad all --out " +
-                                          path("out.csv") + how);
+    const Ran ran =
+        run_program("pairs " + file.string() + " --broad all --out " + path("out.csv") + how);
     ASSERT_EQ(ran.status, 0) << ran.text;
-    const auto rows = record::read_rows(folder.path() / "out.csv", columns);
+    const auto rows = read_rows(folder.path() / "out.csv", columns);
     std::size_t next = 0;
     for (std::size_t frame = 0; frame < expected.size(); ++frame) {
       for (const BroadPhaseEntry& entry : broad_phases()) {
@@ -110,10 +110,8 @@ TEST_F(PairsCommand, TheHashIsTheContracts) {
   const auto file = folder.write(
       "in.csv", std::string(header) + "0,0,0,0,0,9,9,9\n0,1,1,1,1,2,2,2\n0,2,9,9,9,9,9,9\n");
   ASSERT_EQ(
-      commands::run_program("pairs " + file.string() + " --broad naive --out " + path("out.csv"))
-          .status,
-      0);
-  const auto rows = record::read_rows(folder.path() / "out.csv", columns);
+      run_program("pairs " + file.string() + " --broad naive --out " + path("out.csv")).status, 0);
+  const auto rows = read_rows(folder.path() / "out.csv", columns);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0][4], "2");
   EXPECT_EQ(rows[0][5], "286263caa599b38f");
@@ -122,8 +120,8 @@ TEST_F(PairsCommand, TheHashIsTheContracts) {
 TEST_F(PairsCommand, WritesThePairsInOrder) {
   const auto file = folder.write("in.csv", random_boxes(2));
   const auto expected = all_pairs(file);
-  const Ran ran = commands::run_program("pairs " + file.string() + " --broad naive --out " +
-                                        path("out.csv") + " --pairs " + path("pairs.csv"));
+  const Ran ran = run_program("pairs " + file.string() + " --broad naive --out " + path("out.csv") +
+                              " --pairs " + path("pairs.csv"));
   ASSERT_EQ(ran.status, 0) << ran.text;
   std::vector<std::vector<std::string>> wanted;
   for (std::size_t frame = 0; frame < expected.size(); ++frame) {
@@ -133,8 +131,7 @@ TEST_F(PairsCommand, WritesThePairsInOrder) {
     }
   }
   EXPECT_GT(wanted.size(), 20u);
-  EXPECT_EQ(record::read_rows(folder.path() / "pairs.csv", {"frame", "algorithm", "a", "b"}),
-            wanted);
+  EXPECT_EQ(read_rows(folder.path() / "pairs.csv", {"frame", "algorithm", "a", "b"}), wanted);
   EXPECT_THAT(folder.names(), ElementsAre("in.csv", "out.csv", "pairs.csv"));
 }
 
@@ -143,10 +140,9 @@ TEST_F(PairsCommand, ReadsRecordings) {
   scene::write_aabbs({"scene", "cubes", {{0, 0, 0}, {9, 9, 9}}, {{near, far}, {near, near}}},
                      folder.path() / "in.aabbs");
   ASSERT_EQ(
-      commands::run_program("pairs " + path("in.aabbs") + " --broad naive --out " + path("out.csv"))
-          .status,
+      run_program("pairs " + path("in.aabbs") + " --broad naive --out " + path("out.csv")).status,
       0);
-  const auto rows = record::read_rows(folder.path() / "out.csv", {"frame", "pair_count"});
+  const auto rows = read_rows(folder.path() / "out.csv", {"frame", "pair_count"});
   EXPECT_THAT(rows, ElementsAre(ElementsAre("0", "0"), ElementsAre("1", "1")));
 }
 
@@ -155,16 +151,15 @@ TEST_F(PairsCommand, WhatTakesTooLongIsARowOfItsOwn) {
   for (int id = 0; id < 100000; ++id) text += fmt::format("0,{0},{0},0,0,{0}.5,1,1\n", id);
   text += "1,0,0,0,0,1,1,1\n1,1,1,1,1,1,1,1\n";
   const auto file = folder.write("in.csv", text);
-  const Ran ran =
-      commands::run_program("pairs " + file.string() + " --broad naive --time-limit 0.05 --out " +
-                            path("out.csv") + " --pairs " + path("pairs.csv"));
+  const Ran ran = run_program("pairs " + file.string() + " --broad naive --time-limit 0.05 --out " +
+                              path("out.csv") + " --pairs " + path("pairs.csv"));
   ASSERT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("naive, frame 0: no answer in time"));
-  const auto rows = record::read_rows(folder.path() / "out.csv",
-                                      {"frame", "status", "pair_count", "pair_hash", "seconds"});
+  const auto rows = read_rows(folder.path() / "out.csv",
+                              {"frame", "status", "pair_count", "pair_hash", "seconds"});
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_THAT(rows[0], ElementsAre("0", "timed_out", "", "", ""));
-  EXPECT_THAT(record::read_rows(folder.path() / "pairs.csv", {"frame", "a", "b"}),
+  EXPECT_THAT(read_rows(folder.path() / "pairs.csv", {"frame", "a", "b"}),
               ElementsAre(ElementsAre("1", "0", "1")));
 }
 

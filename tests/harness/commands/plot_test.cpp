@@ -66,8 +66,7 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
   const std::string sweep = (folder.path() / "sweep").string();
-  const Ran made =
-      commands::run_program("stress --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
+  const Ran made = run_program("stress --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
   ASSERT_EQ(made.status, 0) << made.text;
   const std::string own = folder.read("sweep/figures/stress_ours.svg");
   for (const char* out : {"one", "two"}) {

@@ -62,15 +62,15 @@ class QueryCommand : public ::testing::Test {
   std::vector<std::vector<std::string>> query(const std::string& cases, const std::string& task,
                                               const std::string& more = "") {
     const auto file = folder.write("in.jsonl", cases);
-    const Ran ran = commands::run_program("query " + file.string() + " --narrow all --task " +
-                                          task + " --out " + path("out.csv") + more);
+    const Ran ran = run_program("query " + file.string() + " --narrow all --task " + task +
+                                " --out " + path("out.csv") + more);
     EXPECT_EQ(ran.status, 0) << ran.text;
     std::string header;
     std::getline(std::ifstream(folder.path() / "out.csv"), header);
     EXPECT_EQ(header,
               "id,algorithm,scalar,task,answer,status,distance,lower,upper,normal_x,normal_y,"
               "normal_z,a_x,a_y,a_z,b_x,b_y,b_z,iterations,support_calls");
-    const auto rows = record::read_rows(folder.path() / "out.csv", columns);
+    const auto rows = read_rows(folder.path() / "out.csv", columns);
     const auto names = built_names();
     const std::vector<files::Case> read = files::read_cases(file);
     if (rows.size() != names.size() * read.size()) {
@@ -160,11 +160,11 @@ TEST_F(QueryCommand, NamesAreTakenInTheirOrderAndOnce) {
   const auto names = built_names();
   if (names.size() < 2) GTEST_SKIP() << "too few narrow phases are built";
   folder.write("in.jsonl", two_balls("x", 3));
-  const Ran ran = commands::run_program(
-      "query " + path("in.jsonl") + " --narrow " + names[1] + "," + names[0] + "," + names[1] +
-      " --task intersect --out " + path("out.csv") + " --tolerance 1e-4 --max-iterations 50");
+  const Ran ran = run_program("query " + path("in.jsonl") + " --narrow " + names[1] + "," +
+                              names[0] + "," + names[1] + " --task intersect --out " +
+                              path("out.csv") + " --tolerance 1e-4 --max-iterations 50");
   ASSERT_EQ(ran.status, 0) << ran.text;
-  const auto rows = record::read_rows(folder.path() / "out.csv", {"algorithm"});
+  const auto rows = read_rows(folder.path() / "out.csv", {"algorithm"});
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0][0], names[1]);
   EXPECT_EQ(rows[1][0], names[0]);

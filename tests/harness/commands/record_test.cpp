@@ -24,7 +24,7 @@ class Record : public testing::Test {
     return line.run(arguments);
   }
   static void run(const std::vector<std::string>& arguments) {
-    EXPECT_EQ(status_of(arguments), exit_done);
+    EXPECT_EQ(status_of(arguments), commands::exit_done);
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
@@ -92,9 +92,10 @@ TEST_F(Record, LeavesNothingBehindWhereItFails) {
   EXPECT_THROW(run({scene_.string(), "--out", path("r.txt")}), base::InputError);
   EXPECT_THROW(run({scene_.string(), "--out", path("none/r.aabbs")}), base::InputError);
   EXPECT_THROW(run({scene_.string(), "--out", path("none/r.csv")}), base::InputError);
-  EXPECT_EQ(status_of({scene_.string(), "--out", path("r.csv"), "--count", "0"}), exit_bad_request);
+  EXPECT_EQ(status_of({scene_.string(), "--out", path("r.csv"), "--count", "0"}),
+            commands::exit_bad_request);
   EXPECT_EQ(status_of({scene_.string(), "--out", path("r.csv"), "--boxes", "round"}),
-            exit_bad_request);
+            commands::exit_bad_request);
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"s.toml"});
 }
 

@@ -36,7 +36,7 @@ class Represent : public testing::Test {
     return line.run(arguments);
   }
   std::vector<Row> run(const std::vector<std::string>& arguments) {
-    EXPECT_EQ(status_of(arguments), exit_done);
+    EXPECT_EQ(status_of(arguments), commands::exit_done);
     std::vector<Row> rows;
     files::CsvReader(out(), {"kind", "form", "status", "bodies", "triangles", "parts"})
         .read([&](const files::CsvReader::Row& row) {
@@ -76,7 +76,7 @@ TEST_F(Represent, ASideIsForAllForms) {
 TEST_F(Represent, RefusesWhatIsNone) {
   EXPECT_THROW(run({"--forms", "ball"}), base::InputError);
   EXPECT_THROW(run({"--forms", "sphere inner"}), base::InputError);
-  EXPECT_EQ(status_of({"--side", "left"}), exit_bad_request);
+  EXPECT_EQ(status_of({"--side", "left"}), commands::exit_bad_request);
 }
 
 }  // namespace

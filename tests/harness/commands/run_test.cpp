@@ -28,33 +28,31 @@ class RunCommand : public testing::Test {
 };
 
 TEST_F(RunCommand, RunsACampaignAndPrintsItsTables) {
-  const Ran ran = commands::run_program("run " + path("c.toml") + " --noisy --out " + path("out"));
+  const Ran ran = run_program("run " + path("c.toml") + " --noisy --out " + path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("s, broad phases"));
   EXPECT_THAT(ran.text, testing::HasSubstr("s, intersect"));
   EXPECT_THAT(ran.text, testing::Not(testing::HasSubstr("# Tables of the campaign")));
   EXPECT_THAT(folder_.read("out/tables.md"), testing::HasSubstr("# Tables of the campaign"));
-  const Ran again =
-      commands::run_program("run " + path("c.toml") + " --tables --out " + path("out"));
+  const Ran again = run_program("run " + path("c.toml") + " --tables --out " + path("out"));
   EXPECT_THAT(again.text, testing::HasSubstr("# Tables of the campaign"));
   const auto rows =
-      record::read_rows(folder_.path() / "out/raw.csv",
-                        {"scene", "bodies", "frame", "broad", "narrow", "scalar", "threads",
-                         "phase", "seconds", "pair_count", "pair_hash", "contact_count", "status"});
+      read_rows(folder_.path() / "out/raw.csv",
+                {"scene", "bodies", "frame", "broad", "narrow", "scalar", "threads", "phase",
+                 "seconds", "pair_count", "pair_hash", "contact_count", "status"});
   EXPECT_GT(rows.size(), 8u);
-  EXPECT_FALSE(record::read_rows(folder_.path() / "out/machine.csv", {"name", "value"}).empty());
+  EXPECT_FALSE(read_rows(folder_.path() / "out/machine.csv", {"name", "value"}).empty());
 }
 
 TEST_F(RunCommand, TakesASceneInsteadOfACampaign) {
-  const Ran ran = commands::run_program(
+  const Ran ran = run_program(
       "--isa baseline run --scene " + path("s.toml") +
       " --broad naive,kd-tree --narrow sat --task penetration --scalar double --threads 2"
       " --count 30,60 --boxes tight,loose --out " +
       path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   std::map<std::string, int> isa, bodies, boxes;
-  for (const auto& row :
-       record::read_rows(folder_.path() / "out/raw.csv", {"isa", "bodies", "boxes"})) {
+  for (const auto& row : read_rows(folder_.path() / "out/raw.csv", {"isa", "bodies", "boxes"})) {
     ++isa[row[0]];
     ++bodies[row[1]];
     ++boxes[row[2]];
@@ -83,7 +81,7 @@ TEST_F(RunCommand, RefusesWhatIsWrongAndLeavesNothing) {
 
 TEST_F(RunCommand, AFileWhereTheFolderShouldBeIsTold) {
   folder_.write("out", "");
-  const Ran ran = commands::run_program("run " + path("c.toml") + " --out " + path("out"));
+  const Ran ran = run_program("run " + path("c.toml") + " --out " + path("out"));
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr(path("out")));
 }
@@ -94,8 +92,7 @@ TEST_F(RunCommand, ADryRunTellsCellsAndTimesAndLeavesNothing) {
                 "narrow = ['gjk', 'sat-faces']\nscalars = 'double'\nthreads = [1, 2]\nseconds = 7\n"
                 "exclude = {narrow = 'gjk', threads = 2}\n");
   const auto before = folder_.names();
-  const Ran ran =
-      commands::run_program("run " + path("c.toml") + " --dry-run --out " + path("out"));
+  const Ran ran = run_program("run " + path("c.toml") + " --dry-run --out " + path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_EQ(folder_.names(), before);
   EXPECT_THAT(ran.text, testing::HasSubstr("block 3: s, 40 bodies"));
@@ -138,9 +135,9 @@ class StoppedRun : public RunCommand {
   // Makes a run of which half is gone, as after a kill.
   StoppedRun() {
     write_campaign("");
-    const Ran ran = commands::run_program(command(""));
+    const Ran ran = run_program(command(""));
     EXPECT_EQ(ran.status, 0) << ran.text;
-    rows_ = record::read_rows(file("raw.csv"), {"kind"}).size();
+    rows_ = read_rows(file("raw.csv"), {"kind"}).size();
     stop_run(folder_.path() / "out", 0.5);
   }
   void write_campaign(const std::string& more) {
@@ -166,8 +163,8 @@ class StoppedRun : public RunCommand {
     const std::string raw = folder_.read("out/raw.csv");
     const std::string machine = folder_.read("out/machine.csv");
     const std::size_t whole =
-        std::stoul(record::read_rows(file("progress.csv"), {"name", "value"}).at(1)[1]);
-    const Ran ran = commands::run_program(command(flags));
+        std::stoul(read_rows(file("progress.csv"), {"name", "value"}).at(1)[1]);
+    const Ran ran = run_program(command(flags));
     EXPECT_EQ(ran.status, 2) << ran.text;
     EXPECT_THAT(ran.text, testing::HasSubstr(text));
     const std::string after = folder_.read("out/raw.csv");
@@ -175,9 +172,9 @@ class StoppedRun : public RunCommand {
     EXPECT_EQ(folder_.read("out/machine.csv"), machine);
   }
   void expect_whole(const std::string& flags) {
-    const Ran ran = commands::run_program(command(flags));
+    const Ran ran = run_program(command(flags));
     EXPECT_EQ(ran.status, 0) << ran.text;
-    EXPECT_EQ(record::read_rows(file("raw.csv"), {"kind"}).size(), rows_);
+    EXPECT_EQ(read_rows(file("raw.csv"), {"kind"}).size(), rows_);
     EXPECT_THAT(folder_.read("out/machine.csv"), testing::HasSubstr("finished,yes"));
   }
   std::size_t rows_ = 0;
@@ -272,8 +269,8 @@ TEST_F(StoppedRun, TwoAtOnceAreRefused) {
 }
 
 TEST_F(RunCommand, DrawsAPicture) {
-  const Ran ran = commands::run_program("draw " + path("s.toml") +
-                                        " --frame 1 --width 64 --height 48 --out " + path("p.png"));
+  const Ran ran = run_program("draw " + path("s.toml") +
+                              " --frame 1 --width 64 --height 48 --out " + path("p.png"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("40 bodies"));
   const std::string bytes = folder_.read("p.png");

@@ -20,11 +20,11 @@ class StressCommand : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder.path() / name).string(); }
   std::string out() const { return " --out " + path("out"); }
   Ran stress(const std::string& arguments) const {
-    return commands::run_program("stress " + arguments + out());
+    return run_program("stress " + arguments + out());
   }
   std::set<std::string> column(const std::string& file, const std::string& name) const {
     std::set<std::string> values;
-    for (const auto& row : record::read_rows(path("out/" + file), {name})) values.insert(row[0]);
+    for (const auto& row : read_rows(path("out/" + file), {name})) values.insert(row[0]);
     return values;
   }
   void expect_refusal(const std::string& arguments, const std::string& text) {
@@ -59,11 +59,11 @@ TEST_F(StressCommand, APeersWorstErrorsAreReplayed) {
   EXPECT_EQ(ran.status, 0) << ran.text;
   const std::string file = path("out/failures/libccd-gjk-double-intersect.jsonl");
   ASSERT_FALSE(files::read_cases(file).empty());
-  const Ran again = commands::run_program(
-      "query " + file + " --narrow libccd-gjk,gjk --task intersect --scalar double --out " +
-      path("answers.csv"));
+  const Ran again = run_program("query " + file +
+                                " --narrow libccd-gjk,gjk --task intersect --scalar double --out " +
+                                path("answers.csv"));
   EXPECT_EQ(again.status, 0) << again.text;
-  const auto rows = record::read_rows(path("answers.csv"), {"algorithm", "answer"});
+  const auto rows = read_rows(path("answers.csv"), {"algorithm", "answer"});
   ASSERT_FALSE(rows.empty());
   for (std::size_t i = 0; i < rows.size(); i += 2) {
     EXPECT_EQ(rows[i][1], "overlapping");

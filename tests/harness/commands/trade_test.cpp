@@ -1,4 +1,4 @@
-// Tests of touchstone trade, and of run with a file of a trade.
+// touchstone trade, and run with a file of a trade.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -22,17 +22,16 @@ TEST(TradeCommand, RunTakesAFileOfATrade) {
   folder.write("scene.toml", scene);
   const std::string file = folder.write("mine.toml", grid).string();
   const std::string out = (folder.path() / "out").string();
-  const Ran ran = commands::run_program("run " + file + " --out " + out);
+  const Ran ran = run_program("run " + file + " --out " + out);
   ASSERT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("3 configurations"));
-  EXPECT_EQ(record::read_rows(folder.path() / "out/points.csv", {"point"}).size(), 3u);
-  EXPECT_GE(record::read_rows(folder.path() / "out/front.csv", {"point", "error_measure"}).size(),
-            1u);
-  // The file that it writes is an equal request.
-  const Ran again = commands::run_program("run " + out + "/trade.toml --out " + out + "/again");
+  EXPECT_EQ(read_rows(folder.path() / "out/points.csv", {"point"}).size(), 3u);
+  EXPECT_GE(read_rows(folder.path() / "out/front.csv", {"point", "error_measure"}).size(), 1u);
+  // What it leaves behind asks for the same.
+  const Ran again = run_program("run " + out + "/trade.toml --out " + out + "/again");
   EXPECT_EQ(again.status, 0) << again.text;
-  EXPECT_EQ(record::read_rows(folder.path() / "out/again/points.csv", {"point"}),
-            record::read_rows(folder.path() / "out/points.csv", {"point"}));
+  EXPECT_EQ(read_rows(folder.path() / "out/again/points.csv", {"point"}),
+            read_rows(folder.path() / "out/points.csv", {"point"}));
 }
 
 TEST(TradeCommand, BadRequestsAreRefused) {

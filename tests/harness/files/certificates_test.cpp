@@ -208,8 +208,8 @@ TEST_F(Certificates, WhatIsWrittenComesBackBitForBit) {
     c.answer = static_cast<Answer>(below(4));
     c.lower = {static_cast<int>(below(3)) - 1, integer(), integer()};
     c.upper = oracle::SignedRoot::infinity(1);
-    c.a = scene::generators();
-    c.b = scene::generators();
+    c.a = generators();
+    c.b = generators();
     c.direction = {integer(), integer(), integer()};
     for (std::uint64_t k = below(4); k > 0; --k) {
       c.closest.push_back({{index(), index()}, integer()});

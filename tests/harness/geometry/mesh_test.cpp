@@ -262,13 +262,14 @@ TEST_F(MeshTest, ErrorsNameFileAndLine) {
 
 // Whatever is done to a file, it is read, with finite vertices and indices in range, or refused.
 TEST(MeshFormat, BrokenFilesAreReadOrRefused) {
-  const std::pair<decltype(&read_obj), std::string> files[] = {{read_obj, obj},
-                                                               {read_off, off},
-                                                               {read_stl, stl},
-                                                               {read_ply, ply},
-                                                               {read_ply, binary_ply(false)},
-                                                               {read_ply, binary_ply(true)},
-                                                               {read_stl, binary_stl("solid")}};
+  const std::pair<decltype(&geometry::read_obj), std::string> files[] = {
+      {geometry::read_obj, obj},
+      {geometry::read_off, off},
+      {geometry::read_stl, stl},
+      {geometry::read_ply, ply},
+      {geometry::read_ply, binary_ply(false)},
+      {geometry::read_ply, binary_ply(true)},
+      {geometry::read_stl, binary_stl("solid")}};
   std::mt19937_64 random(1);
   int read_count = 0, refused = 0;
   for (int i = 0; i < 14000; ++i) {

@@ -24,7 +24,7 @@ struct Cubes {
       : pair(along_x(cube(1), b, x), Encoding::as_given),
         exact(oracle.measure(pair.a(), pair.b())) {}
   grade::Grade grade(const Outcome& outcome, Task task) const {
-    return touchstone::grade(outcome, task, exact, pair.a(), pair.b());
+    return touchstone::grade::grade(outcome, task, exact, pair.a(), pair.b());
   }
   grade::WitnessGrade witnesses(const Outcome& outcome, Task task) {
     return grade::grade_witnesses(outcome, task, pair.a(), pair.b(), oracle);
@@ -39,34 +39,34 @@ Outcome outcome(Answer answer, Status status = Status::ok, double distance = Out
   return outcome;
 }
 
-TEST(grade::Grade, EveryVerdict) {
+TEST(Grade, EveryVerdict) {
   using enum Answer;
-  const Cubes apart(3), touch(2), scene::meet(1.5);
+  const Cubes apart(3), touch(2), meet(1.5);
   const auto verdict = [](const Cubes& cubes, Answer answer, Status status = Status::ok) {
     return cubes.grade(outcome(answer, status), Task::intersect).verdict;
   };
   for (const Status status : {Status::ok, Status::not_reported}) {
-    EXPECT_EQ(stats::verdict(apart, separated, status), grade::Verdict::right);
-    EXPECT_EQ(stats::verdict(apart, overlapping, status), grade::Verdict::silent_error);
-    EXPECT_EQ(stats::verdict(apart, touching, status), grade::Verdict::silent_error);
-    EXPECT_EQ(stats::verdict(meet, overlapping, status), grade::Verdict::right);
-    EXPECT_EQ(stats::verdict(meet, touching, status), grade::Verdict::right);
-    EXPECT_EQ(stats::verdict(meet, separated, status), grade::Verdict::silent_error);
-    EXPECT_EQ(stats::verdict(touch, separated, status), grade::Verdict::unscored);
-    EXPECT_EQ(stats::verdict(touch, overlapping, status), grade::Verdict::unscored);
-    EXPECT_EQ(stats::verdict(apart, unknown, status), grade::Verdict::honest_failure);
-    EXPECT_EQ(stats::verdict(touch, unknown, status), grade::Verdict::honest_failure);
+    EXPECT_EQ(verdict(apart, separated, status), grade::Verdict::right);
+    EXPECT_EQ(verdict(apart, overlapping, status), grade::Verdict::silent_error);
+    EXPECT_EQ(verdict(apart, touching, status), grade::Verdict::silent_error);
+    EXPECT_EQ(verdict(meet, overlapping, status), grade::Verdict::right);
+    EXPECT_EQ(verdict(meet, touching, status), grade::Verdict::right);
+    EXPECT_EQ(verdict(meet, separated, status), grade::Verdict::silent_error);
+    EXPECT_EQ(verdict(touch, separated, status), grade::Verdict::unscored);
+    EXPECT_EQ(verdict(touch, overlapping, status), grade::Verdict::unscored);
+    EXPECT_EQ(verdict(apart, unknown, status), grade::Verdict::honest_failure);
+    EXPECT_EQ(verdict(touch, unknown, status), grade::Verdict::honest_failure);
   }
   for (const Status status : {Status::not_converged, Status::degenerate, Status::capacity}) {
-    EXPECT_EQ(stats::verdict(apart, overlapping, status), grade::Verdict::honest_failure);
-    EXPECT_EQ(stats::verdict(apart, separated, status), grade::Verdict::honest_failure);
+    EXPECT_EQ(verdict(apart, overlapping, status), grade::Verdict::honest_failure);
+    EXPECT_EQ(verdict(apart, separated, status), grade::Verdict::honest_failure);
   }
-  EXPECT_EQ(stats::verdict(apart, unknown, Status::crashed), grade::Verdict::crashed);
-  EXPECT_EQ(stats::verdict(apart, unknown, Status::timed_out), grade::Verdict::timed_out);
-  EXPECT_EQ(stats::verdict(apart, unknown, Status::unsupported), grade::Verdict::unsupported);
+  EXPECT_EQ(verdict(apart, unknown, Status::crashed), grade::Verdict::crashed);
+  EXPECT_EQ(verdict(apart, unknown, Status::timed_out), grade::Verdict::timed_out);
+  EXPECT_EQ(verdict(apart, unknown, Status::unsupported), grade::Verdict::unsupported);
 }
 
-TEST(grade::Grade, TheOracleMayNotTell) {
+TEST(Grade, TheOracleMayNotTell) {
   Cubes cubes(3);
   cubes.exact.answer = Answer::unknown;
   cubes.exact.lower = -1;
@@ -76,13 +76,13 @@ TEST(grade::Grade, TheOracleMayNotTell) {
   EXPECT_TRUE(std::isnan(grade.margin));
 }
 
-TEST(grade::Grade, NamesOfVerdictsDiffer) {
+TEST(Grade, NamesOfVerdictsDiffer) {
   std::set<std::string_view> names;
   for (int i = 0; i < 7; ++i) names.insert(to_string(static_cast<grade::Verdict>(i)));
   EXPECT_EQ(names.size(), 7u);
 }
 
-TEST(grade::Grade, BodiesThatTouchAreUnscoredOrInContact) {
+TEST(Grade, BodiesThatTouchAreUnscoredOrInContact) {
   Outcome outcome;
   outcome.status = Status::ok;
   outcome.answer = Answer::separated;
@@ -96,7 +96,7 @@ TEST(grade::Grade, BodiesThatTouchAreUnscoredOrInContact) {
             grade::Verdict::right);
 }
 
-TEST(grade::Grade, MarginIsTheExactDistanceThatWasCalledWrongly) {
+TEST(Grade, MarginIsTheExactDistanceThatWasCalledWrongly) {
   EXPECT_EQ(Cubes(3).grade(outcome(Answer::overlapping), Task::intersect).margin, 1);
   EXPECT_EQ(Cubes(1.5).grade(outcome(Answer::separated), Task::intersect).margin, 0.5);
   EXPECT_TRUE(std::isnan(Cubes(3).grade(outcome(Answer::separated), Task::intersect).margin));
@@ -105,7 +105,7 @@ TEST(grade::Grade, MarginIsTheExactDistanceThatWasCalledWrongly) {
   EXPECT_TRUE(std::isnan(honest.margin));
 }
 
-TEST(grade::Grade, ErrorsOfDistances) {
+TEST(Grade, ErrorsOfDistances) {
   const Cubes apart(3);
   const auto error = [&](double distance) {
     return apart.grade(outcome(Answer::separated, Status::ok, distance), Task::distance)
@@ -126,7 +126,7 @@ TEST(grade::Grade, ErrorsOfDistances) {
   EXPECT_EQ(Cubes(2).grade(far, Task::distance).distance_error, 2);
 }
 
-TEST(grade::Grade, ErrorsOfDepthsAndTheirTranslations) {
+TEST(Grade, ErrorsOfDepthsAndTheirTranslations) {
   const Cubes meet(1.5);
   const auto grade = [&](double depth, const Vec3d& normal) {
     Outcome o = outcome(Answer::overlapping, Status::ok, -depth);
@@ -155,7 +155,7 @@ TEST(grade::Grade, ErrorsOfDepthsAndTheirTranslations) {
   EXPECT_EQ(grade(0.75, Vec3d::Zero()).depth_error, 0.25);
 }
 
-TEST(grade::Grade, NormalOfAGap) {
+TEST(Grade, NormalOfAGap) {
   const Cubes apart(3);
   Outcome o = outcome(Answer::separated, Status::ok, 1);
   o.normal = {1, 0, 0};
@@ -165,7 +165,7 @@ TEST(grade::Grade, NormalOfAGap) {
   EXPECT_EQ(apart.grade(o, Task::distance).excess, 3);
 }
 
-TEST(grade::Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
+TEST(Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
   files::Case c;
   c.shape_a = cube(1);
   c.shape_b.kind = ShapeKind::halfspace;
@@ -177,7 +177,7 @@ TEST(grade::Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
   Outcome o = outcome(Answer::overlapping, Status::ok, -0.5);
   const auto grade = [&](const Vec3d& normal) {
     o.normal = normal;
-    return touchstone::grade(o, Task::penetration, exact, pair.a(), pair.b());
+    return touchstone::grade::grade(o, Task::penetration, exact, pair.a(), pair.b());
   };
   EXPECT_EQ(grade({0, 0, -1}).separation_error, 0);
   // A turn by a rounding error costs no more than that.
@@ -186,7 +186,7 @@ TEST(grade::Grade, AHalfspaceIsLeftAlongAnyUpwardDirection) {
   EXPECT_EQ(grade({0, 0, 1}).separation_error, inf);
 }
 
-TEST(grade::Grade, TwoHalfspacesOverlapForEver) {
+TEST(Grade, TwoHalfspacesOverlapForEver) {
   files::Case c;
   c.shape_a.kind = c.shape_b.kind = ShapeKind::halfspace;
   c.shape_b.normal = {0, 1, 1};
@@ -194,15 +194,15 @@ TEST(grade::Grade, TwoHalfspacesOverlapForEver) {
   oracle::Oracle oracle;
   const oracle::Measure exact = oracle.measure(pair.a(), pair.b());
   const auto error = [&](double distance) {
-    return touchstone::grade(outcome(Answer::overlapping, Status::ok, distance), Task::penetration,
-                             exact, pair.a(), pair.b())
+    return touchstone::grade::grade(outcome(Answer::overlapping, Status::ok, distance),
+                                    Task::penetration, exact, pair.a(), pair.b())
         .depth_error;
   };
   EXPECT_EQ(error(-inf), 0);
   EXPECT_EQ(error(-5), -inf);
 }
 
-TEST(grade::Grade, CertifiedBounds) {
+TEST(Grade, CertifiedBounds) {
   const Cubes apart(3);
   const auto error = [&](double lower, double upper, Status status = Status::ok) {
     Outcome o = outcome(Answer::separated, status);
@@ -224,7 +224,7 @@ TEST(grade::Grade, CertifiedBounds) {
   EXPECT_TRUE(std::isnan(error(1.25, 2, Status::crashed)));
 }
 
-TEST(grade::Grade, WitnessPoints) {
+TEST(Grade, WitnessPoints) {
   Cubes apart(3);
   Outcome o = outcome(Answer::separated, Status::ok, 1);
   o.normal = {1, 0, 0};
@@ -256,7 +256,7 @@ TEST(grade::Grade, WitnessPoints) {
   EXPECT_TRUE(std::isnan(grade.normal_error));
 }
 
-TEST(grade::Grade, WitnessPointsOfRoundBodies) {
+TEST(Grade, WitnessPointsOfRoundBodies) {
   Cubes ball_beside(3, ball(1));
   Outcome o = outcome(Answer::separated, Status::ok, 1);
   o.witness_a = {1, 0, 0};
@@ -264,8 +264,8 @@ TEST(grade::Grade, WitnessPointsOfRoundBodies) {
   EXPECT_EQ(ball_beside.witnesses(o, Task::distance).off_body, 0.5);
 }
 
-TEST(grade::Grade, NotANumber) {
-  Cubes apart(3), scene::meet(1.5);
+TEST(Grade, NotANumber) {
+  Cubes apart(3), meet(1.5);
   const auto bad = [](Cubes& cubes, const Outcome& o, Task task) {
     return cubes.witnesses(o, task).not_a_number;
   };

@@ -92,7 +92,7 @@ TEST_F(Counted, OnlyWhileItIsAskedTo) {
   EXPECT_EQ(count.so_far().calls, 0);
 }
 
-TEST(measure::Allocations, AreUnknownWhereNothingCounts) {
+TEST(Allocations, AreUnknownWhereNothingCounts) {
   const measure::AllocationCount count;
   EXPECT_EQ(count.so_far().calls >= 0, measure::can_count_allocations());
 }

@@ -1,4 +1,3 @@
-// Tests of the processor's counters.
 #include "harness/measure/hardware_counters.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +10,7 @@
 namespace touchstone {
 namespace {
 
-// Writes to this number of new pages.
+// Writes to so many pages that were never written to.
 void touch_pages(std::size_t pages) {
   const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   void* const memory =
@@ -30,7 +29,7 @@ double spin() {
   return sum;
 }
 
-TEST(measure::HardwareCounters, CountOrSayThatTheyDoNot) {
+TEST(HardwareCounters, CountOrSayThatTheyDoNot) {
   measure::HardwareCounters counters;
   counters.start();
   EXPECT_GT(spin(), 1);
@@ -43,15 +42,15 @@ TEST(measure::HardwareCounters, CountOrSayThatTheyDoNot) {
   }
 }
 
-TEST(measure::HardwareCounters, AnUnknownEventIsEmpty) {
+TEST(HardwareCounters, AnUnknownEventIsEmpty) {
   measure::EventCounter event(PERF_TYPE_HARDWARE, 0xffff);
   EXPECT_FALSE(event.is_open());
   event.start();
   EXPECT_EQ(event.count(), -1);
 }
 
-// The test uses an event that the kernel counts itself, if the kernel permits it.
-TEST(measure::HardwareCounters, TakeInTheThreadsThatComeLater) {
+// The same machinery with an event that the kernel counts itself, where it lets us.
+TEST(HardwareCounters, TakeInTheThreadsThatComeLater) {
   measure::EventCounter event(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS);
   if (!event.is_open()) GTEST_SKIP() << "the kernel allows no counters";
   event.start();

@@ -8,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-TEST(measure::LatinSquare, EachIsOnceInEveryRoundAndEveryPosition) {
+TEST(LatinSquare, EachIsOnceInEveryRoundAndEveryPosition) {
   for (std::size_t size = 1; size <= 6; ++size) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
       base::Random random(seed);
@@ -28,7 +28,7 @@ TEST(measure::LatinSquare, EachIsOnceInEveryRoundAndEveryPosition) {
   }
 }
 
-TEST(measure::LatinSquare, TheSeedDecidesAndEveryOrderComes) {
+TEST(LatinSquare, TheSeedDecidesAndEveryOrderComes) {
   std::set<std::vector<std::size_t>> first_rounds;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     base::Random random(seed), again(seed);

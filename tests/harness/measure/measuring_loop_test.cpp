@@ -83,7 +83,7 @@ measure::MeasurePlan plan_of(std::vector<measure::MeasuredContestant> contestant
   return plan;
 }
 
-TEST(measure::Durations, AddUpByName) {
+TEST(Durations, AddUpByName) {
   measure::Durations durations;
   durations.add("a", 1);
   durations.add("b", 2);
@@ -96,7 +96,7 @@ TEST(measure::Durations, AddUpByName) {
   EXPECT_THROW(durations.add("a name of sixteen", 1), std::length_error);
 }
 
-TEST(measure::MeasuringLoop, EveryRoundHasEachContestantInAnOrderOfItsOwn) {
+TEST(MeasuringLoop, EveryRoundHasEachContestantInAnOrderOfItsOwn) {
   const measure::MeasurePlan plan = plan_of({counter("a"), counter("b"), counter("c")}, 4, 2);
   Job job;
   measure::MeasuringLoop(plan, job).run();
@@ -111,7 +111,7 @@ TEST(measure::MeasuringLoop, EveryRoundHasEachContestantInAnOrderOfItsOwn) {
     ASSERT_THAT(round.samples, SizeIs(3));
     const measure::LatinSquare order = measure::square_order(plan, 0, round.square, 3);
     for (std::size_t position = 0; position < 3; ++position) {
-      const Sample& sample = round.samples[position];
+      const measure::Sample& sample = round.samples[position];
       EXPECT_EQ(sample.contestant, order[i % 3][position]);
       EXPECT_EQ(sample.position, static_cast<std::int64_t>(position));
       EXPECT_EQ(sample.reply.durations.of("work"), 2e-3);
@@ -127,7 +127,7 @@ TEST(measure::MeasuringLoop, EveryRoundHasEachContestantInAnOrderOfItsOwn) {
   for (const auto& [place, contestants] : of_position) EXPECT_THAT(contestants, SizeIs(3));
 }
 
-TEST(measure::MeasuringLoop, ACrashCostsItsContestantAlone) {
+TEST(MeasuringLoop, ACrashCostsItsContestantAlone) {
   Job job;
   measure::MeasuringLoop(plan_of({counter("a"), counter("b", 4)}, 3, 1), job).run();
   ASSERT_THAT(job.rounds, SizeIs(6));
@@ -135,7 +135,7 @@ TEST(measure::MeasuringLoop, ACrashCostsItsContestantAlone) {
   int losses = 0;
   for (const measure::Round& round : job.rounds) {
     samples.push_back(round.samples.size());
-    for (const Sample& sample : round.samples) {
+    for (const measure::Sample& sample : round.samples) {
       if (!sample.loss) continue;
       ++losses;
       EXPECT_EQ(sample.contestant, 1u);
@@ -146,23 +146,24 @@ TEST(measure::MeasuringLoop, ACrashCostsItsContestantAlone) {
   EXPECT_EQ(losses, 1);
 }
 
-TEST(measure::MeasuringLoop, AWrongAnswerEndsAContestant) {
+TEST(MeasuringLoop, AWrongAnswerEndsAContestant) {
   Job job;
   job.wrong_pairs = 3;
   measure::MeasuringLoop(plan_of({counter("a"), counter("b")}, 3, 1), job).run();
   ASSERT_THAT(job.rounds, SizeIs(2));
-  for (const Sample& sample : job.rounds[1].samples) EXPECT_TRUE(sample.loss && sample.loss->wrong);
+  for (const measure::Sample& sample : job.rounds[1].samples)
+    EXPECT_TRUE(sample.loss && sample.loss->wrong);
   EXPECT_EQ(job.rounds[1].stop, measure::Stop::crashed);
 }
 
-TEST(measure::MeasuringLoop, AContestantThatFailsUntimedTakesNoPart) {
+TEST(MeasuringLoop, AContestantThatFailsUntimedTakesNoPart) {
   Job job;
   measure::MeasuringLoop(plan_of({counter("a"), counter("b", 1)}, 1, 1), job).run();
   EXPECT_THAT(job.lost_at_start, ElementsAre(1));
   for (const measure::Round& round : job.rounds) EXPECT_THAT(round.samples, SizeIs(1));
 }
 
-TEST(measure::MeasuringLoop, ASetGoesOnBehindWhatIsDone) {
+TEST(MeasuringLoop, ASetGoesOnBehindWhatIsDone) {
   Job job;
   measure::SetProgress progress;
   progress.done = {{0, 0}, {0, 1}, {1, 0}};
@@ -172,7 +173,7 @@ TEST(measure::MeasuringLoop, ASetGoesOnBehindWhatIsDone) {
   EXPECT_EQ(job.rounds[0].round, 1);
 }
 
-TEST(measure::MeasuringLoop, SetsOfTheirOwnWorkersBeginAsLongAsThereIsTime) {
+TEST(MeasuringLoop, SetsOfTheirOwnWorkersBeginAsLongAsThereIsTime) {
   measure::MeasurePlan plan = plan_of({counter("a"), counter("b")}, 3, 3);
   plan.sets.push_back(plan.sets.front());
   plan.sets[1].warm_up_windows = 1;
@@ -192,7 +193,7 @@ TEST(measure::MeasuringLoop, SetsOfTheirOwnWorkersBeginAsLongAsThereIsTime) {
   EXPECT_EQ(job.rounds[2].request.frame, 3u);  // it begins behind the untimed window
 }
 
-TEST(measure::MeasuringLoop, EndsWhereTheJobSays) {
+TEST(MeasuringLoop, EndsWhereTheJobSays) {
   Job job;
   job.most_calls = 4;  // two starts, and a round after which it continues
   measure::MeasuringLoop(plan_of({counter("a"), counter("b")}, 6, 1), job).run();

@@ -1,4 +1,3 @@
-// Tests of workers, healthy and harmful.
 #include "harness/measure/worker.h"
 
 #include <gmock/gmock.h>
@@ -17,10 +16,12 @@
 #include <stdexcept>
 #include <thread>
 
+#include "algorithms/core/executor.h"
+
 namespace touchstone {
 namespace {
 
-// A sampler that answers with the frame; at frame 3 it does harm.
+// Answers with the frame; at frame 3 it does harm.
 class Fake final : public measure::Sampler {
  public:
   explicit Fake(std::function<void()> harm) : harm_(std::move(harm)) {}
@@ -54,7 +55,7 @@ void expect_no_child_is_left() {
   EXPECT_EQ(errno, ECHILD);
 }
 
-TEST(measure::Worker, ACrashIsTold) {
+TEST(Worker, ACrashIsTold) {
   const process::IsolationFailure failure = failure_of([] {
     std::fputs("the last words\n", stderr);
     std::raise(SIGSEGV);
@@ -65,25 +66,25 @@ TEST(measure::Worker, ACrashIsTold) {
   expect_no_child_is_left();
 }
 
-TEST(measure::Worker, AHangIsEnded) {
+TEST(Worker, AHangIsEnded) {
   EXPECT_EQ(failure_of([] { pause(); }, 0.3).state, process::ItemState::timed_out);
   expect_no_child_is_left();
 }
 
-TEST(measure::Worker, WhatIsThrownIsTold) {
+TEST(Worker, WhatIsThrownIsTold) {
   const process::IsolationFailure failure =
       failure_of([] { throw std::runtime_error("no such luck"); });
   EXPECT_EQ(failure.state, process::ItemState::threw);
   EXPECT_EQ(failure.words, "no such luck");
 }
 
-TEST(measure::Worker, LeavingIsTold) {
+TEST(Worker, LeavingIsTold) {
   const process::IsolationFailure failure = failure_of([] { _exit(7); });
   EXPECT_EQ(failure.state, process::ItemState::crashed);
   EXPECT_EQ(failure.exit_code, 7);
 }
 
-TEST(measure::Worker, WhatPrintsALotIsHeardAndNotStopped) {
+TEST(Worker, WhatPrintsALotIsHeardAndNotStopped) {
   const process::IsolationFailure failure = failure_of([] {
     for (int i = 0; i < 100'000; ++i) std::fputs("talk talk talk\n", stderr);
     std::abort();
@@ -93,7 +94,7 @@ TEST(measure::Worker, WhatPrintsALotIsHeardAndNotStopped) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST(measure::Worker, ALeakEndsAtTheLimit) {
+TEST(Worker, ALeakEndsAtTheLimit) {
   const process::IsolationFailure failure = failure_of([] {
     for (;;) {
       volatile char* const lost = new char[1 << 20];
@@ -105,7 +106,7 @@ TEST(measure::Worker, ALeakEndsAtTheLimit) {
 }
 #endif
 
-TEST(measure::Worker, AFailureBeforeTheFirstSampleIsTold) {
+TEST(Worker, AFailureBeforeTheFirstSampleIsTold) {
   measure::Worker worker(
       []() -> std::unique_ptr<measure::Sampler> { throw std::runtime_error("not today"); }, {});
   const auto failure = worker.wait_until_made(60);
@@ -114,8 +115,7 @@ TEST(measure::Worker, AFailureBeforeTheFirstSampleIsTold) {
   EXPECT_EQ(failure->words, "not today");
 }
 
-// Returns true if `use` makes forking refused. It runs in a process of its own, since oneTBB keeps
-// its threads.
+// In a process of its own, since oneTBB keeps its threads: whether `use` makes forking refused.
 bool refuses_to_fork_after(const std::function<void()>& use) {
   const pid_t child = fork();
   if (child == 0) {
@@ -133,7 +133,7 @@ bool refuses_to_fork_after(const std::function<void()>& use) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 1;
 }
 
-TEST(measure::Worker, IsNotForkedByAProcessOfSeveralThreads) {
+TEST(Worker, IsNotForkedByAProcessOfSeveralThreads) {
   const auto use = [](int width) {
     Executor executor(width);
     std::atomic<int> sum = 0;
@@ -150,8 +150,8 @@ TEST(measure::Worker, IsNotForkedByAProcessOfSeveralThreads) {
 #endif
 }
 
-TEST(measure::Worker, LayoutsDiffer) {
-  // The address of new memory shows where the heap begins.
+TEST(Worker, LayoutsDiffer) {
+  // Where a new piece of memory lies tells where the heap was.
   struct Where final : measure::Sampler {
     measure::SampleReply sample(const measure::SampleRequest&) override {
       measure::SampleReply reply;

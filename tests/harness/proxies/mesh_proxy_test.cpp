@@ -59,7 +59,7 @@ TEST(Meshes, OuterOnesHoldTheSolid) {
                              "hull", "parts", "parts-2", "parts-5", "icosphere-1"}) {
       SCOPED_TRACE(m.name + ", " + form);
       const auto parts =
-          proxies::represent(check::hull_of(m.mesh), &m.mesh, proxies::parse_representation(form));
+          proxies::represent(hull_of(m.mesh), &m.mesh, proxies::parse_representation(form));
       for (const Vec3d& p : points) {
         EXPECT_TRUE(std::any_of(parts.begin(), parts.end(),
                                 [&](const proxies::Part& part) { return exact.holds(part, p); }));
@@ -75,8 +75,8 @@ TEST(Meshes, InnerOnesTouchNoTriangleAndAreInside) {
     for (const char* form : {"sphere inner", "box inner", "oriented-box inner", "dop-14 inner",
                              "capsule inner", "hull-12 inner", "hull inner", "parts inner"}) {
       SCOPED_TRACE(m.name + ", " + form);
-      for (const proxies::Part& part : proxies::represent(check::hull_of(m.mesh), &m.mesh,
-                                                          proxies::parse_representation(form))) {
+      for (const proxies::Part& part :
+           proxies::represent(hull_of(m.mesh), &m.mesh, proxies::parse_representation(form))) {
         const oracle::Solid solid(part.shape);
         Vec3d middle = part.pose.translation;
         if (part.shape.hull != nullptr) {
@@ -96,17 +96,16 @@ TEST(Meshes, InnerOnesTouchNoTriangleAndAreInside) {
 
 TEST(Meshes, PartsComeNearTheSolid) {
   const geometry::Mesh mesh = angle_bracket();
-  const auto parts = proxies::represent(check::hull_of(mesh), &mesh,
-                                        {proxies::Form::parts, proxies::Side::outer, 0});
+  const auto parts =
+      proxies::represent(hull_of(mesh), &mesh, {proxies::Form::parts, proxies::Side::outer, 0});
   EXPECT_EQ(parts.size(), 2u);
   const proxies::RepresentationError error =
-      proxies::representation_error(check::hull_of(mesh), &mesh, parts);
+      proxies::representation_error(hull_of(mesh), &mesh, parts);
   EXPECT_NEAR(error.added, 0, 1e-4);
   EXPECT_NEAR(error.lost, 0, 1e-4);
   EXPECT_NEAR(error.hausdorff, 0, error.hausdorff_deviation);
   const proxies::RepresentationError hull = proxies::representation_error(
-      check::hull_of(mesh), &mesh,
-      proxies::represent(check::hull_of(mesh), &mesh, {proxies::Form::hull}));
+      hull_of(mesh), &mesh, proxies::represent(hull_of(mesh), &mesh, {proxies::Form::hull}));
   EXPECT_NEAR(hull.added, 0.5 / 3, 4 * hull.volume_deviation);
   EXPECT_NEAR(hull.lost, 0, 1e-9);
   EXPECT_NEAR(hull.hausdorff, 0.5, hull.hausdorff_deviation);
@@ -116,11 +115,11 @@ TEST(Meshes, PartsComeNearTheSolid) {
   const geometry::Mesh ring = torus(1, 0.2, 32, 16);
   double before = 10;
   for (int most : {1, 4, 8, 16}) {
-    const auto pieces = proxies::represent(check::hull_of(ring), &ring,
+    const auto pieces = proxies::represent(hull_of(ring), &ring,
                                            {proxies::Form::parts, proxies::Side::outer, most});
     EXPECT_LE(pieces.size(), static_cast<std::size_t>(most));
     const proxies::RepresentationError e =
-        proxies::representation_error(check::hull_of(ring), &ring, pieces);
+        proxies::representation_error(hull_of(ring), &ring, pieces);
     EXPECT_LT(e.added, before) << most;
     EXPECT_LT(e.lost, 1e-9);
     before = e.added;
@@ -131,10 +130,10 @@ TEST(Meshes, PartsComeNearTheSolid) {
 TEST(Meshes, AsTrianglesTheyAreTheSurface) {
   const geometry::Mesh mesh = angle_bracket();
   const auto parts =
-      proxies::represent(check::hull_of(mesh), &mesh, proxies::parse_representation("mesh"));
+      proxies::represent(hull_of(mesh), &mesh, proxies::parse_representation("mesh"));
   EXPECT_EQ(parts.size(), mesh.triangles.size());
   const proxies::RepresentationError error =
-      proxies::representation_error(check::hull_of(mesh), &mesh, parts);
+      proxies::representation_error(hull_of(mesh), &mesh, parts);
   EXPECT_EQ(error.added, 0);
   EXPECT_EQ(error.lost, 1);
   EXPECT_LT(error.hausdorff, 1e-12);
@@ -159,11 +158,10 @@ TEST(Meshes, PiecesThatShareAFaceStayTwoAndATriangleSoupIsOne) {
 TEST(Meshes, OpenOnesHaveNothingInside) {
   geometry::Mesh mesh = angle_bracket();
   mesh.triangles.pop_back();
-  EXPECT_THROW(proxies::represent(check::hull_of(mesh), &mesh,
-                                  proxies::parse_representation("sphere inner")),
-               base::InputError);
-  EXPECT_EQ(proxies::represent(check::hull_of(mesh), &mesh, proxies::parse_representation("parts"))
-                .size(),
+  EXPECT_THROW(
+      proxies::represent(hull_of(mesh), &mesh, proxies::parse_representation("sphere inner")),
+      base::InputError);
+  EXPECT_EQ(proxies::represent(hull_of(mesh), &mesh, proxies::parse_representation("parts")).size(),
             1u);
 }
 

@@ -19,7 +19,7 @@ proxies::RepresentationError error_of(const Shape& shape, const std::string& for
 Shape ball(double radius) { return round_shape(ShapeKind::sphere, radius, 0, Vec3d::Zero()); }
 Shape box(const Vec3d& half) { return round_shape(ShapeKind::box, 0, 0, half); }
 
-TEST(proxies::RepresentationError, IsKnownForABall) {
+TEST(RepresentationError, IsKnownForABall) {
   const proxies::RepresentationError outer = error_of(ball(2), "box");
   EXPECT_NEAR(outer.added, 6 / pi - 1, 1e-12);
   EXPECT_EQ(outer.lost, 0);
@@ -36,7 +36,7 @@ TEST(proxies::RepresentationError, IsKnownForABall) {
   }
 }
 
-TEST(proxies::RepresentationError, FallsWithTheLevelOfAnIcosphere) {
+TEST(RepresentationError, FallsWithTheLevelOfAnIcosphere) {
   double before[3] = {1e9, 1e9, 1e9};
   for (int level = 0; level <= 5; ++level) {
     for (proxies::Side side :
@@ -63,7 +63,7 @@ TEST(proxies::RepresentationError, FallsWithTheLevelOfAnIcosphere) {
   EXPECT_LT(before[0], 2e-3);
 }
 
-TEST(proxies::RepresentationError, IsExactBetweenPolytopesThatCross) {
+TEST(RepresentationError, IsExactBetweenPolytopesThatCross) {
   proxies::Part turned;
   turned.shape = box(Vec3d::Constant(0.5));
   const double c = std::sqrt(0.5);
@@ -113,7 +113,7 @@ bool is_in(const Shape& s, const Pose& pose, const Vec3d& point) {
     case ShapeKind::sphere: return x.norm() <= s.radius;
     case ShapeKind::capsule:
       return std::hypot(beside, std::max(0.0, z - s.half_length)) <= s.radius;
-    case ShapeKind::cylinder: return base::beside <= s.radius && z <= s.half_length;
+    case ShapeKind::cylinder: return beside <= s.radius && z <= s.half_length;
     case ShapeKind::cone:
       return z <= s.half_length && beside * 2 * s.half_length <= s.radius * (s.half_length - x.z());
     case ShapeKind::box: return (x.cwiseAbs().array() <= s.half_extents.array()).all();
@@ -127,7 +127,7 @@ bool is_in(const Shape& s, const Pose& pose, const Vec3d& point) {
 
 // The Hausdorff distance of convex bodies is the greatest difference of their supports; volumes by
 // points at random.
-TEST(proxies::RepresentationError, AgreesWithPlainSampling) {
+TEST(RepresentationError, AgreesWithPlainSampling) {
   base::Random random(11);
   std::vector<NamedShape> bodies;
   for (NamedShape& b : round_shapes()) {
@@ -171,7 +171,7 @@ TEST(proxies::RepresentationError, AgreesWithPlainSampling) {
   EXPECT_GT(crossing, 20);
 }
 
-TEST(proxies::RepresentationError, OfBoxesAroundAndInsideHullsIsTheirVolume) {
+TEST(RepresentationError, OfBoxesAroundAndInsideHullsIsTheirVolume) {
   for (const NamedShape& body : hulls()) {
     if (body.flat) continue;
     SCOPED_TRACE(body.name);
@@ -196,14 +196,14 @@ TEST(proxies::RepresentationError, OfBoxesAroundAndInsideHullsIsTheirVolume) {
   }
 }
 
-TEST(proxies::RepresentationError, OfAFlatBodyIsInfinite) {
+TEST(RepresentationError, OfAFlatBodyIsInfinite) {
   const Shape flat = hull_shape({{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}});
   EXPECT_TRUE(std::isinf(error_of(flat, "sphere").added));
   EXPECT_EQ(error_of(flat, "hull").volume_error(), 0);
   EXPECT_THROW(error_of(flat, "sphere nearest"), base::InputError);
 }
 
-TEST(proxies::Representation, NamesAreReadBack) {
+TEST(Representation, NamesAreReadBack) {
   for (const char* text : {"as-given", "sphere", "box inner", "oriented-box nearest", "dop-14",
                            "dop-18 inner", "dop-26", "capsule", "hull-16 inner", "hull", "parts",
                            "parts-12 inner", "mesh", "icosphere-0", "icosphere-5 nearest"}) {
@@ -216,7 +216,7 @@ TEST(proxies::Representation, NamesAreReadBack) {
   }
 }
 
-TEST(proxies::Representation, RefusesWhatThereIsNot) {
+TEST(Representation, RefusesWhatThereIsNot) {
   Shape halfspace;
   halfspace.kind = ShapeKind::halfspace;
   EXPECT_EQ(proxies::represent(halfspace, nullptr, {}).size(), 1u);

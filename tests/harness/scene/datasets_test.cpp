@@ -24,7 +24,7 @@ TEST(Home, IsAFurnishedFlat) {
   EXPECT_EQ(scene.name, "home");
   EXPECT_GT(scene.bodies.size(), 1000u);
   std::size_t moving = 0;
-  for (const Body& body : scene.bodies) moving += body.moving;
+  for (const scene::Body& body : scene.bodies) moving += body.moving;
   EXPECT_GT(moving, 10u);
   EXPECT_LT(moving, 50u);
   for (const Shape& shape : scene.shapes) {

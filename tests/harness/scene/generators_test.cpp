@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Generators, DensityIsBroadmarks) {
   const scene::Scene scene = load("generator = \"brownian\"\ncount = 1000\ndensity = 0.125\n");
   EXPECT_NEAR(scene.motion.wall_max.x() - scene.motion.wall_min.x(), 20, 1e-3);
-  for (const Body& body : scene.bodies) {
+  for (const scene::Body& body : scene.bodies) {
     EXPECT_LE(body.pose.translation.norm(), 9);
     EXPECT_LE(body.velocity.norm(), 15 * (1 + 1e-3));
     EXPECT_EQ(scene.shapes[body.shape].half_extents, Vec3d(0.5, 0.5, 0.5));
@@ -145,7 +145,7 @@ TEST(Generators, ExactlyTheAskedShareMoves) {
       const scene::Scene scene =
           load("count = 81\nwalls = true\ngenerator = \"" + name + "\"\nmoving = " + share + "\n");
       const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(),
-                                        [](const Body& body) { return body.moving; });
+                                        [](const scene::Body& body) { return body.moving; });
       const double of = name == "ground" || name == "city" ? 80 : 81;
       EXPECT_EQ(moving, static_cast<long>(std::floor(of * std::stod(share) + 0.5))) << name;
       scene::ScenePlayer player(scene, scene::BoxKind::tight);
@@ -173,9 +173,9 @@ TEST(Generators, MixFollowsTheWeights) {
   const scene::Scene scene = load(
       "generator = \"uniform\"\ncount = 4000\ndistinct = 4000\n"
       "shapes = [{type = \"box\", weight = 3}, {type = \"sphere\", radius = 0.5}]\n");
-  const auto spheres = std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) {
-    return scene.shapes[b.shape].kind == ShapeKind::sphere;
-  });
+  const auto spheres = std::count_if(
+      scene.bodies.begin(), scene.bodies.end(),
+      [&](const scene::Body& b) { return scene.shapes[b.shape].kind == ShapeKind::sphere; });
   EXPECT_NEAR(static_cast<double>(spheres), 1000, 120);
   for (const Shape& shape : scene.shapes) {
     if (shape.kind != ShapeKind::sphere) continue;
@@ -210,7 +210,7 @@ TEST(Generators, ACityStandsOnTheGround) {
   const scene::Scene scene = load("generator = \"city\"\ncount = 101\n");
   ASSERT_EQ(scene.shapes[scene.bodies[0].shape].kind, ShapeKind::halfspace);
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
+    const scene::Body& body = scene.bodies[i];
     EXPECT_EQ(body.pose.translation.z(), scene.shapes[body.shape].half_extents.z());
   }
   const scene::ScenePlayer player(scene, scene::BoxKind::tight);

@@ -20,8 +20,8 @@ scene::Scene load(const std::string& content, const scene::SceneOverrides& overr
 }
 
 oracle::Enclosure exact_distance(const scene::Scene& scene, const IndexPair& pair) {
-  const Body& a = scene.bodies[pair.a];
-  const Body& b = scene.bodies[pair.b];
+  const scene::Body& a = scene.bodies[pair.a];
+  const scene::Body& b = scene.bodies[pair.b];
   const oracle::Solid solid_a(scene.shapes[a.shape]), solid_b(scene.shapes[b.shape]);
   oracle::Oracle oracle;
   const auto found = oracle.measure({solid_a, a.pose}, {solid_b, b.pose});
@@ -182,8 +182,8 @@ TEST(Pairs, SwayIsRefusedWhereItMakesNoSense) {
   EXPECT_THAT(fault("count = 2\nsway = 0.1\nframes = 3\nstep = 0.1\n"), testing::HasSubstr("step"));
   const scene::Scene still = load("count = 4\nframes = 5\n"),
                      swaying = load("count = 4\nsway = 0.1\n");
-  for (const Body& body : still.bodies) EXPECT_FALSE(body.moving);
-  for (const Body& body : swaying.bodies) EXPECT_FALSE(body.moving);  // of one frame
+  for (const scene::Body& body : still.bodies) EXPECT_FALSE(body.moving);
+  for (const scene::Body& body : swaying.bodies) EXPECT_FALSE(body.moving);  // of one frame
 }
 
 }  // namespace

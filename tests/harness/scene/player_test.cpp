@@ -31,7 +31,7 @@ Shape halfspace(const Vec3d& normal, double offset) {
   return shape;
 }
 
-scene::Scene scene_of(const Shape& shape, const Body& body, int frames) {
+scene::Scene scene_of(const Shape& shape, const scene::Body& body, int frames) {
   scene::Scene scene;
   scene.shapes = {shape};
   scene.bodies = {body};
@@ -173,7 +173,7 @@ TEST(Player, PlaysTheSameBitsEachTime) {
 }
 
 TEST(Player, InertialBodiesFlyStraightAndTurnEvenly) {
-  Body body;
+  scene::Body body;
   body.velocity = {3, -1, 0.5};
   body.angular_velocity = {0, 0, std::numbers::pi};  // half a turn a second
   scene::Scene scene = scene_of(sphere(1), body, 61);
@@ -190,7 +190,7 @@ TEST(Player, InertialBodiesFlyStraightAndTurnEvenly) {
 }
 
 TEST(Player, RotationsStayOrthonormal) {
-  Body body;
+  scene::Body body;
   body.angular_velocity = {70, -31, 12};
   const scene::Scene scene = scene_of(sphere(1), body, 5000);
   scene::ScenePlayer player(scene, scene::BoxKind::tight);
@@ -202,7 +202,7 @@ TEST(Player, RotationsStayOrthonormal) {
 }
 
 TEST(Player, FreeFallIsAParabola) {
-  Body body;
+  scene::Body body;
   body.velocity = {1, 0, 10};
   scene::Scene scene = scene_of(sphere(1), body, 100);
   scene.motion.kind = scene::MotionKind::free_fall;
@@ -216,7 +216,7 @@ TEST(Player, FreeFallIsAParabola) {
 }
 
 TEST(Player, GravityTurnsOnceAPeriod) {
-  scene::Scene scene = scene_of(sphere(1), Body{}, 241);
+  scene::Scene scene = scene_of(sphere(1), scene::Body{}, 241);
   scene.motion.kind = scene::MotionKind::rotating_gravity;
   scene.motion.acceleration = 3;
   scene.motion.period = 8;  // 240 frames
@@ -242,7 +242,7 @@ TEST(Player, WallsAreElastic) {
       scene.motion.wall_max = {1, 2, 3};
       base::Random random(3);
       for (int i = 0; i < 20; ++i) {
-        Body body;
+        scene::Body body;
         body.pose.translation = random.in_ball();
         body.velocity = speed * random.in_ball();
         scene.bodies.push_back(body);
@@ -290,7 +290,7 @@ TEST(Player, BrownianKicksOneInAHundredInTurn) {
 }
 
 TEST(Player, StillBodiesStayWhateverTheirVelocity) {
-  Body body;
+  scene::Body body;
   body.velocity = {1, 2, 3};
   body.angular_velocity = {1, 2, 3};
   body.moving = false;
@@ -311,14 +311,14 @@ TEST(Player, HalfspacesAreCutWithoutLosingAPair) {
                   halfspace({1, 1, 0}, 0), halfspace({0, 1, 0}, 40)};
   scene.frames = 30;
   for (std::uint32_t shape = 1; shape < scene.shapes.size(); ++shape) {
-    Body body;
+    scene::Body body;
     body.shape = shape;
     body.moving = false;
     scene.bodies.push_back(body);
   }
   base::Random random(5);
   for (int i = 0; i < 40; ++i) {
-    Body body;
+    scene::Body body;
     body.pose.translation = 4 * random.in_ball();
     body.velocity = 10 * random.in_ball();
     scene.bodies.push_back(body);
@@ -349,7 +349,7 @@ TEST(Player, HalfspacesAreCutWithoutLosingAPair) {
 }
 
 TEST(Player, HalfspacesAloneHaveFiniteBoxes) {
-  Body body;
+  scene::Body body;
   body.moving = false;
   scene::Scene scene = scene_of(halfspace({1, 2, 3}, 1), body, 2);
   scene.bodies.push_back(body);

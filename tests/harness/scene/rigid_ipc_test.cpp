@@ -77,7 +77,7 @@ class RigidIpc : public testing::Test {
 
 // The world's box of a body.
 std::pair<Vec3d, Vec3d> extent(const scene::Scene& scene, std::size_t body) {
-  const Body& b = scene.bodies[body];
+  const scene::Body& b = scene.bodies[body];
   Vec3d low = Vec3d::Constant(1e300), high = -low;
   for (const Vec3d& v : scene.shapes[b.shape].hull->vertices) {
     low = low.cwiseMin(b.pose(v));
@@ -132,7 +132,7 @@ TEST_F(RigidIpc, VelocitiesAndFrames) {
   EXPECT_EQ(scene.bodies[1].velocity, Vec3d(0, 2, 3));
   EXPECT_EQ(scene.bodies[1].angular_velocity.y(), 0);
   std::vector<bool> moving;
-  for (const Body& b : scene.bodies) moving.push_back(b.moving);
+  for (const scene::Body& b : scene.bodies) moving.push_back(b.moving);
   EXPECT_EQ(moving, (std::vector<bool>{true, true, false, false, true}));
   EXPECT_EQ(scene.motion.time_step, 0.25);
   EXPECT_EQ(scene.frames, 10);  // nine steps
@@ -220,7 +220,7 @@ TEST(RigidIpcFolder, EveryScene) {
       const scene::Scene scene = scene::import_rigid_ipc(entry.path());
       ++loaded;
       EXPECT_GE(scene.frames, 1);
-      for (const Body& body : scene.bodies) {
+      for (const scene::Body& body : scene.bodies) {
         EXPECT_TRUE(body.pose.rotation.isUnitary(1e-12));
         EXPECT_TRUE(body.pose.translation.allFinite());
       }

@@ -26,7 +26,7 @@ scene::Scene example() {
       shape.hull = make_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
     }
     scene.shapes.push_back(shape);
-    Body body;
+    scene::Body body;
     body.shape = static_cast<std::uint32_t>(kind);
     body.velocity = {1, 0, 0};
     body.angular_velocity = {0, 1, 0};

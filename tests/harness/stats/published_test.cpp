@@ -20,7 +20,7 @@ std::filesystem::path campaigns() {
   return std::filesystem::path(touchstone::project_folder) / "datasets/campaigns/published";
 }
 
-TEST(stats::Published, IterationsOfGjkOnEllipsoidsAreAsPublished) {
+TEST(Published, IterationsOfGjkOnEllipsoidsAreAsPublished) {
   const campaign::Campaign campaign = campaign::read_campaign(campaigns() / "gjk_iterations.toml");
   const TemporaryFolder folder;
   campaign::run_campaign(campaign, folder.path());
@@ -76,7 +76,7 @@ stats::PublishedRow only_row(const stats::PublishedClaim& claim, const stats::Re
   return rows.at(0);
 }
 
-TEST(stats::Published, FasterHoldsFailsOrIsUndecided) {
+TEST(Published, FasterHoldsFailsOrIsUndecided) {
   stats::Results results = made_up();
   stats::PublishedClaim claim;
   claim.kind = stats::PublishedClaim::Kind::faster;
@@ -90,7 +90,7 @@ TEST(stats::Published, FasterHoldsFailsOrIsUndecided) {
   EXPECT_EQ(only_row(claim, results).state, stats::Holds::undecided);
 }
 
-TEST(stats::Published, SufficesCountsWhatIsWrong) {
+TEST(Published, SufficesCountsWhatIsWrong) {
   stats::Results results = made_up();
   stats::PublishedClaim claim;
   claim.kind = stats::PublishedClaim::Kind::suffices;
@@ -105,7 +105,7 @@ TEST(stats::Published, SufficesCountsWhatIsWrong) {
   EXPECT_EQ(only_row(claim, results).here, "was not run");
 }
 
-TEST(stats::Published, BadClaimsAreRefusedWithTheirLine) {
+TEST(Published, BadClaimsAreRefusedWithTheirLine) {
   const TemporaryFolder folder;
   folder.write("s.toml", "generator = \"uniform\"\n");
   const auto refusal = [&](const std::string& text) {

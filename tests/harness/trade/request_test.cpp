@@ -24,7 +24,7 @@ std::vector<std::string> names(const trade::GridPoints& grid) {
   return all;
 }
 
-TEST(trade::TradeRequest, WhatIsWrittenIsReadAsTheSame) {
+TEST(TradeRequest, WhatIsWrittenIsReadAsTheSame) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene_text);
   const auto file = folder.write("a.toml", R"(
@@ -86,7 +86,7 @@ max_iterations = [1, 8]
   }
 }
 
-TEST(trade::TradeRequest, BadInputIsToldWithItsPlace) {
+TEST(TradeRequest, BadInputIsToldWithItsPlace) {
   const TemporaryFolder folder;
   const auto fault = [&](const std::string& text) {
     const auto file = folder.write("bad.toml", text);
@@ -108,7 +108,7 @@ TEST(trade::TradeRequest, BadInputIsToldWithItsPlace) {
   }
 }
 
-TEST(trade::TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
+TEST(TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
   const scene::Scene scene = scene_of(scene_text);
   const trade::SceneFrames frames(scene, 3);
   trade::StandInLibrary library(frames, simple_representing());
@@ -132,7 +132,7 @@ TEST(trade::TradeGrid, WhatMakesNoSenseIsLeftOutWithItsReason) {
   EXPECT_EQ(distance.left_out.at("without a narrow phase there are no numbers"), 1);
 }
 
-TEST(trade::TradeGrid, AKindThatTheSceneHasNotMakesNoDifference) {
+TEST(TradeGrid, AKindThatTheSceneHasNotMakesNoDifference) {
   const scene::Scene scene = scene_of(scene_text);
   const trade::SceneFrames frames(scene, 3);
   const trade::StandInLibrary library(frames, simple_representing());

@@ -1,4 +1,3 @@
-// Tests of the verification of advice, and of held-out scenes.
 #include "harness/trade/advice/verification.h"
 
 #include <gmock/gmock.h>
@@ -38,7 +37,7 @@ struct Small : SmallRequest {
 
 const std::string moving = "generator = \"uniform\"\ncount = 80\noverlaps = 6\nframes = 5\n";
 
-TEST(trade::Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
+TEST(Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
   Small small(moving);
   const trade::Verification found = small.verified(small.named("gjk"), {.most = 0});
   EXPECT_TRUE(found.within_budget);
@@ -55,7 +54,7 @@ TEST(trade::Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
   EXPECT_TRUE(std::filesystem::exists(small.folder.path() / "grid/points.csv"));
 }
 
-TEST(trade::Verification, ABudgetThatIsNotMetIsSaid) {
+TEST(Verification, ABudgetThatIsNotMetIsSaid) {
   Small small(moving);
   const trade::Verification found = small.verified(small.named("none"), {.most = 1e-3});
   EXPECT_FALSE(found.within_budget);
@@ -65,7 +64,7 @@ TEST(trade::Verification, ABudgetThatIsNotMetIsSaid) {
   EXPECT_THAT(trade::verification_text(found), HasSubstr("Not verified"));
 }
 
-TEST(trade::Verification, TimesAreJudgedByTheWholeInterval) {
+TEST(Verification, TimesAreJudgedByTheWholeInterval) {
   EXPECT_EQ(trade::time_verdict({1.0, 0.9, 1.1, 9}), trade::TimeVerdict::within);
   EXPECT_EQ(trade::time_verdict({1.0, 0.9, 1.11, 9}), trade::TimeVerdict::undecided);
   EXPECT_EQ(trade::time_verdict({1.2, 1.11, 1.3, 9}), trade::TimeVerdict::beyond);
@@ -73,9 +72,8 @@ TEST(trade::Verification, TimesAreJudgedByTheWholeInterval) {
             trade::TimeVerdict::undecided);
 }
 
-// Number k is an equal scene each time, which differs from the scene itself and from all other
-// numbers.
-TEST(trade::Verification, HeldOutScenesAreDrawnByTheirNumber) {
+// Number k is the same scene each time, and another than the scene's own and the other numbers'.
+TEST(Verification, HeldOutScenesAreDrawnByTheirNumber) {
   const std::string listed =
       "frames = 3\n"
       "[[body]]\nshape = {type = \"box\", half_extents = [1, 1, 1]}\ntranslation = [0, 0, 0]\n"
@@ -98,7 +96,7 @@ TEST(trade::Verification, HeldOutScenesAreDrawnByTheirNumber) {
   EXPECT_TRUE(trade::HeldOutScenes(still.request, still.representing, 1, 2, 100).empty());
 }
 
-TEST(trade::Verification, ARowSaysWhatCameOut) {
+TEST(Verification, ARowSaysWhatCameOut) {
   Small small(moving);
   trade::TradeScene scene(small.request, small.representing);
   const trade::ErrorBudget budget{.most = 0.5};
@@ -171,7 +169,7 @@ task = "distance"
   EXPECT_THAT(fault(head + head), HasSubstr("scene 2: name"));
 }
 
-// The list is the project's own.
+// The list that comes with the project.
 TEST(AdviceList, TheProjectsOwnCanBeRead) {
   const auto tasks = trade::read_advice_list(
       std::filesystem::path(touchstone::project_folder) / "datasets/advice/scenes.toml", {});

@@ -94,7 +94,7 @@ TEST(BoxScenes, HaveFramesThatChangeAndPairsOfEachKind) {
   EXPECT_NE(check::box_scenes(2)[0].frames, scenes[0].frames);
 }
 
-TEST(check::BroadCheck, EveryOneOfOurs) {
+TEST(BroadCheck, EveryOneOfOurs) {
   const std::vector<check::BoxScene> scenes = check::box_scenes(3);
   for (const BroadPhaseEntry& entry : broad_phases()) {
     if (entry.info.origin != Origin::ours) continue;
@@ -105,7 +105,7 @@ TEST(check::BroadCheck, EveryOneOfOurs) {
   }
 }
 
-TEST(check::BroadCheck, ADroppedPairIsFound) {
+TEST(BroadCheck, ADroppedPairIsFound) {
   const std::vector<check::BoxScene> scenes = check::box_scenes(1);
   const BroadPhaseEntry good =
       planted([](auto boxes, auto& sink) { return all_but(0, boxes, sink); });
@@ -118,7 +118,7 @@ TEST(check::BroadCheck, ADroppedPairIsFound) {
   }
 }
 
-TEST(check::BroadCheck, CrashesHangsAndRefusalsAreFound) {
+TEST(BroadCheck, CrashesHangsAndRefusalsAreFound) {
   const std::vector<check::BoxScene> scenes = {check::box_scenes(1)[0]};
   const auto status = [&](const Find& find, double seconds) {
     const BroadPhaseEntry entry = planted(find, Origin::peer);

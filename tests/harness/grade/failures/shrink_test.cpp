@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "algorithms/hull/convex_hull.h"
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/check/regimes/regimes.h"
 #include "tests/harness/check/exact_answer.h"
@@ -37,7 +38,7 @@ TEST(Shrink, FindsTheOneVertexThatMatters) {
                                     ? made("gap-1e0", 0).shape_a.hull->vertices
                                     : check::box_as_hull({1, 2, 3}).hull->vertices;
   vertices.insert(vertices.begin() + 3, planted);
-  c.shape_a = check::hull_of(vertices);
+  c.shape_a = hull_of(vertices);
   const auto fails = [&](const files::Case& x) {
     return x.shape_a.kind == ShapeKind::hull &&
            std::ranges::any_of(x.shape_a.hull->vertices,

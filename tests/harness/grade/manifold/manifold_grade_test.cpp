@@ -1,4 +1,4 @@
-// Tests our manifolds against the oracle and the touching area, and the grader on wrong answers.
+// Ours against the oracle and the touching area, and the grader against answers that are wrong.
 #include "harness/grade/manifold/manifold_grade.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ files::Case box_on_box() {
 
 const ManifoldEntry& ours() { return *find_contact_manifold("clipped-faces"); }
 
-TEST(grade::ManifoldGrade, OursOnEveryFamily) {
+TEST(ManifoldGrade, OursOnEveryFamily) {
   for (const Precision scalar : {Precision::float64, Precision::float32}) {
     grade::ManifoldTally tally;
     int with_area = 0;
@@ -48,9 +48,9 @@ TEST(grade::ManifoldGrade, OursOnEveryFamily) {
   }
 }
 
-// Pairs have every kind and pose, every gap and depth, and are degenerate or extreme: points lie on
-// their bodies, and the deepest is among them.
-TEST(grade::ManifoldGrade, OursOnEveryRegime) {
+// Pairs of every kind and pose, at every gap and depth, degenerate and extreme: points are on their
+// bodies, and the deepest is among them.
+TEST(ManifoldGrade, OursOnEveryRegime) {
   int apart = 0, common = 0, several = 0;
   for (const check::Regime& regime : check::regimes()) {
     for (std::uint64_t i = 0; i < 12; ++i) {
@@ -72,7 +72,7 @@ TEST(grade::ManifoldGrade, OursOnEveryRegime) {
         EXPECT_LE(graded.off_body, limit + rounding) << c.id;
         EXPECT_EQ(graded.apart, 0) << c.id;
         if (manifold.status != Status::ok) continue;
-        // Curved bodies are off the line by up to EPA's tolerance.
+        // Curved bodies are as far off the line as EPA's tolerance.
         const auto is_curved = [](const Shape& shape) {
           return shape.kind == ShapeKind::cylinder || shape.kind == ShapeKind::cone ||
                  shape.kind == ShapeKind::ellipsoid;
@@ -91,7 +91,7 @@ TEST(grade::ManifoldGrade, OursOnEveryRegime) {
   EXPECT_GT(several, 100);
 }
 
-TEST(grade::ManifoldGrade, SeesWhatIsWrong) {
+TEST(ManifoldGrade, SeesWhatIsWrong) {
   const files::Case c = box_on_box();
   const grade::ManifoldTruth truth = grade::manifold_truth(c);
   EXPECT_EQ(truth.size, 4);
@@ -128,7 +128,7 @@ TEST(grade::ManifoldGrade, SeesWhatIsWrong) {
   EXPECT_THAT(tally.markdown(), testing::HasSubstr("| boxes | ours | 4 | 1 | 3 to 4 |"));
 }
 
-TEST(grade::ManifoldGrade, TouchingAreaIsWhereOneFaceIsBelowTheOther) {
+TEST(ManifoldGrade, TouchingAreaIsWhereOneFaceIsBelowTheOther) {
   files::Case c = box_on_box();
   c.shape_b = make_box(4, 4, 1);
   c.pose_b.rotation = Eigen::AngleAxisd(0.1, Vec3d::UnitY()).toRotationMatrix();
