@@ -27,7 +27,7 @@ void note_worst(JobSummary& summary, bool is_first, std::uint64_t index) {
   if (is_first) summary.worst_index = index;
 }
 
-// limit for the queries of one algorithm in a job, since each hang costs a time limit
+// An algorithm may lose so many queries of a job, since each hang costs a time limit.
 constexpr std::size_t most_failures = 100;
 
 class Job {

@@ -15,8 +15,8 @@
 namespace touchstone::check {
 
 // Describes the folder of a request. `work` is "check" or "stress"; `subject` names the regimes or
-// axes. To resume, `subject` and the rest of the request must be equal, except the folder, the time
-// and the number of processes.
+// axes. To resume, `subject` and the rest of the request must be equal, except `out`, `seconds` and
+// `workers`.
 record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
                                     std::pair<std::string, std::string> subject,
                                     std::vector<record::RowFile> files);

@@ -1,8 +1,9 @@
 // Metamorphic relations: changes of a case that must not change its exact answer.
 //
+// The variant has the same exact answer, but is rounded otherwise and takes other branches. So an
+// algorithm whose two answers differ is wrong about one of them, and no oracle is needed to see it.
+//
 // Chen, Cheung, Yiu, "Metamorphic testing: a new approach for generating next test cases", 1998.
-// The variant has the same exact answer, but takes other roundings and branches. So an algorithm
-// whose two answers differ is wrong about one of them, and no oracle is needed to see it.
 #pragma once
 
 #include <string>
@@ -15,8 +16,8 @@
 
 namespace touchstone::check {
 
-// A changed case: for every point x of both bodies, the variant has exactly the point 2^exponent *
-// rotation(x) + translation, in world coordinates.
+// A changed case. In world coordinates, it maps every point x of both bodies exactly to 2^exponent
+// * rotation(x) + translation.
 struct Variant {
   std::string name;  // such as "swap", "rotation+y+z+x", "translation", "scale-2^-20", "vertices"
   files::Case transformed;  // has the original's id, a '/' and the name

@@ -26,7 +26,7 @@ namespace touchstone::check {
 namespace {
 
 constexpr std::int64_t cases_a_job = 1000;
-// limit of an algorithm in a job, since each hang costs a time limit
+// An algorithm may lose so many queries of a job, since each hang costs a time limit.
 constexpr std::size_t most_failures = 20;
 constexpr double seconds_between_writes = 1;
 

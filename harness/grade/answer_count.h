@@ -11,14 +11,14 @@ namespace touchstone::grade {
 // part of the scale (GradedAnswer::scale), or NaN if there is none.
 struct AnswerCount {
   std::int64_t answers = 0;       // supported pairs that it was asked about
-  std::int64_t not_reported = 0;  // answers whose status says nothing
+  std::int64_t not_reported = 0;  // answers with status not_reported
   std::int64_t silent = 0;        // answers on the wrong side of contact, against the given problem
   std::int64_t silent_end = 0;    // answers on the wrong side of contact, against the case
   std::int64_t honest = 0;        // failures that the algorithm reports as such
   std::int64_t crashed = 0;
   std::int64_t timed_out = 0;
   std::int64_t touching = 0;          // answers about bodies that touch exactly
-  std::int64_t touching_contact = 0;  // those of them that are contact
+  std::int64_t touching_contact = 0;  // number of these that are contact
   std::int64_t bounds = 0;            // certified bounds that miss the exact value
   std::int64_t not_a_number = 0;
   std::int64_t beyond = 0;        // answers of ours beyond the documented margins
@@ -30,7 +30,7 @@ struct AnswerCount {
   double does_not_separate;       // distance by which the reported translation fails to separate
   double excess;                  // length of that translation beyond the necessary one
   double bounds_missed;           // distance by which certified bounds miss, against the case
-  // distance of points from their bodies; |a - b| less the distance
+  // Greatest distance of a point from its body; | |a - b| less the distance |.
   double witness, witness_length;
   double normal;  // | |n| - 1 |
 

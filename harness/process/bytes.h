@@ -24,7 +24,7 @@ class ByteWriter {
   template <class T>
   void add(const T& value) {
     if constexpr (HasFields<T>) {
-      // add() only reads
+      // add() only reads the value.
       const_cast<T&>(value).for_each_field([this](auto& field) { add(field); });
     } else {
       static_assert(std::is_trivially_copyable_v<T>);

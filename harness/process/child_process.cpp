@@ -48,9 +48,9 @@ void allow_memory(std::size_t bytes) {
 
 void become_child(pid_t parent, int output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // the parent died before prctl() asked for the signal
+  // The parent may have died before prctl() asked for its signal.
   if (getppid() != parent) _exit(EXIT_FAILURE);
-  prctl(PR_SET_DUMPABLE, 0);  // The child dumps no core, not even into a pipe.
+  prctl(PR_SET_DUMPABLE, 0);  // no core dump, not even into a pipe
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP}) {
     std::signal(signal, SIG_DFL);
   }

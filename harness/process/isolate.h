@@ -12,7 +12,7 @@ namespace touchstone::process {
 
 struct IsolationLimits {
   static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
-  double item_seconds = 5;  // Wall clock; an item is stopped at most a twentieth of a second later.
+  double item_seconds = 5;  // wall clock; an item is stopped at most a twentieth of a second later
   double setup_seconds = 60;        // wall clock, for the setup of a child
   std::size_t failures = no_limit;  // no further item is begun after so many failures
   // Bytes that a child may add to its memory; further allocations fail. The limit is not set under
@@ -45,9 +45,9 @@ struct IsolatedAnswers {
   std::vector<IsolationFailure> failures;  // in the order of the items
 };
 
-// Runs the items as isolate() does; `setup` returns a function from an item to its answer, a plain
-// struct. A lost item gets a default answer with status crashed or timed_out; items that were not
-// begun get the status of the last lost one.
+// Runs the items as isolate() does; `setup` returns a function from an item to its answer, which is
+// trivially copyable. A lost item gets a default answer with status crashed or timed_out; items
+// that were not begun get the status of the last lost one.
 template <class Answer, class Setup>
 IsolatedAnswers<Answer> isolated_answers(std::size_t items, const IsolationLimits& limits,
                                          const Setup& setup) {

@@ -142,7 +142,7 @@ void run_jobs(std::size_t first, std::size_t end, int workers, const std::functi
   }
   std::map<std::size_t, std::string> store;
   for (std::size_t next = first; next < end;) {
-    // the descriptors of the results and of the output of each live worker
+    // Each live worker has two descriptors: its results and its output.
     std::vector<pollfd> waiting;
     std::vector<Worker*> of;
     for (const std::unique_ptr<Worker>& worker : pool) {

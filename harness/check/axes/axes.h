@@ -32,7 +32,7 @@ struct StressAxis {
   // Returns whether the exact answer is the requested one (size: pair_size, metres). Null if the
   // shapes alone decide the value, and not their poses.
   bool (*accepts)(double value, const oracle::Measure& exact, double size) = nullptr;
-  // Returns the limit on the cases of a value; it is lower where bodies are large.
+  // Returns the limit on the cases of a value; it is lower for large hulls.
   std::uint64_t most_cases(double value) const;
 };
 

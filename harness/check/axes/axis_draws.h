@@ -1,15 +1,13 @@
-// The functions that draw the cases of each axis; regime.parameter is the axis' value. For
-// axes.cpp.
+// The functions that draw the cases of each axis, for axes.cpp. regime.parameter is the value:
 #pragma once
 
 #include "harness/check/regimes/regimes.h"
 
 namespace touchstone::check {
 
-RegimeCase draw_at_scale(RegimeDraw& draw);   // longest side of both bodies, metres
-RegimeCase draw_at_aspect(RegimeDraw& draw);  // longest side over shortest
-// distance of the first body from the origin, metres
-RegimeCase draw_at_distance(RegimeDraw& draw);
+RegimeCase draw_at_scale(RegimeDraw& draw);       // longest side of both bodies, metres
+RegimeCase draw_at_aspect(RegimeDraw& draw);      // longest side over shortest
+RegimeCase draw_at_distance(RegimeDraw& draw);    // distance of a from the origin, metres
 RegimeCase draw_at_ratio(RegimeDraw& draw);       // size of one body over that of the other
 RegimeCase draw_at_gap(RegimeDraw& draw);         // part of the pair's size
 RegimeCase draw_at_depth(RegimeDraw& draw);       // part of the pair's size

@@ -16,8 +16,8 @@ std::string name_at(const StressAxis& axis, const std::optional<std::size_t>& pl
   return place ? axis.values[*place].name : "";
 }
 
-// Returns the first wrong value, such as "1e-6" or "1e-6 crashes". The text names a crash, a hang
-// and an error that the conversion of the input caused.
+// Returns the first value with a wrong answer, such as "1e-6" or "1e-6 crashes". The text names a
+// crash, a hang and an error that the conversion of the input caused.
 std::string first_wrong(const Reach& reach, bool side_only) {
   using Place = std::optional<std::size_t>;
   const auto first = [&](grade::AnswerClass outcome) { return reach.first_of(outcome); };

@@ -1,6 +1,7 @@
-// Draws features that are nearly in one plane, or nearly parallel. The angle or the offset is
-// exact: where it is small, nothing is added that would round it, so the bodies' axes lie along the
-// world's.
+// Draws features that are nearly in one plane, or nearly parallel.
+//
+// The angle or the offset is exact: where it is small, nothing is added that would round it, so the
+// bodies' axes lie along the world's.
 #include <array>
 
 #include "harness/base/plain_math.h"

@@ -1,5 +1,7 @@
-// Small scenes of boxes for checks of broad phases: boxes that touch exactly, have no volume,
-// coincide, are huge, tiny or far away, or differ much in size.
+// Small scenes of boxes for checks of broad phases.
+//
+// Their boxes touch exactly, have no volume, coincide, are huge, tiny or far away, or differ much
+// in size.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Bodies on a grid: sizes and places are whole multiples of a power of two, and rotations are
-// signed permutations, so that contact is exact in double and in float.
+// Bodies on a grid, whose contact is exact in double and in float.
+//
+// Sizes and places are whole multiples of a power of two, and rotations are signed permutations.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ RegimeCase draw_ratio(RegimeDraw& draw);   // ratio of the two sizes
 RegimeCase draw_touching_baked(RegimeDraw& draw);
 RegimeCase draw_touching_origin(RegimeDraw& draw);
 RegimeCase draw_touching_grid(RegimeDraw& draw);
-// parameter: ulps that one radius is less by
+// regime.parameter is the number of ulps by which one radius is less.
 RegimeCase draw_touching_pythagorean(RegimeDraw& draw);
 RegimeCase draw_touching_curved(RegimeDraw& draw);
 

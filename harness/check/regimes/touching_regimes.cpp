@@ -1,5 +1,7 @@
-// Draws pairs that touch exactly in every encoding of the input: the numbers as doubles, rounded to
-// float, and with the rotation as a matrix or as a quaternion.
+// Draws pairs that touch exactly in every encoding of the input.
+//
+// They touch with the numbers as doubles, rounded to float, and with the rotation as a matrix or as
+// a quaternion.
 #include <algorithm>
 #include <array>
 #include <cmath>

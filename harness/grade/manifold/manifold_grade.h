@@ -1,5 +1,7 @@
-// Grades of contact manifolds against the bodies themselves. Distances come from the oracle. The
-// area in which two faces touch is clipped in long double, in a way that no algorithm uses.
+// Grades of contact manifolds against the bodies themselves.
+//
+// Distances come from the oracle. The area in which two faces touch is clipped in long double, in a
+// way that no algorithm uses.
 #pragma once
 
 #include <optional>
