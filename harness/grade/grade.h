@@ -34,9 +34,9 @@ enum class Touching : std::uint8_t { unscored, contact };
 Verdict judge(const Outcome& outcome, Answer exact, Touching touching = Touching::unscored);
 
 // Lengths in metres. A number is NaN if the task does not ask for it, the algorithm does not report
-// it, or the bodies are on the other side of contact. An error against an enclosure is the distance
-// of the number from it. The numbers of an outcome that the algorithm does not stand by are not
-// graded, except its certified bounds.
+// it, or the bodies are not in the state that it describes. An error against an enclosure is the
+// distance of the number from it. The numbers of an outcome that the algorithm does not stand by
+// are not graded, except its certified bounds.
 struct Grade {
   static constexpr double none = Outcome::none;
 

@@ -39,7 +39,7 @@ struct OutcomeFaults {
   double worst_value_error = 0;           // greatest difference, as a part of the pair's size
 
   bool lost() const { return crashed + timed_out > 0; }
-  void add(const OutcomeFaults& other);  // adds sums, keeps maxima and the worse pair
+  void add(const OutcomeFaults& other);  // adds counts, keeps maxima and the worse pair
 };
 
 OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,

@@ -1,9 +1,9 @@
 // Decides whether a graded answer is wrong, by how much, and says it in words.
 //
-// An answer is wrong if the algorithm stands by it, or reports no status, and it is on the wrong
-// side of contact or contains a number beyond the documented margin (margins.h). Certified bounds
-// that miss are wrong whatever the status. An approximate algorithm may report separate bodies as
-// overlapping; a depth that is labelled as a bound may be too great.
+// An answer that its algorithm stands by is wrong if it is on the wrong side of contact or
+// contains a number beyond the documented margin (margins.h). Certified bounds that miss are wrong
+// whatever the status. An approximate algorithm may report separate bodies as overlapping; a depth
+// that is labelled as a bound may be too great.
 #pragma once
 
 #include <array>

@@ -23,8 +23,8 @@ struct QueryLimits {
 
 // Returns the outcome of each query, asked in a child process; crashed and timed_out are statuses.
 // The algorithm is made and given its shapes for each case alone (see solve_case.h). Binding large
-// hulls takes longer than a query. So, if there are any, all shapes are bound before the queries, in
-// three seconds of processor time.
+// hulls takes longer than a query. So, if there are any, all shapes are bound before the queries,
+// within three seconds of processor time.
 std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,
                                  const std::vector<LimitedQuery>& queries,
                                  const QueryLimits& limits);
