@@ -58,7 +58,7 @@ std::vector<const BroadPhaseEntry*> RunContext::broad() const {
 }
 
 bool RunContext::admits(const BroadPhaseEntry& entry) const {
-  // the scene lists its pairs, so a broad phase has no work
+  // The scene lists its pairs, so a broad phase has no work.
   if (!scene->pairs.empty()) return false;
   return block->group->admits({.scene = scene->name,
                                .bodies = static_cast<std::int64_t>(scene->size()),

@@ -33,7 +33,7 @@ struct RunContext {
   const Block* block = nullptr;
   const scene::Scene* scene = nullptr;
   std::string scene_hash;
-  // the folder of files that reproduce a discrepancy; empty: none
+  // The folder of files that reproduce a discrepancy; empty: none.
   std::filesystem::path reproductions;
   record::Findings* findings = nullptr;
   std::span<const Block> blocks = {};      // all blocks of the campaign, by their numbers

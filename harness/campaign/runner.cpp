@@ -224,7 +224,7 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
   RunFolder files(folder, campaign_facts(campaign, scenes.hashes()), start, result.findings);
   if (files.was_finished()) return result;
   const auto& rows = result.findings.rows();
-  // the block at which the run stopped
+  // The block at which the run stopped.
   const std::int64_t at = rows.empty() ? -1 : rows.back().block;
   {
     const InterruptGuard guard;

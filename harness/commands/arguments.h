@@ -1,6 +1,6 @@
-// The command line: commands, their options, and the checks of their values. Only arguments.cpp
-// includes the library that parses it, whose templates take longer to compile than all commands
-// together.
+// The command line: commands, their options, and the checks of their values.
+// Only arguments.cpp includes the library that parses it, whose templates take longer to compile
+// than all commands together.
 #pragma once
 
 #include <cstdint>

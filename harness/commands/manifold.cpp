@@ -44,7 +44,7 @@ struct Asked {
 struct Contestant {
   const ManifoldEntry* entry;
   Precision scalar;
-  // one for each case; `unsupported` for kinds that the algorithm lacks
+  // One for each case; `unsupported` for kinds that the algorithm lacks.
   std::vector<Manifold> manifolds;
 
   std::string name() const { return fmt::format("{} {}", entry->info.name, to_string(scalar)); }

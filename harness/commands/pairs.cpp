@@ -1,5 +1,5 @@
-// touchstone pairs: runs broad phases on the boxes of a file, and writes a row for each frame and
-// algorithm.
+// touchstone pairs: runs broad phases on the boxes of a file, frame by frame.
+// It writes a row for each frame and algorithm.
 #include <fmt/format.h>
 #include <sys/types.h>
 

@@ -1,6 +1,7 @@
-// The program is two executables, so that a comparison does not wait for the compilation of all
-// other commands: `touchstone` has the commands that measure and compare, `touchstone_more` has the
-// others. The first has the names of all, and runs the second when needed.
+// The main function of the program, which is two executables.
+// A comparison does not wait for the compilation of all other commands: `touchstone` has the
+// commands that measure and compare, `touchstone_more` has the others. The first has the names of
+// all, and runs the second when needed.
 #pragma once
 
 #include <initializer_list>

@@ -1,5 +1,5 @@
-// touchstone represent: makes proxies of a scene's bodies, from coarse to fine, and measures their
-// errors.
+// touchstone represent: makes proxies of a scene's bodies, and measures their errors.
+// The proxies come from coarse to fine.
 #include <fmt/core.h>
 
 #include <algorithm>

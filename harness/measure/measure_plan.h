@@ -1,5 +1,4 @@
-// The plan of a measurement: contestants, the sets and groups in which they meet, squares, windows
-// of frames, processes.
+// The plan of a measurement: contestants, sets and groups, squares, windows, processes.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +26,7 @@ struct MeasuredSet {
   std::vector<std::size_t> members;  // contestants: the baseline first
   // groups of members; the members of a group share each round
   std::vector<std::vector<std::size_t>> groups;
-  // of a square, which has at most one round for each member of its group
+  // The most rounds of a square, which has one for each member of its group.
   std::size_t most_rounds = SIZE_MAX;
   std::size_t frames = 1;                 // the length of the input
   std::vector<std::size_t> starts = {0};  // frames at which a window may begin, rising

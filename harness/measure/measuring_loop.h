@@ -1,5 +1,5 @@
-// The one loop that measures: contestants in worker processes of their own, interleaved in shuffled
-// Latin squares, until the plan is done or the job stops a set.
+// The one loop that measures: workers interleaved in shuffled Latin squares.
+// Contestants run in worker processes of their own, until the plan is done or the job stops a set.
 #pragma once
 
 #include <cstddef>
@@ -101,7 +101,7 @@ class MeasuringLoop {
   void run();
 
  private:
-  // one for each contestant; null if it has none
+  // One for each contestant; null if it has none.
   using Workers = std::vector<std::unique_ptr<Worker>>;
   struct Place {  // the place of a round in the loop
     std::size_t set;

@@ -27,7 +27,7 @@ namespace touchstone::measure {
 namespace {
 
 constexpr int tick_milliseconds = 20;
-// seconds until a worker that closed its line must have ended
+// Seconds until a worker that closed its line must have ended.
 constexpr double seconds_to_leave = 2;
 
 // The heap, the mappings and the stack begin at a different place in each process, as they do from

@@ -1,5 +1,5 @@
-// A worker: one contestant in a process of its own, warm between samples. Its failure costs only
-// its own samples.
+// A worker: one contestant in a process of its own, warm between samples.
+// Its failure costs only its own samples.
 #pragma once
 
 #include <cstddef>

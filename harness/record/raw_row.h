@@ -90,7 +90,7 @@ struct RawRow {
   std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
   std::optional<RowStatus> status;
   std::string noise, words, stop;
-  // true if the narrow phase started from the memory that the frames before left
+  // True if the narrow phase started from the memory that the frames before left.
   std::optional<bool> warm;
 
   void take(const BroadPhaseWork& work);

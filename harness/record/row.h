@@ -1,5 +1,5 @@
-// A row of a CSV file, declared once: header, writing, reading and the documentation of its columns
-// come from one list of fields.
+// A row of a CSV file, declared once, as one list of fields.
+// Header, writing, reading and the documentation of its columns come from that list.
 //
 // Beside its struct each row type has a function (found by argument-dependent lookup)
 //

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double confidence = 0.95;
 constexpr double significance = 0.05;
-// the fewest on either side, as for the interval of a median
+// The fewest on either side, as for the interval of a median.
 constexpr std::size_t fewest_squares = 6;
 
 // Facts of machine.csv that must be equal, and facts that may explain a difference.

@@ -1,5 +1,4 @@
-// The table of narrow phases, with speed and error side by side: the best of ours against the best
-// of the others.
+// The table of narrow phases, with speed and error: the best of ours against the others.
 #include <cmath>
 #include <limits>
 

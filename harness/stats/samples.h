@@ -35,7 +35,7 @@ struct SetKey {
 
   bool narrow() const { return !task.empty(); }
   auto operator<=>(const SetKey&) const = default;
-  // a text such as "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"
+  // A text such as "uniform, 1000 bodies, tight boxes, 2 threads, broad phases".
   std::string words() const;
 };
 
@@ -45,7 +45,7 @@ inline constexpr std::size_t phase_count = base::enumerators<record::Phase>.size
 // an absent part.
 struct Sample {
   std::int64_t process = 0, square = 0, round = 0, position = 0;
-  std::array<double, phase_count> parts;  // by phase
+  std::array<double, phase_count> parts;  // seconds of each phase
   double units = 0;  // the number of frames of a broad phase, of queries of a narrow one
   bool noisy = false;
 

@@ -28,7 +28,7 @@ bool is_the_body(proxies::Form form, std::size_t kind) {
     case proxies::Form::hull: return is(ShapeKind::hull);
     case proxies::Form::icosphere: return is(ShapeKind::box) || is(ShapeKind::hull);
     case proxies::Form::parts:
-    // the shape is convex already, and has no mesh
+    // The shape is convex already, and has no mesh.
     case proxies::Form::mesh: return kind != mesh_body;
     case proxies::Form::dop14:
     case proxies::Form::dop18:
@@ -40,7 +40,7 @@ bool is_the_body(proxies::Form form, std::size_t kind) {
 
 std::string Representations::name() const {
   std::string listed;
-  // the common representation of kinds that are not as given
+  // The common representation of kinds that are not as given.
   std::optional<proxies::Representation> common;
   for (const auto& one : of) {
     if (one && one->form != proxies::Form::as_given) common = one;

@@ -1,5 +1,4 @@
-// A configuration: one way to find the contacts of a scene, by representations, boxes and
-// algorithms.
+// A configuration of a scene: proxies, boxes and algorithms that together find its contacts.
 #pragma once
 
 #include <array>

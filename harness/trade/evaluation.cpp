@@ -27,7 +27,7 @@ void play(const SceneFrames& frames, const TradePoint& point, std::span<const Fr
       pipeline.advance();
     }
     count.add(frame, pipeline.answers());
-    // the scene has more frames, which come later
+    // The scene has more frames, which come later.
     if (frame.frame == 0 && truth.size() > 1) continue;
     ++timed;
     for (std::size_t i = 0; i < found.rough.size(); ++i) found.rough[i] += pipeline.seconds()[i];

@@ -1,5 +1,4 @@
-// Grids of configurations: every combination of some axes, except those that make no sense for the
-// scene.
+// Grids of configurations: the combinations of some axes that make sense for a scene.
 #pragma once
 
 #include <map>

@@ -1,5 +1,6 @@
-// The times of configurations on a scene, by the measuring loop: each configuration runs in warm
-// processes of its own, and each round plays another window of frames.
+// The times of configurations on a scene, by the measuring loop.
+// Each configuration runs in warm processes of its own, and each round plays another window of
+// frames.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ namespace touchstone::campaign {
 namespace {
 
 constexpr double setup_seconds = 60;
-constexpr std::size_t outcomes_at_once = 250'000;  // about 50 MB
+constexpr std::size_t outcomes_at_once = 250'000;  // a number that takes about 50 MB
 constexpr double longest_to_count = 10;  // seconds of a batch; a slower one counts no allocations
 
 // The child's sums over one piece; the outcomes themselves are in shared memory.

@@ -1,5 +1,5 @@
-// The check pass of the narrow phases: every pair of every frame, against the oracle, at one
-// thread.
+// The check pass of narrow phases: every pair of every frame, against the oracle.
+// It runs at one thread.
 #pragma once
 
 #include <map>
@@ -62,7 +62,7 @@ class NarrowCheck {
                          std::size_t pair) const;
   record::RawRow row(const Piece& piece, const measure::NarrowChoice& choice) const;
 
-  // a choice and the index of a set
+  // A choice and the index of a set.
   using Key = std::tuple<const measure::NarrowChoice*, std::size_t>;
 
   const RunContext* context_;

@@ -82,7 +82,7 @@ measure::NarrowSet some_of(const measure::NarrowSet& set) {
 double price_of_narrow(const RunContext& context, const measure::BlockInput& input,
                        std::span<const measure::NarrowSet> sets) {
   std::vector<measure::NarrowSet> some;
-  // for each set: the number of further pairs, in multiples of those tried
+  // For each set: the number of further pairs, in multiples of those tried.
   std::map<std::string, double> more;
   std::set<std::tuple<std::string, ShapeKind, ShapeKind>> priced;
   Executor executor(1);

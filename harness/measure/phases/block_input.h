@@ -1,5 +1,4 @@
-// The input of a block's algorithms, all frames at once, so that a window of frames can be timed at
-// any place.
+// The input of a block's algorithms: all frames at once, so that any window can be timed.
 #pragma once
 
 #include <cstdint>

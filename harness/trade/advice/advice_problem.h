@@ -1,5 +1,5 @@
-// The context of a search for advice and of its verification: a request, its scene, and the error
-// that is allowed.
+// The context of a search for advice: a request, its scene and its error budget.
+// Its verification has the same context.
 #pragma once
 
 #include <functional>

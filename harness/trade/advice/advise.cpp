@@ -17,7 +17,7 @@ namespace {
 constexpr double truth_share = 0.15;  // share of the seconds; held-out scenes get as much again
 constexpr std::size_t frames_at_first = 2, most_frames = 8;
 constexpr std::size_t finalists = 4;
-constexpr double hopeless = 4;        // in times of the quickest configuration, by one reading
+constexpr double hopeless = 4;  // multiples of the quickest configuration's time, by one reading
 constexpr double first_search = 0.6;  // share of the seconds left, if more is to be tried
 constexpr double least_search = 0.3;  // share of all seconds, however many are spent before
 // share of a search's seconds, for the search of the next better

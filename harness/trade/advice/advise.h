@@ -22,7 +22,7 @@ struct Advice {
   std::optional<TradeOutcome> best;  // empty if nothing meets the budget
   // The cheapest configuration with less error; empty if there is no error left.
   std::optional<TradeOutcome> next_better;
-  // grades of the best on scenes that the search did not look at
+  // Grades of the best on scenes that the search did not look at.
   std::vector<HeldOutGrade> held_out;
   std::string held_out_on;
   std::size_t configurations = 0, within_budget = 0, timed = 0;

@@ -1,5 +1,4 @@
-// Held-out scenes: scenes like the one that a configuration was chosen on, but not used for the
-// choice.
+// Held-out scenes: like the one that a configuration was chosen on, but not used for it.
 #pragma once
 
 #include <memory>

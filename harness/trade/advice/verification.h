@@ -1,5 +1,4 @@
-// A test of advice: its choice against the whole grid, and on scenes that were not used for the
-// choice.
+// A test of advice: its choice against the whole grid, and on held-out scenes.
 #pragma once
 
 #include <filesystem>
@@ -34,10 +33,10 @@ struct Verification {
   std::size_t dropped = 0;
   // The fastest other configuration that is within the budget everywhere; empty if there is none.
   std::string best;
-  // seconds a frame, from the same rounds
+  // Seconds a frame, from the same rounds.
   double seconds = Outcome::none, best_seconds = Outcome::none;
   stats::MedianInterval ratio{Outcome::none, Outcome::none, Outcome::none,
-                              0};  // of these two times
+                              0};  // the ratio of these two times
   TimeVerdict time = TimeVerdict::within;
 
   bool holds() const { return within_budget && time == TimeVerdict::within; }

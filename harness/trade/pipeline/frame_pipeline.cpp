@@ -11,7 +11,7 @@ namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t queries_a_piece = 256;
-// the number of pairs in a task, for bodies with many parts
+// The number of pairs in a task, for bodies with many parts.
 constexpr std::size_t pairs_a_task = 32;
 
 double& of(StageSeconds& seconds, Stage stage) { return seconds[static_cast<std::size_t>(stage)]; }

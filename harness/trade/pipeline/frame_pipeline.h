@@ -1,5 +1,6 @@
-// Plays a scene with a configuration: boxes, broad phase, parts, narrow phase; one answer a pair of
-// bodies. It skips work that the scene does not need, and the counters show it.
+// Plays a scene with a configuration and gives one answer a pair of bodies.
+// The stages are boxes, broad phase, parts and narrow phase. It skips work that the scene does not
+// need, and the counters show it.
 #pragma once
 
 #include <array>

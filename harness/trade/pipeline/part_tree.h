@@ -1,5 +1,4 @@
-// A tree of boxes over the parts of a body, in the body's frame: the phase between broad and
-// narrow.
+// A tree of boxes over a body's parts, in its frame: the phase between broad and narrow.
 // Paper: van den Bergen, "Efficient collision detection of complex deformable models using AABB
 //        trees", J. Graphics Tools 2(4), 1997.
 #pragma once

@@ -131,7 +131,7 @@ std::shared_ptr<const StandIns> StandInLibrary::get(const Representations& repre
   const scene::Scene& scene = *frames_->scene;
   auto all = std::make_shared<StandIns>();
   all->first.push_back(0);
-  // for each representation, the shapes of its parts
+  // For each representation, the shapes of its parts.
   std::map<const StandIn*, std::vector<std::uint32_t>> shapes_of;
   std::array<int, all_shape_kinds.size()> bodies_with{};
   double spent = 0;

@@ -1,5 +1,4 @@
-// The representations of a scene's bodies in a configuration: parts, and a tree over them if there
-// are several.
+// The proxies of a scene's bodies in a configuration, with a tree if they have several parts.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The committed reference against the answers of this program, without a clock.
+// Compares the committed reference with the answers of this program, without a clock.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ stats::Results answers_now(const campaign::Campaign& campaign, const std::filesy
   return stats::read_results(file);
 }
 
-// Frames of algorithms of ours with another hash of their outcomes.
+// Returns frames of algorithms of ours whose outcomes have another hash.
 std::vector<std::string> changed_outcomes(const stats::Results& stated,
                                           const stats::Results& here) {
   std::vector<std::string> changed;
@@ -61,7 +61,7 @@ std::vector<std::string> changed_outcomes(const stats::Results& stated,
   return changed;
 }
 
-// Disabled while the committed reference is older than the program.
+// The test is disabled while the committed reference is older than the program.
 TEST(Reference, DISABLED_HasTheAnswersOfThisProgram) {
   const stats::Results stated = stats::read_results(reference_folder());
   const campaign::Campaign campaign =

@@ -1,4 +1,4 @@
-// touchstone advise.
+// Tests of touchstone advise.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -23,7 +23,7 @@ TEST(AdviseCommand, WritesAFileThatMeasuresItsChoiceAgain) {
   const std::string advice = folder.read("out/advice.txt");
   EXPECT_THAT(ran.text, HasSubstr(advice));
   EXPECT_THAT(advice, HasSubstr("verdicts at most 0, no contact missed"));
-  // What the scene requires, and no more.
+  // The advice has the scene's requirements, and nothing more.
   EXPECT_THAT(advice, HasSubstr("narrow phase   closed-form "));
   EXPECT_THAT(advice, HasSubstr("error          0 (verdicts)"));
   EXPECT_THAT(advice, HasSubstr("needs          0 hulls built"));
@@ -66,7 +66,7 @@ TEST(AdviseCommand, VerifiesAListOfScenes) {
   const std::string out = (folder.path() / "out").string();
   const Ran ran = run_program("advise --list " + list +
                               " --verify --seeds 2 --threads 1 --seconds 1 --out " + out);
-  // Whether its time is within 10 % a busy machine may leave open.
+  // A busy machine may leave open whether its time is within 10 %.
   ASSERT_TRUE(ran.status == 0 || ran.status == 1) << ran.text;
   const auto rows = read_rows(folder.path() / "out/verification.csv",
                               {"scene", "max_error", "error", "held_out", "error_1", "error_2",

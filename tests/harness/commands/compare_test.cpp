@@ -1,4 +1,4 @@
-// touchstone compare and tables, as a user runs them.
+// Tests of touchstone compare and tables, through the program.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -31,7 +31,7 @@ TEST_F(CompareCommand, TheSameIsStatusZero) {
   const auto rows = read_rows(folder_.path() / "cells.csv", {"algorithm", "verdict"});
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[0], (std::vector<std::string>{"sweep-and-prune", "same"}));
-  // raw.csv files do as well as folders.
+  // raw.csv files are accepted like folders.
   EXPECT_EQ(run_program("compare " + path("a/raw.csv") + " " + path("b/raw.csv")).status, 0);
 }
 
@@ -40,7 +40,7 @@ TEST_F(CompareCommand, ARegressionIsStatusOne) {
   EXPECT_EQ(compare().status, 1);
   EXPECT_THAT(compare().text, testing::HasSubstr("SLOWER"));
   EXPECT_EQ(compare("--threshold 0.1").status, 0);
-  // The other way round it is faster.
+  // In the other direction it is faster.
   EXPECT_EQ(run_program("compare " + path("b") + " " + path("a")).status, 0);
 }
 
@@ -88,7 +88,7 @@ TEST_F(CompareCommand, BadRequests) {
 }
 
 TEST_F(CompareCommand, ProgramsAreRunInTurns) {
-  // Programs that hand out made-up results, B's being 10 % slower, and say who ran.
+  // The programs write made-up results, B's being 10 % slower, and log their names.
   for (const bool is_a : {true, false}) {
     const std::string name = is_a ? "prog-a" : "prog-b";
     if (!is_a) {
@@ -109,9 +109,9 @@ TEST_F(CompareCommand, ProgramsAreRunInTurns) {
   EXPECT_EQ(ran.status, 1) << ran.text;
   EXPECT_EQ(folder_.read("order"), "abbaabbaabbaabba");
   EXPECT_THAT(ran.text, testing::HasSubstr("5 cells: 5 slower"));
-  // Too few runs for an interval.
+  // These are too few runs for an interval.
   EXPECT_EQ(run_program(request + "--runs 3 " + path("c.toml")).status, 3);
-  // A program that fails.
+  // This program fails.
   folder_.write("prog-b", "#!/bin/sh\nexit 2\n");
   const Ran failed = run_program(request + path("c.toml"));
   EXPECT_EQ(failed.status, 2);

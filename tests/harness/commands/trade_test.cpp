@@ -1,4 +1,4 @@
-// touchstone trade, and run with a file of a trade.
+// Tests of touchstone trade, and of run with a file of a trade.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -27,7 +27,7 @@ TEST(TradeCommand, RunTakesAFileOfATrade) {
   EXPECT_THAT(ran.text, testing::HasSubstr("3 configurations"));
   EXPECT_EQ(read_rows(folder.path() / "out/points.csv", {"point"}).size(), 3u);
   EXPECT_GE(read_rows(folder.path() / "out/front.csv", {"point", "error_measure"}).size(), 1u);
-  // What it leaves behind asks for the same.
+  // The file that it writes is an equal request.
   const Ran again = run_program("run " + out + "/trade.toml --out " + out + "/again");
   EXPECT_EQ(again.status, 0) << again.text;
   EXPECT_EQ(read_rows(folder.path() / "out/again/points.csv", {"point"}),

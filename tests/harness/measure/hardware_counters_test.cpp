@@ -1,3 +1,4 @@
+// Tests of the processor's counters.
 #include "harness/measure/hardware_counters.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-// Writes to so many pages that were never written to.
+// Writes to this number of new pages.
 void touch_pages(std::size_t pages) {
   const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   void* const memory =
@@ -49,7 +50,7 @@ TEST(HardwareCounters, AnUnknownEventIsEmpty) {
   EXPECT_EQ(event.count(), -1);
 }
 
-// The same machinery with an event that the kernel counts itself, where it lets us.
+// The test uses an event that the kernel counts itself, if the kernel permits it.
 TEST(HardwareCounters, TakeInTheThreadsThatComeLater) {
   measure::EventCounter event(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS);
   if (!event.is_open()) GTEST_SKIP() << "the kernel allows no counters";

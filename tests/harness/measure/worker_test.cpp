@@ -1,3 +1,4 @@
+// Tests of workers, healthy and harmful.
 #include "harness/measure/worker.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@
 namespace touchstone {
 namespace {
 
-// Answers with the frame; at frame 3 it does harm.
+// A sampler that answers with the frame; at frame 3 it does harm.
 class Fake final : public measure::Sampler {
  public:
   explicit Fake(std::function<void()> harm) : harm_(std::move(harm)) {}
@@ -115,7 +116,8 @@ TEST(Worker, AFailureBeforeTheFirstSampleIsTold) {
   EXPECT_EQ(failure->words, "not today");
 }
 
-// In a process of its own, since oneTBB keeps its threads: whether `use` makes forking refused.
+// Returns true if `use` makes forking refused. It runs in a process of its own, since oneTBB keeps
+// its threads.
 bool refuses_to_fork_after(const std::function<void()>& use) {
   const pid_t child = fork();
   if (child == 0) {
@@ -151,7 +153,7 @@ TEST(Worker, IsNotForkedByAProcessOfSeveralThreads) {
 }
 
 TEST(Worker, LayoutsDiffer) {
-  // Where a new piece of memory lies tells where the heap was.
+  // The address of new memory shows where the heap begins.
   struct Where final : measure::Sampler {
     measure::SampleReply sample(const measure::SampleRequest&) override {
       measure::SampleReply reply;

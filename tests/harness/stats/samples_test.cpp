@@ -107,7 +107,7 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
   EXPECT_THAT(fault("ok,check", "ok,chequed"),
               HasSubstr("raw.csv:2: column kind: found 'chequed'; expected one of check, sample"));
   EXPECT_THAT(fault(",find_pairs,", ",find,"), HasSubstr("raw.csv:2: column phase: found 'find'"));
-  // this row is not read
+  // This row is not read.
   EXPECT_THAT(fault(",find_pairs,0.001,", ",find_pairs,-1,"), testing::IsEmpty());
   EXPECT_THAT(
       fault("sample,0,0,0,0,0,8", "sample,0,0,0,0,0,0"),

@@ -1,3 +1,4 @@
+// Tests of statistics against tables, enumerations and worked examples.
 #include "harness/stats/statistics.h"
 
 #include <gmock/gmock.h>
@@ -47,7 +48,7 @@ TEST(MedianInterval, NoneBelowSixValuesAtNinetyFivePercent) {
 }
 
 TEST(MedianInterval, RanksOfThePublishedTable) {
-  // The order statistics of the sign test at 95 %, as in the tables of any textbook.
+  // These are the order statistics of the sign test at 95 %, as in the tables of any textbook.
   const std::pair<std::size_t, double> table[] = {{8, 1},   {9, 2},   {12, 3},  {15, 4},
                                                   {17, 5},  {20, 6},  {25, 8},  {30, 10},
                                                   {40, 14}, {50, 18}, {100, 40}};
@@ -56,7 +57,7 @@ TEST(MedianInterval, RanksOfThePublishedTable) {
     EXPECT_EQ(interval.low, rank) << n;
     EXPECT_EQ(interval.high, static_cast<double>(n) + 1 - rank) << n;
   }
-  // 99 %: none below 8 values.
+  // At 99 % there is no interval below 8 values.
   EXPECT_TRUE(std::isnan(stats::median_interval(one_to(7), 0.99).low));
   EXPECT_EQ(stats::median_interval(one_to(8), 0.99).low, 1);
 }
@@ -72,7 +73,7 @@ TEST(MedianInterval, CoversTheMedianOfASkewedDistribution) {
     const stats::MedianInterval interval = stats::median_interval(values, 0.95);
     covered += interval.low <= 1 && 1 <= interval.high;
   }
-  EXPECT_GT(covered, trials * 95 / 100);  // 96.1 % in truth
+  EXPECT_GT(covered, trials * 95 / 100);  // the exact coverage is 96.1 %
   EXPECT_LT(covered, trials * 98 / 100);
 }
 
@@ -85,7 +86,7 @@ TEST(SignTest, KnownValues) {
   EXPECT_EQ(stats::sign_test(std::vector<double>{0, 0}), 1);
 }
 
-// The same by going through every way to call `n` of the values a.
+// Computes the same p by an enumeration of all ways to call `n` of the values a.
 double mann_whitney_by_enumeration(std::vector<double> a, std::span<const double> b) {
   const std::size_t n = a.size();
   a.insert(a.end(), b.begin(), b.end());
@@ -114,7 +115,8 @@ double mann_whitney_by_enumeration(std::vector<double> a, std::span<const double
 }
 
 TEST(MannWhitney, TheTextbookExample) {
-  // Hollander and Wolfe, permeability of the chorioamnion: W = 35, one-sided p = 0.1272.
+  // The example is Hollander and Wolfe, permeability of the chorioamnion: W = 35, one-sided p =
+  // 0.1272.
   const std::vector<double> x = {0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46};
   const std::vector<double> y = {1.15, 0.88, 0.90, 0.74, 1.21};
   EXPECT_NEAR(stats::mann_whitney(x, y), 2 * 0.1272, 1e-4);
@@ -163,7 +165,7 @@ TEST(MannWhitney, TheNormalApproximationGoesOnWhereTheExactEnds) {
     }
     EXPECT_NEAR(p[0], p[1], 0.03) << step;
   }
-  // By hand: ranks of a are 1..40, so U = 0; the variance is 40 * 40 * 81 / 12.
+  // The result by hand: ranks of a are 1..40, so U = 0; the variance is 40 * 40 * 81 / 12.
   std::vector<double> b = one_to(40);
   for (double& x : b) x += 40;
   const double z = (800 - 0.5) / std::sqrt(1600 * 81 / 12.0);
@@ -185,7 +187,8 @@ TEST(Shift, FindsAShiftAndItsIntervalNarrows) {
     EXPECT_LT(interval.high - interval.low, width);
     width = interval.high - interval.low;
   }
-  EXPECT_TRUE(std::isnan(stats::shift(one_to(3), one_to(3), 0.95).low));  // 1 of 20 is too likely
+  // A probability of 1 in 20 is too high.
+  EXPECT_TRUE(std::isnan(stats::shift(one_to(3), one_to(3), 0.95).low));
   EXPECT_TRUE(std::isnan(stats::shift({}, one_to(3), 0.95).median));
 }
 
@@ -197,7 +200,7 @@ TEST(Holm, KnownValues) {
 }
 
 TEST(ModifiedZ, FlagsWhatIsFarOffAndNothingElse) {
-  // Median 3, absolute deviations 2 1 0 1 97, MAD 1.
+  // The median is 3, absolute deviations are 2 1 0 1 97, and the MAD is 1.
   EXPECT_THAT(stats::modified_z(std::vector<double>{1, 2, 3, 4, 100}),
               Pointwise(DoubleNear(1e-12), {-2 * 0.6745, -0.6745, 0.0, 0.6745, 97 * 0.6745}));
   EXPECT_THAT(stats::modified_z(std::vector<double>{2, 2, 2}), ElementsAre(0, 0, 0));
@@ -220,7 +223,8 @@ TEST(PowerLaw, FindsAnExactOne) {
 }
 
 TEST(PowerLaw, IntervalByHand) {
-  // log x 0 1 2, log y 0 1 3: slope 3/2, residuals 1/6 -1/3 1/6, one degree of freedom.
+  // With log x = 0 1 2 and log y = 0 1 3, the slope is 3/2 and the residuals are 1/6 -1/3 1/6, with
+  // one degree of freedom.
   const double e = std::exp(1.0);
   const stats::PowerLaw law = stats::fit_power_law(std::vector<double>{1, e, e * e},
                                                    std::vector<double>{1, e, e * e * e}, 0.95);

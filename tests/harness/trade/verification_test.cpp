@@ -1,3 +1,4 @@
+// Tests of the verification of advice, and of held-out scenes.
 #include "harness/trade/advice/verification.h"
 
 #include <gmock/gmock.h>
@@ -72,7 +73,8 @@ TEST(Verification, TimesAreJudgedByTheWholeInterval) {
             trade::TimeVerdict::undecided);
 }
 
-// Number k is the same scene each time, and another than the scene's own and the other numbers'.
+// Number k is an equal scene each time, which differs from the scene itself and from all other
+// numbers.
 TEST(Verification, HeldOutScenesAreDrawnByTheirNumber) {
   const std::string listed =
       "frames = 3\n"
@@ -169,7 +171,7 @@ task = "distance"
   EXPECT_THAT(fault(head + head), HasSubstr("scene 2: name"));
 }
 
-// The list that comes with the project.
+// The list is the project's own.
 TEST(AdviceList, TheProjectsOwnCanBeRead) {
   const auto tasks = trade::read_advice_list(
       std::filesystem::path(touchstone::project_folder) / "datasets/advice/scenes.toml", {});
