@@ -55,6 +55,7 @@ CLI::Option* add_option(CLI::App& app, const std::string& name, const std::strin
       app.add_option(name, std::move(take), help, false, std::move(present));
   option->type_name(type)->type_size(1, 1);
   option->expected(1, many ? CLI::detail::expected_max_vector_size : 1);
+  option->allow_extra_args(many);
   return option;
 }
 

@@ -17,7 +17,7 @@ record::ResultFolderPlan plan_of(const StressRequest& request) {
   for (const StressCell& cell : request.cells) {
     if (cell.place == 0) axes += (axes.empty() ? "" : " ") + cell.axis->name;
   }
-  return job_folder(request, "stress", {"axes", axes},
+  return job_folder(request, "sweep", {"axes", axes},
                     {{"stress.csv", record::header_of<StressRow>(request)},
                      {"cells.csv", record::header_of<CellSummary>(request)}});
 }

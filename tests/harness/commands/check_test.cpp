@@ -154,7 +154,7 @@ TEST_F(CheckCommand, KilledInTheMiddleAndGoneOnWith) {
   EXPECT_EQ(folder.read("out/grades.csv"), rows);
   const Ran other = run_program(arguments + " --resume --seed 2");
   EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.text, HasSubstr("had seed '1', and this one has '2'"));
+  EXPECT_THAT(other.text, HasSubstr("seed was '1' and is '2' now"));
   EXPECT_EQ(folder.read("out/grades.csv"), rows);
 }
 
@@ -173,7 +173,7 @@ TEST_F(CheckCommand, BadRequests) {
     expect_refusal(std::string("--threads=") + value + out(), "--threads");
     expect_refusal(std::string("--time-limit=") + value + out(), "--time-limit");
   }
-  expect_refusal("--resume" + out(), "progress.csv: no such file");
+  expect_refusal("--resume" + out(), "machine.csv: is not there");
   expect_refusal("--certificates " + path("none.jsonl"), "none.jsonl: No such file");
   expect_refusal("--certificates x.jsonl --seed 2", "--certificates");
   expect_refusal("--save-certificates " + path("no/x.jsonl"), "No such file");

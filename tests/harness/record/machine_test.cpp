@@ -70,7 +70,7 @@ TEST(Machine, TellsWhatAReaderOfTheTimesNeeds) {
     EXPECT_EQ(value.find_first_of("\n\r"), std::string::npos) << name;
   }
   EXPECT_THAT(all.at("flags"), testing::HasSubstr("-ffp-contract=off"));
-  EXPECT_THAT(all.at("command_line"), testing::HasSubstr("test_harness_run"));
+  EXPECT_THAT(all.at("command_line"), testing::HasSubstr("test_harness_record"));
 }
 
 TEST(Machine, AffinityIsThatOfTheProcess) {
