@@ -175,8 +175,7 @@ measure::Stop BlockRun::reason_to_stop(const measure::Round& round) const {
   const CampaignGroup& group = *context_.block->group;
   if (!round.ends_lap || group.squares) return measure::Stop::none;
   if (round.ends_period && all_narrow(round.set)) return measure::Stop::width;
-  // With fewer squares than the first look there is no interval, which is worth some time beyond
-  // the budget.
+  // A set gets no interval before the first look, so until then it may exceed its budget.
   const double share = group.seconds / static_cast<double>(schedule_.sets.size());
   const bool looked = round.lap + 1 >= measure::first_look;
   return round.spent > (looked ? 1 : patience) * share ? measure::Stop::budget

@@ -163,7 +163,7 @@ std::vector<std::vector<IndexPair>> true_pairs(const measure::BlockInput& input)
 }
 
 // Checks the broad phases and returns the pairs for the narrow phases. Rows go to
-// `context.findings`. With `again` the rows are known, and only the pairs are new.
+// `context.findings`. With `again` the rows are known, and only the pairs are needed.
 NarrowInput check_broad_phases(const RunContext& context, const measure::BlockInput& input,
                                bool again) {
   const CampaignGroup& group = *context.block->group;

@@ -20,7 +20,7 @@ struct FakeContestant {
   std::string pair_hash = "00000000000000aa";
   std::string status = "ok";
   int disagreements = 0;
-  // Columns of its check rows: iterations to allocated_bytes, "" where not counted.
+  // Columns of its check rows: iterations to allocated_bytes, "" if not counted.
   std::string work = ",,,,,,,";
   std::string worst_error = {};  // the value in each of its check rows
 };
@@ -46,7 +46,7 @@ struct FakeRun {
   std::vector<FakeBlock> blocks;
   int processes = 3, squares = 4, rounds = 4, frames = 8;
   double spread = 0.002;  // standard deviation of a time's logarithm
-  // standard deviation of the logarithm that all times of a square share
+  // Standard deviation of the logarithm that all times of a square share.
   double square_spread = 0.05;
   std::uint64_t seed = 1;
   int noisy_squares = 0;  // the first ones of each process, ten times as slow
