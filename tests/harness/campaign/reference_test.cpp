@@ -16,10 +16,6 @@
 namespace touchstone {
 namespace {
 
-using stats::Check;
-using stats::Contestant;
-using stats::Results;
-using stats::SampleSet;
 
 // TOUCHSTONE_REFERENCE names another folder of results.
 std::filesystem::path reference_folder() {

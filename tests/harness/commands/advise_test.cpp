@@ -24,7 +24,6 @@ TEST(AdviseCommand, WritesAFileThatMeasuresItsChoiceAgain) {
   EXPECT_THAT(ran.text, HasSubstr(advice));
   EXPECT_THAT(advice, HasSubstr("verdicts at most 0, no contact missed"));
   // The advice has the scene's requirements, and nothing more.
-  EXPECT_THAT(advice, HasSubstr("narrow phase   closed-form "));
   EXPECT_THAT(advice, HasSubstr("error          0 (verdicts)"));
   EXPECT_THAT(advice, HasSubstr("needs          0 hulls built"));
   EXPECT_THAT(advice, HasSubstr(" queries, 0 witness points"));
