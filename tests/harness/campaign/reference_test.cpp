@@ -25,8 +25,8 @@ std::filesystem::path reference_folder() {
 
 stats::Results answers_now(const campaign::Campaign& campaign, const std::filesystem::path& file) {
   files::CsvWriter csv(file, record::header_of<record::RawRow>());
-  for (const record::RawRow& row : campaign::check_campaign(campaign).rows())
-    record::write_row(csv, row);
+  const record::Findings findings = campaign::check_campaign(campaign);
+  for (const record::RawRow& row : findings.rows()) record::write_row(csv, row);
   csv.close();
   return stats::read_results(file);
 }
