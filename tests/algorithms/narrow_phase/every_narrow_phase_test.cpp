@@ -9,6 +9,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/algorithms/narrow_phase/brute_force.h"
+#include "tests/algorithms/rotation_between.h"
 
 namespace touchstone {
 namespace {
@@ -332,8 +333,7 @@ TEST_P(EveryNarrowPhase, ClimbsTheLadderOfGaps) {
   };
   const Mat3d on_edge_x = turn(M_PI / 4, Vec3d::UnitX()),
               on_edge_y = turn(M_PI / 4, Vec3d::UnitY());
-  const Mat3d on_corner =
-      Eigen::Quaterniond::FromTwoVectors(Vec3d(1, 1, 1), -Vec3d::UnitZ()).toRotationMatrix();
+  const Mat3d on_corner = rotation_between({1, 1, 1}, {0, 0, -1});
   const Mat3d face = Mat3d::Identity(), turned = turn(0.3, Vec3d::UnitZ());
   struct Rung {
     Mat3d a, b;

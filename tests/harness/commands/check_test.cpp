@@ -141,12 +141,14 @@ TEST_F(CheckCommand, KilledInTheMiddleAndGoneOnWith) {
   const base::Stopwatch watch;
   const auto jobs_done = [&] {
     const std::string text = folder.names().empty() ? "" : folder.read("out/progress.csv");
-    const auto at = text.find("\njobs,");
-    return at == std::string::npos ? 0 : std::stoi(text.substr(at + 6));
+    const auto at = text.find("\nunits,");
+    return at == std::string::npos ? 0 : std::stoi(text.substr(at + 7));
   };
   while (jobs_done() < 3 && watch.seconds() < 60) usleep(500);
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
+  ASSERT_GE(jobs_done(), 3);
+  ASSERT_LT(jobs_done(), 18) << "all jobs were done before the process was killed";
   const Ran resumed = run_program(arguments + " --resume");
   EXPECT_EQ(resumed.status, 0) << resumed.text;
   const std::string rows = folder.read("out/grades.csv");
