@@ -85,6 +85,20 @@ bool RunContext::admits(const measure::NarrowChoice& choice, const std::string& 
                                .warm = choice.warm});
 }
 
+bool RunContext::has_narrow() const {
+  return !block->group->narrow.empty() && scene->recording.empty();
+}
+
+bool RunContext::finds_pairs() const {
+  return block->group->pairing == Pairing::product && scene->pairs.empty();
+}
+
+std::vector<measure::NarrowSet> RunContext::true_sets(const measure::BlockInput& input) const {
+  std::vector<std::vector<IndexPair>> pairs;
+  for (const measure::BlockFrame& frame : input.frames) pairs.push_back(frame.truth);
+  return measure::narrow_sets(input, "", pairs, block->group->tasks);
+}
+
 std::string RunContext::place(std::size_t frame) const {
   return fmt::format("{}, {} bodies, frame {}", scene->name, scene->size(), frame);
 }

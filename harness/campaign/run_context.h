@@ -11,6 +11,7 @@
 
 #include "algorithms/core/isa.h"
 #include "harness/campaign/campaign.h"
+#include "harness/measure/phases/block_input.h"
 #include "harness/record/findings.h"
 #include "harness/scene/scene.h"
 
@@ -50,6 +51,12 @@ struct RunContext {
   bool admits(const BroadPhaseEntry& entry) const;
   bool admits(const measure::NarrowChoice& choice, const std::string& broad, Task task,
               const std::string& pair_kind) const;
+  // Returns true if narrow phases run on the block.
+  bool has_narrow() const;
+  // Returns true if narrow phases solve the pairs that each broad phase finds.
+  bool finds_pairs() const;
+  // Returns the sets of the true pairs.
+  std::vector<measure::NarrowSet> true_sets(const measure::BlockInput& input) const;
   // Returns a place such as "home, 85 bodies, frame 3".
   std::string place(std::size_t frame) const;
   // Returns the text with '_' for each blank, because names of scenes may have some.

@@ -49,11 +49,7 @@ class Job {
 
   JobResult run() {
     for (grade::TrueCase& c : cases_) check_case(c);
-    for (std::uint32_t entry = 0; entry < request_.narrow.size(); ++entry) {
-      for (const Precision scalar : request_.scalars) {
-        if (offers(*request_.narrow[entry], scalar)) ask(entry, scalar);
-      }
-    }
+    for (const auto& [entry, scalar] : request_.algorithms()) ask(entry, scalar);
     for (auto& [key, count] : counts_) result_.variants.push_back(count);
     return std::move(result_);
   }

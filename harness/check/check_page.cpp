@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "harness/base/markdown.h"
+#include "harness/base/table.h"
 #include "harness/check/check_report.h"
 #include "harness/check/grouped_counts.h"
 #include "harness/grade/wrong.h"
@@ -13,17 +13,7 @@
 namespace touchstone::check {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
 std::string count(std::int64_t n) { return std::to_string(n); }
-
-// Formats rows as a table. The first column is left-aligned, and so are the others if they are
-// texts; numbers are right-aligned.
-std::string markdown(const Rows& rows, bool are_texts = false) {
-  std::string text = base::markdown_header(rows.front(), are_texts ? rows.front().size() : 1);
-  for (std::size_t i = 1; i < rows.size(); ++i) text += base::markdown_row(rows[i]);
-  return text;
-}
 
 std::string introduction(const CheckReport& report, const std::string& command) {
   const CheckRequest& request = *report.request;
@@ -33,13 +23,8 @@ std::string introduction(const CheckReport& report, const std::string& command) 
       "against exact arithmetic. Lengths are parts of the pair's size, or of its distance where "
       "that is greater; each number is the greatest that was seen.\n\n",
       command, request.seed, request.cases, request.regimes.size());
-  for (const auto& [name, value] : record::machine_facts()) {
-    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "mujoco", "embree",
-                               "cgal", "boost_geometry", "commit"}) {
-      if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
-    }
-  }
-  return text;
+  return text + record::facts_as_list({"compiler", "bullet", "fcl", "libccd", "ode", "mujoco",
+                                       "embree", "cgal", "boost_geometry", "commit"});
 }
 
 std::string sides_of_contact(const GroupedCounts& grouped) {
@@ -52,17 +37,17 @@ std::string sides_of_contact(const GroupedCounts& grouped) {
       "failure is one that the algorithm told of, up to that distance or depth. Pairs that touch "
       "exactly are not scored: the column "
       "says how many of them were called contact.\n\n";
-  Rows rows = {{"algorithm", "answers", "silent, given", "margin", "silent, end to end", "margin",
-                "honest failures", "up to", "status says nothing", "crashed", "hung",
-                "touching: contact"}};
+  base::Table table({"algorithm", "answers", "silent, given", "margin", "silent, end to end",
+                     "margin", "honest failures", "up to", "status says nothing", "crashed", "hung",
+                     "touching: contact"});
   for (const auto& [label, totals] : grouped.totals()) {
     const grade::AnswerCount& a = totals.answers;
-    rows.push_back({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
-                    count(a.silent_end), digits(a.margin_end), count(a.honest),
-                    digits(a.honest_margin), count(a.not_reported), count(a.crashed),
-                    count(a.timed_out), fmt::format("{} of {}", a.touching_contact, a.touching)});
+    table.add({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
+               count(a.silent_end), digits(a.margin_end), count(a.honest), digits(a.honest_margin),
+               count(a.not_reported), count(a.crashed), count(a.timed_out),
+               fmt::format("{} of {}", a.touching_contact, a.touching)});
   }
-  return text + markdown(rows);
+  return text + table.markdown();
 }
 
 std::string lengths(const CheckReport& report, const GroupedCounts& grouped) {
@@ -72,47 +57,50 @@ std::string lengths(const CheckReport& report, const GroupedCounts& grouped) {
       "least translation. *Off body*: how far a witness point is from its body. *Bounds*: how "
       "many certified bounds miss the exact value. A depth marked `<=` is labelled as an upper "
       "bound.\n\n";
-  Rows rows = {{"algorithm", "distance", "end to end", "too deep", "too shallow", "end to end",
-                "stuck", "excess", "off body", "bounds", "NaN"}};
+  base::Table table({"algorithm", "distance", "end to end", "too deep", "too shallow", "end to end",
+                     "stuck", "excess", "off body", "bounds", "NaN"});
   for (const auto& [label, totals] : grouped.totals()) {
     const grade::AnswerCount& a = totals.answers;
     const bool is_bound = report.request->narrow[label.entry]->traits.depth_is_bound;
-    rows.push_back({grouped.name(label), digits(a.distance), digits(a.distance_end),
-                    (is_bound ? "<= " : "") + digits(a.too_deep), digits(a.too_shallow),
-                    digits(a.depth_end), digits(a.does_not_separate), digits(a.excess),
-                    digits(a.witness), count(a.bounds), count(a.not_a_number)});
+    table.add({grouped.name(label), digits(a.distance), digits(a.distance_end),
+               (is_bound ? "<= " : "") + digits(a.too_deep), digits(a.too_shallow),
+               digits(a.depth_end), digits(a.does_not_separate), digits(a.excess),
+               digits(a.witness), count(a.bounds), count(a.not_a_number)});
   }
-  return text + markdown(rows);
+  return text + table.markdown();
+}
+
+std::vector<std::string> group_header(const GroupedCounts& grouped) {
+  std::vector<std::string> header = {"algorithm"};
+  header.insert(header.end(), grouped.groups().begin(), grouped.groups().end());
+  return header;
 }
 
 std::string silent_errors_by_group(const GroupedCounts& grouped) {
   std::string text =
       "\n## Silent errors by group of regimes\n\nHow many answers were silent errors against "
       "what was given, and the margin.\n\n";
-  Rows rows = {{"algorithm"}};
-  for (const std::string& group : grouped.groups()) rows.front().push_back(group);
+  base::Table table(group_header(grouped));
   for (const auto& [label, totals] : grouped.totals()) {
-    std::vector<std::string>& row = rows.emplace_back();
-    row.push_back(grouped.name(label));
+    std::vector<std::string> row = {grouped.name(label)};
     for (const std::string& group : grouped.groups()) {
       const grade::AnswerCount* a = grouped.of(label, group);
       row.push_back(a == nullptr     ? ""
                     : a->silent == 0 ? "0"
                                      : fmt::format("{} ({})", a->silent, digits(a->margin)));
     }
+    table.add(std::move(row));
   }
-  return text + markdown(rows);
+  return text + table.markdown();
 }
 
 std::string depths_by_group(const GroupedCounts& grouped) {
   std::string text =
       "\n## Worst depth by group of regimes\n\nThe greater of too deep and too shallow, "
       "against what was given; distances where the algorithm has no depth.\n\n";
-  Rows rows = {{"algorithm"}};
-  for (const std::string& group : grouped.groups()) rows.front().push_back(group);
+  base::Table table(group_header(grouped));
   for (const auto& [label, totals] : grouped.totals()) {
-    std::vector<std::string>& row = rows.emplace_back();
-    row.push_back(grouped.name(label));
+    std::vector<std::string> row = {grouped.name(label)};
     for (const std::string& group : grouped.groups()) {
       const grade::AnswerCount* a = grouped.of(label, group);
       double worst = grade::Grade::none;
@@ -120,21 +108,23 @@ std::string depths_by_group(const GroupedCounts& grouped) {
       if (a != nullptr && std::isnan(worst)) worst = a->distance;
       row.push_back(a == nullptr ? "" : digits(worst));
     }
+    table.add(std::move(row));
   }
-  return text + markdown(rows);
+  return text + table.markdown();
 }
 
 std::string other_forms(const GroupedCounts& grouped) {
   std::string text =
       "\n## The same pair in another form\n\nSwapped, moved and scaled exactly, or with its "
       "vertices in another order, a pair has the same answer.\n\n";
-  Rows rows = {{"algorithm", "compared", "other side of contact", "margin", "worst difference"}};
+  base::Table table(
+      {"algorithm", "compared", "other side of contact", "margin", "worst difference"});
   for (const auto& [label, totals] : grouped.totals()) {
     const FlipCount& f = totals.flips;
-    rows.push_back({grouped.name(label), count(f.compared), count(f.flips), digits(f.worst_flip),
-                    digits(f.worst_difference)});
+    table.add({grouped.name(label), count(f.compared), count(f.flips), digits(f.worst_flip),
+               digits(f.worst_difference)});
   }
-  return text + markdown(rows);
+  return text + table.markdown();
 }
 
 std::string broad_phases(const CheckReport& report) {
@@ -142,7 +132,7 @@ std::string broad_phases(const CheckReport& report) {
   std::string text =
       "\n## Broad phases\n\nAgainst every pair of closed boxes, on scenes that touch, "
       "coincide, have no volume, or are huge, tiny or far away.\n\n";
-  Rows rows = {{"algorithm", "scenes", "wrong", "first fault"}};
+  base::Table table({"algorithm", "scenes", "wrong", "first fault"}, 4);
   for (const BroadPhaseEntry* entry : report.request->broad) {
     int scenes = 0, wrong = 0;
     std::string first;
@@ -155,27 +145,27 @@ std::string broad_phases(const CheckReport& report) {
         first = fmt::format("{}: {}", check.scene->name, faults.substr(0, faults.find(';')));
       }
     }
-    rows.push_back({entry->info.name, count(scenes), count(wrong), first});
+    table.add({entry->info.name, count(scenes), count(wrong), first});
   }
-  return text + markdown(rows, true);
+  return text + table.markdown();
 }
 
 std::string one_failure_of_each(const CheckReport& report, const GroupedCounts& grouped) {
   std::string text =
       "\n## One failure of each\n\nThe worst of each algorithm. The case files are what "
       "`check` leaves in its folder; `touchstone query` shows each again.\n\n";
-  std::map<Label, const FailureCase*> worst;
+  std::map<CheckedAlgorithm, const FailureCase*> worst;
   for (const FailureCase& failure : report.failures) {
     const FailureCase*& slot = worst[{failure.answer.entry, failure.answer.scalar}];
     if (slot == nullptr || badness(failure.answer) > badness(slot->answer)) slot = &failure;
   }
-  Rows rows = {{"algorithm", "task", "case", "what"}};
+  base::Table table({"algorithm", "task", "case", "what"}, 4);
   for (const auto& [label, failure] : worst) {
-    rows.push_back({grouped.name(label), std::string(to_string(failure->answer.task)), failure->id,
-                    failure->what});
+    table.add({grouped.name(label), std::string(to_string(failure->answer.task)), failure->id,
+               failure->what});
   }
   if (worst.empty()) return text + "None.\n";
-  return text + markdown(rows, true);
+  return text + table.markdown();
 }
 
 }  // namespace

@@ -6,29 +6,27 @@
 #include <algorithm>
 #include <set>
 
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
+#include "harness/check/check_rows.h"
 #include "harness/check/grouped_counts.h"
-#include "harness/files/csv.h"
 
 namespace touchstone::check {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
 std::string count(std::int64_t n) { return std::to_string(n); }
 
-Rows summary_rows(const GroupedCounts& grouped) {
-  Rows rows = {{"", "answers", "silent", "margin", "honest", "unsaid", "lost", "gap", "deep",
-                "shallow", "stuck", "bounds", "flips", "beyond"}};
+base::Table summary_table(const GroupedCounts& grouped) {
+  base::Table table({"", "answers", "silent", "margin", "honest", "unsaid", "lost", "gap", "deep",
+                     "shallow", "stuck", "bounds", "flips", "beyond"});
   for (const auto& [label, totals] : grouped.totals()) {
     const grade::AnswerCount& a = totals.answers;
-    rows.push_back({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
-                    count(a.honest), count(a.not_reported), count(a.crashed + a.timed_out),
-                    digits(a.distance), digits(a.too_deep), digits(a.too_shallow),
-                    digits(a.does_not_separate), count(a.bounds), count(totals.flips.flips),
-                    grouped.is_ours(label) ? count(a.beyond + totals.flips.beyond) : "-"});
+    table.add({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
+               count(a.honest), count(a.not_reported), count(a.crashed + a.timed_out),
+               digits(a.distance), digits(a.too_deep), digits(a.too_shallow),
+               digits(a.does_not_separate), count(a.bounds), count(totals.flips.flips),
+               grouped.is_ours(label) ? count(a.beyond + totals.flips.beyond) : "-"});
   }
-  return rows;
+  return table;
 }
 
 constexpr std::size_t shown_lines = 30;  // lines shown of faults of ours
@@ -77,10 +75,8 @@ std::vector<std::string> CheckReport::ours_wrong() const {
 }
 
 std::string summary_text(const CheckReport& report, std::size_t page_width) {
-  const Rows rows = summary_rows(GroupedCounts(report));
-  base::TextTable table(rows.front());
-  for (std::size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
-  std::string text = table.text(page_width) + '\n' + std::string(summary_key) + '\n';
+  std::string text = summary_table(GroupedCounts(report)).text(page_width) + '\n' +
+                     std::string(summary_key) + '\n';
   text += checked_text(report);
   for (const BroadPhaseEntry* entry : report.request->broad) {
     std::string scenes;
@@ -112,36 +108,13 @@ std::string summary_text(const CheckReport& report, std::size_t page_width) {
 }
 
 void write_summary(const CheckReport& report, const std::filesystem::path& file) {
-  files::CsvWriter csv(
-      file,
-      {"algorithm",     "scalar",        "regime",           "group",           "answers",
-       "silent",        "silent_end",    "honest",           "not_reported",    "crashed",
-       "timed_out",     "touching",      "touching_contact", "bounds",          "not_a_number",
-       "beyond_margin", "honest_margin", "margin",           "margin_end",      "distance",
-       "distance_end",  "too_deep",      "too_shallow",      "depth_end",       "does_not_separate",
-       "excess",        "bounds_missed", "witness",          "witness_length",  "normal",
-       "variants",      "flips",         "worst_flip",       "worst_difference"});
-  const CheckRequest& request = *report.request;
-  for (const auto& [key, a] : report.tally->answers()) {
-    const Regime& regime = *request.regimes[key.regime];
-    csv.field(request.narrow[key.entry]->info.name).field(to_string(key.scalar));
-    csv.field(regime.name).field(regime.group);
-    for (const std::int64_t n :
-         {a.answers, a.silent, a.silent_end, a.honest, a.not_reported, a.crashed, a.timed_out,
-          a.touching, a.touching_contact, a.bounds, a.not_a_number, a.beyond}) {
-      csv.field(n);
-    }
-    for (const double x : {a.honest_margin, a.margin, a.margin_end, a.distance, a.distance_end,
-                           a.too_deep, a.too_shallow, a.depth_end, a.does_not_separate, a.excess,
-                           a.bounds_missed, a.witness, a.witness_length, a.normal}) {
-      csv.field(x);
-    }
+  std::vector<SummaryRow> rows;
+  for (const auto& [key, answers] : report.tally->answers()) {
     const auto flips = report.tally->flips().find(key);
-    const FlipCount f = flips == report.tally->flips().end() ? FlipCount() : flips->second;
-    csv.field(f.compared).field(f.flips).field(f.worst_flip).field(f.worst_difference);
-    csv.end_row();
+    rows.push_back(
+        {key, answers, flips == report.tally->flips().end() ? FlipCount() : flips->second});
   }
-  csv.close();
+  record::write_rows(file, rows, report.request->subjects());
 }
 
 }  // namespace touchstone::check

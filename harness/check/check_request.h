@@ -25,6 +25,14 @@ struct CheckSubjects {
   }
 };
 
+// An algorithm in one of its scalars.
+struct CheckedAlgorithm {
+  std::uint32_t entry = 0;  // place in the request
+  Precision scalar{};
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a pointer in the comparison with 0
+  friend auto operator<=>(const CheckedAlgorithm&, const CheckedAlgorithm&) = default;
+};
+
 struct CheckRequest {
   std::vector<const NarrowPhaseEntry*> narrow;
   std::vector<const BroadPhaseEntry*> broad;
@@ -39,6 +47,20 @@ struct CheckRequest {
   bool resume = false;  // resumes the work in the folder
 
   CheckSubjects subjects() const { return {narrow, regimes}; }
+  // Returns the narrow phases in those of the scalars that they offer.
+  std::vector<CheckedAlgorithm> algorithms() const {
+    std::vector<CheckedAlgorithm> all;
+    for (std::uint32_t entry = 0; entry < narrow.size(); ++entry) {
+      for (const Precision scalar : scalars) {
+        if (offers(*narrow[entry], scalar)) all.push_back({entry, scalar});
+      }
+    }
+    return all;
+  }
+  // Returns a name such as "gjk double".
+  std::string name(const CheckedAlgorithm& algorithm) const {
+    return narrow[algorithm.entry]->info.name + " " + std::string(to_string(algorithm.scalar));
+  }
 };
 
 // Returns whether the case is also asked in other forms and its exact answer proven: every fifth.

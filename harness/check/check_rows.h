@@ -1,9 +1,10 @@
-// The columns of grades.csv, variants.csv and jobs.csv.
+// The columns of grades.csv, variants.csv, jobs.csv and summary.csv.
 #pragma once
 
 #include <span>
 
 #include "harness/check/check_job.h"
+#include "harness/check/tally.h"
 #include "harness/record/row.h"
 
 namespace touchstone::check {
@@ -95,6 +96,59 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("boxes", row.boxes, "Boxes of bodies that were looked at.");
   visit("boxes_broken", row.boxes_broken, "Boxes that do not hold their body.");
   visit("worst_index", row.worst_index, "Case of the first refusal or broken box.");
+}
+
+// A row of summary.csv: the answers of an algorithm in one regime, over all tasks.
+struct SummaryRow {
+  Tally::Key key;
+  grade::AnswerCount answers;
+  FlipCount flips;
+};
+
+template <record::row_of<SummaryRow> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  auto& [key, a, f] = row;
+  visit("algorithm", record::place_in(key.entry, subjects.narrow.size(), subjects.narrow_name()),
+        "The narrow phase.");
+  visit("scalar", key.scalar, "Precision that it computes in.");
+  visit("regime", record::place_in(key.regime, subjects.regimes.size(), subjects.regime_name()),
+        "Regime of the cases.");
+  visit("group", record::derived([&] { return subjects.regimes[row.key.regime]->group; }),
+        "Group of the regime.");
+  visit("answers", a.answers, "Pairs that it takes and was asked about.");
+  visit("silent", a.silent, "Silent errors, against what it was given.");
+  visit("silent_end", a.silent_end, "Silent errors, against the case.");
+  visit("honest", a.honest, "Failures that it reports.");
+  visit("not_reported", a.not_reported, "Answers whose status says nothing.");
+  visit("crashed", a.crashed, "Queries that crashed.");
+  visit("timed_out", a.timed_out, "Queries that gave no answer in time.");
+  visit("touching", a.touching, "Pairs that touch exactly.");
+  visit("touching_contact", a.touching_contact, "Pairs of these that were called contact.");
+  visit("bounds", a.bounds, "Certified bounds that miss the exact value.");
+  visit("not_a_number", a.not_a_number, "Answers with a number that is NaN or infinite.");
+  visit("beyond_margin", a.beyond, "Answers of ours beyond the documented margins.");
+  visit("honest_margin", a.honest_margin,
+        "Greatest exact distance or depth of a reported failure.");
+  visit("margin", a.margin, "Greatest exact distance or depth that was called wrongly.");
+  visit("margin_end", a.margin_end, "margin, against the case.");
+  visit("distance", a.distance, "Greatest error of a gap.");
+  visit("distance_end", a.distance_end, "distance, against the case.");
+  visit("too_deep", a.too_deep, "Greatest error of a depth that is too deep.");
+  visit("too_shallow", a.too_shallow, "Greatest error of a depth that is too shallow.");
+  visit("depth_end", a.depth_end, "Greatest error of a depth, against the case.");
+  visit("does_not_separate", a.does_not_separate,
+        "Greatest length by which the reported translation fails to separate the bodies.");
+  visit("excess", a.excess, "Greatest length that the reported direction needs beyond the least.");
+  visit("bounds_missed", a.bounds_missed,
+        "Greatest length by which certified bounds miss, against the case.");
+  visit("witness", a.witness, "Greatest distance of a witness point from its body.");
+  visit("witness_length", a.witness_length,
+        "Greatest difference between the witness points' distance and the reported one.");
+  visit("normal", a.normal, "Greatest difference of the normal's length from 1.");
+  visit("variants", f.compared, "Pairs of answers to a case and its variant.");
+  visit("flips", f.flips, "Answers of these on the other side of contact.");
+  visit("worst_flip", f.worst_flip, "Greatest exact distance of a flip.");
+  visit("worst_difference", f.worst_difference, "Greatest difference of a distance or depth.");
 }
 
 }  // namespace touchstone::check

@@ -2,7 +2,6 @@
 #include "harness/check/check_run.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <limits>
 
@@ -20,10 +19,8 @@ constexpr double broad_seconds = 20;  // time limit of a broad phase for a scene
 enum : std::size_t { grades_file, variants_file, jobs_file };
 
 record::ResultFolderPlan plan_of(const CheckRequest& request) {
-  std::vector<std::string> regimes;
-  for (const Regime* regime : request.regimes) regimes.push_back(regime->name);
   const CheckSubjects subjects = request.subjects();
-  return job_folder(request, "check", {"regimes", fmt::format("{}", fmt::join(regimes, " "))},
+  return job_folder(request, "check", regimes_fact(request),
                     {{"grades.csv", record::header_of<grade::GradedAnswer>(subjects)},
                      {"variants.csv", record::header_of<VariantCount>(subjects)},
                      {"jobs.csv", record::header_of<JobSummary>(subjects)}});

@@ -33,13 +33,7 @@ GroupedCounts::GroupedCounts(const CheckReport& report) : request_(*report.reque
     by_group_[{{key.entry, key.scalar}, group}].add(counted);
   }
   for (const auto& [key, counted] : report.tally->flips()) {
-    FlipCount& flips = totals_[{key.entry, key.scalar}].flips;
-    flips.compared += counted.compared;
-    flips.flips += counted.flips;
-    flips.lost += counted.lost;
-    flips.beyond += counted.beyond;
-    flips.worst_flip = std::max(flips.worst_flip, counted.worst_flip);
-    flips.worst_difference = std::max(flips.worst_difference, counted.worst_difference);
+    totals_[{key.entry, key.scalar}].flips.add(counted);
   }
   for (const Regime* regime : request_.regimes) {
     if (std::ranges::find(groups_, regime->group) == groups_.end()) {
@@ -48,17 +42,18 @@ GroupedCounts::GroupedCounts(const CheckReport& report) : request_(*report.reque
   }
 }
 
-const grade::AnswerCount* GroupedCounts::of(const Label& label, const std::string& group) const {
-  const auto at = by_group_.find({label, group});
+const grade::AnswerCount* GroupedCounts::of(const CheckedAlgorithm& algorithm,
+                                            const std::string& group) const {
+  const auto at = by_group_.find({algorithm, group});
   return at == by_group_.end() ? nullptr : &at->second;
 }
 
-std::string GroupedCounts::name(const Label& label) const {
-  return fmt::format("{} {}", request_.narrow[label.entry]->info.name, to_string(label.scalar));
+std::string GroupedCounts::name(const CheckedAlgorithm& algorithm) const {
+  return request_.name(algorithm);
 }
 
-bool GroupedCounts::is_ours(const Label& label) const {
-  return request_.narrow[label.entry]->info.origin == Origin::ours;
+bool GroupedCounts::is_ours(const CheckedAlgorithm& algorithm) const {
+  return request_.narrow[algorithm.entry]->info.origin == Origin::ours;
 }
 
 std::string digits(double x) {

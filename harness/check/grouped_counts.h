@@ -10,14 +10,6 @@
 
 namespace touchstone::check {
 
-// An algorithm with its scalar.
-struct Label {
-  std::uint32_t entry;
-  Precision scalar;
-  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a pointer in the comparison with 0
-  friend auto operator<=>(const Label&, const Label&) = default;
-};
-
 struct Totals {
   grade::AnswerCount answers;
   FlipCount flips;
@@ -27,17 +19,17 @@ class GroupedCounts {
  public:
   explicit GroupedCounts(const CheckReport& report);
 
-  const std::map<Label, Totals>& totals() const { return totals_; }
+  const std::map<CheckedAlgorithm, Totals>& totals() const { return totals_; }
   const std::vector<std::string>& groups() const { return groups_; }
   // Returns null if the algorithm has no answers in the group.
-  const grade::AnswerCount* of(const Label& label, const std::string& group) const;
-  std::string name(const Label& label) const;  // such as "gjk double"
-  bool is_ours(const Label& label) const;
+  const grade::AnswerCount* of(const CheckedAlgorithm& algorithm, const std::string& group) const;
+  std::string name(const CheckedAlgorithm& algorithm) const;  // such as "gjk double"
+  bool is_ours(const CheckedAlgorithm& algorithm) const;
 
  private:
   const CheckRequest& request_;
-  std::map<Label, Totals> totals_;
-  std::map<std::pair<Label, std::string>, grade::AnswerCount> by_group_;
+  std::map<CheckedAlgorithm, Totals> totals_;
+  std::map<std::pair<CheckedAlgorithm, std::string>, grade::AnswerCount> by_group_;
   std::vector<std::string> groups_;
 };
 

@@ -1,4 +1,4 @@
-// Describes the result folder of a check or stress sweep.
+// Describes the result folder of a check, a stress sweep or a soak.
 #include "harness/check/job_folder.h"
 
 #include <fmt/format.h>
@@ -9,6 +9,12 @@
 #include "harness/record/machine.h"
 
 namespace touchstone::check {
+
+std::pair<std::string, std::string> regimes_fact(const CheckRequest& request) {
+  std::vector<std::string_view> regimes;
+  for (const Regime* regime : request.regimes) regimes.push_back(regime->name);
+  return {"regimes", fmt::format("{}", fmt::join(regimes, " "))};
+}
 
 record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
                                     std::pair<std::string, std::string> subject,

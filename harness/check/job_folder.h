@@ -14,8 +14,11 @@
 
 namespace touchstone::check {
 
-// Describes the folder of a request. `work` is "check" or "stress"; `subject` names the regimes or
-// axes. To resume, `subject` and the rest of the request must be equal, except `out`, `seconds` and
+// Returns the names of the request's regimes, as a fact.
+std::pair<std::string, std::string> regimes_fact(const CheckRequest& request);
+
+// Describes the folder of a request. `work` is "check", "sweep" or "soak"; `subject` names the
+// regimes or axes. To resume, `subject` and the rest of the request must be equal, except `out`, `seconds` and
 // `workers`.
 record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
                                     std::pair<std::string, std::string> subject,

@@ -7,15 +7,6 @@
 
 namespace touchstone::check {
 
-void FlipCount::add(const VariantCount& count) {
-  compared += count.compared;
-  flips += count.flips;
-  lost += count.lost;
-  beyond += count.beyond;
-  worst_flip = std::max(worst_flip, count.worst_flip);
-  worst_difference = std::max(worst_difference, count.worst_difference);
-}
-
 void Tally::add(const grade::GradedAnswer& answer) {
   const Key key = {answer.entry, answer.scalar, answer.regime};
   answers_[key].add(answer);

@@ -1,6 +1,7 @@
 // Counts of a check, and its worst answers.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <tuple>
@@ -16,7 +17,16 @@ struct FlipCount {
   std::int64_t compared = 0, flips = 0, lost = 0, beyond = 0;
   double worst_flip = 0, worst_difference = 0;
 
-  void add(const VariantCount& count);
+  // Adds a VariantCount or another FlipCount.
+  template <class Count>
+  void add(const Count& count) {
+    compared += count.compared;
+    flips += count.flips;
+    lost += count.lost;
+    beyond += count.beyond;
+    worst_flip = std::max(worst_flip, count.worst_flip);
+    worst_difference = std::max(worst_difference, count.worst_difference);
+  }
 };
 
 class Tally {

@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/campaign/selection.h"
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
@@ -14,6 +13,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/files/text_file.h"
 
 namespace touchstone::commands {
 namespace {
@@ -57,14 +57,6 @@ std::vector<const check::Regime*> chosen_regimes(const std::string& names,
   return chosen;
 }
 
-void write_page(const check::CheckReport& report, const std::string& command,
-                const std::string& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << check::page_text(report, command);
-  stream.close();
-  if (!stream) throw base::InputError(file, 0, "cannot be written");
-}
-
 int verify(const std::string& file) {
   const check::CertificateVerdicts verdicts = check::verify_certificates(file);
   for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
@@ -91,7 +83,8 @@ int check(Options& options, const std::string& command) {
   fmt::print("{}", check::summary_text(result->report, base::page_width()));
   fmt::print("\nRows in {}; case files of what is wrong in {}\n",
              (request.out / "grades.csv").string(), (request.out / "failures").string());
-  if (!options.page.empty()) write_page(result->report, command, options.page);
+  if (!options.page.empty())
+    files::write_text(options.page, check::page_text(result->report, command));
   return result->report.ours_wrong().empty() ? exit_done : exit_measured_wrong;
 }
 

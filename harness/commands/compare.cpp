@@ -7,11 +7,10 @@
 #include <memory>
 
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
-#include "harness/files/csv.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/record/machine.h"
@@ -47,7 +46,7 @@ std::string number(double value) { return std::isnan(value) ? "-" : fmt::format(
 void print(const std::vector<stats::ComparedCell>& cells, double threshold) {
   for (std::size_t i = 0; i < cells.size();) {
     const stats::SetKey& key = cells[i].key;
-    base::TextTable table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
+    base::Table table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
     for (; i < cells.size() && cells[i].key == key; ++i) {
       const stats::ComparedCell& cell = cells[i];
       table.add({cell.label, number(cell.ratio.median), number(cell.ratio.low),
@@ -59,30 +58,12 @@ void print(const std::vector<stats::ComparedCell>& cells, double threshold) {
   }
 }
 
-void write(const std::vector<stats::ComparedCell>& cells, double threshold,
-           const std::string& file) {
-  files::CsvWriter csv(file, {"scene",     "scene_hash",  "bodies",    "seed",      "boxes",
-                              "threads",   "task",        "pair_kind", "pairs_of",  "rebuild",
-                              "isa_limit", "algorithm",   "ratio",     "ratio_low", "ratio_high",
-                              "p",         "p_corrected", "n_a",       "n_b",       "verdict"});
-  for (const stats::ComparedCell& cell : cells) {
-    const stats::SetKey& key = cell.key;
-    csv.field(key.scene).field(key.scene_hash).field(key.bodies).field(key.seed).field(key.boxes);
-    csv.field(key.threads).field(key.task).field(key.pair_kind).field(key.pairs_of);
-    csv.field(int{key.rebuild}).field(key.isa_limit);
-    csv.field(cell.label).field(cell.ratio.median).field(cell.ratio.low).field(cell.ratio.high);
-    csv.field(cell.p).field(cell.p_corrected).field(cell.squares_a).field(cell.squares_b);
-    csv.field(to_string(stats::verdict(cell, threshold))).end_row();
-  }
-  csv.close();
-}
-
 // Prints the judgement of A and B. Returns the exit status.
 int judge(const Options& options, const stats::Results& a, const stats::Results& b,
           const std::vector<stats::ComparedCell>& cells) {
   print("A and B differ in", stats::remarks(a, b));
   print(cells, options.threshold);
-  if (!options.csv.empty()) write(cells, options.threshold, options.csv);
+  if (!options.csv.empty()) record::write_rows(options.csv, cells, options.threshold);
   const std::vector<std::string> changed = stats::changed_answers(a, b, stats::Compared::answers);
   print("The answers changed", changed);
   const auto count = [&](stats::Verdict wanted) {

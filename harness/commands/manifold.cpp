@@ -9,8 +9,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/base/markdown.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/campaign/selection.h"
 #include "harness/check/regimes/settled_pairs.h"
 #include "harness/commands/arguments.h"
@@ -18,6 +17,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
+#include "harness/files/text_file.h"
 #include "harness/grade/manifold/manifold_tally.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_manifold.h"
@@ -126,7 +126,7 @@ void write_points(const std::string& file, const std::vector<Asked>& asked,
 }
 
 void print_counts(const std::vector<Contestant>& contestants) {
-  base::TextTable table({"algorithm", "0 points", "1", "2", "3", "4", "not asked"});
+  base::Table table({"algorithm", "0 points", "1", "2", "3", "4", "not asked"});
   for (const Contestant& contestant : contestants) {
     std::array<std::size_t, 6> counts{};
     for (const Manifold& manifold : contestant.manifolds) {
@@ -182,7 +182,7 @@ std::string page_text(const ManifoldOptions& options, const grade::ManifoldTally
     }
     text += '\n';
   }
-  return text + tally.markdown();
+  return text + tally.table().markdown();
 }
 
 int manifold(const ManifoldOptions& options) {
@@ -209,8 +209,8 @@ int manifold(const ManifoldOptions& options) {
   print_counts(contestants);
   if (!options.grade) return exit_done;
   const grade::ManifoldTally tally = grade_all(asked, contestants);
-  fmt::print("\n{}", tally.text(base::page_width()));
-  if (!options.page.empty()) base::write_text(options.page, page_text(options, tally));
+  fmt::print("\n{}", tally.table().text(base::page_width()));
+  if (!options.page.empty()) files::write_text(options.page, page_text(options, tally));
   for (const std::string& line : tally.ours_wrong()) fmt::print("wrong: {}\n", line);
   return tally.ours_wrong().empty() ? exit_done : exit_measured_wrong;
 }

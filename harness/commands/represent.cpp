@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -100,8 +100,8 @@ void add_cells(std::vector<double> values, std::vector<std::string>& row) {
 
 void print(const scene::Scene& scene, const std::vector<proxies::Representation>& list,
            const std::vector<Summary>& summaries) {
-  base::TextTable table({"representation", "shapes", "none", "flat", "parts", "volume mean", "p99",
-                         "greatest", "hausdorff mean", "p99", "greatest", "ms each"});
+  base::Table table({"representation", "shapes", "none", "flat", "parts", "volume mean", "p99",
+                     "greatest", "hausdorff mean", "p99", "greatest", "ms each"});
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Summary& s = summaries[i];
     const std::size_t made = s.hausdorff.size();

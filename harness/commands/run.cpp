@@ -4,13 +4,14 @@
 #include <memory>
 
 #include "harness/base/error.h"
-#include "harness/base/markdown.h"
+#include "harness/campaign/plan.h"
 #include "harness/campaign/runner.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/program.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
@@ -121,7 +122,7 @@ void report(const campaign::Campaign& campaign, const campaign::RunResult& resul
   const stats::Results results = stats::read_results(folder);
   const stats::Tables tables = stats::make_tables(results, noise, options.depth_error);
   const std::string text = stats::tables_markdown(tables);
-  base::write_text(folder / "tables.md", text);
+  files::write_text(folder / "tables.md", text);
   if (options.tables) fmt::print("{}\n{}\n", text, record::departures_text(result.findings));
   if (!campaign.published.source.empty() && !result.interrupted) {
     const auto rows = stats::check_published(campaign.published, results, noise);

@@ -1,12 +1,12 @@
 // touchstone soak: compares millions of verdicts with exact ones.
-#include "harness/check/soak.h"
+#include "harness/check/soak/soak.h"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <memory>
 
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
@@ -25,8 +25,8 @@ void print(const check::SoakRequest& request, const check::SoakResult& result) {
   for (const auto& [key, count] : result.counts) {
     totals[{std::get<0>(key), std::get<1>(key)}].add(count);
   }
-  base::TextTable table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
-                         "silent errors", "honest failures", "lost"});
+  base::Table table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
+                     "silent errors", "honest failures", "lost"});
   for (const auto& [key, count] : totals) {
     std::vector<std::string> row = {
         fmt::format("{} {}", request.narrow[key.first]->info.name, to_string(key.second))};

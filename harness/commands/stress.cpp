@@ -3,17 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/campaign/selection.h"
 #include "harness/check/axes/stress_run.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/figures.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/text_file.h"
 
 namespace touchstone::commands {
 namespace {
@@ -51,10 +51,8 @@ void write_page(const Options& options, const check::StressResult& result,
   const std::string pictures = std::filesystem::absolute(options.request.out / "figures")
                                    .lexically_relative(folder)
                                    .string();
-  std::ofstream stream(options.page, std::ios::binary);
-  stream << check::stress_page(options.request, result, command, drawn ? pictures : "");
-  stream.close();
-  if (!stream) throw base::InputError(options.page, 0, "cannot be written");
+  files::write_text(options.page,
+                    check::stress_page(options.request, result, command, drawn ? pictures : ""));
 }
 
 int stress(Options& options, const std::string& command) {

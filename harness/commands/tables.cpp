@@ -11,14 +11,14 @@
 #include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/stats/table_check.h"
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::commands {
 namespace {
@@ -104,7 +104,7 @@ int check(const std::filesystem::path& reference, const std::filesystem::path& r
   print("Not looked at", found.left_out);
   for (std::size_t i = 0; i < found.cells.size();) {
     const stats::CheckedCell& first = found.cells[i];
-    base::TextTable table({"over " + first.baseline, "stated", "band", "here", "interval", ""});
+    base::Table table({"over " + first.baseline, "stated", "band", "here", "interval", ""});
     for (; i < found.cells.size() && found.cells[i].key == first.key; ++i) {
       const stats::CheckedCell& cell = found.cells[i];
       table.add({cell.label, number(cell.stated),

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/commands/commands.h"
 #include "harness/trade/trade_files.h"
 

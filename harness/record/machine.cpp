@@ -228,6 +228,15 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
   return facts;
 }
 
+std::string facts_as_list(std::initializer_list<std::string_view> names) {
+  std::string text;
+  for (const auto& [name, value] : machine_facts()) {
+    if (std::ranges::find(names, name) != names.end())
+      text += fmt::format("- {}: {}\n", name, value);
+  }
+  return text;
+}
+
 std::string hash_of_program() {
   std::ifstream file("/proc/self/exe", std::ios::binary);
   std::uint64_t hash = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ namespace touchstone::record {
 std::vector<std::pair<std::string, std::string>> machine_facts();
 // The fact that may differ when a run is resumed.
 inline constexpr std::string_view command_line_fact = "command_line";
+
+// Returns the machine's facts of these names as a list in Markdown.
+std::string facts_as_list(std::initializer_list<std::string_view> names);
 
 // Returns 16 hexadecimal digits, a hash of the bytes of this program.
 std::string hash_of_program();

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -18,6 +17,7 @@
 #include "harness/base/reproducible_math.h"
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
+#include "harness/scene/json_object.h"
 
 namespace touchstone::scene {
 namespace {
@@ -26,79 +26,9 @@ using Json = nlohmann::json;
 
 constexpr int frame_cap = 100;
 
-Json parse(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw base::InputError(file.string(), 0, "cannot be read; expected a rigid-ipc scene");
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& e) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
-    throw base::InputError(file.string(), 1 + std::count(text.begin(), end, '\n'),
-                           std::string("malformed JSON (") + e.what() + ")");
-  } catch (const Json::exception& e) {  // for example a number that no double can hold
-    throw base::InputError(file.string(), 0, std::string("malformed JSON (") + e.what() + ")");
-  }
-}
-
 bool has_velocity(const Body& body) {
   return !(body.velocity.isZero(0) && body.angular_velocity.isZero(0));
 }
-
-// One JSON object, with its name for messages.
-class Reader {
- public:
-  Reader(const Json& object, std::string file, std::string where)
-      : object_(&object), file_(std::move(file)), where_(std::move(where)) {
-    if (!object.is_object()) fail("expected an object");
-  }
-
-  [[noreturn]] void fail(const std::string& message) const {
-    throw base::InputError(file_, 0, where_.empty() ? message : where_ + ": " + message);
-  }
-  const Json* find(const char* key) const {
-    const auto at = object_->find(key);
-    return at == object_->end() || at->is_null() ? nullptr : &*at;
-  }
-  double number(const char* key, double fallback) const {
-    const Json* value = find(key);
-    if (value == nullptr) return fallback;
-    if (!value->is_number()) fail(std::string("'") + key + "': expected a number");
-    return value->get<double>();
-  }
-  bool boolean(const char* key, bool fallback) const {
-    const Json* value = find(key);
-    if (value == nullptr) return fallback;
-    if (!value->is_boolean()) fail(std::string("'") + key + "': expected true or false");
-    return value->get<bool>();
-  }
-  std::string text(const char* key, const char* fallback) const {
-    const Json* value = find(key);
-    if (value == nullptr) return fallback;
-    if (!value->is_string()) fail(std::string("'") + key + "': expected a text");
-    return value->get<std::string>();
-  }
-  Vec3d vector(const char* key, const Vec3d& fallback) const {
-    const Json* value = find(key);
-    return value == nullptr ? fallback : to_vector(*value, key);
-  }
-  Vec3d to_vector(const Json& value, const char* key) const {
-    if (value.is_array() && value.size() == 2) {
-      fail(std::string("'") + key + "' has two coordinates; expected a three-dimensional scene");
-    }
-    if (!value.is_array() || value.size() != 3 ||
-        !std::all_of(value.begin(), value.end(), [](const Json& c) { return c.is_number(); })) {
-      fail(std::string("'") + key + "': expected three numbers");
-    }
-    return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
-  }
-
- private:
-  const Json* object_;
-  std::string file_, where_;
-};
 
 // The rotation about x, then y, then z, in degrees.
 Mat3d rotation_of_degrees(const Vec3d& degrees) {
@@ -117,18 +47,18 @@ class Importer {
   explicit Importer(std::filesystem::path file) : file_(std::move(file)) {}
 
   Scene import() {
-    const Json json = parse(file_);
-    const Reader top(json, file_.string(), "");
+    const Json json = parse_json(file_, "a rigid-ipc scene");
+    const JsonObject top(json, file_.string(), "");
     const Json* problem = top.find("rigid_body_problem");
     if (problem == nullptr) top.fail("no 'rigid_body_problem'; expected a rigid-ipc scene");
     const Json* bodies =
-        Reader(*problem, file_.string(), "rigid_body_problem").find("rigid_bodies");
+        JsonObject(*problem, file_.string(), "rigid_body_problem").find("rigid_bodies");
     if (bodies == nullptr || !bodies->is_array()) {
       top.fail("no 'rigid_bodies' in 'rigid_body_problem'; expected a list of bodies");
     }
     scene_.name = file_.stem().string();
     for (std::size_t i = 0; i < bodies->size(); ++i) {
-      add_body(Reader((*bodies)[i], file_.string(), "body " + std::to_string(i)));
+      add_body(JsonObject((*bodies)[i], file_.string(), "body " + std::to_string(i)));
     }
     if (scene_.bodies.empty()) top.fail("no enabled bodies; expected at least one");
     set_frames(top);
@@ -142,7 +72,7 @@ class Importer {
     Vec3d centre;
   };
 
-  void add_body(const Reader& body) {
+  void add_body(const JsonObject& body) {
     if (!body.boolean("enabled", true)) return;
     if (body.find("kinematic_poses") != nullptr) {
       body.fail("'kinematic_poses' are not supported; expected a body moved by its velocities");
@@ -180,7 +110,7 @@ class Importer {
     }
   }
 
-  static std::array<bool, 6> fixed_freedoms(const Reader& body) {
+  static std::array<bool, 6> fixed_freedoms(const JsonObject& body) {
     std::array<bool, 6> fixed{};
     const Json* value = body.find("is_dof_fixed");
     if (value == nullptr) return fixed;
@@ -196,7 +126,7 @@ class Importer {
     return fixed;
   }
 
-  const std::vector<Part>& parts_of(const Reader& body) {
+  const std::vector<Part>& parts_of(const JsonObject& body) {
     const std::string name = body.text("mesh", "");
     const bool split = body.boolean("split_components", false);
     if (name.empty()) {
@@ -212,7 +142,7 @@ class Importer {
     return parts->second;
   }
 
-  std::filesystem::path find_mesh(const Reader& body, const std::string& name) const {
+  std::filesystem::path find_mesh(const JsonObject& body, const std::string& name) const {
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::absolute(file_).parent_path();
     const auto exists = [&](const std::filesystem::path& p) {
@@ -227,7 +157,7 @@ class Importer {
               " or to a folder 'meshes' there or above");
   }
 
-  static geometry::Mesh inline_mesh(const Reader& body) {
+  static geometry::Mesh inline_mesh(const JsonObject& body) {
     geometry::Mesh mesh;
     const Json* vertices = body.find("vertices");
     if (vertices == nullptr || !vertices->is_array() || vertices->empty()) {
@@ -251,7 +181,7 @@ class Importer {
   }
 
   // Dimensions take precedence over a scale.
-  static Vec3d scale_of(const Reader& body, const geometry::Mesh& mesh) {
+  static Vec3d scale_of(const JsonObject& body, const geometry::Mesh& mesh) {
     if (body.find("dimensions") != nullptr) {
       Vec3d low = mesh.vertices.front(), high = low;
       for (const Vec3d& v : mesh.vertices) {
@@ -267,7 +197,7 @@ class Importer {
     return body.vector("scale", Vec3d::Ones());
   }
 
-  static geometry::Mesh scaled(geometry::Mesh mesh, const Reader& body) {
+  static geometry::Mesh scaled(geometry::Mesh mesh, const JsonObject& body) {
     const Vec3d scale = scale_of(body, mesh);
     for (Vec3d& v : mesh.vertices) {
       v = v.cwiseProduct(scale).eval();
@@ -292,7 +222,7 @@ class Importer {
     return parts;
   }
 
-  void set_frames(const Reader& top) {
+  void set_frames(const JsonObject& top) {
     const double step = top.number("timestep", 0.01);
     if (!(step > 0)) top.fail("'timestep': expected a number above 0");
     scene_.motion.kind = MotionKind::inertial;

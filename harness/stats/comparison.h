@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/record/row.h"
+#include "harness/stats/comparable.h"
+#include "harness/stats/key_columns.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/statistics.h"
 
@@ -31,25 +34,19 @@ enum class Verdict : std::uint8_t {
 std::string_view to_string(Verdict verdict);
 Verdict verdict(const ComparedCell& cell, double threshold);
 
-// The names of the two results in messages.
-struct ResultNames {
-  std::string a = "A", b = "B";
-};
-
-// Cells of A that B lacks, each a line for the user.
-struct Missing {
-  std::vector<std::string> scenes;  // the same scene has another hash in B
-  std::vector<std::string> cells;   // B did not run it
-};
-Missing missing(const Results& a, const Results& b, const ResultNames& names = {});
-
-// Returns the reasons against a comparison of times, each a line; none if A and B are comparable.
-// `machines`: the machines must be equal too.
-std::vector<std::string> obstacles(const Results& a, const Results& b, bool machines);
-
-// Differences that may explain a difference in time: compiler, flags, library versions, commit,
-// algorithms that only B has.
-std::vector<std::string> remarks(const Results& a, const Results& b);
+// The file of a comparison. Verdicts depend on the threshold.
+template <record::row_of<ComparedCell> Row, class Visit>
+void columns(Row& row, Visit visit, double threshold) {
+  key_columns(row.key, visit);
+  visit("algorithm", row.label, "The algorithm's label.");
+  interval_columns("ratio", row.ratio, "Time in B over the time in A.", visit);
+  visit("p", row.p, "Probability by the Mann-Whitney test, if the times are equal.");
+  visit("p_corrected", row.p_corrected, "The same after Holm's correction over all cells.");
+  visit("n_a", row.squares_a, "Number of squares in A, or of its runs.");
+  visit("n_b", row.squares_b, "Number of squares in B, or of its runs.");
+  visit("verdict", record::derived([&, threshold] { return verdict(row, threshold); }),
+        "Whether B is slower.");
+}
 
 // Returns a line for each contestant of a set for which B found other pairs or another number of
 // contacts than A, or failed when A did not: a regression, however fast it is. Work counters differ

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/markdown.h"
-#include "harness/files/csv.h"
-#include "harness/stats/tables.h"
+#include "harness/base/table.h"
+#include "harness/files/text_file.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::stats {
 namespace {
@@ -100,25 +100,18 @@ std::vector<PublishedRow> check_published(const Published& published, const Resu
 std::string published_text(const Published& published, const std::vector<PublishedRow>& rows) {
   std::string text = fmt::format("Published: {}\n\n", published.source);
   if (!published.note.empty()) text += published.note + "\n\n";
-  text += base::markdown_header({"", "input", "published", "here", ""}, 2);
+  base::Table table({"", "input", "published", "here", ""}, 2);
   for (const PublishedRow& row : rows) {
-    text += base::markdown_row(
+    table.add(
         {row.claim, row.key.words(), row.published, row.here, std::string(to_string(row.state))});
   }
-  return text;
+  return text + table.markdown();
 }
 
 void write_published(const Published& published, const std::vector<PublishedRow>& rows,
                      const std::filesystem::path& folder) {
-  files::CsvWriter csv(folder / "published.csv", {"scene", "bodies", "task", "pair_kind", "threads",
-                                                  "claim", "published", "here", "holds"});
-  for (const PublishedRow& row : rows) {
-    csv.field(row.key.scene).field(row.key.bodies).field(row.key.task).field(row.key.pair_kind);
-    csv.field(row.key.threads).field(row.claim).field(row.published).field(row.here);
-    csv.field(to_string(row.state)).end_row();
-  }
-  csv.close();
-  base::write_text(folder / "published.md", published_text(published, rows));
+  record::write_rows(folder / "published.csv", rows);
+  files::write_text(folder / "published.md", published_text(published, rows));
 }
 
 }  // namespace touchstone::stats

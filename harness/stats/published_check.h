@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/record/row.h"
 #include "harness/stats/published.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/table_check.h"
@@ -18,6 +19,20 @@ struct PublishedRow {
   std::string published, here;  // "16 +- 5", "15.3 +- 4.1"
   Holds state = Holds::undecided;
 };
+
+// published.csv
+template <record::row_of<PublishedRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("scene", row.key.scene, "The scene's name.");
+  visit("bodies", row.key.bodies, "Number of bodies.");
+  visit("task", row.key.task, "Task of the narrow phases; empty for broad phases.");
+  visit("pair_kind", row.key.pair_kind, "The kinds of the two shapes; empty for broad phases.");
+  visit("threads", row.key.threads, "Width of the executor.");
+  visit("claim", row.claim, "What was published.");
+  visit("published", row.published, "The published value.");
+  visit("here", row.here, "The measured value.");
+  visit("holds", row.state, "Whether the claim holds here.");
+}
 
 // Checks each claim. A count of iterations holds if the measured mean is within one published
 // deviation of the published mean; `faster` holds if the whole interval of the ratio supports it;

@@ -250,6 +250,12 @@ std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise)
   return medians;
 }
 
+std::vector<double> logs(const std::map<SquareKey, double>& squares) {
+  std::vector<double> values;
+  for (const auto& [square, value] : squares) values.push_back(std::log(value));
+  return values;
+}
+
 std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, Noise noise) {
   const std::map<SquareKey, double> of_b = by_square(b, noise);
   std::vector<double> ratios;

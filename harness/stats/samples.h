@@ -145,6 +145,7 @@ void add_phase(Contestant& contestant, record::Phase phase, Sample sample, doubl
 using SquareKey = std::pair<std::int64_t, std::int64_t>;  // process, square
 enum class Noise : std::uint8_t { left_out, kept };
 std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise);
+std::vector<double> logs(const std::map<SquareKey, double>& squares);
 
 // Returns log(a / b) for every square that both were in: the values of paired statistics.
 std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, Noise noise);

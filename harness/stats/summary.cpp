@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 
 namespace touchstone::stats {
 namespace {
@@ -86,7 +86,7 @@ std::string winners_text(const Tables& tables) {
     members[name].push_back(&duel);
   }
   if (names.empty()) return "";
-  base::TextTable table({"", "fastest of ours", "fastest library", "library / ours", "inputs"});
+  base::Table table({"", "fastest of ours", "fastest library", "library / ours", "inputs"});
   for (const std::string& name : names) {
     std::vector<std::string> ours, libraries;
     std::vector<MedianInterval> ratios;
@@ -133,7 +133,7 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     fault.known = fault.known && departure.known;
   }
   for (const TimeRow& row : tables.times) {
-    const bool ours = row.origin == "ours";
+    const bool ours = row.origin == record::RowOrigin::ours;
     const bool off = row.worst_error > tables.depth_error;
     if (!off && (row.unknown == 0 || !ours)) continue;
     Fault& fault = fault_of(row.label, ours);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "harness/record/findings.h"
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::stats {
 

@@ -5,9 +5,22 @@
 
 #include "harness/files/csv.h"
 #include "harness/stats/comparison.h"
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::stats {
+
+// The columns of ratios.csv and library_ratios.csv that state a cell.
+template <record::row_of<CheckedCell> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  key_columns(row.key, visit);
+  visit("algorithm", row.label, "");
+  visit("baseline", row.baseline, "");
+  visit("canary", row.canary, "");
+  visit("ratio", row.stated, "");
+  visit("band_low", row.band_low, "");
+  visit("band_high", row.band_high, "");
+}
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -15,30 +28,14 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Returns the cells of the table, without those of the canaries.
 std::vector<CheckedCell> read_bands(const std::filesystem::path& file) {
   std::vector<CheckedCell> cells;
-  files::CsvReader(
-      file,
-      {"scene", "bodies", "seed", "boxes", "threads", "task", "pair_kind", "pairs_of", "scene_hash",
-       "algorithm", "baseline", "canary", "ratio", "band_low", "band_high"},
-      {"rebuild", "isa_limit"})
-      .read([&](const files::CsvReader::Row& row) {
-        const auto text = [&](std::size_t column) { return std::string(row.text(column)); };
-        const auto number = [&](std::size_t column) {
-          return row.text(column).empty() ? nan : row.number(column);
-        };
-        if (row.text(11) == "1") return;
-        CheckedCell cell;
-        cell.key = {text(0), row.integer(1), text(2), text(3),         row.integer(4), text(5),
-                    text(6), text(7),        text(8), text(15) == "1", text(16)};
-        cell.label = text(9);
-        cell.baseline = text(10);
-        cell.stated = number(12);
-        cell.band_low = number(13);
-        cell.band_high = number(14);
-        if (cell.band_low > cell.band_high) {
-          row.fail("column band_low is above band_high; expected a band");
-        }
-        cells.push_back(cell);
-      });
+  record::reader_of<CheckedCell>(file).read([&](const files::CsvReader::Row& fields) {
+    auto cell = record::read_row<CheckedCell>(fields);
+    if (cell.canary) return;
+    if (cell.band_low > cell.band_high) {
+      fields.fail("column band_low is above band_high; expected a band");
+    }
+    cells.push_back(std::move(cell));
+  });
   return cells;
 }
 

@@ -21,6 +21,7 @@ Holds holds(const MedianInterval& ratio, double band_low, double band_high);
 struct CheckedCell {
   SetKey key;
   std::string label, baseline;
+  bool canary = false;                             // true for the baseline against its twin
   double stated = 0, band_low = 0, band_high = 0;  // stated by the table
   MedianInterval ratio;                            // measured in the other results
   Holds state = Holds::undecided;

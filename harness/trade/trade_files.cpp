@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "harness/base/hash.h"
-#include "harness/base/markdown.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
+#include "harness/files/text_file.h"
 #include "harness/record/machine.h"
 #include "harness/trade/trade_rows.h"
 
@@ -143,72 +143,67 @@ void TradeFiles::finish(const TradeResult& result) {
   write_points(result);
   write_bins(result);
   write_front(result);
-  files::CsvWriter left_out(path_ / "left_out.csv", record::header_of<LeftOutRow>());
-  for (const auto& [reason, count] : result.left_out) {
-    record::write_row(left_out, LeftOutRow{reason, count});
-  }
-  left_out.close();
-  base::write_text(path_ / "trade.toml",
-                   trade_toml(request_, path_, "Measured by: touchstone run trade.toml"));
+  std::vector<LeftOutRow> left_out;
+  for (const auto& [reason, count] : result.left_out) left_out.push_back({reason, count});
+  record::write_rows(path_ / "left_out.csv", left_out);
+  files::write_text(path_ / "trade.toml",
+                    trade_toml(request_, path_, "Measured by: touchstone run trade.toml"));
   folder_.commit();
   folder_.finish({{"checked_frames", std::to_string(result.truth_frames)},
                   {"twin_ratio", fmt::format("{}", result.control)}});
 }
 
 void TradeFiles::write_points(const TradeResult& result) const {
-  files::CsvWriter file(path_ / "points.csv", record::header_of<TradePointRow>());
+  std::vector<TradePointRow> rows;
   for (const TradeOutcome& point : result.points) {
-    TradePointRow row = row_of_point(point);
-    row.baseline = &point == &result.points.front();
-    record::write_row(file, row);
+    rows.push_back(row_of_point(point));
+    rows.back().baseline = &point == &result.points.front();
   }
-  file.close();
+  record::write_rows(path_ / "points.csv", rows);
 }
 
 void TradeFiles::write_bins(const TradeResult& result) const {
-  files::CsvWriter file(path_ / "bins.csv", record::header_of<TradeBinRow>());
+  std::vector<TradeBinRow> rows;
   for (const TradeOutcome& point : result.points) {
     const auto& bins = point.evaluation.errors.bins;
     for (std::size_t i = 0; i < bins.size(); ++i) {
       if (bins[i].pairs == 0) continue;
       const GapRange range = gap_range(i);
       const bool contact = !(range.high > 0);
-      record::write_row(file, TradeBinRow{.point = point.point.configuration.name(),
-                                          .gap_low = range.low,
-                                          .gap_high = range.high,
-                                          .pairs = bins[i].pairs,
-                                          .false_positives = contact ? 0 : bins[i].wrong,
-                                          .false_negatives = contact ? bins[i].wrong : 0,
-                                          .failed = bins[i].failed});
+      rows.push_back({.point = point.point.configuration.name(),
+                      .gap_low = range.low,
+                      .gap_high = range.high,
+                      .pairs = bins[i].pairs,
+                      .false_positives = contact ? 0 : bins[i].wrong,
+                      .false_negatives = contact ? bins[i].wrong : 0,
+                      .failed = bins[i].failed});
     }
   }
-  file.close();
+  record::write_rows(path_ / "bins.csv", rows);
 }
 
 void TradeFiles::write_front(const TradeResult& result) const {
-  files::CsvWriter file(path_ / "front.csv", record::header_of<TradeFrontRow>());
-  std::string text =
-      question(result, request_) + ".\n\n" + base::markdown_header(front_header(request_));
+  std::vector<TradeFrontRow> rows;
+  base::Table table(front_header(request_));
   for (const std::size_t i : result.front) {
     const TradeOutcome& point = result.points[i];
-    record::write_row(file,
-                      TradeFrontRow{.point = point.point.configuration.name(),
-                                    .configuration = ConfigurationNames(point.point.configuration),
-                                    .seconds = point.timed.seconds,
-                                    .low = point.timed.low,
-                                    .high = point.timed.high,
-                                    .error = point.error,
-                                    .measure = request_.measure});
-    text += base::markdown_row(front_row(point));
+    rows.push_back({.point = point.point.configuration.name(),
+                    .configuration = ConfigurationNames(point.point.configuration),
+                    .seconds = point.timed.seconds,
+                    .low = point.timed.low,
+                    .high = point.timed.high,
+                    .error = point.error,
+                    .measure = request_.measure});
+    table.add(front_row(point));
   }
-  file.close();
-  base::write_text(path_ / "front.md", text);
+  record::write_rows(path_ / "front.csv", rows);
+  files::write_text(path_ / "front.md", question(result, request_) + ".\n\n" + table.markdown());
 }
 
 std::string front_text(const TradeResult& result, const TradeRequest& request,
                        std::size_t page_width) {
   std::string text = question(result, request) + "\n\n";
-  base::TextTable table(front_header(request));
+  base::Table table(front_header(request));
   for (const std::size_t i : result.front) table.add(front_row(result.points[i]));
   text += table.text(page_width);
   std::size_t lost = 0;

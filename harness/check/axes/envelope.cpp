@@ -100,55 +100,64 @@ std::vector<std::string> broken_promises(const StressRequest& request,
   return lines;
 }
 
-void write_envelope(const StressRequest& request, std::span<const Reach> reaches,
-                    const std::filesystem::path& file) {
-  std::vector<std::string> header = {"algorithm", "origin", "scalar", "axis",
-                                     "unit",      "from",   "to",     "answers"};
-  for (const grade::AnswerClass outcome : grade::all_answer_classes)
-    header.emplace_back(to_string(outcome));
-  header.emplace_back("skipped");
-  for (const grade::AnswerClass outcome : grade::all_answer_classes) {
-    if (outcome == grade::AnswerClass::right) continue;
-    header.push_back("first_" + std::string(to_string(outcome)));
+// A row of envelope.csv.
+template <record::row_of<Reach> Row, class Visit>
+void columns(Row& row, Visit visit, const StressRequest& request) {
+  const auto value = [&](const auto& place) {
+    return record::derived([&row, &place] { return name_at(*row.axis, place); });
+  };
+  visit("algorithm", record::derived([&] { return request.narrow[row.entry]->info.name; }),
+        "The narrow phase.");
+  visit("origin", record::derived([&] { return request.narrow[row.entry]->info.origin; }),
+        "Origin of the algorithm.");
+  visit("scalar", row.scalar, "Precision that it computes in.");
+  visit("axis", record::derived([&] { return row.axis->name; }), "The axis.");
+  visit("unit", record::derived([&] { return row.axis->unit; }), "Unit of its values.");
+  visit("from", record::derived([&] { return row.axis->values.front().name; }), "Its mild end.");
+  visit("to", record::derived([&] { return row.axis->values.back().name; }), "Its extreme end.");
+  visit("answers", row.answers, "Answers that were asked for and graded.");
+  for (const grade::AnswerClass one : grade::all_answer_classes) {
+    visit(to_string(one), row.counts[static_cast<std::size_t>(one)], "Answers of this class.");
   }
-  header.insert(header.end(), {"first_wrong_side", "worst_margin", "worst_error"});
-  files::CsvWriter csv(file, header);
-  for (const Reach& reach : reaches) {
-    const AlgorithmInfo& info = request.narrow[reach.entry]->info;
-    const StressAxis& axis = *reach.axis;
-    csv.field(info.name).field(to_string(info.origin)).field(to_string(reach.scalar));
-    csv.field(axis.name).field(axis.unit);
-    csv.field(axis.values.front().name).field(axis.values.back().name).field(reach.answers);
-    for (const std::int64_t count : reach.counts) csv.field(count);
-    csv.field(reach.skipped);
-    for (const grade::AnswerClass outcome : grade::all_answer_classes) {
-      if (outcome != grade::AnswerClass::right) csv.field(name_at(axis, reach.first_of(outcome)));
-    }
-    csv.field(name_at(axis, reach.first_side)).field(reach.margin).field(reach.error).end_row();
+  visit("skipped", row.skipped, "Queries that were not asked, after too many crashes and hangs.");
+  for (const grade::AnswerClass one : grade::all_answer_classes) {
+    if (one == grade::AnswerClass::right) continue;
+    visit("first_" + std::string(to_string(one)), value(row.first[static_cast<std::size_t>(one)]),
+          "First value with an answer of this class; empty where there is none.");
   }
-  csv.close();
+  visit("first_wrong_side", value(row.first_side),
+        "First value with a silent answer on the wrong side of contact.");
+  visit("worst_margin", row.margin,
+        "Greatest exact distance or depth that was called wrongly, part of the scale.");
+  visit("worst_error", row.error, "Greatest error of a number, part of the scale.");
 }
 
-std::vector<std::vector<std::string>> table(const StressRequest& request,
-                                            std::span<const Reach> reaches, EnvelopeTable which) {
+void write_envelope(const StressRequest& request, std::span<const Reach> reaches,
+                    const std::filesystem::path& file) {
+  record::write_rows(file, std::vector<Reach>(reaches.begin(), reaches.end()), request);
+}
+
+base::Table table(const StressRequest& request, std::span<const Reach> reaches,
+                  EnvelopeTable which) {
   const std::vector<const StressAxis*> axes = axes_of(request);
-  std::vector<std::vector<std::string>> rows = {{"algorithm"}};
-  for (const StressAxis* axis : axes) rows.front().push_back(axis->name);
-  const Reach* last = nullptr;
-  for (const Reach& reach : reaches) {
-    if (last == nullptr || last->entry != reach.entry || last->scalar != reach.scalar) {
-      rows.emplace_back(axes.size() + 1);
-      rows.back()[0] =
-          fmt::format("{} {}", request.narrow[reach.entry]->info.name, to_string(reach.scalar));
+  std::vector<std::string> header = {"algorithm"};
+  for (const StressAxis* axis : axes) header.push_back(axis->name);
+  base::Table table(header);
+  for (auto reach = reaches.begin(); reach != reaches.end();) {
+    const Reach& first = *reach;
+    std::vector<std::string> row(header.size());
+    row[0] = request.name({first.entry, first.scalar});
+    for (; reach != reaches.end() && reach->entry == first.entry && reach->scalar == first.scalar;
+         ++reach) {
+      const auto axis =
+          static_cast<std::size_t>(std::ranges::find(axes, reach->axis) - axes.begin());
+      row[axis + 1] = which == EnvelopeTable::honest
+                          ? first_honest(*reach)
+                          : first_wrong(*reach, which == EnvelopeTable::side);
     }
-    last = &reach;
-    const auto column =
-        static_cast<std::size_t>(std::ranges::find(axes, reach.axis) - axes.begin()) + 1;
-    rows.back()[column] = which == EnvelopeTable::honest
-                              ? first_honest(reach)
-                              : first_wrong(reach, which == EnvelopeTable::side);
+    table.add(std::move(row));
   }
-  return rows;
+  return table;
 }
 
 }  // namespace touchstone::check

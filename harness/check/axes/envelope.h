@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/table.h"
 #include "harness/check/axes/stress_row.h"
 
 namespace touchstone::check {
@@ -45,9 +46,9 @@ void write_envelope(const StressRequest& request, std::span<const Reach> reaches
 // Returns a table with a cell for each algorithm and axis: the first value at which it is silently
 // wrong, crashes or hangs (wrong), is so on the side of contact (side), or reports a failure
 // (honest). A cell is "-" if there is no such value, and empty if the algorithm takes no pair of
-// the axis. The first row is the header.
+// the axis.
 enum class EnvelopeTable : std::uint8_t { side, wrong, honest };
-std::vector<std::vector<std::string>> table(const StressRequest& request,
-                                            std::span<const Reach> reaches, EnvelopeTable which);
+base::Table table(const StressRequest& request, std::span<const Reach> reaches,
+                  EnvelopeTable which);
 
 }  // namespace touchstone::check

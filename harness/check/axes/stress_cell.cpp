@@ -12,14 +12,6 @@
 namespace touchstone::check {
 namespace {
 
-// Returns how bad a silent error is: a wrong side of contact is worse than a wrong number.
-double badness(const NarrowPhaseEntry& entry, const grade::GradedAnswer& answer) {
-  const double margin = grade::wrong_margin(entry, answer);
-  if (margin >= 0) return 1e3 * (1 + margin);
-  const double error = worst_error(entry, answer);
-  return error >= 0 ? std::min(error, 1e3) : 0;
-}
-
 class CellWork {
  public:
   CellWork(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle)
@@ -29,21 +21,15 @@ class CellWork {
   }
 
   CellResult run() {
-    for (std::uint32_t entry = 0; entry < request_.narrow.size(); ++entry) {
-      for (const Precision scalar : request_.scalars) {
-        if (offers(*request_.narrow[entry], scalar)) ask(entry, scalar);
+    for (const auto& [entry, scalar] : request_.algorithms()) {
+      for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+        ask(entry, scalar, task);
       }
     }
     return std::move(result_);
   }
 
  private:
-  void ask(std::uint32_t entry, Precision scalar) {
-    for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
-      ask(entry, scalar, task);
-    }
-  }
-
   void ask(std::uint32_t entry, Precision scalar, Task task) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
     std::vector<process::LimitedQuery> queries;
@@ -87,7 +73,8 @@ class CellWork {
     if (became == grade::AnswerClass::crashed || became == grade::AnswerClass::hung) {
       if (row.lost < 0) row.lost = index;
     } else if (became == grade::AnswerClass::silent) {
-      const double bad = badness(algorithm, answer);
+      const double bad =
+          badness(grade::wrong_margin(algorithm, answer), worst_error(algorithm, answer));
       if (bad > worst) {
         row.worst = index;
         worst = bad;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/check/axes/stress_run.h"
 #include "harness/record/machine.h"
 
@@ -12,26 +12,6 @@ namespace touchstone::check {
 namespace {
 
 constexpr std::size_t most_lines = 40;  // number of broken promises
-
-using Rows = std::vector<std::vector<std::string>>;
-
-std::string as_markdown(const Rows& rows) {
-  std::string text;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    text += fmt::format("| {} |\n", fmt::join(rows[i], " | "));
-    if (i > 0) continue;
-    text += "|---";
-    for (std::size_t k = 1; k < rows[i].size(); ++k) text += "|---:";
-    text += "|\n";
-  }
-  return text;
-}
-
-std::string as_text(const Rows& rows, std::size_t page_width) {
-  base::TextTable table(rows.front());
-  for (std::size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
-  return table.text(page_width);
-}
 
 std::string promise(const StressRequest& request, const StressResult& result) {
   const bool asked = std::ranges::any_of(result.reaches, [&](const Reach& reach) {
@@ -53,41 +33,29 @@ std::string promise(const StressRequest& request, const StressResult& result) {
 }
 
 std::string ranges(const StressRequest& request) {
-  Rows rows = {{"axis", "from", "to", "unit", "what"}};
+  base::Table lines({"axis", "from", "to", "unit", "what"});
   for (const StressCell& cell : request.cells) {
     if (cell.place > 0) continue;
     const StressAxis& axis = *cell.axis;
-    rows.push_back(
-        {axis.name, axis.values.front().name, axis.values.back().name, axis.unit, axis.what});
+    lines.add({axis.name, axis.values.front().name, axis.values.back().name, axis.unit, axis.what});
   }
-  return as_markdown(rows);
-}
-
-std::string facts() {
-  std::string text;
-  for (const auto& [name, value] : record::machine_facts()) {
-    for (const char* wanted : {"compiler", "bullet", "fcl", "libccd", "ode", "commit"}) {
-      if (name == wanted) text += fmt::format("- {}: {}\n", name, value);
-    }
-  }
-  return text;
+  return lines.markdown();
 }
 
 std::string failure_lines(const StressRequest& request, const StressResult& result) {
-  Rows rows = {{"algorithm", "task", "case", "what is wrong", "file"}};
+  base::Table lines({"algorithm", "task", "case", "what is wrong", "file"});
   for (const FailureCase& failure : result.failures) {
-    rows.push_back({fmt::format("{} {}", request.narrow[failure.answer.entry]->info.name,
-                                to_string(failure.answer.scalar)),
-                    std::string(to_string(failure.answer.task)), failure.id,
-                    failure.what.empty() ? "no longer, when asked again" : failure.what,
-                    failure.file.filename().string()});
+    lines.add({request.name({failure.answer.entry, failure.answer.scalar}),
+               std::string(to_string(failure.answer.task)), failure.id,
+               failure.what.empty() ? "no longer, when asked again" : failure.what,
+               failure.file.filename().string()});
   }
-  if (rows.size() == 1) return "";
+  if (lines.is_empty()) return "";
   return "## Cases to replay\n\nThe worst silent errors of the peers, and what of ours is wrong in "
          "double, each shrunk as far as it still is. Files are in `failures/`; `touchstone query "
          "FILE --narrow ALGORITHM --task TASK --scalar SCALAR --out answers.csv` shows them "
          "again.\n\n" +
-         as_markdown(rows);
+         lines.markdown();
 }
 
 }  // namespace
@@ -97,11 +65,11 @@ std::string stress_text(const StressRequest& request, const StressResult& result
   std::string text =
       "First value at which an answer is silently on the wrong side of contact, or crashes or "
       "hangs:\n\n";
-  text += as_text(table(request, result.reaches, EnvelopeTable::side), page_width);
+  text += table(request, result.reaches, EnvelopeTable::side).text(page_width);
   text += "\n... or has a wrong number; \"(input)\": only because the input was rounded:\n\n";
-  text += as_text(table(request, result.reaches, EnvelopeTable::wrong), page_width);
+  text += table(request, result.reaches, EnvelopeTable::wrong).text(page_width);
   text += "\nFirst value at which the algorithm says that it fails:\n\n";
-  text += as_text(table(request, result.reaches, EnvelopeTable::honest), page_width);
+  text += table(request, result.reaches, EnvelopeTable::honest).text(page_width);
   std::int64_t skipped = 0, dropped = 0;
   for (const StressRow& row : result.rows) skipped += row.skipped;
   for (const CellSummary& cell : result.cells) dropped += cell.dropped;
@@ -123,23 +91,24 @@ std::string stress_page(const StressRequest& request, const StressResult& result
       "to "
       "its extreme while all else stays mild; every answer is held against exact "
       "arithmetic.\n\n{}\n",
-      command, request.seed, request.cases, request.time_limit, facts());
+      command, request.seed, request.cases, request.time_limit,
+      record::facts_as_list({"compiler", "bullet", "fcl", "libccd", "ode", "commit"}));
   text += ranges(request) + "\n" + promise(request, result) + "\n";
   text +=
       "## First value on the wrong side of contact\n\nCounted from the mild end of each axis: an "
       "answer says overlapping of bodies that are apart, or the reverse, while the algorithm says "
       "that all is well or cannot say; or the query crashes or hangs. `-`: nowhere on the axis. "
       "Empty: it takes no such pairs.\n\n";
-  text += as_markdown(table(request, result.reaches, EnvelopeTable::side));
+  text += table(request, result.reaches, EnvelopeTable::side).markdown();
   text +=
       "\n## First value that is wrong in any way\n\nThe same, or a distance, depth or separating "
       "translation off by more than 1e-9 of the size in double and 1e-4 in float, or a certified "
       "bound by more than the margins of `harness/grade/margins.h`. What an algorithm was given "
       "counts: *(input)* is where it was right about that, and only the conversion of the input to "
       "its scalar made the answer wrong.\n\n";
-  text += as_markdown(table(request, result.reaches, EnvelopeTable::wrong));
+  text += table(request, result.reaches, EnvelopeTable::wrong).markdown();
   text += "\n## First value at which it says that it fails\n\n";
-  text += as_markdown(table(request, result.reaches, EnvelopeTable::honest));
+  text += table(request, result.reaches, EnvelopeTable::honest).markdown();
   if (!pictures.empty()) {
     text += fmt::format(
         "\n## Maps\n\nA row an axis, from its mild end at the left; a field is filled by the "

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <type_traits>
@@ -35,6 +36,13 @@ struct StressRow {
   }
   void add(grade::AnswerClass outcome) { ++counts[static_cast<std::size_t>(outcome)]; }
 };
+
+// Returns how bad a silent error is: a wrong side of contact is worse than a wrong number. Both are
+// NaN if there is none.
+inline double badness(double margin, double error) {
+  if (!std::isnan(margin)) return 1e3 * (1 + margin);
+  return std::isnan(error) ? 0 : std::min(error, 1e3);
+}
 
 // Returns the axes of the request's cells, in order.
 std::vector<const StressAxis*> axes_of(const StressRequest& request);

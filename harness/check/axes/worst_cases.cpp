@@ -21,12 +21,6 @@ struct Found {
   std::int64_t index;
 };
 
-// Returns how bad a row is: a wrong side of contact is worse than a wrong number.
-double badness(const StressRow& row) {
-  if (!std::isnan(row.margin)) return 1e3 * (1 + row.margin);
-  return std::isnan(row.error) ? 0 : std::min(row.error, 1e3);
-}
-
 bool is_readable(const StressRequest& request, const StressRow& row) {
   const StressCell& cell = request.cells[row.cell];
   return cell.axis->name != "vertices" || cell.value().value <= most_vertices;
@@ -55,8 +49,9 @@ void find_of_peers(const StressRequest& request, std::span<const StressRow> rows
     if (row.lost >= 0) lost[{row.entry, row.scalar}].push_back(&row);
   }
   for (auto& [subject, list] : silent) {
-    std::ranges::stable_sort(
-        list, [](const StressRow* x, const StressRow* y) { return badness(*x) > badness(*y); });
+    std::ranges::stable_sort(list, [](const StressRow* x, const StressRow* y) {
+      return badness(x->margin, x->error) > badness(y->margin, y->error);
+    });
     std::vector<const StressAxis*> taken;
     for (const StressRow* row : list) {
       const StressAxis* const axis = request.cells[row->cell].axis;

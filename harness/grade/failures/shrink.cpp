@@ -3,40 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
 #include "harness/geometry/signed_permutation.h"
+#include "harness/grade/failures/case_numbers.h"
 
 namespace touchstone::grade {
 namespace {
-
-// Rounds x to this number of significant decimal digits.
-double rounded(double x, int digits) {
-  std::array<char, 40> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), x,
-                                          std::chars_format::scientific, digits - 1);
-  double result = x;
-  if (error == std::errc()) std::from_chars(text.data(), end, result);
-  return result;
-}
-
-// Returns the number of digits of the shortest decimal number that reads back as x; 0 for zero.
-int digits_of(double x) {
-  if (x == 0) return 0;
-  std::array<char, 40> text{};
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
-  int digits = 0;
-  for (const char* at = text.data(); at != end && *at != 'e'; ++at)
-    digits += *at >= '0' && *at <= '9';
-  return digits;
-}
 
 // Returns whether every size that was not zero is still not zero, so that a solid stays solid.
 bool keeps_sizes(const Shape& before, const Shape& after) {
@@ -230,66 +207,13 @@ class Shrinker {
 
   // --- numbers ----------------------------------------------------------------------------------
 
-  // All lengths and coordinates of a case, in an order that depends only on its shapes. Those of
-  // hulls are in `vertices`, from which the hulls must be rebuilt.
-  struct Numbers {
-    std::array<std::vector<Vec3d>, 2> vertices;
-    std::vector<double*> all;
-
-    explicit Numbers(files::Case& c) {
-      collect(c.shape_a, vertices[0], all);
-      collect(c.shape_b, vertices[1], all);
-      for (Pose* pose : {&c.pose_a, &c.pose_b}) {
-        for (double& x : pose->translation) all.push_back(&x);
-      }
-    }
-    Numbers(const Numbers&) = delete;
-    Numbers& operator=(const Numbers&) = delete;
-  };
-
-  static void collect(Shape& shape, std::vector<Vec3d>& vertices, std::vector<double*>& all) {
-    const auto add = [&](Vec3d& v) {
-      for (double& x : v) all.push_back(&x);
-    };
-    switch (shape.kind) {
-      case ShapeKind::capsule:
-      case ShapeKind::cylinder:
-      case ShapeKind::cone: all.push_back(&shape.half_length); [[fallthrough]];
-      case ShapeKind::sphere: all.push_back(&shape.radius); break;
-      case ShapeKind::box: add(shape.half_extents); break;
-      case ShapeKind::ellipsoid: add(shape.radii); break;
-      case ShapeKind::hull:
-        vertices = shape.hull->vertices;
-        for (Vec3d& v : vertices) add(v);
-        break;
-      case ShapeKind::halfspace:
-        add(shape.normal);
-        all.push_back(&shape.offset);
-        break;
-    }
-  }
-
   // Replaces each number x by change(place, x). Returns false if nothing changes, or if a
   // half-space would lose its normal.
   template <class Change>
-  bool try_numbers(Change change) {
+  bool try_numbers(const Change& change) {
     files::Case candidate = best_;
-    Numbers numbers(candidate);
-    bool differs = false;
-    for (std::size_t i = 0; i < numbers.all.size(); ++i) {
-      const double before = *numbers.all[i];
-      *numbers.all[i] = change(i, before);
-      differs = differs || *numbers.all[i] != before;
-    }
-    if (!differs || candidate.shape_a.normal.isZero(0) || candidate.shape_b.normal.isZero(0)) {
-      return false;
-    }
-    for (std::size_t body = 0; body < 2; ++body) {
-      Shape& shape = body == 0 ? candidate.shape_a : candidate.shape_b;
-      if (shape.kind == ShapeKind::hull && shape.hull->vertices != numbers.vertices[body]) {
-        shape = hull_of(std::move(numbers.vertices[body]));
-      }
-    }
+    if (!change_numbers(candidate, change)) return false;
+    if (candidate.shape_a.normal.isZero(0) || candidate.shape_b.normal.isZero(0)) return false;
     return keep_if_fails(std::move(candidate));
   }
 
@@ -299,9 +223,7 @@ class Shrinker {
     for (const int digits : few_digits) {
       if (try_numbers([&](std::size_t, double x) { return rounded(x, digits); })) break;
     }
-    std::vector<double> values;
-    files::Case copy = best_;
-    for (const double* x : Numbers(copy).all) values.push_back(*x);
+    const std::vector<double> values = numbers_of(best_);
     for (std::size_t i = 0; i < values.size() && budget_ > 0; ++i) {
       const double value = values[i];
       const auto try_value = [&](double simpler) {

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 
-#include "harness/base/markdown.h"
-#include "harness/base/text_table.h"
-
 namespace touchstone::grade {
 namespace {
 
@@ -94,16 +91,10 @@ std::vector<std::vector<std::string>> ManifoldTally::cells() const {
   return all;
 }
 
-std::string ManifoldTally::text(std::size_t page_width) const {
-  base::TextTable table(header);
+base::Table ManifoldTally::table() const {
+  base::Table table(header, 2);
   for (std::vector<std::string>& row : cells()) table.add(std::move(row));
-  return table.text(page_width);
-}
-
-std::string ManifoldTally::markdown() const {
-  std::string text = base::markdown_header(header, 2);
-  for (const std::vector<std::string>& row : cells()) text += base::markdown_row(row);
-  return text;
+  return table;
 }
 
 }  // namespace touchstone::grade

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/base/table.h"
 #include "harness/grade/manifold/manifold_grade.h"
 
 namespace touchstone::grade {
@@ -19,8 +20,7 @@ class ManifoldTally {
 
   // Returns a table with a row for each family and algorithm: cases asked and missed, and the worst
   // of each grade.
-  std::string text(std::size_t page_width) const;
-  std::string markdown() const;
+  base::Table table() const;
 
   // Lists the broken promises of ours, one line each; empty if there are none.
   const std::vector<std::string>& ours_wrong() const { return wrong_; }

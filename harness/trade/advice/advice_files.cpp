@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/markdown.h"
+#include "harness/files/text_file.h"
 #include "harness/record/machine.h"
 #include "harness/trade/advice/verification_row.h"
 
@@ -85,16 +85,16 @@ std::string advice_text(const Advice& advice, const AdviceProblem& problem) {
 
 void write_advice(const Advice& advice, const AdviceProblem& problem,
                   const std::filesystem::path& folder) {
-  base::write_text(folder / "advice.txt", advice_text(advice, problem));
+  files::write_text(folder / "advice.txt", advice_text(advice, problem));
   if (!advice.best) return;
   TradeRequest request = problem.request;
   request.grids = {grid_of(advice.best->point.configuration)};
   if (advice.next_better) request.grids.push_back(grid_of(advice.next_better->point.configuration));
-  base::write_text(folder / "advice.toml",
-                   trade_toml(request, folder,
-                              "The cheapest with " + to_string(problem.budget, request.measure) +
-                                  ", and the next better behind it.\n"
-                                  "Measured by: touchstone run advice.toml"));
+  files::write_text(folder / "advice.toml",
+                    trade_toml(request, folder,
+                               "The cheapest with " + to_string(problem.budget, request.measure) +
+                                   ", and the next better behind it.\n"
+                                   "Measured by: touchstone run advice.toml"));
 }
 
 std::string verification_text(const Verification& v) {

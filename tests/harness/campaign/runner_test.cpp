@@ -13,7 +13,7 @@
 #include "harness/files/csv.h"
 #include "harness/record/raw_row.h"
 #include "harness/stats/summary.h"
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/tables.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace {

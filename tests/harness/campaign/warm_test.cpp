@@ -8,6 +8,7 @@
 #include <set>
 
 #include "harness/base/random.h"
+#include "harness/campaign/plan.h"
 #include "harness/campaign/runner.h"
 #include "harness/measure/phases/narrow_sampler.h"
 #include "harness/measure/phases/warm_pairs.h"

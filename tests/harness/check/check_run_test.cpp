@@ -10,7 +10,7 @@
 
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
-#include "harness/base/text_table.h"
+#include "harness/base/table.h"
 #include "harness/files/csv.h"
 #include "tests/harness/check/planted.h"
 #include "tests/harness/input_fault.h"

@@ -1,5 +1,5 @@
 // Tests that a soak counts faults of planted algorithms, and resumes.
-#include "harness/check/soak.h"
+#include "harness/check/soak/soak.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,8 +57,8 @@ TEST_F(SoakRun, CountsWhatIsTrueAndWhoIsWrong) {
     EXPECT_EQ(count(2).honest, 1000);
   }
   EXPECT_TRUE(result.ours_are_wrong(request));
-  EXPECT_THAT(folder.names(),
-              ElementsAre("soak.csv", "wrong-double-balls.jsonl", "wrong-double-others.jsonl"));
+  EXPECT_THAT(folder.names(), ElementsAre("jobs.csv", "machine.csv", "progress.csv", "soak.csv",
+                                          "wrong-double-balls.jsonl", "wrong-double-others.jsonl"));
 }
 
 TEST_F(SoakRun, ACrashIsLostAndTheRestGoesOn) {
@@ -85,25 +85,43 @@ TEST_F(SoakRun, GoesOnWhereItEnded) {
   EXPECT_EQ(folder.read("soak.csv"), resumed);
 }
 
+TEST_F(SoakRun, AKillLosesNoFinishedJob) {
+  const NarrowPhaseEntry wrong = planted<Harm::wrong_side>("wrong", Origin::ours);
+  check::SoakRequest request = request_for({&wrong});
+  check::run_soak(request);
+  const std::string jobs = folder.read("jobs.csv"), sums = folder.read("soak.csv");
+  request.pairs = 3000;
+  check::run_soak(request);
+  // A kill leaves a torn row, and sums that are older than the jobs.
+  folder.write("jobs.csv", folder.read("jobs.csv") + "wrong,dou");
+  folder.write("soak.csv", "");
+  request.pairs = 4000;
+  request.resume = true;
+  check::run_soak(request);
+  EXPECT_EQ(folder.read("jobs.csv"), jobs);
+  EXPECT_EQ(folder.read("soak.csv"), sums);
+}
+
 TEST_F(SoakRun, OnlyGoesOnWithItsOwn) {
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
   const NarrowPhaseEntry other = planted<Harm::none>("other", Origin::ours);
   check::SoakRequest request = request_for({&good});
   request.resume = true;
-  EXPECT_THAT(input_fault([&] { check::run_soak(request); }), HasSubstr("no such file"));
+  EXPECT_THAT(input_fault([&] { check::run_soak(request); }),
+              HasSubstr("is not there; expected the folder of a soak"));
   request.resume = false;
   check::run_soak(request);
   request.resume = true;
   request.seed = 2;
   EXPECT_THAT(input_fault([&] { check::run_soak(request); }),
-              HasSubstr("seed 1; this request has 2"));
+              HasSubstr("seed was '1' and is '2' now"));
   request.seed = 1;
   request.narrow = {&other};
   EXPECT_THAT(input_fault([&] { check::run_soak(request); }),
-              HasSubstr("one of the names of this request"));
+              HasSubstr("narrow was 'good' and is 'other' now"));
   request.narrow = {&good, &other};
   EXPECT_THAT(input_fault([&] { check::run_soak(request); }),
-              HasSubstr("expected the same request"));
+              HasSubstr("narrow was 'good' and is 'good other' now"));
   request.narrow = {&good};
   request.out = "/dev/null/x";
   request.resume = false;

@@ -113,10 +113,10 @@ TEST_P(StressHarm, IsToldApart) {
         is_fault ? check::EnvelopeTable::wrong : check::EnvelopeTable::honest;
     const std::string word = harm.outcome == grade::AnswerClass::crashed ? " crashes" : "";
     EXPECT_THAT(
-        check::table(request, result.reaches, which),
+        check::table(request, result.reaches, which).rows(),
         ElementsAre(ElementsAre("algorithm", "balls"), ElementsAre("bad double", "2" + word)));
     const bool other_side = harm.harm == Harm::wrong_side || !word.empty();
-    EXPECT_THAT(check::table(request, result.reaches, check::EnvelopeTable::side).at(1),
+    EXPECT_THAT(check::table(request, result.reaches, check::EnvelopeTable::side).rows().at(1),
                 ElementsAre("bad double", other_side ? "2" + word : "-"));
     EXPECT_THAT(check::stress_page(request, result, "touchstone stress", "figures"),
                 HasSubstr("| bad double | 2" + word + " |"));

@@ -158,6 +158,7 @@ struct Owners {
 struct Sale {
   std::uint32_t owner = 0;
   double price = 0;
+  std::int64_t pieces = 0;
 };
 template <record::row_of<Sale> Row, class Visit>
 void columns(Row& row, Visit visit, const Owners& owners) {
@@ -165,6 +166,8 @@ void columns(Row& row, Visit visit, const Owners& owners) {
   visit("owner", record::place_in(row.owner, owners.names.size(), name), "The seller.");
   visit("town", record::derived([&] { return owners.towns[row.owner]; }), "The seller's town.");
   visit("price", row.price, "Euros.");
+  visit("pieces", record::nonzero(row.pieces), "How many; empty: one.");
+  visit("half", record::derived([&] { return row.price / 2; }), "Euros.");
 }
 
 TEST_F(RowFileTest, PlacesInListsAreWrittenAsNames) {
@@ -172,13 +175,21 @@ TEST_F(RowFileTest, PlacesInListsAreWrittenAsNames) {
   const auto path = folder_.path() / "s.csv";
   files::CsvWriter file(path, record::header_of<Sale>(owners));
   record::write_row(file, Sale{1, 2.5}, owners);
+  record::write_row(file, Sale{0, 3, 7}, owners);
   file.close();
-  EXPECT_EQ(folder_.read("s.csv"), "owner,town,price\nBob,Bonn,2.5\n");
-  EXPECT_EQ(record::read_rows<Sale>(path, owners).at(0).owner, 1u);
+  EXPECT_EQ(folder_.read("s.csv"),
+            "owner,town,price,pieces,half\nBob,Bonn,2.5,,1.25\nAnn,Ulm,3,7,1.5\n");
+  const std::vector<Sale> rows = record::read_rows<Sale>(path, owners);
+  EXPECT_EQ(rows.at(0).owner, 1u);
+  EXPECT_EQ(rows.at(0).pieces, 0);
+  EXPECT_EQ(rows.at(1).pieces, 7);
+  record::write_rows(folder_.path() / "t.csv", rows, owners);
+  EXPECT_EQ(folder_.read("t.csv"), folder_.read("s.csv"));
   const Owners others{{"Ann"}, {"Ulm"}};
   EXPECT_EQ(folder_.without_path(input_fault([&] { record::read_rows<Sale>(path, others); })),
             "s.csv:2: column owner: found 'Bob'; expected one of the names of this request");
   EXPECT_THAT(record::column_docs<Sale>(Owners{}), HasSubstr("| `owner` | name | The seller. |\n"));
+  EXPECT_THAT(record::column_docs<Sale>(Owners{}), HasSubstr("| `half` | number | Euros. |\n"));
 }
 
 }  // namespace

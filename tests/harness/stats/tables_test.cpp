@@ -1,5 +1,5 @@
 // Tests of the tables of a results folder.
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/tables.h"
 #include "harness/stats/summary.h"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ TEST_F(TablesOf, TimesRatiosAndWinners) {
   EXPECT_NEAR(tables.times[1].seconds.median / 2e-3, 1, 0.1);
   EXPECT_LT(tables.times[1].seconds.low, tables.times[1].seconds.median);
   EXPECT_LT(tables.times[1].minimum, tables.times[1].seconds.low);
-  EXPECT_EQ(tables.times[1].origin, "ours");
+  EXPECT_EQ(tables.times[1].origin, record::RowOrigin::ours);
   EXPECT_NEAR(tables.times[1].parts[2] / tables.times[1].parts[1], 3, 0.1);
   EXPECT_NEAR(tables.times[3].seconds.median / 100e-9, 1, 0.1);
 

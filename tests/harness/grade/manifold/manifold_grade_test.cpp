@@ -125,7 +125,7 @@ TEST(ManifoldGrade, SeesWhatIsWrong) {
     tally.add("boxes", "ours", ours().info, Precision::float64, c, truth, wrong);
   }
   EXPECT_THAT(tally.ours_wrong(), testing::SizeIs(6));
-  EXPECT_THAT(tally.markdown(), testing::HasSubstr("| boxes | ours | 4 | 1 | 3 to 4 |"));
+  EXPECT_THAT(tally.table().markdown(), testing::HasSubstr("| boxes | ours | 4 | 1 | 3 to 4 |"));
 }
 
 TEST(ManifoldGrade, TouchingAreaIsWhereOneFaceIsBelowTheOther) {

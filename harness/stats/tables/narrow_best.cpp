@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "harness/stats/fastest.h"
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/fastest.h"
+#include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
 namespace {

@@ -36,11 +36,10 @@ struct SoakResult {
   bool ours_are_wrong(const SoakRequest& request) const;
 };
 
-// Counts verdicts and writes soak.csv into the request's folder, which it creates. The whole file
-// is rewritten about once a second, so a killed run loses that much. Beside it are case files of
-// the first wrong answer of each count. Progress goes to standard error. Throws InputError if the
-// folder cannot be written, or, on resuming, if it is not a soak's or comes from another request or
-// program.
+// Counts verdicts and writes jobs.csv, soak.csv, progress.csv and machine.csv into the request's
+// folder, which it creates, and a case file of the first wrong answer of each count. soak.csv, the
+// sum of jobs.csv, is rewritten about once a second. Progress goes to standard error. Throws
+// InputError if the folder cannot be written or resumed.
 SoakResult run_soak(const SoakRequest& request);
 
 }  // namespace touchstone::check

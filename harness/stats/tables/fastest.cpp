@@ -1,10 +1,10 @@
 // Finds the fastest contestant of a set.
-#include "harness/stats/fastest.h"
+#include "harness/stats/tables/fastest.h"
 
 #include <cmath>
 #include <limits>
 
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::stats {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "harness/base/markdown.h"
-#include "harness/stats/best_markdown.h"
-#include "harness/stats/tables.h"
+#include "harness/base/table.h"
+#include "harness/stats/tables/best_markdown.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::stats {
 namespace {
@@ -35,7 +35,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
                                     "minimum"};
   if (broad) names.insert(names.end(), {"build", "update", "(converting)", "find pairs"});
   names.insert(names.end(), {"ratio", "95 % interval", "p (Holm)", "squares", "remarks"});
-  std::string body;
+  base::Table table(std::move(names));
   std::string baseline;
   std::string canary;
   const auto ratio_of = [&](const std::string& label, bool of_twin) -> const RatioRow* {
@@ -64,7 +64,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     }
     cells.push_back(std::to_string(row.seconds.n));
     cells.push_back(remark(row, tables.depth_error));
-    body += base::markdown_row(cells);
+    table.add(std::move(cells));
     if (const RatioRow* const twin = ratio_of(row.label, true)) {
       const bool told_apart = twin->ratio.low > 1 || twin->ratio.high < 1;
       canary =
@@ -79,7 +79,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   std::string all = fmt::format("### {}\n\n", first.key.words());
   if (!baseline.empty()) all += fmt::format("Ratios are to {}. ", baseline);
   if (!baseline.empty() || !canary.empty()) all += canary + "\n";
-  return all + base::markdown_header(names) + body + "\n";
+  return all + table.markdown() + "\n";
 }
 
 // Sums over the inputs and kinds of pairs, whose details are in agreement.csv.
@@ -148,25 +148,24 @@ std::string work_tables(const std::vector<WorkRow>& rows) {
     if (std::ranges::find(told, input) != told.end()) continue;
     told.push_back(input);
     all += fmt::format("### {}\n\n", input.words());
-    all +=
-        base::markdown_header({"", "box tests / body", "node visits / body", "candidates / pair",
-                               "bytes / body", "allocations / frame", "bytes allocated / frame"});
+    base::Table table({"", "box tests / body", "node visits / body", "candidates / pair",
+                       "bytes / body", "allocations / frame", "bytes allocated / frame"});
     for (const WorkRow& row : rows) {
       if (row.key != first.key) continue;
-      all += base::markdown_row({row.label, base::cell(row.box_tests), base::cell(row.node_visits),
-                                 base::cell(row.candidates), base::cell(row.bytes),
-                                 base::cell(row.allocations), base::cell(row.allocated_bytes)});
+      table.add({row.label, base::cell(row.box_tests), base::cell(row.node_visits),
+                 base::cell(row.candidates), base::cell(row.bytes), base::cell(row.allocations),
+                 base::cell(row.allocated_bytes)});
     }
-    all += "\n";
+    all += table.markdown() + "\n";
   }
   if (!narrow.empty()) {
     all += "### Narrow phases, over all inputs\n\n";
-    all += base::markdown_header({"task", "", "iterations / query", "support calls / query",
-                                  "allocations / query", "bytes allocated / query"},
-                                 2);
+    base::Table table({"task", "", "iterations / query", "support calls / query",
+                       "allocations / query", "bytes allocated / query"},
+                      2);
     std::ranges::stable_sort(narrow, {}, &MeanWork::task);
-    for (const MeanWork& mean : narrow) all += base::markdown_row(mean.cells());
-    all += "\n";
+    for (const MeanWork& mean : narrow) table.add(mean.cells());
+    all += table.markdown() + "\n";
   }
   if (all.empty()) return all;
   return "## Work\n\nCounted over the verified frames; it does not depend on the machine. "
@@ -185,24 +184,24 @@ std::string tables_markdown(const Tables& tables) {
       "`-`: too few samples to tell.\n\n";
   if (!tables.winners.empty()) {
     all += "## Winner against runner-up\n\n";
-    all += base::markdown_header(
+    base::Table table(
         {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
     for (const WinnerRow& row : tables.winners) {
-      all += base::markdown_row({row.key.words() + (row.suspect ? " (**suspect**)" : ""),
-                                 row.winner, row.runner_up, base::cell(row.ratio.median),
-                                 interval_cell(row.ratio), probability(row.p_corrected)});
+      table.add({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner, row.runner_up,
+                 base::cell(row.ratio.median), interval_cell(row.ratio),
+                 probability(row.p_corrected)});
     }
-    all += "\n";
+    all += table.markdown() + "\n";
   }
   all += broad_best_table(tables.broad_best);
   all += narrow_best_table(tables.narrow_best, tables.depth_error);
   if (!tables.exponents.empty()) {
     all += "## Scaling: time grows as bodies to the power of\n\n";
-    all += base::markdown_header({"input", "algorithm", "exponent", "95 % interval", "counts",
-                                  fmt::format("from {} on", many_bodies)},
-                                 2);
+    base::Table table({"input", "algorithm", "exponent", "95 % interval", "counts",
+                       fmt::format("from {} on", many_bodies)},
+                      2);
     for (const ExponentRow& row : tables.exponents) {
-      all += base::markdown_row(
+      table.add(
           {fmt::format("{}, {} boxes, {} thread{}{}{}", row.key.scene, row.key.boxes,
                        row.key.threads, row.key.threads == 1 ? "" : "s",
                        row.key.isa_limit.empty() ? "" : ", " + row.key.isa_limit + " instructions",
@@ -214,17 +213,16 @@ std::string tables_markdown(const Tables& tables) {
            std::isnan(row.law_of_many.exponent) ? std::string("-")
                                                 : fmt::format("{:.2f}", row.law_of_many.exponent)});
     }
-    all += "\n";
+    all += table.markdown() + "\n";
   }
   if (!tables.speed_ups.empty()) {
     all += "## Speed-up by threads\n\n";
-    all += base::markdown_header(
-        {"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
+    base::Table table({"input", "algorithm", "over threads", "speed-up", "95 % interval"}, 2);
     for (const SpeedUpRow& row : tables.speed_ups) {
-      all += base::markdown_row({row.key.words(), row.label, std::to_string(row.base_threads),
-                                 base::cell(row.speed_up.median), interval_cell(row.speed_up)});
+      table.add({row.key.words(), row.label, std::to_string(row.base_threads),
+                 base::cell(row.speed_up.median), interval_cell(row.speed_up)});
     }
-    all += "\n";
+    all += table.markdown() + "\n";
   }
   if (!tables.agreement.empty()) {
     all += fmt::format(
@@ -232,17 +230,17 @@ std::string tables_markdown(const Tables& tables) {
         "error is that of a distance or depth, as a part of the\npair's size; **more than {}** is "
         "no agreement, and wins no table.\n\n",
         tables.depth_error);
-    all += base::markdown_header(
+    base::Table table(
         {"task", "algorithm", "queries", "right", "wrong", "failed", "unanswered", "worst error"},
         2);
     for (const AgreementRow& row : by_task(tables.agreement)) {
-      all += base::markdown_row(
-          {row.key.task, row.label, std::to_string(row.queries), std::to_string(row.right),
-           std::to_string(row.wrong), std::to_string(row.failed), std::to_string(row.unanswered),
-           row.worst_error > tables.depth_error ? fmt::format("**{:.4g}**", row.worst_error)
-                                                : base::cell(row.worst_error)});
+      table.add({row.key.task, row.label, std::to_string(row.queries), std::to_string(row.right),
+                 std::to_string(row.wrong), std::to_string(row.failed),
+                 std::to_string(row.unanswered),
+                 row.worst_error > tables.depth_error ? fmt::format("**{:.4g}**", row.worst_error)
+                                                      : base::cell(row.worst_error)});
     }
-    all += "\n";
+    all += table.markdown() + "\n";
   }
   all += work_tables(tables.work);
   all += "## Times\n\n";

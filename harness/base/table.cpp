@@ -1,11 +1,12 @@
-// Lays out a text table and splits it if it is wider than the page.
-#include "harness/base/text_table.h"
+// Lays out tables.
+#include "harness/base/table.h"
 
 #include <fmt/core.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace touchstone::base {
 namespace {
@@ -16,9 +17,20 @@ std::size_t characters(const std::string& text) {
       std::ranges::count_if(text, [](char c) { return (c & '\xc0') != '\x80'; }));
 }
 
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string all = "|";
+  for (std::string text : cells) {
+    for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
+      text.insert(at, "\\");
+    }
+    all += " " + text + " |";
+  }
+  return all + "\n";
+}
+
 }  // namespace
 
-std::string TextTable::text(std::size_t page_width) const {
+std::string Table::text(std::size_t page_width) const {
   const std::size_t columns = rows_.front().size();
   std::vector<std::size_t> width(columns, 0);
   for (const auto& row : rows_) {
@@ -45,6 +57,18 @@ std::string TextTable::text(std::size_t page_width) const {
     begin = end;
   }
   return text;
+}
+
+std::string Table::markdown() const {
+  std::string rule = "|";
+  for (std::size_t i = 0; i < rows_.front().size(); ++i) rule += i < words_ ? "---|" : "---:|";
+  std::string all = markdown_row(rows_.front()) + rule + "\n";
+  for (std::size_t i = 1; i < rows_.size(); ++i) all += markdown_row(rows_[i]);
+  return all;
+}
+
+std::string cell(double value) {
+  return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value);
 }
 
 std::size_t page_width() {

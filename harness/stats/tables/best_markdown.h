@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/stats/tables.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::stats {
 

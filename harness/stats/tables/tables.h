@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace touchstone::stats {
 // One contestant of one set.
 struct TimeRow {
   SetKey key;
-  std::string label, origin;  // ours, peer, oracle, limit; empty: not known
-  bool per_query = false;     // true if the times are those of a query, not of a frame
-  MedianInterval seconds;     // an estimate over the squares
-  double minimum = 0;         // the minimum of all samples, noisy ones too, because noise only adds
+  std::string label;
+  std::optional<record::RowOrigin> origin;  // empty: not known
+  bool per_query = false;  // true if the times are those of a query, not of a frame
+  MedianInterval seconds;  // an estimate over the squares
+  double minimum = 0;      // the minimum of all samples, noisy ones too, because noise only adds
   std::array<double, phase_count> parts;  // medians of the phases, NaN for absent ones
   std::int64_t samples = 0, noisy = 0, outliers = 0;
   bool wrong = false;   // true for wrong pairs, or an answer on the wrong side of contact
@@ -70,7 +72,8 @@ struct SpeedUpRow {
 // The agreement of a narrow phase's answers with the exact ones, over all its verified frames.
 struct AgreementRow {
   SetKey key;
-  std::string label, origin;
+  std::string label;
+  std::optional<record::RowOrigin> origin;
   std::int64_t queries = 0, right = 0, wrong = 0, failed = 0, unanswered = 0;
   // The greatest error of a distance or depth, as a part of the pair's size; NaN if there is none.
   double worst_error = std::numeric_limits<double>::quiet_NaN();
@@ -80,7 +83,8 @@ struct AgreementRow {
 // NaN.
 struct WorkRow {
   SetKey key;
-  std::string label, origin;
+  std::string label;
+  std::optional<record::RowOrigin> origin;
   std::int64_t frames = 0, queries = 0;  // queries: pairs of a narrow phase, found pairs of a broad
   // Numbers of a broad phase for a body and frame; candidates are for each pair found, bytes for
   // each body.
@@ -156,10 +160,6 @@ TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Conte
                           Noise noise);
 
 Tables make_tables(const Results& results, Noise noise, double depth_error = usual_depth_error);
-
-// These functions need the other tables of the same results.
-std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const Tables& tables);
-std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, const Tables& tables);
 
 // Returns true if a contestant found other pairs than the rest, or gave an answer that the exact
 // one contradicts.

@@ -1,0 +1,145 @@
+// Does the jobs of a soak, sums their counts and writes its files.
+#include "harness/check/soak/soak.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/base/clock.h"
+#include "harness/base/progress.h"
+#include "harness/check/job_folder.h"
+#include "harness/check/soak/soak_job.h"
+#include "harness/check/soak/soak_rows.h"
+#include "harness/files/text_file.h"
+#include "harness/record/machine.h"
+
+namespace touchstone::check {
+namespace {
+
+constexpr double seconds_between_writes = 1;
+constexpr const char* summary_file = "soak.csv";
+
+record::ResultFolderPlan plan_of(const SoakRequest& request) {
+  auto plan = job_folder(request, "soak", regimes_fact(request),
+                         {{"jobs.csv", record::header_of<SoakJobRow>(request.subjects())}});
+  plan.removed = {summary_file};
+  return plan;
+}
+
+class Soak {
+ public:
+  explicit Soak(const SoakRequest& request)
+      : request_(request), algorithms_(request.algorithms()), folder_(plan_of(request)) {
+    for (const auto& row : folder_.rows<SoakJobRow>(0, request_.subjects())) add(row);
+  }
+
+  SoakResult run() {
+    const auto first = static_cast<std::size_t>(folder_.units());
+    const auto end =
+        static_cast<std::size_t>((request_.pairs + cases_a_soak_job - 1) / cases_a_soak_job);
+    result_.drawn = folder_.units() * cases_a_soak_job;
+    if (first < end) do_all(end);
+    write_summary();
+    write_cases();
+    folder_.finish();
+    return result_;
+  }
+
+ private:
+  void do_all(std::size_t end) {
+    base::Progress progress(1);
+    progress.start(fmt::format("{} verdicts", request_.pairs));
+    base::Stopwatch since_written;
+    do_jobs<std::vector<SoakCount>>(
+        folder_, request_, end,
+        [&](std::size_t job, oracle::Oracle& oracle) { return do_soak_job(request_, job, oracle); },
+        [&](std::size_t job, const std::vector<SoakCount>& counts) {
+          take(job, counts);
+          progress.part(static_cast<double>(result_.drawn) / static_cast<double>(request_.pairs));
+          if (since_written.seconds() > seconds_between_writes) {
+            write_summary();
+            since_written.restart();
+          }
+          return true;
+        });
+  }
+
+  void take(std::size_t job, const std::vector<SoakCount>& counts) {
+    const std::size_t regimes = request_.regimes.size();
+    for (std::size_t i = 0; i < algorithms_.size(); ++i) {
+      const SoakJobRow row = {.entry = algorithms_[i].entry,
+                              .regime = static_cast<std::uint32_t>(job % regimes),
+                              .scalar = algorithms_[i].scalar,
+                              .round = job / regimes,
+                              .count = counts[i]};
+      folder_.write(0, row, request_.subjects());
+      add(row);
+    }
+    result_.drawn += cases_a_soak_job;
+  }
+
+  void add(const SoakJobRow& row) {
+    result_.counts[{row.entry, row.scalar, row.regime}].add(row.count);
+  }
+
+  void write_summary() const {
+    std::vector<SoakRow> rows;
+    for (const auto& [key, count] : result_.counts) {
+      const auto& [entry, scalar, regime] = key;
+      rows.push_back({.entry = static_cast<std::uint32_t>(entry),
+                      .regime = static_cast<std::uint32_t>(regime),
+                      .scalar = scalar,
+                      .seed = request_.seed,
+                      .drawn = result_.drawn,
+                      .count = count,
+                      .program = program_});
+    }
+    record::write_rows(folder_.path(summary_file), rows, request_.subjects());
+  }
+
+  // Writes the first wrong answer of each count.
+  void write_cases() const {
+    for (const auto& [key, count] : result_.counts) {
+      const auto& [entry, scalar, regime] = key;
+      if (count.first_wrong < 0) continue;
+      const files::Case c = make(*request_.regimes[regime], request_.seed,
+                                 static_cast<std::uint64_t>(count.first_wrong));
+      files::write_text(
+          folder_.path(fmt::format("{}-{}-{}.jsonl", request_.narrow[entry]->info.name,
+                                   to_string(scalar), request_.regimes[regime]->name)),
+          files::to_json(c) + "\n");
+    }
+  }
+
+  const SoakRequest& request_;
+  std::vector<CheckedAlgorithm> algorithms_;
+  std::string program_ = record::hash_of_program();
+  record::ResultFolder folder_;
+  SoakResult result_;
+};
+
+}  // namespace
+
+void SoakCount::add(const SoakCount& other) {
+  pairs += other.pairs;
+  separated += other.separated;
+  touching += other.touching;
+  overlapping += other.overlapping;
+  unresolved += other.unresolved;
+  silent += other.silent;
+  honest += other.honest;
+  lost += other.lost;
+  if (first_wrong < 0) first_wrong = other.first_wrong;
+}
+
+bool SoakResult::ours_are_wrong(const SoakRequest& request) const {
+  return std::ranges::any_of(counts, [&](const auto& item) {
+    const NarrowPhaseEntry& entry = *request.narrow[std::get<0>(item.first)];
+    return entry.info.origin == Origin::ours && !entry.traits.approximate &&
+           (item.second.silent > 0 || item.second.lost > 0);
+  });
+}
+
+SoakResult run_soak(const SoakRequest& request) { return Soak(request).run(); }
+
+}  // namespace touchstone::check

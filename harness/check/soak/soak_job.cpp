@@ -1,0 +1,134 @@
+// Draws the cases of a job, asks the algorithms and counts their verdicts.
+#include "harness/check/soak/soak_job.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "harness/grade/encoding.h"
+#include "harness/grade/grade.h"
+#include "harness/process/isolate.h"
+#include "harness/process/queries/ordered_pair.h"
+
+namespace touchstone::check {
+namespace {
+
+// An algorithm may lose so many queries of a job, since each hang costs a time limit.
+constexpr std::size_t most_failures = 20;
+
+// The cases of a job in the form that algorithms take: bodies 2i and 2i + 1 are case i's, in order
+// of kinds.
+class Cases {
+ public:
+  Cases(const Regime& regime, std::uint64_t seed, std::int64_t first, oracle::Oracle& oracle)
+      : first_(first), oracle_(&oracle) {
+    for (std::int64_t i = 0; i < cases_a_soak_job; ++i) {
+      files::Case& c =
+          cases_.emplace_back(make(regime, seed, static_cast<std::uint64_t>(first + i)));
+      if (process::needs_swap(c.shape_a.kind, c.shape_b.kind)) {
+        std::swap(c.shape_a, c.shape_b);
+        std::swap(c.pose_a, c.pose_b);
+      }
+      for (const Shape* shape : {&c.shape_a, &c.shape_b}) shapes_.push_back(*shape);
+      for (const Pose* pose : {&c.pose_a, &c.pose_b}) poses_.push_back(*pose);
+      for (int body = 0; body < 2; ++body)
+        bodies_.push_back(static_cast<std::uint32_t>(bodies_.size()));
+    }
+  }
+
+  SoakCount ask(const NarrowPhaseEntry& entry, Precision scalar, double time_limit) {
+    std::vector<std::size_t> asked;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (offers(entry, cases_[i].shape_a.kind, cases_[i].shape_b.kind, Task::intersect))
+        asked.push_back(i);
+    }
+    const process::IsolationLimits limits = {.item_seconds = time_limit, .failures = most_failures};
+    const auto solved = process::isolated_answers<Outcome>(asked.size(), limits, [&] {
+      const std::shared_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
+      algorithm->bind(shapes_);
+      return [&, algorithm](std::size_t item) {
+        Outcome outcome;
+        algorithm->solve(Task::intersect, batch_of(asked[item]), {&outcome, 1});
+        return outcome;
+      };
+    });
+    SoakCount count;
+    for (std::size_t item = 0; item < asked.size(); ++item) {
+      const std::size_t i = asked[item];
+      const files::Case& c = cases_[i];
+      const Encoding encoding =
+          encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::intersect, scalar);
+      count_one(solved.answers[item], truth(i, encoding), first_ + static_cast<std::int64_t>(i),
+                count);
+    }
+    return count;
+  }
+
+ private:
+  PairBatch batch_of(std::size_t i) const {
+    return {.kind_a = cases_[i].shape_a.kind,
+            .kind_b = cases_[i].shape_b.kind,
+            .pairs = {.first = std::span(bodies_).subspan(2 * i, 1),
+                      .second = std::span(bodies_).subspan(2 * i + 1, 1),
+                      .shape_of = bodies_,
+                      .poses = poses_}};
+  }
+
+  // Returns the exact answer for the problem that the algorithm is given.
+  Answer truth(std::size_t i, Encoding encoding) {
+    std::vector<std::optional<Answer>>& known = truths_[static_cast<std::size_t>(encoding)];
+    known.resize(cases_.size());
+    if (!known[i]) {
+      const grade::EncodedPair pair(cases_[i], encoding);
+      known[i] = pair.is_finite() ? oracle_->verdict(pair.a(), pair.b()) : Answer::unknown;
+    }
+    return *known[i];
+  }
+
+  static void count_one(const Outcome& outcome, Answer exact, std::int64_t index,
+                        SoakCount& count) {
+    ++count.pairs;
+    switch (exact) {
+      case Answer::separated: ++count.separated; break;
+      case Answer::touching: ++count.touching; break;
+      case Answer::overlapping: ++count.overlapping; break;
+      case Answer::unknown: ++count.unresolved; break;
+    }
+    switch (grade::judge(outcome, exact, grade::Touching::contact)) {
+      case grade::Verdict::right:
+      case grade::Verdict::unscored: return;
+      case grade::Verdict::unsupported:
+      case grade::Verdict::honest_failure: ++count.honest; return;
+      case grade::Verdict::silent_error: ++count.silent; break;
+      case grade::Verdict::crashed:
+      case grade::Verdict::timed_out: ++count.lost; break;
+    }
+    if (count.first_wrong < 0) count.first_wrong = index;
+  }
+
+  std::int64_t first_;
+  oracle::Oracle* oracle_;
+  std::vector<files::Case> cases_;
+  std::vector<Shape> shapes_;
+  std::vector<Pose> poses_;
+  std::vector<std::uint32_t> bodies_;
+  std::array<std::vector<std::optional<Answer>>, all_encodings.size()> truths_;
+};
+
+}  // namespace
+
+std::vector<SoakCount> do_soak_job(const SoakRequest& request, std::size_t job,
+                                   oracle::Oracle& oracle) {
+  const std::size_t regimes = request.regimes.size();
+  const auto round = static_cast<std::int64_t>(job / regimes);
+  Cases cases(*request.regimes[job % regimes], request.seed, round * cases_a_soak_job, oracle);
+  std::vector<SoakCount> counts;
+  for (const auto& [entry, scalar] : request.algorithms()) {
+    counts.push_back(cases.ask(*request.narrow[entry], scalar, request.time_limit));
+  }
+  return counts;
+}
+
+}  // namespace touchstone::check

@@ -1,0 +1,12 @@
+// Writes text files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace touchstone::files {
+
+// Throws InputError if the file cannot be written whole.
+void write_text(const std::filesystem::path& file, const std::string& content);
+
+}  // namespace touchstone::files
