@@ -10,6 +10,7 @@
 #include <set>
 
 #include "harness/base/error.h"
+#include "harness/campaign/plan.h"
 #include "harness/files/csv.h"
 #include "harness/record/raw_row.h"
 #include "harness/stats/summary.h"

@@ -1,9 +1,14 @@
-// Tests that the columns of a soak's files are documented.
+// Tests that the columns of checks and soaks are documented.
+#include "harness/check/check_rows.h"
 #include "harness/check/soak/soak_rows.h"
 #include "tests/harness/columns_page.h"
 
 namespace touchstone {
 namespace {
+
+TEST(Columns, OfChecksAreDocumented) {
+  expect_documented("summary.csv", record::column_docs<check::SummaryRow>(check::CheckSubjects{}));
+}
 
 TEST(Columns, OfSoaksAreDocumented) {
   const check::CheckSubjects none;
