@@ -18,8 +18,8 @@ namespace touchstone::check {
 std::pair<std::string, std::string> regimes_fact(const CheckRequest& request);
 
 // Describes the folder of a request. `work` is "check", "sweep" or "soak"; `subject` names the
-// regimes or axes. To resume, `subject` and the rest of the request must be equal, except `out`, `seconds` and
-// `workers`.
+// regimes or axes. To resume, `subject` and the rest of the request must be equal, except `out`,
+// `seconds`, `workers` and a soak's `pairs`.
 record::ResultFolderPlan job_folder(const CheckRequest& request, std::string work,
                                     std::pair<std::string, std::string> subject,
                                     std::vector<record::RowFile> files);
