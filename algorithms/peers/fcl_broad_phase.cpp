@@ -24,19 +24,11 @@
 // Cost:    naive O(n^2); SSaP and interval tree O(n log n + pairs on the axis); SaP O(end points
 //          passed times pairs); trees O(n log n) to build.
 #include "algorithms/broad_phase.h"
-#include "algorithms/peers/world.h"
 #ifdef TOUCHSTONE_HAS_FCL
-#include <fcl/broadphase/broadphase_SSaP.h>
-#include <fcl/broadphase/broadphase_SaP.h>
-#include <fcl/broadphase/broadphase_bruteforce.h>
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
-#include <fcl/broadphase/broadphase_interval_tree.h>
-#include <fcl/broadphase/broadphase_spatialhash.h>
-
 #include <algorithm>
-#include <limits>
 #include <new>
+
+#include "algorithms/peers/fcl_managers.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/lsan_interface.h>
@@ -44,6 +36,8 @@
 
 namespace touchstone {
 namespace {
+
+using namespace fcl_managers;
 
 // The tree in an array leaks its copy of the leaves (see above); the leak check ignores it.
 void register_all(fcl::BroadPhaseCollisionManager<double>& manager,
@@ -53,118 +47,6 @@ void register_all(fcl::BroadPhaseCollisionManager<double>& manager,
 #endif
   manager.registerObjects(objects);
 }
-
-using Manager = fcl::BroadPhaseCollisionManager<double>;
-using Object = fcl::CollisionObject<double>;
-
-fcl::AABB<double> to_fcl(const Aabb& box) {
-  return {fcl::Vector3d(box.min[0], box.min[1], box.min[2]),
-          fcl::Vector3d(box.max[0], box.max[1], box.max[2])};
-}
-
-// A body that consists of its box.
-class BoxObject final : public Object {
- public:
-  explicit BoxObject(std::uint32_t id) : Object(nullptr), id_(id) {}
-  std::uint32_t id() const { return id_; }
-  void set(const Aabb& box) { aabb = to_fcl(box); }
-
- private:
-  std::uint32_t id_;
-};
-
-// The making of a manager, and the changes that it accepts; after any other it is made anew.
-template <class M>
-struct Incremental {
-  static constexpr bool repeats = false;  // calls back with a pair more than once
-  // True if update(moved objects) pays; a tree's update() takes less time than its query.
-  static bool by_list(std::size_t, std::size_t) { return false; }
-  std::unique_ptr<Manager> make(std::span<const Aabb>) { return std::make_unique<M>(); }
-  bool takes(const FrameChange&, std::span<const BoxObject>) const { return true; }
-};
-
-struct SortAndSweep {
-  static constexpr bool repeats = true;
-  static bool by_list(std::size_t, std::size_t) { return true; }
-  std::unique_ptr<Manager> make(std::span<const Aabb>) {
-    return std::make_unique<fcl::SaPCollisionManager<double>>();
-  }
-  bool takes(const FrameChange& change, std::span<const BoxObject> objects) const {
-    if (!change.inserted.empty() || !change.removed.empty()) return false;
-    return std::ranges::all_of(change.moved, [&](std::uint32_t id) {
-      const fcl::AABB<double>& before = objects[id].getAABB();
-      const fcl::AABB<double> now = to_fcl(change.boxes[id]);
-      // FCL skips boxes that it takes for equal and would then not know where the box was.
-      if (before.equal(now)) return false;
-      const auto slides = [&](int i) {
-        const double low = now.min_[i] - before.min_[i], high = now.max_[i] - before.max_[i];
-        const bool solid = before.min_[i] < before.max_[i] && now.min_[i] < now.max_[i];
-        return solid && ((low > 0 && high > 0) || (low < 0 && high < 0) || (low == 0 && high == 0));
-      };
-      return slides(0) && slides(1) && slides(2);
-    });
-  }
-};
-
-struct DynamicTreeArray {
-  static constexpr bool repeats = false;
-  static bool by_list(std::size_t, std::size_t) { return false; }
-  std::unique_ptr<Manager> make(std::span<const Aabb>) {
-    auto manager = std::make_unique<fcl::DynamicAABBTreeCollisionManager_Array<double>>();
-    manager->max_tree_nonbalanced_level = std::numeric_limits<int>::max();
-    return manager;
-  }
-  bool takes(const FrameChange& change, std::span<const BoxObject>) const {
-    return change.inserted.empty();
-  }
-};
-
-struct IntervalTree {
-  static constexpr bool repeats = false;
-  static bool by_list(std::size_t, std::size_t) { return false; }
-  std::unique_ptr<Manager> make(std::span<const Aabb>) {
-    return std::make_unique<fcl::IntervalTreeCollisionManager<double>>();
-  }
-  bool takes(const FrameChange&, std::span<const BoxObject>) const { return false; }
-};
-
-struct SpatialHash {
-  static constexpr bool repeats = false;
-  static bool by_list(std::size_t moved, std::size_t live) { return 2 * moved < live; }
-
-  // FCL gives no rule for the cell. This is the mean of the boxes' longest sides (Teschner et al.,
-  // "Optimized Spatial Hashing for Collision Detection of Deformable Objects", VMV 2003), but at
-  // least a 64th of the limits, or one huge box would fill the memory with its cells. There is a
-  // bucket a body, at least FCL's own 1000.
-  // body, at least FCL's own 1000.
-  std::unique_ptr<Manager> make(std::span<const Aabb> boxes) {
-    limits_ = World::around(boxes);
-    double sum = 0;
-    unsigned count = 0;
-    for (const Aabb& box : boxes) {
-      if (box.is_empty()) continue;
-      const fcl::AABB<double> b = to_fcl(box);
-      sum += (b.max_ - b.min_).maxCoeff();
-      ++count;
-    }
-    const double mean = count > 0 ? sum / count : 0;
-    // FCL's cells are half open, [floor, ceil): two boxes that touch on a border of cells would
-    // miss each other, and a flat box there would be in no cell. This factor keeps the borders off
-    // all coordinates that occur in practice.
-    constexpr double odd = 1.00073612984531;
-    const double cell = odd * std::max(mean, limits_.widest() / 64);
-    return std::make_unique<fcl::SpatialHashingCollisionManager<double>>(
-        cell, fcl::Vector3d(limits_.min.data()), fcl::Vector3d(limits_.max.data()),
-        std::max(count, 1000U));
-  }
-  bool takes(const FrameChange& change, std::span<const BoxObject>) const {
-    const auto held = [&](std::uint32_t id) { return limits_.holds(change.boxes[id]); };
-    return std::ranges::all_of(change.moved, held) && std::ranges::all_of(change.inserted, held);
-  }
-
- private:
-  World limits_;
-};
 
 template <class Rules>
 class FclBroadPhase final : public PeerBroadPhase {

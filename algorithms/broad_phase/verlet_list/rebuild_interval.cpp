@@ -1,4 +1,5 @@
-// Part of verlet-list: the cost model that chooses the rebuild interval.
+// Part of verlet-list: chooses the rebuild interval by a cost model, and corrects the model by each
+// list that ended.
 #include "algorithms/broad_phase/verlet_list/rebuild_interval.h"
 
 #include <algorithm>

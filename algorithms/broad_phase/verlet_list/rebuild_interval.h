@@ -8,13 +8,11 @@
 
 #include <cstddef>
 
+#include "algorithms/broad_phase/verlet_list/box_motion.h"
+
 namespace touchstone {
 
-struct MeanMotion {
-  float step = 0;    // mean displacement of a body on an axis, metres a frame
-  double share = 0;  // mean of step / (side + step)
-};
-
+// The choice of the interval, and the estimates that it rests on, which each list corrects.
 class RebuildInterval {
  public:
   // Returns the number of frames for the next list; 0 if no list pays. `pairs` is the number found

@@ -2,7 +2,7 @@
 // has moved too far.
 // Paper:   Verlet, "Computer 'Experiments' on Classical Fluids. I", Physical Review 159, 1967
 //          (neighbour lists); the search is the packed R-tree's (kernels/bvh/implicit_rtree.h).
-// Steps:   1. Measure how far bodies move in a frame, from a sample.
+// Steps:   1. Measure how far bodies move in a frame, from a sample (box_motion.cpp).
 //          2. Choose for how many frames a list is cheapest (rebuild_interval.cpp). If for none,
 //             search the boxes of this frame with the packed R-tree, and end.
 //          3. Grow each box by its motion in that many frames, and list all pairs of grown boxes
@@ -21,12 +21,11 @@
 //          bytes a body and 12 a candidate.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/broad_phase/verlet_list/box_motion.h"
 #include "algorithms/broad_phase/verlet_list/pair_tests.h"
 #include "algorithms/broad_phase/verlet_list/rebuild_interval.h"
 #include "algorithms/core/memory_usage.h"
@@ -66,7 +65,6 @@ class VerletList final : public BroadPhase {
   std::size_t groups() const { return order_.empty() ? 0 : tree_.groups(); }
 
   void search_anew();
-  MeanMotion measure_motion();
   void make_list(double frames);
   bool find_escaped(const FrameChange& change);
   void search_all(PairSink& sink);
@@ -85,7 +83,7 @@ class VerletList final : public BroadPhase {
   int age_ = 0;  // frames since `reference_` was written
   bool listed_ = false;
   PairSink candidates_;
-  RebuildInterval duration_;
+  RebuildInterval interval_;
 
   std::vector<std::uint8_t> escaped_flag_;  // 1 for an escaped box; indexed by body
   std::vector<std::uint32_t> escaped_;      // escaped boxes: outside their grown ones, or new
@@ -109,69 +107,10 @@ void VerletList::search_anew() {
   listed_ = false;
 }
 
-// Returns twice the greatest displacement of the box's centre on an axis (metres).
-float displacement(const Aabb& then, const Aabb& now) {
-  float most = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    most = std::max(most,
-                    std::abs((now.min[axis] - then.min[axis]) + (now.max[axis] - then.max[axis])));
-  }
-  return most;
-}
-
-MeanMotion VerletList::measure_motion() {
-  // Every sixteenth body is sample enough.
-  constexpr std::size_t stride = 16;
-  const std::size_t count = std::min(boxes_.size(), reference_.size());
-  MeanMotion motion;
-  double steps = 0;
-  double shares = 0;
-  std::size_t bodies = 0;
-  for (std::size_t i = 0; i < count; i += count < 1024 ? 1 : stride) {
-    const Aabb& box = boxes_[i];
-    if (box.is_empty() || reference_[i].is_empty()) continue;
-    const double step = displacement(reference_[i], box) / (2.0 * age_);
-    const double side = (double{box.max[0]} - box.min[0] + (double{box.max[1]} - box.min[1]) +
-                         (double{box.max[2]} - box.min[2])) /
-                        3;
-    steps += step;
-    shares += step > 0 ? std::min(1.0, step / (side + step)) : 0;
-    ++bodies;
-  }
-  if (bodies > 0) {
-    motion.step = static_cast<float>(steps / static_cast<double>(bodies));
-    motion.share = shares / static_cast<double>(bodies);
-  }
-  return motion;
-}
-
 // Makes a list for this many frames; `reference_` holds the boxes of `age_` frames ago.
 void VerletList::make_list(double frames) {
-  const MeanMotion motion = measure_motion();
-  const auto growth = static_cast<float>(frames);
-  constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
-  // Bodies that hardly move may start to: each gets at least half of the mean displacement.
-  const float least = motion.step / 2;
-  const std::size_t known = std::min(boxes_.size(), reference_.size());
-  const float step_of = 0.5f / static_cast<float>(age_);
-  reference_.resize(boxes_.size(), Aabb::empty());
-  for_each_block(executor_, boxes_.size(), block_size,
-                 [&](std::size_t, std::size_t first, std::size_t last) {
-                   for (std::size_t i = first; i < last; ++i) {
-                     const Aabb& box = boxes_[i];
-                     if (box.is_empty()) {
-                       reference_[i] = Aabb::empty();
-                       continue;
-                     }
-                     const bool there = i < known && !reference_[i].is_empty();
-                     const float step = there ? displacement(reference_[i], box) * step_of : least;
-                     const float margin = growth * std::max(step, least);
-                     for (std::size_t axis = 0; axis < 3; ++axis) {
-                       reference_[i].min[axis] = std::max(box.min[axis] - margin, -most);
-                       reference_[i].max[axis] = std::min(box.max[axis] + margin, most);
-                     }
-                   }
-                 });
+  const MeanMotion motion = mean_motion(reference_, boxes_, age_);
+  grow_boxes(executor_, boxes_, reference_, age_, frames, motion.step);
   age_ = 0;
   order_.make(executor_, reference_);
   fit(reference_);
@@ -180,7 +119,7 @@ void VerletList::make_list(double frames) {
   escaped_flag_.assign(boxes_.size(), 0);
   escaped_.clear();
   searched_ = 0;
-  duration_.made(motion, frames, boxes_.size(), candidates_.size());
+  interval_.made(motion, frames, boxes_.size(), candidates_.size());
 }
 
 void VerletList::search_all(PairSink& sink) {
@@ -239,9 +178,10 @@ void VerletList::update(const FrameChange& change) {
                             [&](std::size_t i) { return escaped_[i]; });
       return;
     }
-    duration_.ended(age_, boxes_.size(), pairs_);
+    interval_.ended(age_, boxes_.size(), pairs_);
   }
-  const double frames = duration_.choose(measure_motion(), boxes_.size(), pairs_);
+  const double frames =
+      interval_.choose(mean_motion(reference_, boxes_, age_), boxes_.size(), pairs_);
   if (frames > 0) return make_list(frames);
   search_anew();
 }

@@ -1,0 +1,80 @@
+// Part of verlet-list: the displacement of boxes, its mean, and the growth by it.
+#include "algorithms/broad_phase/verlet_list/box_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/core/parallel_blocks.h"
+
+namespace touchstone {
+namespace {
+
+// Returns twice the greatest displacement of the box's centre on an axis (metres).
+float displacement(const Aabb& then, const Aabb& now) {
+  float most = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    most = std::max(most,
+                    std::abs((now.min[axis] - then.min[axis]) + (now.max[axis] - then.max[axis])));
+  }
+  return most;
+}
+
+}  // namespace
+
+MeanMotion mean_motion(std::span<const Aabb> then, std::span<const Aabb> now, int age) {
+  // Every sixteenth body is sample enough.
+  constexpr std::size_t stride = 16;
+  const std::size_t count = std::min(now.size(), then.size());
+  MeanMotion motion;
+  double steps = 0;
+  double shares = 0;
+  std::size_t bodies = 0;
+  for (std::size_t i = 0; i < count; i += count < 1024 ? 1 : stride) {
+    const Aabb& box = now[i];
+    if (box.is_empty() || then[i].is_empty()) continue;
+    const double step = displacement(then[i], box) / (2.0 * age);
+    const double side = (double{box.max[0]} - box.min[0] + (double{box.max[1]} - box.min[1]) +
+                         (double{box.max[2]} - box.min[2])) /
+                        3;
+    steps += step;
+    shares += step > 0 ? std::min(1.0, step / (side + step)) : 0;
+    ++bodies;
+  }
+  if (bodies > 0) {
+    motion.step = static_cast<float>(steps / static_cast<double>(bodies));
+    motion.share = shares / static_cast<double>(bodies);
+  }
+  return motion;
+}
+
+void grow_boxes(Executor& executor, std::span<const Aabb> now, std::vector<Aabb>& reference,
+                int age, double frames, float mean_step) {
+  constexpr std::size_t block_size = 4096;
+  const auto growth = static_cast<float>(frames);
+  constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
+  // Bodies that hardly move may start to.
+  const float least = mean_step / 2;
+  const std::size_t known = std::min(now.size(), reference.size());
+  const float step_of = 0.5f / static_cast<float>(age);
+  reference.resize(now.size(), Aabb::empty());
+  for_each_block(executor, now.size(), block_size,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     const Aabb& box = now[i];
+                     if (box.is_empty()) {
+                       reference[i] = Aabb::empty();
+                       continue;
+                     }
+                     const bool there = i < known && !reference[i].is_empty();
+                     const float step = there ? displacement(reference[i], box) * step_of : least;
+                     const float margin = growth * std::max(step, least);
+                     for (std::size_t axis = 0; axis < 3; ++axis) {
+                       reference[i].min[axis] = std::max(box.min[axis] - margin, -most);
+                       reference[i].max[axis] = std::min(box.max[axis] + margin, most);
+                     }
+                   }
+                 });
+}
+
+}  // namespace touchstone
