@@ -1,4 +1,4 @@
-// The memory that an algorithm's parts have reserved, in bytes.
+// The memory that an algorithm's parts have reserved, in bytes. Used by all our broad phases.
 #pragma once
 
 #include <cstddef>
