@@ -56,24 +56,19 @@ class Gjk final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for_each_pair(batch.pairs, shapes_, ahead_, task == Task::distance,
-                  [&](std::size_t i, const SupportShape<Scalar>& a, const Pose& pose_a,
-                      const SupportShape<Scalar>& b, const Pose& pose_b) {
-                    if (solve_if_halfspace(batch.kind_a, batch.kind_b, a, pose_a, b, pose_b, task,
-                                           outcomes[i])) {
-                      return;
-                    }
-                    if (!warm_ || batch.memory.empty()) {
-                      return query_.solve(a, pose_a, b, pose_b, task, nullptr, outcomes[i]);
-                    }
-                    PairMemory& memory = batch.memory[batch.memory_of[i]];
-                    static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
-                                  std::is_trivially_copyable_v<WarmStart>);
-                    WarmStart start;
-                    std::memcpy(&start, memory.bytes.data(), sizeof start);
-                    query_.solve(a, pose_a, b, pose_b, task, &start, outcomes[i]);
-                    std::memcpy(memory.bytes.data(), &start, sizeof start);
-                  });
+    for_each_bounded_pair(task, batch, shapes_, ahead_, task == Task::distance, outcomes,
+                          [&](std::size_t i, const auto&... bodies) {
+                            if (!warm_ || batch.memory.empty()) {
+                              return query_.solve(bodies..., task, nullptr, outcomes[i]);
+                            }
+                            PairMemory& memory = batch.memory[batch.memory_of[i]];
+                            static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
+                                          std::is_trivially_copyable_v<WarmStart>);
+                            WarmStart start;
+                            std::memcpy(&start, memory.bytes.data(), sizeof start);
+                            query_.solve(bodies..., task, &start, outcomes[i]);
+                            std::memcpy(memory.bytes.data(), &start, sizeof start);
+                          });
   }
 
  private:

@@ -73,16 +73,11 @@ class Mpr final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for_each_pair(batch.pairs, shapes_, ahead_, true,
-                  [&](std::size_t i, const SupportShape<Scalar>& a, const Pose& pose_a,
-                      const SupportShape<Scalar>& b, const Pose& pose_b) {
-                    if (solve_if_halfspace(batch.kind_a, batch.kind_b, a, pose_a, b, pose_b, task,
-                                           outcomes[i])) {
-                      return;
-                    }
-                    SupportPair<Scalar> pair(a, pose_a, b, pose_b);
-                    solve_pair(pair, max_iterations_, tolerance_, task, outcomes[i]);
-                  });
+    for_each_bounded_pair(task, batch, shapes_, ahead_, true, outcomes,
+                          [&](std::size_t i, const auto&... bodies) {
+                            SupportPair<Scalar> pair(bodies...);
+                            solve_pair(pair, max_iterations_, tolerance_, task, outcomes[i]);
+                          });
   }
 
  private:

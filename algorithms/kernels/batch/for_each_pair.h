@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "algorithms/core/body_pairs.h"
@@ -28,15 +29,19 @@ void for_each_pair(const BodyPairs& pairs, const std::vector<Item>& shapes,
   }
 }
 
-// Solves a pair whose second body is a half-space; returns false for two bounded bodies.
-template <class Scalar>
-bool solve_if_halfspace(ShapeKind kind_a, ShapeKind kind_b, const SupportShape<Scalar>& a,
-                        const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,
-                        Task task, Outcome& outcome) {
-  if (kind_b != ShapeKind::halfspace) return false;
-  const auto solve = kind_a == kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
-  solve(a, pose_a, b, pose_b, task, outcome);
-  return true;
+// Runs that loop over the support shapes of a narrow phase's batch. It answers pairs whose second
+// body is a half-space, and calls solve_pair for pairs of bounded bodies alone.
+template <class Scalar, class Batch, class SolvePair>
+void for_each_bounded_pair(Task task, const Batch& batch,
+                           const std::vector<SupportShape<Scalar>>& shapes,
+                           ShapePrefetch<Scalar>& ahead, bool far_too, std::span<Outcome> outcomes,
+                           const SolvePair& solve_pair) {
+  for_each_pair(batch.pairs, shapes, ahead, far_too, [&](std::size_t i, const auto&... bodies) {
+    if (batch.kind_b != ShapeKind::halfspace) return solve_pair(i, bodies...);
+    const auto solve =
+        batch.kind_a == batch.kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
+    solve(bodies..., task, outcomes[i]);
+  });
 }
 
 }  // namespace touchstone

@@ -56,14 +56,10 @@ class GjkTemplated final : public NarrowPhase {
     if (batch.kind_b != ShapeKind::halfspace) {
       query_.set_functions(functions_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
     }
-    for_each_pair(batch.pairs, shapes_, ahead_, task == Task::distance,
-                  [&](std::size_t i, const SupportShape<Scalar>& a, const Pose& pose_a,
-                      const SupportShape<Scalar>& b, const Pose& pose_b) {
-                    if (!solve_if_halfspace(batch.kind_a, batch.kind_b, a, pose_a, b, pose_b, task,
-                                            outcomes[i])) {
-                      query_.solve(a, pose_a, b, pose_b, task, nullptr, outcomes[i]);
-                    }
-                  });
+    for_each_bounded_pair(task, batch, shapes_, ahead_, task == Task::distance, outcomes,
+                          [&](std::size_t i, const auto&... bodies) {
+                            query_.solve(bodies..., task, nullptr, outcomes[i]);
+                          });
   }
 
  private:

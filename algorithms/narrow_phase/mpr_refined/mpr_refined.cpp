@@ -226,19 +226,14 @@ class MprRefined final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for_each_pair(batch.pairs, shapes_, ahead_, true,
-                  [&](std::size_t i, const SupportShape<Scalar>& a, const Pose& pose_a,
-                      const SupportShape<Scalar>& b, const Pose& pose_b) {
-                    if (solve_if_halfspace(batch.kind_a, batch.kind_b, a, pose_a, b, pose_b, task,
-                                           outcomes[i])) {
-                      return;
-                    }
-                    SupportPair<Scalar> pair(a, pose_a, b, pose_b);
-                    PairMemory* const memory =
-                        batch.memory.empty() ? nullptr : &batch.memory[batch.memory_of[i]];
-                    RefinedDepth<Scalar>(pair, max_iterations_, tolerance_for(pair))
-                        .solve(task, memory, outcomes[i]);
-                  });
+    for_each_bounded_pair(task, batch, shapes_, ahead_, true, outcomes,
+                          [&](std::size_t i, const auto&... bodies) {
+                            SupportPair<Scalar> pair(bodies...);
+                            PairMemory* const memory =
+                                batch.memory.empty() ? nullptr : &batch.memory[batch.memory_of[i]];
+                            RefinedDepth<Scalar>(pair, max_iterations_, tolerance_for(pair))
+                                .solve(task, memory, outcomes[i]);
+                          });
   }
 
  private:
