@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithms/broad_phase/loose_octree/morton.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/core/parallel_blocks.h"
 
@@ -15,11 +14,13 @@ namespace {
 
 constexpr std::size_t block_size = 4096;
 
-// spread_bits of each cell number.
+// Each cell number with two zeros between its bits. A Morton code interleaves three of them
+// (Morton, "A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing", 1966).
 constexpr std::array<std::uint32_t, 1 << OctreeOrder::most_levels> spread = [] {
   std::array<std::uint32_t, 1 << OctreeOrder::most_levels> all{};
-  for (std::uint32_t i = 0; i < all.size(); ++i)
-    all[i] = static_cast<std::uint32_t>(spread_bits(i));
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    for (int bit = 0; bit < OctreeOrder::most_levels; ++bit) all[i] |= (i >> bit & 1) << 3 * bit;
+  }
   return all;
 }();
 

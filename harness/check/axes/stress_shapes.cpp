@@ -149,28 +149,6 @@ Shape shape_of_extents(ShapeKind kind, const Vec3d& half, std::uint64_t seed,
   return shape;
 }
 
-double aspect_of(const Shape& shape) {
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-    case ShapeKind::halfspace: break;
-    case ShapeKind::capsule: return (shape.half_length + shape.radius) / shape.radius;
-    case ShapeKind::cylinder:
-    case ShapeKind::cone:
-      return std::max(shape.radius, shape.half_length) / std::min(shape.radius, shape.half_length);
-    case ShapeKind::box: return shape.half_extents.maxCoeff() / shape.half_extents.minCoeff();
-    case ShapeKind::ellipsoid: return shape.radii.maxCoeff() / shape.radii.minCoeff();
-    case ShapeKind::hull: {
-      Vec3d low = shape.hull->vertices.front(), high = low;
-      for (const Vec3d& v : shape.hull->vertices) {
-        low = low.cwiseMin(v);
-        high = high.cwiseMax(v);
-      }
-      return (high - low).maxCoeff() / (high - low).minCoeff();
-    }
-  }
-  return 1;
-}
-
 std::shared_ptr<const Hull> ringed_hull(std::size_t vertices, const Vec3d& radii) {
   const auto hull = std::make_shared<Hull>();
   if (vertices == 4) {

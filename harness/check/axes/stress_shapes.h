@@ -23,9 +23,6 @@ Vec3d slender_half(double size, double aspect, base::Random& random);
 // compact.
 Shape shape_of_extents(ShapeKind kind, const Vec3d& half, std::uint64_t seed, base::Random& random);
 
-// Returns the ratio of the longest extent to the shortest, among the extents that the shape has.
-double aspect_of(const Shape& shape);
-
 // Makes a hull with exactly so many vertices (4, or a power of ten from 10 to 100,000) on an
 // ellipsoid with these semi-axes: rings of latitude, each turned by half a step against the next,
 // between two flat ends. All other faces are triangles. It is built directly, without a hull

@@ -5,7 +5,6 @@
 #include <random>
 #include <vector>
 
-#include "algorithms/broad_phase/loose_octree/morton.h"
 #include "algorithms/kernels/sorting/insertion_sort.h"
 #include "algorithms/kernels/sorting/ordered_key.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
@@ -68,24 +67,6 @@ TEST(InsertionSort, SortsOrSaysThatItGaveUp) {
   }
   EXPECT_GT(sorted, 100);
   EXPECT_GT(gave_up, 100);
-}
-
-TEST(Morton, InterleavesTheBits) {
-  EXPECT_EQ(morton_code({1, 0, 0}), 1u);
-  EXPECT_EQ(morton_code({0, 1, 0}), 2u);
-  EXPECT_EQ(morton_code({0, 0, 1}), 4u);
-  EXPECT_EQ(morton_code({0x1fffff, 0x1fffff, 0x1fffff}), 0x7fffffffffffffff);
-  std::mt19937 random(5);
-  for (int trial = 0; trial < 1000; ++trial) {
-    const CellNumbers cell{static_cast<std::uint32_t>(random() >> 11),
-                           static_cast<std::uint32_t>(random() >> 11),
-                           static_cast<std::uint32_t>(random() >> 11)};
-    const std::uint64_t code = morton_code(cell);
-    EXPECT_EQ(morton_cell(code), cell);
-    for (int bit = 0; bit < 63; ++bit) {
-      EXPECT_EQ(code >> bit & 1, cell[static_cast<std::size_t>(bit % 3)] >> (bit / 3) & 1);
-    }
-  }
 }
 
 }  // namespace
