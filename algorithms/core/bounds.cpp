@@ -1,4 +1,4 @@
-// The extents of each kind of shape, with bounds on their rounding.
+// The tight and loose boxes of bodies of each kind, rounded outward by a bound on the error.
 #include "algorithms/core/bounds.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Boxes of bodies: exact extents, rounded outward.
+// The tight and loose boxes of bodies, rounded outward. Used by scenes, proxies and tests.
 #pragma once
 
 #include "algorithms/core/aabb.h"

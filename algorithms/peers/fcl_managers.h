@@ -1,5 +1,5 @@
 // FCL's broad-phase managers for fcl_broad_phase.cpp: how each is made and updated, and the changes
-// of a frame that it accepts; after any other change it is made anew (fcl_broad_phase.cpp says why).
+// of a frame that it accepts. After any other change it is made anew; fcl_broad_phase.cpp says why.
 #pragma once
 
 #include <fcl/broadphase/broadphase_SSaP.h>

@@ -244,6 +244,36 @@ TEST(House, AnAlgorithmOfOneFileHasNoHeader) {
   }
 }
 
+// The name of the algorithm that a file is part of: "linear-bvh" for "linear_bvh.cpp".
+std::string algorithm_of(const std::string& path) {
+  const std::string contract = path.substr(0, path.find('/', sizeof "algorithms"));
+  std::string name = room_in(path, contract);
+  if (name.empty()) name = fs::path(path).stem();
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
+TEST(House, AKernelRoomNamesItsUsers) {
+  std::map<std::string, std::string> readmes;
+  for (const auto& [room, below] : kernel_rooms) {
+    std::ifstream stream(fs::path(touchstone::project_folder) / "algorithms/kernels" / room /
+                         "README.md");
+    for (std::string line; std::getline(stream, line);) readmes[room] += line + " ";
+  }
+  for (const SourceFile& file : files()) {
+    if (!is_in_algorithms(file.path)) continue;
+    const bool is_broad = in(file.path, "algorithms/broad_phase");
+    for (const std::string& to : file.own) {
+      if (!in(to, "algorithms/kernels")) continue;
+      const std::string& readme = readmes[room_in(to, "algorithms/kernels")];
+      EXPECT_THAT(readme, testing::AnyOf(testing::HasSubstr("`" + algorithm_of(file.path) + "`"),
+                                         testing::HasSubstr(is_broad ? "all our broad phases"
+                                                                     : "all our narrow phases")))
+          << to << " is included by " << file.path;
+    }
+  }
+}
+
 TEST(House, NoFolderIsTooFull) {
   std::map<std::string, int> files_in;
   for (const SourceFile& file : files()) ++files_in[folder_of(file.path)];

@@ -9,7 +9,6 @@
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/kernels/sorting/ordered_key.h"
-#include "algorithms/kernels/sorting/radix_sort.h"
 
 namespace touchstone {
 

@@ -1,4 +1,4 @@
-// Part of incremental-sweep-and-prune: sorting the moved bodies by the axes of their motion.
+// Part of incremental-sweep-and-prune: lists for each axis the bodies whose extents on it changed.
 #include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_motion.h"
 
 #include "algorithms/core/memory_usage.h"
@@ -10,12 +10,12 @@ void EndpointMotion::start(std::span<const Aabb> before, std::span<const Aabb> n
   before_ = before;
   now_ = now;
   changed_ = {moved, moved, moved};
-  if (moved.size() <= before.size() / 8 * 5) tell_apart(moved);
+  if (moved.size() <= before.size() / 8 * 5) list_by_axis(moved);
 }
 
 // Puts each body into the lists of the axes on which it changed; without a branch, since that is
 // unpredictable.
-void EndpointMotion::tell_apart(std::span<const std::uint32_t> moved) {
+void EndpointMotion::list_by_axis(std::span<const std::uint32_t> moved) {
   std::array<std::uint32_t*, 3> ends;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // One more entry is written.

@@ -1,5 +1,5 @@
-// Part of incremental-sweep-and-prune: the bodies that have moved between two frames, axis by axis;
-// a car on a street moves along one of three.
+// Part of incremental-sweep-and-prune: for each axis, the bodies whose end points on it have moved
+// between two frames. A car on a street moves along one axis of three.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace touchstone {
 
-// The moved bodies of a frame. The class keeps its memory and views of the boxes.
+// The moved bodies of a frame, by axis. The class keeps its memory and views of the boxes.
 class EndpointMotion {
  public:
   // Lists these bodies; the spans must stay valid and unchanged while this object is in use.
@@ -30,7 +30,7 @@ class EndpointMotion {
   std::size_t held_bytes() const;
 
  private:
-  void tell_apart(std::span<const std::uint32_t> moved);
+  void list_by_axis(std::span<const std::uint32_t> moved);
 
   std::span<const Aabb> before_, now_;
   std::array<std::span<const std::uint32_t>, 3> changed_;

@@ -20,8 +20,9 @@ namespace touchstone {
 // The sorted bodies; the class keeps its memory.
 class OctreeOrder {
  public:
-  // The greatest number of levels below the root: a key has 3 bits for each, and a few for the
-  // body's depth. The depth of a finest cell is this number, however many levels there are.
+  // The greatest number of levels below the root: a key has 3 bits for each level, and 4 for the
+  // depth of the body's cell. Depths count from the root, but a cell of the finest level in use has
+  // depth `most_levels`, even if fewer levels are in use.
   static constexpr int most_levels = 9;
 
   // Sorts the bodies. `ids` lists the boxes that are not empty. The root is the region that holds

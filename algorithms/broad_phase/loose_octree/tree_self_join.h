@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "algorithms/broad_phase_work.h"
-#include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 #include "algorithms/kernels/boxes/aabb_stack.h"

@@ -1,5 +1,9 @@
-// Part of loose-octree: the loops of tree_self_join.h. tree_self_join.cpp includes them once for
-// each level of vector instructions, inside that level's namespace.
+// Part of loose-octree: finds all pairs of boxes that overlap, of which one is below a node of a
+// block and the other below the same node or one listed after it. tree_self_join.cpp includes these
+// loops once for each level of vector instructions, inside that level's namespace.
+//
+// A list of the stack holds the nodes of a block and then the later nodes that overlap them. In all
+// functions `behind` is the range of the list that holds the later ones for this block.
 
 #include "algorithms/kernels/boxes/group_search.inl"
 
@@ -32,8 +36,8 @@ inline void make_room(std::vector<std::uint32_t>& list, std::size_t size) {
   if (list.size() < size + fan) list.resize(2 * (size + fan));
 }
 
-// Starts a list: the block's nodes, followed by what overlaps the bounds of these, from the leaves
-// in `behind` and from the parts of the other nodes there.
+// Starts a list: the block's nodes, then the leaves in `behind` that overlap the block's bounds,
+// then the children of the inner nodes there that do.
 TOUCHSTONE_TARGET inline IndexRange list_nodes(const Join& join, std::size_t block,
                                                IndexRange behind) {
   JoinScratch& s = join.scratch;
@@ -61,8 +65,8 @@ TOUCHSTONE_TARGET inline IndexRange list_nodes(const Join& join, std::size_t blo
   return {first, s.list.end()};
 }
 
-// Lists in scratch.leaves the leaves that overlap the bound, from `behind` and below it. Returns
-// their number.
+// Lists in scratch.leaves the leaves that overlap the bound: those in `behind` and those below its
+// inner nodes. Returns their number.
 TOUCHSTONE_TARGET inline std::size_t list_leaves(const Join& join, const Row& bound,
                                                  IndexRange behind) {
   JoinScratch& s = join.scratch;
@@ -95,6 +99,7 @@ TOUCHSTONE_TARGET inline std::size_t list_leaves(const Join& join, const Row& bo
   return count;
 }
 
+// Writes the pairs of a leaf's boxes, with each other and with the boxes of the leaves in `behind`.
 TOUCHSTONE_TARGET inline void pair_leaf(const Join& join, std::size_t node, IndexRange behind) {
   JoinScratch& s = join.scratch;
   const NodeRef leaf{join.nodes.ids[node]};
@@ -114,7 +119,8 @@ TOUCHSTONE_TARGET inline void pair_leaf(const Join& join, std::size_t node, Inde
   s.work.box_tests += static_cast<std::int64_t>(candidates);
 }
 
-// Joins a block. `behind` is the range of the list that its nodes meet beside each other.
+// Joins each node of the block with the nodes after it in the block and with those in `behind`, and
+// descends into inner nodes if `part` says so.
 TOUCHSTONE_TARGET void join(const Join& all, std::size_t block, IndexRange behind, JoinPart part) {
   const IndexRange list = list_nodes(all, block, behind);
   for (std::size_t node = block * fan; node < block * fan + fan; ++node) {
@@ -130,7 +136,8 @@ TOUCHSTONE_TARGET void join(const Join& all, std::size_t block, IndexRange behin
   all.scratch.list.drop(list.first);
 }
 
-// The range of the list that the nodes of a block meet.
+// Starts the lists of the path from the root to the block, and returns the range of the last one
+// that the block's nodes are joined with.
 TOUCHSTONE_TARGET IndexRange list_behind(const Join& all, std::size_t block) {
   if (block == 0) return {0, 0};
   const std::size_t node = all.tree.parent[block];
@@ -139,6 +146,7 @@ TOUCHSTONE_TARGET IndexRange list_behind(const Join& all, std::size_t block) {
   return {list.first + node % fan + 1, list.last};
 }
 
+// Joins a block without the lists of its parents, which are made first.
 TOUCHSTONE_TARGET void join_from_root(const Join& all, std::size_t block, JoinPart part) {
   const std::size_t first = all.scratch.list.start();
   join(all, block, list_behind(all, block), part);

@@ -1,4 +1,5 @@
-// Selects the instruction level for the gap in separation_along.inl.
+// The gap between two bodies along a direction: calls the copy of separation_at
+// (separation_along.inl) that is compiled for this processor.
 #include "algorithms/kernels/gjk/separation_along.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
-// The gap of separation_along.h. separation_along.cpp includes this file once for each level of
-// vector instructions, inside that level's namespace. Results are equal at every level.
+// The loops of separation_along.h: separation_at is separation_along at one level of vector
+// instructions, and support_value_at is each body's part of it. separation_along.cpp includes this
+// file once for each level, inside that level's namespace. Results are equal at every level.
 
 // The greatest direction . x over the core, relative to its centre.
 template <class Scalar>
@@ -24,6 +25,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Scalar support_value_at(PosedShape<Scalar>& 
   return direction.dot(turned.support(direction));
 }
 
+// Returns what separation_along returns, and does not count the support call.
 template <class Scalar>
 TOUCHSTONE_TARGET Scalar separation_at(SupportPair<Scalar>& pair, const Vec3<Scalar>& n) {
   const Scalar of_b = support_value_at(pair.b(), -n.x(), -n.y(), -n.z());

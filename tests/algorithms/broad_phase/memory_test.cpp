@@ -108,8 +108,8 @@ Memory memory_of(const BroadPhaseEntry& entry, std::size_t bodies) {
   return {algorithm->work().bytes, heap_bytes - before - others};
 }
 
-// The scratch of threads is not stated. It hardly grows with the number of bodies, so a container of
-// two bytes a body is noticed if it is not stated either.
+// The scratch of threads is not stated. It hardly grows with the number of bodies, so the test
+// notices a container of two bytes a body that is not stated either.
 TEST(Memory, IsStatedWhole) {
   constexpr std::int64_t few = 8'000, many = 32'000;
   for (const BroadPhaseEntry& entry : broad_phases()) {
