@@ -26,7 +26,6 @@
 
 #include "algorithms/core/isa.h"
 #include "harness/base/hash.h"
-#include "harness/files/csv.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::record {
@@ -251,14 +250,6 @@ std::string hash_of_program() {
     }
   }
   return base::to_hex(hash);
-}
-
-void write_facts(std::vector<std::pair<std::string, std::string>> first,
-                 const std::filesystem::path& file) {
-  files::CsvWriter csv(file, {"name", "value"});
-  for (auto& fact : machine_facts()) first.push_back(std::move(fact));
-  for (const auto& [name, value] : first) csv.field(name).field(value).end_row();
-  csv.close();
 }
 
 }  // namespace touchstone::record

@@ -1,7 +1,6 @@
 // Facts of the machine and the program that a campaign ran with.
 #pragma once
 
-#include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -23,9 +22,5 @@ std::string facts_as_list(std::initializer_list<std::string_view> names);
 
 // Returns 16 hexadecimal digits, a hash of the bytes of this program.
 std::string hash_of_program();
-
-// Writes machine.csv (name,value): the facts in `first`, then all others.
-void write_facts(std::vector<std::pair<std::string, std::string>> first,
-                 const std::filesystem::path& file);
 
 }  // namespace touchstone::record
