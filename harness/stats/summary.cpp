@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -18,8 +17,10 @@ namespace {
 
 // characters, so that no line is cut: a line is a group
 constexpr std::size_t unlimited_width = 1000;
-constexpr std::size_t most_groups = 9;
-constexpr std::size_t most_faults = 5;
+constexpr std::size_t most_groups = 10;
+constexpr std::size_t most_faults = 4;
+
+constexpr std::string_view broad = "broad phases";
 
 // The best of ours and the best library of a set; a label is empty if there is none.
 struct Duel {
@@ -32,7 +33,7 @@ std::vector<Duel> duels_of(const Tables& tables) {
   std::vector<Duel> duels;
   for (const BroadBestRow& row : tables.broad_best) {
     duels.push_back(
-        {row.key.scene, "broad phases", row.ours.label, row.peer.label, row.peer.ratio});
+        {row.key.scene, std::string(broad), row.ours.label, row.peer.label, row.peer.ratio});
   }
   for (const NarrowBestRow& row : tables.narrow_best) {
     duels.push_back(
@@ -72,18 +73,22 @@ std::string ratio_text(const MedianInterval& ratio) {
              : fmt::format("{:.2f} ({:.2f} to {:.2f})", ratio.median, ratio.low, ratio.high);
 }
 
-// Each scene is a group of its own, unless there are too many.
+// Each scene is a group of its own. If there are too many groups, all scenes are one for the broad
+// phases, and if there still are, for the tasks of narrow phases too.
 std::string winners_text(const Tables& tables) {
   const std::vector<Duel> duels = duels_of(tables);
-  std::set<std::pair<std::string, std::string>> groups;
-  for (const Duel& duel : duels) groups.emplace(duel.scene, duel.kind);
-  const bool by_scene = groups.size() <= most_groups;
   std::vector<std::string> names;
   std::map<std::string, std::vector<const Duel*>> members;
-  for (const Duel& duel : duels) {
-    const std::string name = by_scene ? duel.scene + ", " + duel.kind : "all scenes, " + duel.kind;
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-    members[name].push_back(&duel);
+  for (int joined = 0; joined < 3; ++joined) {
+    names.clear();
+    members.clear();
+    for (const Duel& duel : duels) {
+      const bool alone = joined == 0 || (joined == 1 && duel.kind != broad);
+      const std::string name = (alone ? duel.scene : "all scenes") + ", " + duel.kind;
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      members[name].push_back(&duel);
+    }
+    if (names.size() <= most_groups) break;
   }
   if (names.empty()) return "";
   base::Table table({"", "fastest of ours", "fastest library", "library / ours", "inputs"});
