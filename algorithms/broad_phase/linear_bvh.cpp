@@ -170,8 +170,8 @@ class LinearBvh final : public BroadPhase {
     std::copy_n(leaves_[leaf].max.begin(), 3, high.begin());
     const Lanes::Vector own_low = Lanes::load(low.data());
     const Lanes::Vector own_high = Lanes::load(high.data());
-    std::array<std::uint32_t, most_levels + 1> open;  // the traversal replaces a node by its two
-                                                      // children
+    // The traversal replaces a node by its two children.
+    std::array<std::uint32_t, most_levels + 1> open;
     std::size_t count = 0;
     open[count++] = root_;
     while (count > 0) {

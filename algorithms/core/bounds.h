@@ -1,4 +1,5 @@
-// The tight and loose boxes of bodies, rounded outward. Used by scenes, proxies and tests.
+// The tight and loose boxes of bodies, rounded outward. Used by peers and by the
+// rooms scene, proxies, check, grade and trade.
 #pragma once
 
 #include "algorithms/core/aabb.h"

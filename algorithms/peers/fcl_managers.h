@@ -64,7 +64,7 @@ struct SortAndSweep {
     return std::ranges::all_of(change.moved, [&](std::uint32_t id) {
       const fcl::AABB<double>& before = objects[id].getAABB();
       const fcl::AABB<double> now = to_fcl(change.boxes[id]);
-      // FCL skips boxes that it takes for equal and would then not know where the box was.
+      // FCL skips boxes that it takes for equal, and its stored box would then be outdated.
       if (before.equal(now)) return false;
       const auto slides = [&](int i) {
         const double low = now.min_[i] - before.min_[i], high = now.max_[i] - before.max_[i];

@@ -11,7 +11,7 @@ namespace touchstone::campaign {
 
 class BlockRows {
  public:
-  // Both outlive it.
+  // The context and the schedule must outlive this object.
   BlockRows(const RunContext& context, const Schedule& schedule)
       : context_(context), schedule_(schedule) {}
 

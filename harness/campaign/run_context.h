@@ -34,7 +34,7 @@ struct RunContext {
   const Block* block = nullptr;
   const scene::Scene* scene = nullptr;
   std::string scene_hash;
-  // The folder of files that reproduce a discrepancy; empty: none.
+  // The folder of files that reproduce a departure; empty: none.
   std::filesystem::path reproductions;
   record::Findings* findings = nullptr;
   std::span<const Block> blocks = {};      // all blocks of the campaign, by their numbers
@@ -61,7 +61,7 @@ struct RunContext {
   std::string place(std::size_t frame) const;
   // Returns the text with '_' for each blank, because names of scenes may have some.
   static std::string file_name(std::string text);
-  // Returns a discrepancy of this algorithm in this block.
+  // Returns a departure of this algorithm in this block.
   record::Departure departure(const AlgorithmInfo& info, std::string label,
                               std::string where) const;
 };

@@ -1,4 +1,5 @@
-// The folder of a run: its findings as raw.csv and departures.csv.
+// The folder of a run: writes its findings to raw.csv and departures.csv, unit by unit. Used by
+// runner.cpp.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace touchstone::campaign {
 
-// A unit is a block's check pass, a worker's first pass, or a round.
+// A unit of a run is a block's check pass, the start of a worker, or a round.
 class RunFolder {
  public:
   // Fills the findings from the folder if the run is resumed.

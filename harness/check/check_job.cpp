@@ -1,4 +1,4 @@
-// Draws the cases of a job, asks every algorithm about them, and grades the answers.
+// Draws the cases of a job, runs every algorithm on them, and grades the answers.
 #include "harness/check/check_job.h"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ class Job {
     check_boxes(c.pair().shape_b, c.pair().pose_b, truth.pair.b());
   }
 
-  // Asks one algorithm all its queries, in a child process.
+  // Runs all queries of one algorithm in a child process.
   void ask(std::uint32_t entry, Precision scalar) {
     const NarrowPhaseEntry& algorithm = *request_.narrow[entry];
     std::vector<Item> items;

@@ -63,7 +63,8 @@ struct CheckRequest {
   }
 };
 
-// Returns whether the case is also asked in other forms and its exact answer proven: every fifth.
+// Returns true for every fifth case, which is also run in other forms and whose exact answer is
+// proven.
 inline bool is_sampled(std::uint64_t index) { return index % 5 == 0; }
 
 }  // namespace touchstone::check

@@ -34,7 +34,7 @@ struct TruthFailure {
   std::filesystem::path file;
 };
 
-// Returns the command that asks about the cases of a file again.
+// Returns the command that runs the cases of a file again.
 std::string query_command(const CheckRequest& request, const grade::Query& query,
                           const std::filesystem::path& file);
 

@@ -30,7 +30,7 @@ bool stands_by(const Outcome& outcome);
 // The treatment of bodies that touch exactly: their answers are not scored, or they are in contact.
 enum class Touching : std::uint8_t { unscored, contact };
 // Judges the side of contact; all judgements in the project use this function. The caller applies
-// the band in which a wrong side is forgiven: see margins.h.
+// the band in which a wrong side is tolerated: see margins.h.
 Verdict judge(const Outcome& outcome, Answer exact, Touching touching = Touching::unscored);
 
 // Lengths in metres. A number is NaN if the task does not ask for it, the algorithm does not report

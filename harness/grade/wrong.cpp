@@ -1,4 +1,4 @@
-// Decides whether an answer is wrong, and says so in words.
+// Decides whether an answer is wrong, and describes how.
 #include "harness/grade/wrong.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Decides whether a graded answer is wrong, by how much, and says it in words.
+// Decides whether a graded answer is wrong, by how much, and describes it in words.
 //
 // An answer that its algorithm stands by is wrong if it is on the wrong side of contact or
 // contains a number beyond the documented margin (margins.h). Certified bounds that miss are wrong
@@ -16,8 +16,8 @@
 
 namespace touchstone::grade {
 
-// Classes of answers. No margin forgives the wrong side of contact here; for bodies that touch
-// exactly either side is right.
+// Classes of answers. The wrong side of contact counts here whatever its margin; for bodies that
+// touch exactly either side is right.
 enum class AnswerClass : std::uint8_t {
   right,
   // Right for the given problem but wrong for the case: the conversion of the input to the

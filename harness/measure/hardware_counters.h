@@ -35,7 +35,7 @@ struct HardwareCounts {
   std::int64_t cycles = -1, instructions = -1, branch_misses = -1, cache_misses = -1;
 };
 
-// Must be made before the threads that it is to count, and is read outside the clock.
+// The object must be made before the threads that it counts; it is read outside the clock.
 class HardwareCounters {
  public:
   HardwareCounters();

@@ -55,7 +55,7 @@ struct Round {
   Stop stop = Stop::none;
 };
 
-// The user of the loop: it knows the subject of the measurement, and takes the results.
+// The user of the loop: it defines what is measured and receives the results.
 class MeasuringJob {
  public:
   virtual ~MeasuringJob() = default;
@@ -67,7 +67,7 @@ class MeasuringJob {
   };
   virtual std::vector<Untimed> warm_up(std::size_t contestant, std::span<const std::size_t> sets,
                                        const ProcessLaps& process) = 0;
-  // Returns the seconds after which a worker that was asked for so many frames is given up.
+  // Returns the time limit of a sample of so many frames, seconds.
   virtual double deadline(std::size_t contestant, std::size_t set, std::uint32_t frames) const = 0;
   // Returns true if an answer equals the checked one. It runs outside the clock.
   virtual bool is_right(std::size_t contestant, std::size_t set, const SampleRequest& request,
@@ -80,7 +80,8 @@ class MeasuringJob {
                     const Loss& loss) = 0;
   // Takes the samples of a round; if `stop` is `none`, it may set it.
   virtual void take(Round& round) = 0;
-  // Is called after each start of a worker and after each round; the loop ends if it returns false.
+  // The loop calls this after each start of a worker and after each round, and ends if it returns
+  // false.
   virtual bool goes_on() = 0;
 };
 

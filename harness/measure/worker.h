@@ -19,8 +19,8 @@ struct WorkerSettings {
   std::uint64_t layout = 0;                   // seed of the place where its heap and stack begin
 };
 
-// It forks in the constructor and dies in the destructor. The caller must be the only thread of its
-// process (std::logic_error).
+// The constructor forks the process, and the destructor ends it. The caller must be the only thread
+// of its process (std::logic_error).
 class Worker {
  public:
   // `make` is called in the worker; it makes the executor too, and keeps it alive.
@@ -34,7 +34,7 @@ class Worker {
   std::optional<process::IsolationFailure> wait_until_made(double seconds);
 
   // Returns nothing if the worker crashed, left, threw or took longer than so many seconds: then it
-  // is dead, and failure() says how.
+  // has ended, and failure() describes how.
   std::optional<SampleReply> ask(const SampleRequest& request, double seconds);
   const process::IsolationFailure& failure() const { return failure_; }
   bool alive() const { return child_->alive(); }

@@ -1,4 +1,4 @@
-// How a field of a row is named in the documentation, written and read.
+// Defines the type name, the text and the parsing of a row's field.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Collects findings and words their discrepancies.
+// Collects findings and formats their departures.
 #include "harness/record/findings.h"
 
 #include <fmt/format.h>

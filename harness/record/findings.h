@@ -1,4 +1,4 @@
-// The findings of a campaign: the rows and discrepancies from which tables and exit status follow.
+// The findings of a campaign: the rows and departures from which tables and exit status follow.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace touchstone::record {
 
-// A discrepancy: one algorithm's result on one frame or window is not the expected one.
+// A departure: one algorithm's result on one frame or window is not the expected one.
 struct Departure {
   std::int64_t block = 0;
   std::int64_t row = -1;  // index into raw.csv, from 0; -1: not added yet
@@ -26,14 +26,14 @@ struct Departure {
 class Findings {
  public:
   void add(RawRow row) { rows_.push_back(std::move(row)); }
-  // Adds a discrepancy of the row that was added last, unless it names another; duplicates are
+  // Adds a departure of the row that was added last, unless it names another; duplicates are
   // ignored.
   void add(Departure departure);
 
   const std::vector<RawRow>& rows() const { return rows_; }
   const std::vector<Departure>& departures() const { return departures_; }
 
-  // Returns true if an algorithm of ours has a discrepancy that is not known and accepted.
+  // Returns true if an algorithm of ours has a departure that is not known and accepted.
   bool ours_are_wrong() const;
 
  private:
@@ -41,8 +41,8 @@ class Findings {
   std::vector<Departure> departures_;
 };
 
-// Returns a paragraph for each algorithm: its first discrepancy and the file that reproduces it.
-// The text is empty if there is no discrepancy.
+// Returns a paragraph for each algorithm: its first departure and the file that reproduces it.
+// The text is empty if there is no departure.
 std::string departures_text(const Findings& findings);
 
 // A row of departures.csv.

@@ -13,8 +13,8 @@ namespace touchstone::scene {
 
 struct BoxFrame {
   std::int64_t number = 0;  // the file's number
-  std::size_t count = 0;    // ids of this frame are 0 .. count - 1; ids without a body have empty
-                            // boxes
+  // Ids of this frame are 0 .. count - 1; ids without a body have empty boxes.
+  std::size_t count = 0;
   // The boxes of these ids, and empty ones for ids that only earlier frames had: the array of
   // FrameChange.
   std::vector<Aabb> boxes;
@@ -22,7 +22,7 @@ struct BoxFrame {
   std::vector<std::uint32_t> moved, inserted, removed;
 
   FrameChange change() const { return {boxes, moved, inserted, removed}; }
-  // The boxes for a build that knows no earlier frame.
+  // The boxes for a build without an earlier frame.
   std::span<const Aabb> own_boxes() const { return std::span(boxes).first(count); }
 };
 

@@ -10,7 +10,7 @@
 namespace touchstone::scene {
 
 // Reads a file. Throws InputError if it cannot be read, and the line where it is malformed.
-// `expected` says what it should be, for the message.
+// `expected` describes what it should be, for the message.
 nlohmann::json parse_json(const std::filesystem::path& file, const std::string& expected);
 
 // One JSON object, with its name for messages. A null counts as absent. Each read throws InputError

@@ -34,8 +34,8 @@ struct MeshPart {
 
 class ShapeReader {
  public:
-  // Mesh files are relative to `folder`. `get` says how to get them; it is printed if one is
-  // missing.
+  // Mesh files are relative to `folder`. `get` describes how to get them; it is printed if one
+  // is missing.
   explicit ShapeReader(std::filesystem::path folder, std::string get = "")
       : folder_(std::move(folder)), get_(std::move(get)) {}
 

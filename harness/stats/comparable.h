@@ -1,4 +1,4 @@
-// Whether two results of a campaign may be compared, and what differs between them.
+// Decides whether two results are comparable, and lists what differs between them.
 #pragma once
 
 #include <string>

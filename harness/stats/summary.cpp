@@ -1,4 +1,4 @@
-// Words the end of a run.
+// Formats the summary at the end of a run.
 #include "harness/stats/summary.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace touchstone::stats {
 namespace {
 
-// characters, so that no line is cut: a line is a group
+// The page width in characters: so great that no line of the table is split.
 constexpr std::size_t unlimited_width = 1000;
 constexpr std::size_t most_groups = 10;
 constexpr std::size_t most_faults = 4;
@@ -112,8 +112,8 @@ std::string winners_text(const Tables& tables) {
 struct Fault {
   std::string label;
   bool ours = false, known = true;
-  std::string what;                   // the first discrepancy
-  std::size_t more = 0;               // the number of further discrepancies
+  std::string what;                   // the first departure
+  std::size_t more = 0;               // the number of further departures
   double worst_error = std::nan("");  // error of a distance or depth beyond the stated error
   std::int64_t unknown = 0, queries = 0;
 };

@@ -79,7 +79,7 @@ std::vector<NarrowChain> chains(std::span<const std::string_view> names) {
 
 std::vector<NarrowChain> all_chains(Task task) {
   std::vector<NarrowChain> all = chains(narrow_names);
-  // Its verdicts are those of mpr.
+  // The verdicts of mpr-refined equal those of mpr, so it is added for depths only.
   if (task == Task::penetration) all.push_back(parse_chain("mpr-refined"));
   return all;
 }

@@ -91,13 +91,13 @@ class DynamicBvh final : public BroadPhase {
   AabbMargin margin_;
   Pairs how_ = Pairs::searched;
   PairCache pairs_;
-  std::size_t count_ = 0;               // number of bodies
-  std::size_t frames_ = 0;              // frames since the tree was loaded
-  std::size_t wait_ = 0;                // frames for which pairs are not kept
-  std::vector<std::uint8_t> state_;     // indexed by body
-  std::vector<std::uint32_t> leavers_;  // bodies that have left their boxes, or are new, in this
-                                        // frame
-  PairSink found_;                      // their pairs
+  std::size_t count_ = 0;            // number of bodies
+  std::size_t frames_ = 0;           // frames since the tree was loaded
+  std::size_t wait_ = 0;             // frames for which pairs are not kept
+  std::vector<std::uint8_t> state_;  // indexed by body
+  // Bodies that have left their boxes, or are new, in this frame.
+  std::vector<std::uint32_t> leavers_;
+  PairSink found_;  // their pairs
 };
 
 // --- all bodies ---

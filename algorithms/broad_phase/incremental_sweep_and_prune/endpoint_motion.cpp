@@ -18,7 +18,7 @@ void EndpointMotion::start(std::span<const Aabb> before, std::span<const Aabb> n
 void EndpointMotion::list_by_axis(std::span<const std::uint32_t> moved) {
   std::array<std::uint32_t*, 3> ends;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // One more entry is written.
+    // The loop below writes one entry past the end, so each list has room for it.
     if (lists_[axis].size() <= moved.size()) lists_[axis].resize(moved.size() + 1);
     ends[axis] = lists_[axis].data();
   }

@@ -94,9 +94,9 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   RadixSort<Endpoint> radix_sort_;
   AabbSoA arrays_;  // sorted by the minima on the best axis for a sweep; by id for inserted bodies
   std::size_t axis_ = 0;
-  bool swept_ = false;           // true while the pairs are yet to be found by a sweep
-  bool are_all_sorted_ = false;  // true if all axes are sorted, false if only the one of the sweep
-                                 // is
+  bool swept_ = false;  // true while the pairs are yet to be found by a sweep
+  // True if all axes are sorted, false if only the one of the sweep is.
+  bool are_all_sorted_ = false;
   PairSink found_;
   PairSet set_;
   EndpointMotion motion_;  // motion of the walkers

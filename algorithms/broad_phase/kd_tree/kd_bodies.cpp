@@ -72,7 +72,7 @@ std::uint32_t KdBodies::keep(std::uint32_t first, std::uint32_t last, std::size_
     count += large ? 1 : 0;
     greatest = std::max(greatest, large ? 0 : size);
   }
-  // They are tested against each other, which must not cost more than the rest.
+  // Large bodies are all tested against each other, so their number is limited.
   const double all = last - first;
   if (count > std::min(all / 8, 16 * std::sqrt(all))) return first;
   range.size[axis] = greatest;

@@ -1,4 +1,5 @@
-// Part of loose-octree: the keys of boxes, and their sort.
+// Part of loose-octree: computes the keys (Morton code and depth of a box's cell) and sorts the
+// boxes by them.
 #include "algorithms/broad_phase/loose_octree/octree_order.h"
 
 #include <algorithm>

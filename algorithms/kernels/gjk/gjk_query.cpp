@@ -1,4 +1,5 @@
-// One GJK query: the iteration, the distance loop, and EPA if the cores meet.
+// One query of a pair: the fast GJK iteration for the verdict, the GJK distance loop for bounds,
+// and EPA if the cores (the bodies without their rounding radius) share a point.
 #include "algorithms/kernels/gjk/gjk_query.h"
 
 #include <algorithm>

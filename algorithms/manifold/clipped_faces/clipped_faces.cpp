@@ -1,4 +1,4 @@
-// Clipped faces: intersect the two faces that look at each other and keep four corners of that.
+// Clipped faces: intersects the two opposite faces and keeps four corners of the result.
 // Paper:   Gregorius, "Robust contact creation for physics simulations", GDC 2015 (reference face
 //          and incident face); Sutherland, Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
 // Steps:   1. Find the normal and the depth of the least penetration: 15 axes in lanes for boxes, a
@@ -13,13 +13,13 @@
 //             (manifold_reduction.cpp).
 //          7. If the corners miss the depth of step 1, add its witness points as a contact.
 // Departs: the normal is that of the least penetration and need not be a face's: both faces are
-// Departs: the normal is that of the least penetration and need not be a face's: both faces are
 //          projected along it, neither is the reference, and each corner is lifted into both.
 //          Corners of zero depth end the area where the bodies part. A face or edge that is tilted
 //          by more than 25 degrees counts as the edge or point of it that lies furthest; crossing
 //          edges, and points, make one contact, the witness points of the penetration. The rim of a
 //          cylinder or cone is an inscribed polygon of 16 corners, a straight side is an edge, and
 //          a capsule is its axis with a radius. Against a half-space the only cut is at depth zero.
+// Answers: points are on the surface, or in the body, up to rounding (1e-13 of the size in double,
 //          1e-4 in float) and that of the world's coordinates; the greatest depth is the depth of
 //          the penetration to 1e-8 and 1e-4. Points of cylinders, cones and ellipsoids are up
 //          to 1e-9 of the size off the line of the normal, which is EPA's tolerance.

@@ -29,17 +29,17 @@ template <class Scalar>
 struct LaneGoal {
   const LaneShape<Scalar>* shapes;
   const hull_scan::VertexBlock<Scalar>* some_vertices;  // of some hull, if there is one
-  int halves_a, halves_b;                               // half edges: 3 of a box, 1 of a segment,
-                                                        // else 0
-  std::uint32_t vertices_a, vertices_b;  // rotated hulls: the greatest number of vertices, rounded
-                                         // up to fours; else 0
-  bool scans_a, scans_b;                 // hulls that are scanned instead of rotated
-  bool round;                            // a body has a radius
-  bool centred;                          // all centres are the origins of the bodies
+  // Half edges: 3 of a box, 1 of a segment, else 0.
+  int halves_a, halves_b;
+  // Rotated hulls: the greatest number of vertices, rounded up to fours; else 0.
+  std::uint32_t vertices_a, vertices_b;
+  bool scans_a, scans_b;  // hulls that are scanned instead of rotated
+  bool round;             // a body has a radius
+  bool centred;           // all centres are the origins of the bodies
   bool distances;
   DepthStarts<Scalar>* starts;  // if depths are requested
-  Scalar corner_error;  // upper bound on the rounding error of a point of the difference, in the
-                        // unit
+  // Upper bound on the rounding error of a point of the difference, in the unit.
+  Scalar corner_error;
   Scalar tolerance;
   Scalar most_iterations;
   std::int32_t most_expansions;  // including the iterations of GJK

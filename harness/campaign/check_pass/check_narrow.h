@@ -69,7 +69,7 @@ class NarrowCheck {
   const measure::BlockInput* input_;
   std::span<const measure::NarrowSet> sets_;
   std::set<Key> out_;       // crashed, hung or too slow on such pairs: no longer run
-  std::set<Key> reported_;  // discrepancies are reported once a block
+  std::set<Key> reported_;  // departures are reported once a block
 };
 
 }  // namespace touchstone::campaign

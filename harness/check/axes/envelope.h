@@ -1,4 +1,5 @@
-// The envelope of an algorithm: the first value of each axis at which it gives up or is wrong.
+// The envelope of an algorithm: for each axis, the first value at which it gives up, is wrong,
+// crashes or hangs. Used by the command stress.
 #pragma once
 
 #include <array>
@@ -35,7 +36,8 @@ struct Reach {
 // those of algorithms that take no pair of the axis. The request must outlive the result.
 std::vector<Reach> envelope(const StressRequest& request, std::span<const StressRow> rows);
 
-// Lists the broken promises of ours in double, one line each: silently wrong, crashed or hung.
+// Lists the failures of ours in double that the contract excludes, one line each: silently wrong,
+// crashed or hung.
 std::vector<std::string> broken_promises(const StressRequest& request,
                                          std::span<const StressRow> rows);
 

@@ -1,4 +1,4 @@
-// Draws the cases of a cell, asks every algorithm, and counts its answers.
+// Draws the cases of a cell, runs every algorithm on them, and counts its answers.
 #include "harness/check/axes/stress_cell.h"
 
 #include <algorithm>

@@ -37,7 +37,7 @@ struct CellResult {
   }
 };
 
-// Asks every algorithm of the request, in each of its scalars, each task that it offers.
+// Runs every algorithm of the request, in each scalar, on each task that it offers.
 CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle);
 
 // Returns the cell's cases with their exact answers.

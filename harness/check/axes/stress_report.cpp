@@ -11,7 +11,7 @@
 namespace touchstone::check {
 namespace {
 
-constexpr std::size_t most_lines = 40;  // number of broken promises
+constexpr std::size_t most_lines = 40;  // number of failures listed
 
 std::string promise(const StressRequest& request, const StressResult& result) {
   const bool asked = std::ranges::any_of(result.reaches, [&](const Reach& reach) {

@@ -20,7 +20,7 @@ struct StressRow {
   Precision scalar{};
   Task task{};
   std::array<std::int32_t, grade::all_answer_classes.size()> counts{};
-  std::int32_t skipped = 0;       // not asked, after too many crashes and hangs
+  std::int32_t skipped = 0;       // queries left out after too many crashes and hangs
   double margin = Outcome::none;  // greatest of the cell: see wrong_margin and worst_error
   double error = Outcome::none;
   // Indices of cases, or -1: the worst silent error, and the first query that crashed or hung.
@@ -30,15 +30,15 @@ struct StressRow {
   std::int32_t count(grade::AnswerClass outcome) const {
     return counts[static_cast<std::size_t>(outcome)];
   }
-  // Returns the number of answers that were asked for and graded.
+  // Returns the number of graded answers.
   std::int32_t answers() const {
     return std::accumulate(counts.begin(), counts.end(), std::int32_t{0});
   }
   void add(grade::AnswerClass outcome) { ++counts[static_cast<std::size_t>(outcome)]; }
 };
 
-// Returns how bad a silent error is: a wrong side of contact is worse than a wrong number. Both are
-// NaN if there is none.
+// Returns how bad a silent error is: a wrong side of contact is worse than a wrong number. An
+// argument is NaN if there is no such error; if both are, the result is 0.
 inline double badness(double margin, double error) {
   if (!std::isnan(margin)) return 1e3 * (1 + margin);
   return std::isnan(error) ? 0 : std::min(error, 1e3);

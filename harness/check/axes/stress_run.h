@@ -15,10 +15,10 @@ struct StressResult {
   std::vector<CellSummary> cells;
   std::vector<Reach> reaches;
   std::vector<FailureCase> failures;
-  std::vector<std::string> broken;  // broken promises of ours in double, one line each
+  std::vector<std::string> broken;  // see broken_promises
 };
 
-// Asks everything and writes stress.csv, cells.csv, progress.csv, envelope.csv, machine.csv and
+// Runs all queries and writes stress.csv, cells.csv, progress.csv, envelope.csv, machine.csv and
 // failures/ into the request's folder, which it creates. Progress goes to standard error. Throws
 // InputError if the folder cannot be written or resumed. The request must outlive the result.
 StressResult run_stress(const StressRequest& request);

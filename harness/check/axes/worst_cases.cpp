@@ -1,4 +1,4 @@
-// Selects the worst cases of a sweep and asks them again.
+// Selects the worst cases of a sweep and runs them again.
 #include "harness/check/axes/worst_cases.h"
 
 #include <algorithm>

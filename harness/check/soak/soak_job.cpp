@@ -1,4 +1,4 @@
-// Draws the cases of a job, asks the algorithms and counts their verdicts.
+// Draws the cases of a job, runs the algorithms on them and counts their verdicts.
 #include "harness/check/soak/soak_job.h"
 
 #include <array>

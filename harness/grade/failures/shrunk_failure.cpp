@@ -18,7 +18,7 @@ constexpr int shrink_budget = 400;           // queries
 constexpr double shrink_seconds = 1;         // wall clock, for one case
 constexpr std::size_t most_bytes = 1 << 20;  // size of a shrunk case, bytes
 
-// Asks the query in this process.
+// Runs the query in this process.
 GradedAnswer ask(const FailedQuery& failed, const files::Case& c, oracle::Oracle& oracle) {
   TrueCase true_case(c, failed.answer.index, oracle);
   const Query query = query_of(failed.answer);
@@ -56,7 +56,7 @@ bool is_alike(const GradedAnswer& small, const GradedAnswer& failure) {
 
 files::Case shrunk(const FailedQuery& failed) {
   const GradedAnswer& failure = failed.answer;
-  // Without a badness there is no way to tell whether a smaller case is as bad.
+  // Without a badness, two cases cannot be compared.
   if (failure.given.verdict == Verdict::timed_out || badness(failure) == 0) return failed.original;
   oracle::Oracle oracle;
   const base::Stopwatch watch;

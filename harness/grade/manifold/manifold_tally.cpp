@@ -1,4 +1,4 @@
-// Tabulates grades of manifolds, and lists broken promises of ours.
+// Tabulates grades of manifolds, and lists the limits that ours exceed.
 #include "harness/grade/manifold/manifold_tally.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 namespace touchstone::grade {
 namespace {
 
-// The promises of our algorithms, as parts of the size.
+// The limits of our algorithms, as parts of the size.
 struct Limits {
   double off_body, depth_error;
 };

@@ -13,16 +13,17 @@ namespace touchstone::grade {
 
 class ManifoldTally {
  public:
-  // Adds a grade under the table's name for the algorithm. Ours are held to their promises.
+  // Adds a grade under the table's name for the algorithm. Grades of ours are compared with their
+  // documented limits.
   void add(const std::string& family, const std::string& algorithm, const AlgorithmInfo& info,
            Precision scalar, const files::Case& c, const ManifoldTruth& truth,
            const Manifold& manifold);
 
-  // Returns a table with a row for each family and algorithm: cases asked and missed, and the worst
+  // Returns a table with a row for each family and algorithm: cases run and missed, and the worst
   // of each grade.
   base::Table table() const;
 
-  // Lists the broken promises of ours, one line each; empty if there are none.
+  // Lists the limits that ours exceed, one line each; empty if there are none.
   const std::vector<std::string>& ours_wrong() const { return wrong_; }
 
  private:

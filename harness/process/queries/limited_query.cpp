@@ -1,4 +1,4 @@
-// Asks queries in children, each under a limit of processor time and one of wall-clock time.
+// Runs queries in children, each under a limit of processor time and one of wall-clock time.
 #include "harness/process/queries/limited_query.h"
 
 #include <sys/time.h>
@@ -56,7 +56,7 @@ class Asker {
     });
   }
 
-  // Asks the queries at these places.
+  // Runs the queries at these places.
   Asked ask(std::span<const std::size_t> places, SharedArray<Outcome>& outcomes) const {
     const IsolationLimits isolation = {.item_seconds = clock_factor * limits_.seconds,
                                        .setup_seconds = clock_factor * bind_seconds,
@@ -108,7 +108,7 @@ std::vector<Outcome> ask_limited(const NarrowPhaseEntry& entry, const NarrowPhas
   std::vector<std::size_t> all(queries.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   Asked asked = asker.ask(all, outcomes);
-  // A second try tells a hanging query from a machine that stood still.
+  // A second attempt distinguishes a query that hangs from a machine that was suspended.
   for (const Asked::Range& range : asked.by_clock) {
     const std::span<const std::size_t> again(all.data() + range.first, range.end - range.first);
     std::ranges::copy(asker.ask(again, outcomes).states,

@@ -18,10 +18,10 @@ struct QueryLimits {
   // Processor time of one query; other load on the machine does not count. A query that waits
   // instead has twenty times as long by the wall clock, twice.
   double seconds = 0.5;
-  std::size_t lost = 3;  // the rest is not asked after so many crashes and hangs
+  std::size_t lost = 3;  // the number of crashes and hangs after which the rest is skipped
 };
 
-// Returns the outcome of each query, asked in a child process; crashed and timed_out are statuses.
+// Returns the outcome of each query, run in a child process; crashed and timed_out are statuses.
 // The algorithm is made and given its shapes for each case alone (see solve_case.h). Binding large
 // hulls takes longer than a query. So, if there are any, all shapes are bound before the queries,
 // within three seconds of processor time.

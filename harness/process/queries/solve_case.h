@@ -1,4 +1,5 @@
-// Solves one case, for `query` as for `check`.
+// Solves one case with one algorithm. Used by query, check, stress, and by the grading and
+// shrinking of cases.
 #pragma once
 
 #include <array>

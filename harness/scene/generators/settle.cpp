@@ -1,4 +1,5 @@
-// Moves a body until the oracle's signed distance is the requested one.
+// Moves a body until the exact signed distance has a given value, along the shortest way (settle)
+// or along a given line (meet). Used by the generator pairs and by bench.
 #include "harness/scene/generators/settle.h"
 
 #include <algorithm>

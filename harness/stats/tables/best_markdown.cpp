@@ -1,4 +1,5 @@
-// Tables of the best, as Markdown.
+// Writes two tables as Markdown: the best of our broad phases and of our narrow phases, each
+// against the best library. Used by tables_markdown.cpp.
 #include "harness/stats/tables/best_markdown.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,7 @@
 
 namespace touchstone::stats {
 
-// The table is for sets in which ours have others to be compared with.
+// A row needs a peer or a limit to be compared with.
 std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
   base::Table table({"input", "ours", "peer", "of Bullet and FCL", "ours, ms", "peer, ms",
                      "peer / ours", "95 % interval", "Bullet or FCL, ms", "/ ours", "95 % interval",

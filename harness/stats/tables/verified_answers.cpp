@@ -1,4 +1,4 @@
-// What the verified frames say of a contestant: whether it is right, and how much it worked.
+// Derives from the verified frames whether a contestant is right, and sums its work.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -186,7 +186,7 @@ class Search {
     for (std::size_t k = 0; k < members.size(); ++k) {
       TimedPoint& timed = all_[members[k]].timed;
       timed = std::move(times.points[k]);
-      // It is the last in its order.
+      // A configuration without a time becomes the last in the order.
       if (!timed.ok()) timed.seconds = std::numeric_limits<double>::infinity();
     }
     advice_.control = times.control;

@@ -24,7 +24,7 @@ struct SceneFrames {
   // of a scene in which nothing moves. Throws InputError for a recording, which has no bodies.
   SceneFrames(const scene::Scene& scene, int most_frames);
 
-  // Is true for a scene of one frame: nothing moves, and each pair is solved once.
+  // Returns true for a scene of one frame, in which each pair is solved once.
   bool is_static() const { return frames.size() == 1; }
   // An index into configuration.h's kinds of bodies.
   std::size_t kind_of(std::size_t body) const;

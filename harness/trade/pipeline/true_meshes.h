@@ -21,7 +21,7 @@ bool is_inside(const geometry::Mesh& mesh, const Vec3d& point);
 
 class TrueMeshes {
  public:
-  // Both outlive it.
+  // The frames and the executor must outlive this object.
   TrueMeshes(const SceneFrames& frames, Executor& executor);
 
   // Returns the answer and the gap; the gap is NaN in contact, because meshes have no depth. Calls
