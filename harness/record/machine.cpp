@@ -222,7 +222,9 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
   std::string commit = git("rev-parse HEAD");
   if (!commit.empty()) commit.pop_back();
   add("commit", commit);
-  add("tree", commit.empty() ? "" : git("status --porcelain").empty() ? "clean" : "changed");
+  // Results are no source: those of an earlier run may have changed.
+  const bool clean = git("status --porcelain -- . ':(exclude)results'").empty();
+  add("tree", commit.empty() ? "" : clean ? "clean" : "changed");
   add(command_line_fact, command_line());
   return facts;
 }

@@ -12,7 +12,7 @@ namespace touchstone::record {
 
 // Returns facts as name and value, "unknown" if the system does not report it: processor, cores,
 // caches, governor, turbo, kernel, memory, limits, compiler and flags, vector instructions in use,
-// versions of the libraries, commit, changes of the tree since, command line.
+// versions of the libraries, commit, changes of the tree (but results/) since, command line.
 std::vector<std::pair<std::string, std::string>> machine_facts();
 // The fact that may differ when a run is resumed.
 inline constexpr std::string_view command_line_fact = "command_line";
