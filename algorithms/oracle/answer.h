@@ -1,6 +1,5 @@
 // Part of the oracle, used by exact.cpp and certified: the exact answer as a narrow phase's
 // outcome.
-// outcome.
 #pragma once
 
 #include "algorithms/core/outcome.h"
