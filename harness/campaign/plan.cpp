@@ -15,7 +15,7 @@
 namespace touchstone::campaign {
 namespace {
 
-constexpr int tried_frames = 2;
+constexpr int planned_frames = 2;
 
 }  // namespace
 
@@ -43,9 +43,9 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     const auto frames = static_cast<std::size_t>(
         scene.recording.empty() ? scene.frames : static_cast<int>(scene.recording.size()));
     if (!has_pairs) {
-      scene.frames = std::min(scene.frames, tried_frames);
+      scene.frames = std::min(scene.frames, planned_frames);
       if (!scene.recording.empty()) {
-        scene.recording.resize(std::min<std::size_t>(frames, tried_frames));
+        scene.recording.resize(std::min<std::size_t>(frames, planned_frames));
       }
     }
     const base::Stopwatch watch;

@@ -17,7 +17,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct AdviseOptions {
   trade::TradeRequest request;
   trade::ErrorBudget budget;
   std::string scene, list, out, error;
@@ -50,7 +50,7 @@ int advise(const trade::AdviceTask& task, const std::filesystem::path& folder, i
   return verification.holds() ? exit_done : exit_measured_wrong;
 }
 
-int advise(Options& options) {
+int advise(AdviseOptions& options) {
   std::vector<trade::AdviceTask> tasks;
   std::filesystem::path folder;
   if (!options.list.empty()) {
@@ -88,7 +88,7 @@ int advise(Options& options) {
 }  // namespace
 
 void add_advise(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AdviseOptions>();
   const Option scene =
       command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json");
   Option list = command.text("--list", options->list, "File of scenes, each with its own error");

@@ -18,7 +18,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::string narrow = "all", broad = "all", regimes, groups, out, page, certificates, saved;
   check::CheckRequest request;
 };
@@ -64,7 +64,7 @@ int verify(const std::string& file) {
   return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
 }
 
-int check(Options& options, const std::string& command) {
+int check(CheckOptions& options, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
   check::CheckRequest& request = options.request;
   request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
@@ -91,7 +91,7 @@ int check(Options& options, const std::string& command) {
 }  // namespace
 
 void add_check(Arguments command) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckOptions>();
   check::CheckRequest& request = options->request;
   add_case_options(command, request, options->narrow, options->out, "check", "check");
   command.text("--broad", options->broad, "Broad phases: names, all, ours, peers, none")

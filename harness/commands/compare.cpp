@@ -22,7 +22,7 @@ namespace {
 
 using namespace stats;
 
-struct Options {
+struct CompareOptions {
   std::vector<std::string> files, programs;
   std::string out, csv;
   double threshold = 0.03;
@@ -59,7 +59,7 @@ void print(const std::vector<stats::ComparedCell>& cells, double threshold) {
 }
 
 // Prints the judgement of A and B. Returns the exit status.
-int judge(const Options& options, const stats::Results& a, const stats::Results& b,
+int judge(const CompareOptions& options, const stats::Results& a, const stats::Results& b,
           const std::vector<stats::ComparedCell>& cells) {
   print("A and B differ in", stats::remarks(a, b));
   print(cells, options.threshold);
@@ -85,7 +85,7 @@ int not_comparable(const std::vector<std::string>& reasons) {
   return exit_bad_request;
 }
 
-int compare_files(const Options& options) {
+int compare_files(const CompareOptions& options) {
   if (options.files.size() != 2) {
     throw base::InputError(
         fmt::format("found {} results; expected two, A and B", options.files.size()));
@@ -111,7 +111,7 @@ stats::Results run(const std::string& program, const std::string& campaign,
   return stats::read_results(folder);
 }
 
-int compare_programs(const Options& options) {
+int compare_programs(const CompareOptions& options) {
   if (options.programs.size() != 2) {
     throw base::InputError(
         fmt::format("found {} times --exe; expected it twice, A and B", options.programs.size()));
@@ -153,7 +153,7 @@ int compare_programs(const Options& options) {
 }  // namespace
 
 void add_compare(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   command.texts("results", options->files,
                 "A and B: results folders, or raw.csv files. With --exe: a campaign file "
                 "(default: datasets/campaigns/compare.toml)");

@@ -17,7 +17,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct DrawOptions {
   std::string scene, out, view = "corner";
   scene::SceneOverrides overrides;
   int frame = 0, width = 1280, height = 960;
@@ -66,7 +66,7 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
   return states;
 }
 
-void draw(const Options& options) {
+void draw(const DrawOptions& options) {
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
   if (options.frame < 0 || options.frame >= scene.frames) {
     throw base::InputError(fmt::format("--frame {}: {} has frames 0 to {}", options.frame,
@@ -91,7 +91,7 @@ void draw(const Options& options) {
 }  // namespace
 
 void add_draw(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DrawOptions>();
   command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
       .required();
   command.text("--out", options->out, "The picture, .png")

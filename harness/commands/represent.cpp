@@ -20,7 +20,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct RepresentOptions {
   std::string scene, out;
   std::vector<std::string> forms = {"sphere",  "box",     "oriented-box", "dop-14",
                                     "dop-18",  "dop-26",  "capsule",      "hull-8",
@@ -29,7 +29,7 @@ struct Options {
   scene::SceneOverrides overrides;
 };
 
-std::vector<proxies::Representation> representations(const Options& options) {
+std::vector<proxies::Representation> representations(const RepresentOptions& options) {
   std::vector<proxies::Representation> list;
   for (const std::string& form : options.forms) {
     proxies::Representation r = proxies::parse_representation(form);
@@ -120,7 +120,7 @@ void print(const scene::Scene& scene, const std::vector<proxies::Representation>
       scene.name, table.text(base::page_width()));
 }
 
-void run(const Options& options) {
+void run(const RepresentOptions& options) {
   const std::vector<proxies::Representation> list = representations(options);
   files::check_output(options.out);
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
@@ -175,7 +175,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_represent(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RepresentOptions>();
   command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
   command
       .texts("--forms", options->forms,

@@ -21,7 +21,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string campaign, out;
   // These options describe a campaign of one group on the command line.
   std::vector<std::string> scenes;
@@ -41,7 +41,7 @@ struct Options {
   double depth_error = stats::usual_depth_error;
 };
 
-campaign::Campaign campaign_of(const Options& options) {
+campaign::Campaign campaign_of(const RunOptions& options) {
   if (options.scenes.empty()) {
     return campaign::read_campaign(options.campaign.empty()
                                        ? std::filesystem::path(record::source_folder) /
@@ -101,13 +101,13 @@ void print_plan(const campaign::Campaign& campaign) {
       blocks.size(), cells, check_seconds, seconds);
 }
 
-record::FolderStart start_of(const Options& options) {
+record::FolderStart start_of(const RunOptions& options) {
   if (options.resume) return record::FolderStart::resume;
   return options.overwrite ? record::FolderStart::overwrite : record::FolderStart::fresh;
 }
 
 // Runs the file of a trade instead of a campaign; it has no option but --out.
-int run_trade_file(const Options& options) {
+int run_trade_file(const RunOptions& options) {
   if (options.resume || options.overwrite || options.strict || options.noisy || options.dry_run) {
     throw base::InputError(options.campaign +
                            " has a table [trade]; expected no option but --out with such a file");
@@ -117,7 +117,7 @@ int run_trade_file(const Options& options) {
 
 // Writes tables.md and prints the summary, or all tables on request.
 void report(const campaign::Campaign& campaign, const campaign::RunResult& result,
-            const std::filesystem::path& folder, const Options& options) {
+            const std::filesystem::path& folder, const RunOptions& options) {
   const stats::Noise noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out;
   const stats::Results results = stats::read_results(folder);
   const stats::Tables tables = stats::make_tables(results, noise, options.depth_error);
@@ -132,7 +132,7 @@ void report(const campaign::Campaign& campaign, const campaign::RunResult& resul
   fmt::print("{}", stats::summary(results, tables, result.findings.departures(), folder));
 }
 
-int run(const Options& options) {
+int run(const RunOptions& options) {
   if (!options.campaign.empty() && files::has_key(options.campaign, "trade"))
     return run_trade_file(options);
   const campaign::Campaign campaign = campaign_of(options);
@@ -161,7 +161,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_run(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   const Option campaign = command.text(
       "campaign", options->campaign, "Campaign file (.toml); without one, the standard comparison");
   command.text("--out", options->out,

@@ -15,7 +15,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct SoakOptions {
   std::string narrow = "certified", out;
   check::SoakRequest request;
 };
@@ -40,7 +40,7 @@ void print(const check::SoakRequest& request, const check::SoakResult& result) {
   fmt::print("{}", table.text(base::page_width()));
 }
 
-int soak(Options& options) {
+int soak(SoakOptions& options) {
   check::SoakRequest& request = options.request;
   request.narrow =
       campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
@@ -55,7 +55,7 @@ int soak(Options& options) {
 }  // namespace
 
 void add_soak(Arguments command) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SoakOptions>();
   check::SoakRequest& request = options->request;
   add_case_options(command, request, options->narrow, options->out, "soak", "soak");
   command.number("--pairs", request.pairs, "Pairs in all, spread over the regimes")

@@ -18,7 +18,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct StressOptions {
   std::string narrow = "all", axes, out, page;
   bool quick = false;
   check::StressRequest request;
@@ -45,7 +45,7 @@ std::vector<const check::StressAxis*> chosen_axes(const std::string& names) {
   return chosen;
 }
 
-void write_page(const Options& options, const check::StressResult& result,
+void write_page(const StressOptions& options, const check::StressResult& result,
                 const std::string& command, bool drawn) {
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
   const std::string pictures = std::filesystem::absolute(options.request.out / "figures")
@@ -55,7 +55,7 @@ void write_page(const Options& options, const check::StressResult& result,
                     check::stress_page(options.request, result, command, drawn ? pictures : ""));
 }
 
-int stress(Options& options, const std::string& command) {
+int stress(StressOptions& options, const std::string& command) {
   check::StressRequest& request = options.request;
   request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
   if (request.narrow.empty()) {
@@ -90,7 +90,7 @@ int stress(Options& options, const std::string& command) {
 }  // namespace
 
 void add_stress(Arguments command) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StressOptions>();
   check::StressRequest& request = options->request;
   add_case_options(command, request, options->narrow, options->out, "stress", "sweep");
   command.text("--axes", options->axes, "Axes: names joined by commas (default: all)");

@@ -25,7 +25,7 @@ namespace {
 
 using namespace stats;
 
-struct Options {
+struct TablesOptions {
   std::string results, reference, out, campaign;
   double band = 1.5, depth_error = stats::usual_depth_error;
   bool check = false, noisy = false;
@@ -49,7 +49,7 @@ std::optional<record::RowOrigin> origin_of(bool narrow, const std::string& name)
 }
 
 int write(const stats::Results& results, const std::filesystem::path& folder,
-          const Options& options) {
+          const TablesOptions& options) {
   const stats::Tables tables = stats::make_tables(
       results, options.noisy ? stats::Noise::kept : stats::Noise::left_out, options.depth_error);
   std::filesystem::create_directories(folder);
@@ -61,7 +61,8 @@ int write(const stats::Results& results, const std::filesystem::path& folder,
 }
 
 // Runs the reference's campaign with this program in a process of its own. Returns the folder.
-std::filesystem::path run_again(const std::filesystem::path& reference, const Options& options) {
+std::filesystem::path run_again(const std::filesystem::path& reference,
+                                const TablesOptions& options) {
   const std::filesystem::path source(record::source_folder);
   std::filesystem::path campaign = options.campaign;
   if (campaign.empty()) {
@@ -96,7 +97,7 @@ void print(const std::string& title, const std::vector<std::string>& lines) {
 }
 
 int check(const std::filesystem::path& reference, const std::filesystem::path& results,
-          const Options& options) {
+          const TablesOptions& options) {
   const stats::TableCheck found =
       stats::check_tables(reference, stats::read_results(results),
                           options.noisy ? stats::Noise::kept : stats::Noise::left_out);
@@ -126,7 +127,7 @@ int check(const std::filesystem::path& reference, const std::filesystem::path& r
   return count(stats::Holds::fail) > 0 || !found.changed.empty() ? exit_measured_wrong : exit_done;
 }
 
-int tables(const Options& options) {
+int tables(const TablesOptions& options) {
   if (!options.check && options.reference.empty() && !options.results.empty()) {
     return write(stats::read_results(options.results, origin_of),
                  options.out.empty() ? std::filesystem::is_directory(options.results)
@@ -152,7 +153,7 @@ int tables(const Options& options) {
 }  // namespace
 
 void add_tables(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TablesOptions>();
   command.text("results", options->results,
                "Results folder, or raw.csv: its tables are written beside it. Without one, "
                "the campaign of the reference is run again and checked");

@@ -17,7 +17,7 @@
 namespace touchstone::commands {
 namespace {
 
-struct Options {
+struct TradeOptions {
   trade::TradeRequest request;
   std::string scene, out, error;
   bool plain = false;
@@ -78,7 +78,7 @@ void take_measure(const std::string& name, trade::TradeRequest& request) {
 }
 
 void add_trade(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TradeOptions>();
   command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
   command.text(
       "--out", options->out,
@@ -96,7 +96,7 @@ void add_trade(Arguments command) {
 }
 
 void add_run_trade(Arguments command) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TradeOptions>();
   command.text("campaign", options->scene, "A file with a table [trade]").required();
   command.text("--out", options->out, "Folder (default: results/local/trade-NAME in the project)");
   command.job([options] {

@@ -52,9 +52,9 @@ void columns(Row& row, Visit visit) {
   visit("row", with_sign(row.row), "Place in raw.csv, from 0, of the row that shows it.");
   visit("algorithm", row.algorithm, "The algorithm's label, as in the tables.");
   visit("ours", row.ours, "1 for an algorithm of ours.");
-  visit("known", row.known, "1 where the discrepancy is a known defect, or approximate by design.");
+  visit("known", row.known, "1 where the departure is a known defect, or approximate by design.");
   visit("where", row.where, "Scene, bodies, frame and pair kind.");
-  visit("what", row.what, "The discrepancy in words.");
+  visit("what", row.what, "The departure in words.");
   visit("reproduction", row.reproduction,
         "The file that shows it again; empty where there is none.");
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "harness/base/error.h"
@@ -14,8 +13,6 @@
 
 namespace touchstone::stats {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // The counters of a row, in the order of Work.
 constexpr std::array<std::int64_t record::RawRow::*, work_count> work_fields = {

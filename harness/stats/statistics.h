@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace touchstone::stats {
+
+// It stands for a number that there is none of.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Returns the middle value, or the mean of the middle two; NaN for none. No value is NaN.
 double median(std::vector<double> values);

@@ -1,8 +1,6 @@
 // Checks the ratios of a table against other results.
 #include "harness/stats/table_check.h"
 
-#include <limits>
-
 #include "harness/files/csv.h"
 #include "harness/stats/comparison.h"
 #include "harness/stats/tables/tables.h"
@@ -22,8 +20,6 @@ void columns(Row& row, Visit visit) {
 }
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Returns the cells of the table, without those of the canaries.
 std::vector<CheckedCell> read_bands(const std::filesystem::path& file) {

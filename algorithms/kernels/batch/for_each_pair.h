@@ -36,12 +36,14 @@ void for_each_bounded_pair(Task task, const Batch& batch,
                            const std::vector<SupportShape<Scalar>>& shapes,
                            ShapePrefetch<Scalar>& ahead, bool far_too, std::span<Outcome> outcomes,
                            const SolvePair& solve_pair) {
-  for_each_pair(batch.pairs, shapes, ahead, far_too, [&](std::size_t i, const auto&... bodies) {
-    if (batch.kind_b != ShapeKind::halfspace) return solve_pair(i, bodies...);
-    const auto solve =
-        batch.kind_a == batch.kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
-    solve(bodies..., task, outcomes[i]);
-  });
+  if (batch.kind_b != ShapeKind::halfspace) {
+    for_each_pair(batch.pairs, shapes, ahead, far_too, solve_pair);
+    return;
+  }
+  const auto solve =
+      batch.kind_a == batch.kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
+  for_each_pair(batch.pairs, shapes, ahead, far_too,
+                [&](std::size_t i, const auto&... bodies) { solve(bodies..., task, outcomes[i]); });
 }
 
 }  // namespace touchstone

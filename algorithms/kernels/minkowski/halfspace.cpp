@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/core/cofactors.h"
+
 namespace touchstone {
 namespace {
 
@@ -25,11 +27,7 @@ struct WorldPlane {
 template <class Scalar>
 WorldPlane world_plane(const SupportShape<Scalar>& halfspace, const Pose& pose) {
   const Mat3<Wide> matrix = pose.rotation.cast<Wide>();
-  // Written out: a call of cofactor_matrix costs a twentieth of the query.
-  Mat3<Wide> cofactors;
-  for (int i = 0; i < 3; ++i) {
-    cofactors.row(i) = matrix.row((i + 1) % 3).cross(matrix.row((i + 2) % 3));
-  }
+  const Mat3<Wide> cofactors = cofactor_matrix(matrix);
   const Wide determinant = matrix.row(0).dot(cofactors.row(0));
   const Wide3 normal = cofactors * wide(halfspace.normal);
   const Wide length = std::copysign(normal.norm(), determinant);

@@ -62,7 +62,7 @@ struct Resting {
   double reach;  // approximate extent of the face
 };
 
-Resting box_of(const Vec3d& half, double side) {
+Resting resting_box(const Vec3d& half, double side) {
   Resting body;
   body.shape.kind = ShapeKind::box;
   body.shape.half_extents = half;
@@ -73,7 +73,7 @@ Resting box_of(const Vec3d& half, double side) {
 }
 
 // Returns a hull that lies on its largest face.
-Resting hull_of(double scale, base::Random& random) {
+Resting resting_hull(double scale, base::Random& random) {
   std::vector<Vec3d> points(8 + random.below(17));
   const Vec3d radii{random.uniform(0.4, 1), random.uniform(0.4, 1), random.uniform(0.3, 1)};
   for (Vec3d& point : points) point = scale * random.on_sphere().cwiseProduct(radii);
@@ -100,7 +100,7 @@ Resting hull_of(double scale, base::Random& random) {
   return body;
 }
 
-Vec3d across(const Vec3d& normal, base::Random& random) {
+Vec3d random_tangent(const Vec3d& normal, base::Random& random) {
   for (;;) {
     const Vec3d direction = random.on_sphere();
     const Vec3d part = direction - direction.dot(normal) * normal;
@@ -166,9 +166,9 @@ files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::u
   Vec3d half_b = recipe.place == Place::same ? half_a : random_half(random);
   if (recipe.place == Place::inside) half_b = half_a.cwiseProduct(Vec3d(0.3, 0.4, 0.5));
   const Resting a =
-      recipe.hull_a ? hull_of(recipe.scale, random) : box_of(recipe.scale * half_a, 1);
+      recipe.hull_a ? resting_hull(recipe.scale, random) : resting_box(recipe.scale * half_a, 1);
   const Resting b =
-      recipe.hull_b ? hull_of(recipe.scale, random) : box_of(recipe.scale * half_b, -1);
+      recipe.hull_b ? resting_hull(recipe.scale, random) : resting_box(recipe.scale * half_b, -1);
   const double least_depth = recipe.place == Place::edge ? 1e-8 : 1e-6;
   const double depth =
       recipe.scale * random.magnitude(least_depth, recipe.place == Place::edge ? 1e-7 : 1e-3);
@@ -183,11 +183,13 @@ files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::u
   Vec3d offset = recipe.scale * place_on(recipe.place, half_a, half_b, random);
   if (recipe.place == Place::anywhere) {
     turn = Eigen::AngleAxisd(random.uniform(0, 6.28), a.normal).toRotationMatrix() * turn;
-    offset = random.uniform(0, 0.7) * (a.reach + b.reach) * across(a.normal, random);
-    if (recipe.tilt > 0) offset = random.uniform(0, 0.6) * a.reach * across(a.normal, random);
+    offset = random.uniform(0, 0.7) * (a.reach + b.reach) * random_tangent(a.normal, random);
+    if (recipe.tilt > 0)
+      offset = random.uniform(0, 0.6) * a.reach * random_tangent(a.normal, random);
   }
   if (recipe.tilt > 0) {
-    turn = Eigen::AngleAxisd(recipe.tilt, across(a.normal, random)).toRotationMatrix() * turn;
+    turn =
+        Eigen::AngleAxisd(recipe.tilt, random_tangent(a.normal, random)).toRotationMatrix() * turn;
   }
   // A tilted body stands on a's face with its lowest corner.
   const Vec3d foot = recipe.tilt > 0 ? lowest_corner(b.shape, turn, a.normal) : b.middle;

@@ -33,7 +33,7 @@ double distance_from(const Shape& shape, const Pose& pose, const Vec3d& point) {
 }
 
 // Smaller areas, as a part of the squared size, count as none.
-constexpr Real least_area = 1e-14L;
+constexpr Real area_of_a_line = 1e-14L;
 // Depths within this part of the size of the deepest count as equal to it.
 constexpr Real same_depth = 1e-14L;
 
@@ -87,7 +87,7 @@ ManifoldGrade grade(const files::Case& c, const ManifoldTruth& truth, const Mani
   if (!area || !truth.overlap()) return result;
   const Real square = Real{truth.size} * truth.size;
   const Real whole = hull_area(*area);
-  if (!(whole > least_area * square)) return result;
+  if (!(whole > area_of_a_line * square)) return result;
   std::vector<AreaPoint> points;
   for (const ContactPoint& point : manifold.contacts()) {
     points.push_back(frame.see((point.on_a.cast<Real>() + point.on_b.cast<Real>()) / 2));

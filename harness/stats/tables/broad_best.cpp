@@ -1,7 +1,6 @@
 // The table of broad phases: the best of ours against the best of the others.
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "harness/stats/tables/fastest.h"
 #include "harness/stats/tables/table_parts.h"
@@ -9,7 +8,6 @@
 namespace touchstone::stats {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr MedianInterval none = {nan, nan, nan, 0};
 
 bool is_of_bullet_or_fcl(const Contestant& contestant) {

@@ -1,17 +1,10 @@
 // The table of narrow phases, with speed and error: the best of ours against the others.
 #include <cmath>
-#include <limits>
 
 #include "harness/stats/tables/fastest.h"
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, const Tables& tables) {
   std::vector<NarrowBestRow> rows;
   for (const SampleSet& set : results.sets) {

@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Corrects over a table: each row's p becomes its p_corrected.
 template <class Row>

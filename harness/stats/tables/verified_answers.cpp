@@ -2,19 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 bool is_wrong(const SampleSet& set, const Contestant& contestant) {
   if (set.key.narrow()) {
     return std::ranges::any_of(contestant.checks,

@@ -15,7 +15,7 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr std::size_t most_frames = 4;
+constexpr std::size_t most_held_out_frames = 4;
 
 // The seed of the scene as the request has it; 1 for a scene that is not generated.
 std::int64_t own_seed(const TradeRequest& request) {
@@ -74,7 +74,7 @@ HeldOutScenes::HeldOutScenes(const TradeRequest& request, const Representing& re
     one.name = fmt::format("{} {}", kind_, shown);
     one.scene = std::make_unique<TradeScene>(std::move(*drawn), request_, representing);
     std::vector<std::size_t> order = sampling_order(one.scene->frames.frames.size());
-    order.resize(std::min(order.size(), most_frames));
+    order.resize(std::min(order.size(), most_held_out_frames));
     one.truth = find_truth(one.scene->frames, order, seconds, request.threads);
   }
 }

@@ -65,9 +65,9 @@ const Sequence sequences[] = {
     {.name = "few bodies", .bodies = 3, .side = 0.9f, .frames = 300, .teleported = 0.2f},
 };
 
-class Bodies {
+class SequenceBodies {
  public:
-  Bodies(const Sequence& sequence, Random& random) : sequence_(sequence), random_(random) {
+  SequenceBodies(const Sequence& sequence, Random& random) : sequence_(sequence), random_(random) {
     for (std::size_t i = 0; i < sequence.bodies; ++i) add();
     boxes_[0] = scaled();
   }
@@ -189,12 +189,12 @@ std::string test_name(const testing::TestParamInfo<Sequence>& param) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, LongSequences, testing::ValuesIn(sequences), test_name);
+INSTANTIATE_TEST_SUITE_P(SequenceBodies, LongSequences, testing::ValuesIn(sequences), test_name);
 
 TEST_P(LongSequences, AreFollowed) {
   const Sequence& sequence = GetParam();
   Random random(77);
-  Bodies bodies(sequence, random);
+  SequenceBodies bodies(sequence, random);
   std::vector<Follower> all = followers();
   for (Follower& follower : all) follower.algorithm->build(bodies.boxes());
   std::vector<IndexPair> before;
@@ -240,7 +240,7 @@ TEST(LongSequencesOfChurn, DoNotGrowTheMemory) {
                           .inserted = 0.01f,
                           .removed = 0.01f};
   Random random(78);
-  Bodies bodies(sequence, random);
+  SequenceBodies bodies(sequence, random);
   std::vector<Follower> all = followers();
   for (Follower& follower : all) follower.algorithm->build(bodies.boxes());
   std::vector<std::int64_t> early(all.size());

@@ -32,7 +32,7 @@ Shape random_ellipsoid(Random& random, double aspect) {
 }
 
 // The results of many pairs of one sort.
-struct Tally {
+struct EllipsoidTally {
   int pairs = 0, overlapping = 0, gave_up = 0;
   double worst = 0;  // error of a distance or depth that was `ok`, as a part of the size
 };
@@ -40,12 +40,13 @@ struct Tally {
 double size_of(const Shape& shape) { return std::max(shape.radius, shape.radii.maxCoeff()); }
 
 // Every task of both scalars, each against the enclosure; what is `ok` has to be right.
-Tally check(Precision scalar, int count, unsigned seed, const std::function<Pair(Random&)>& draw) {
+EllipsoidTally check(Precision scalar, int count, unsigned seed,
+                     const std::function<Pair(Random&)>& draw) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("ellipsoid");
   const double accuracy = scalar == Precision::float64 ? 1e-12 : 1e-5;
   oracle::Oracle oracle;
   Random random(seed);
-  Tally tally;
+  EllipsoidTally tally;
   for (int k = 0; k < count; ++k) {
     const Pair pair = draw(random);
     const oracle::Solid solid_a(pair.a), solid_b(pair.b);
@@ -100,7 +101,7 @@ class EllipsoidPairs : public testing::TestWithParam<Precision> {
   // Expects that both answers occur, and that all but `percent` per cent are `ok`.
   void expect_good(int count, unsigned seed, int percent,
                    const std::function<Pair(Random&)>& draw) const {
-    const Tally tally = check(GetParam(), count, seed, draw);
+    const EllipsoidTally tally = check(GetParam(), count, seed, draw);
     EXPECT_LE(tally.gave_up * 100, tally.pairs * percent);
     EXPECT_GE(tally.overlapping, count / 5);
     EXPECT_LE(tally.overlapping, count * 4 / 5);
@@ -136,7 +137,7 @@ TEST_P(EllipsoidPairs, Thin) {
 }
 
 TEST_P(EllipsoidPairs, DeepAndConcentric) {
-  const Tally tally = check(GetParam(), 200, 3, [](Random& random) {
+  const EllipsoidTally tally = check(GetParam(), 200, 3, [](Random& random) {
     const Shape a = ball_or_ellipsoid(random, 4), b = random_ellipsoid(random, 4);
     return place(random, a, b, 0, random() % 2 == 0 ? 0 : 0.05);
   });

@@ -16,8 +16,6 @@ namespace {
 
 using namespace test;
 
-constexpr std::array all_tasks{Task::intersect, Task::distance, Task::penetration};
-
 // One algorithm in one scalar.
 struct Subject {
   const NarrowPhaseEntry* entry;

@@ -19,9 +19,6 @@ namespace {
 
 using namespace test;
 
-constexpr std::array scalars{Precision::float32, Precision::float64};
-constexpr std::array all_tasks{Task::intersect, Task::distance, Task::penetration};
-
 // Hulls of at most sixteen vertices are turned into the lanes; of the others some are scanned.
 constexpr std::array<Kinds, 12> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sphere},
                                                {ShapeKind::sphere, ShapeKind::capsule},

@@ -16,17 +16,14 @@ namespace {
 
 using namespace test;
 
-constexpr std::array scalars{Precision::float32, Precision::float64};
-constexpr std::array all_tasks{Task::intersect, Task::distance, Task::penetration};
-
 const NarrowPhaseEntry& templated() { return *find_narrow_phase("gjk-templated"); }
 const NarrowPhaseEntry& switching() { return *find_narrow_phase("gjk"); }
 
 // near: apart or together by 1e-15 to 0.1 of their size. flat: sizes of zero, needles, sheets.
 // aligned: with axes in common, some with the same centre. stretched: no rotation but any matrix.
-enum class Sort { plain, near, flat, aligned, stretched, huge };
-constexpr std::array sorts{Sort::plain,   Sort::near,      Sort::flat,
-                           Sort::aligned, Sort::stretched, Sort::huge};
+enum class PoseSort { plain, near, flat, aligned, stretched, huge };
+constexpr std::array sorts{PoseSort::plain,   PoseSort::near,      PoseSort::flat,
+                           PoseSort::aligned, PoseSort::stretched, PoseSort::huge};
 
 // A prism with more vertices than hulls that are scanned.
 Shape great_prism() {
@@ -56,30 +53,30 @@ Shape draw(Random& random, ShapeKind kind, bool flat) {
   return shape;
 }
 
-void add_pair(Random& random, Kinds kinds, Sort sort, Pairs& pairs) {
-  const bool flat = sort == Sort::flat;
+void add_pair(Random& random, Kinds kinds, PoseSort sort, Pairs& pairs) {
+  const bool flat = sort == PoseSort::flat;
   const Shape a = draw(random, kinds.a, flat), b = draw(random, kinds.b, flat);
   Pose pose_a{random_rotation(random), random_direction(random)};
   Pose pose_b{random_rotation(random), Vec3d::Zero()};
   Vec3d offset = uniform(random, 0, flat ? 1 : 2.2) * random_direction(random);
-  if (sort == Sort::aligned) {
+  if (sort == PoseSort::aligned) {
     pose_a = {Mat3d::Identity(), Vec3d::Zero()};
     const double angle = M_PI / 2 * static_cast<double>(random() % 3);
     pose_b.rotation = turn(angle, Vec3d::Unit(static_cast<int>(random() % 3)));
     offset = static_cast<double>(random() % 4) / 2 * Vec3d::Unit(static_cast<int>(random() % 3));
   }
-  if (sort == Sort::stretched) {
+  if (sort == PoseSort::stretched) {
     for (double& x : pose_a.rotation.reshaped()) x *= uniform(random, -1, 1.5);
     for (double& x : pose_b.rotation.reshaped()) x += power(random, -17, -0.5);
   }
-  if (sort == Sort::huge) {
+  if (sort == PoseSort::huge) {
     const double scale = power(random, -9, 9);
     for (Pose* pose : {&pose_a, &pose_b}) pose->rotation *= scale;
     offset *= scale;
     pose_a.translation *= power(random, 0, 9);
   }
   pose_b.translation = pose_a.translation + offset;
-  if (sort == Sort::near || flat) {
+  if (sort == PoseSort::near || flat) {
     for (int step = 0; step < 2; ++step) {
       const Task task = step == 0 ? Task::distance : Task::penetration;
       const Outcome found = ask(switching(), {}, task, a, pose_a, b, pose_b);
@@ -114,7 +111,7 @@ std::vector<Outcome> expect_alike(const NarrowPhaseSettings& settings, Task task
   return expected;
 }
 
-std::string name(Kinds kinds, Precision scalar, Task task, Sort sort) {
+std::string name(Kinds kinds, Precision scalar, Task task, PoseSort sort) {
   return std::string(to_string(kinds.a)) + "-" + std::string(to_string(kinds.b)) + " " +
          std::string(to_string(scalar)) + " " + std::string(to_string(task)) + " sort " +
          std::to_string(static_cast<int>(sort));
@@ -135,7 +132,7 @@ TEST(GjkTemplated, HasTheBitsOfGjk) {
   std::array<std::size_t, 4> answers{};
   for (const Kinds kinds : all_kind_pairs()) {
     std::array<std::size_t, 4> of_kinds{};
-    for (const Sort sort : sorts) {
+    for (const PoseSort sort : sorts) {
       Pairs pairs;
       while (pairs.size() < 60) add_pair(random, kinds, sort, pairs);
       for (const Precision scalar : scalars) {
@@ -162,10 +159,10 @@ TEST(GjkTemplated, HasTheBitsOfGjkAtEveryLevelAndSetting) {
   Random random(32);
   for (const Kinds kinds : all_kind_pairs()) {
     Pairs pairs;
-    while (pairs.size() < 16) add_pair(random, kinds, Sort::near, pairs);
+    while (pairs.size() < 16) add_pair(random, kinds, PoseSort::near, pairs);
     for (const Precision scalar : scalars) {
       for (const Task task : all_tasks) {
-        const std::string what = name(kinds, scalar, task, Sort::near);
+        const std::string what = name(kinds, scalar, task, PoseSort::near);
         for (const Isa level : {Isa::baseline, Isa::avx2, Isa::avx512}) {
           limit_isa(level);
           expect_alike(settings_of(scalar), task, pairs, what);

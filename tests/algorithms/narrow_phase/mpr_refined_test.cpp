@@ -31,13 +31,13 @@ double depth_along(const Vec3d& direction, const Body& a, const Body& b) {
          direction.dot(support(b.shape, b.pose, -direction));
 }
 
-struct Tally {
+struct PortalTally {
   int apart = 0, common = 0, least = 0, proven = 0, gave_up = 0;
 };
 
 // `truth`: signed distance; `margin`: metres.
 void check(Precision scalar, const Body& a, const Body& b, double truth, double margin,
-           Tally& tally) {
+           PortalTally& tally) {
   const Outcome outcome = ask_named("mpr-refined", scalar, a, b);
   const Outcome plain = ask_named("mpr", scalar, a, b);
   (truth > 0 ? tally.apart : tally.common)++;
@@ -64,9 +64,10 @@ void check(Precision scalar, const Body& a, const Body& b, double truth, double 
 
 // Two random polytopes with their centres up to `spread` apart.
 template <class MakeShape>
-Tally sweep(Precision scalar, const MakeShape& make, int count, double spread, double margin) {
+PortalTally sweep(Precision scalar, const MakeShape& make, int count, double spread,
+                  double margin) {
   Random random(11);
-  Tally tally;
+  PortalTally tally;
   for (int k = 0; k < count && !testing::Test::HasFailure(); ++k) {
     const Body a{make(random), {random_rotation(random), random_direction(random)}};
     const Vec3d offset = std::cbrt(uniform(random, 0, 1)) * spread * random_direction(random);
@@ -88,7 +89,7 @@ class MprRefined : public testing::TestWithParam<Precision> {
   double margin() const { return GetParam() == Precision::float64 ? 1e-12 : 2e-5; }
 };
 
-void expect_mostly_least(const Tally& tally) {
+void expect_mostly_least(const PortalTally& tally) {
   EXPECT_GT(tally.apart, (tally.apart + tally.common) / 10);
   EXPECT_GT(tally.common, (tally.apart + tally.common) / 10);
   EXPECT_LE(tally.gave_up, (tally.apart + tally.common) / 100);
@@ -121,7 +122,7 @@ TEST_P(MprRefined, LeavesTheCorner) {
 // bodies without volume are of the solid difference that they make together.
 TEST_P(MprRefined, HoldsItsBoundsAtTheExtremes) {
   Random random(12);
-  Tally tally;
+  PortalTally tally;
   for (int k = 0; k < 400 && !HasFailure(); ++k) {
     const double size = std::pow(10.0, uniform(random, -6, 6));
     const auto draw = [&]() -> Shape {
@@ -180,7 +181,7 @@ TEST_P(MprRefined, LivesWithBodiesWithoutVolume) {
 // Round bodies: against the exact answer.
 TEST_P(MprRefined, HoldsItsBoundsForRoundBodies) {
   Random random(14);
-  Tally tally;
+  PortalTally tally;
   const double margin = GetParam() == Precision::float64 ? 1e-8 : 1e-4;
   for (int k = 0; k < 300 && !HasFailure(); ++k) {
     const auto draw = [&] {

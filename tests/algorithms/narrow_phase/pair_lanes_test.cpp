@@ -21,8 +21,6 @@ namespace {
 
 using namespace test;
 
-constexpr std::array scalars{Precision::float32, Precision::float64};
-
 constexpr std::array<Kinds, 5> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sphere},
                                               {ShapeKind::sphere, ShapeKind::capsule},
                                               {ShapeKind::sphere, ShapeKind::box},

@@ -33,7 +33,7 @@ double size_of(const Shape& shape) {
   return size;
 }
 
-struct Tally {
+struct AxisTally {
   int apart = 0, common = 0, gave_up = 0;
 };
 
@@ -41,7 +41,7 @@ struct Tally {
 // `margin` times the size of the pair are not asked of it. `doubt`: error of the brute force,
 // metres.
 void check(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
-           float float_margin, Tally& tally, double doubt = 0) {
+           float float_margin, AxisTally& tally, double doubt = 0) {
   const double truth = brute_force::signed_distance(a, pose_a, b, pose_b);
   const double size = std::max(size_of(a), size_of(b));
   (truth > 0 ? tally.apart : tally.common)++;
@@ -77,10 +77,10 @@ void check(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_
 using MakeShape = std::function<Shape(Random&)>;
 
 // Random pairs whose bodies are moved along the line of their centres to about where they touch.
-Tally sweep(const MakeShape& make_a, const MakeShape& make_b, int count, double margin,
-            float float_margin, double spread, std::uint64_t seed) {
+AxisTally sweep(const MakeShape& make_a, const MakeShape& make_b, int count, double margin,
+                float float_margin, double spread, std::uint64_t seed) {
   Random random(seed);
-  Tally tally;
+  AxisTally tally;
   for (int k = 0; k < count; ++k) {
     const Shape a = make_a(random), b = make_b(random);
     Pose pose_a{random_rotation(random), Vec3d::Zero()}, pose_b{random_rotation(random), {}};
@@ -122,7 +122,7 @@ Shape segment(Random& random) {
 }
 Shape point(Random& random) { return bare_hull({0.1 * random_direction(random)}, 0); }
 
-void expect_both(const Tally& tally) {
+void expect_both(const AxisTally& tally) {
   const int all = tally.apart + tally.common;
   EXPECT_GT(tally.apart, all / 5);
   EXPECT_GT(tally.common, all / 5);
@@ -149,7 +149,7 @@ TEST(Sat, AgreesOnSegmentsAndPoints) {
   expect_both(sweep(unit_box, segment, 600, 1e-13, 1e-5F, 1, 7));
   expect_both(sweep(any_hull, point, 600, 1e-13, 1e-5F, 1, 8));
   // The difference of these two is flat or less: they touch or are apart.
-  const Tally tally = sweep(flat_hull, point, 300, 1e-12, 1e-5F, 1, 9);
+  const AxisTally tally = sweep(flat_hull, point, 300, 1e-12, 1e-5F, 1, 9);
   EXPECT_GT(tally.apart, 250);
 }
 TEST(Sat, AgreesOnNeedlesAndPlates) {
@@ -161,7 +161,7 @@ TEST(Sat, AgreesOnNeedlesAndPlates) {
   const auto needle = [](Random& random) {
     return box_as_hull(1, 1e-8 * uniform(random, 1, 2), std::pow(10.0, uniform(random, -8, 0)));
   };
-  Tally all;
+  AxisTally all;
   for (const auto& tally : {sweep(thin, unit_box, 500, 1e-12, 1e-4F, 1, 10),
                             sweep(thin, thin, 500, 1e-12, 1e-4F, 1, 11),
                             sweep(needle, needle, 500, 1e-12, 1e-4F, 1, 12),
@@ -193,7 +193,7 @@ TEST(Sat, AgreesOnUnequalSizes) {
 
 TEST(Sat, AgreesFarFromTheOrigin) {
   Random random(17);
-  Tally tally;
+  AxisTally tally;
   for (int k = 0; k < 300; ++k) {
     // Far in the world, and far from the body's own origin.
     const Vec3d far = 1e8 * random_direction(random), baked = 1e8 * random_direction(random);
@@ -214,7 +214,7 @@ TEST(Sat, AgreesFarFromTheOrigin) {
 // Edges that are parallel up to an angle, whose ridges face each other.
 TEST(Sat, AgreesOnAlmostParallelEdges) {
   Random random(18);
-  Tally tally;
+  AxisTally tally;
   for (int k = 0; k < 1500; ++k) {
     const double angle = std::pow(10.0, uniform(random, -16, -1));
     const Vec3d axis = random_direction(random);
@@ -343,7 +343,7 @@ TEST(Sat, SaysSoWhereAHullHasNoFaces) {
 // A matrix is used as it stands: one that was rounded to float is not quite a rotation.
 TEST(Sat, TakesMatricesLiterally) {
   Random random(22);
-  Tally tally;
+  AxisTally tally;
   for (int k = 0; k < 300; ++k) {
     const Shape a = k % 2 == 0 ? unit_box(random) : any_hull(random);
     const Shape b = k % 3 == 0 ? unit_box(random) : any_hull(random);

@@ -22,8 +22,6 @@ using touchstone::reference::make_halfspace;
 using touchstone::reference::make_hull;
 using touchstone::reference::make_sphere;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
 Pose at(double x, double y, double z) {
   Pose pose;
   pose.translation = {x, y, z};
@@ -157,7 +155,7 @@ void expect_tight(const Claim& claim, bool symmetric = false) {
   no_number({1, 1, -1});
   no_number({2, 1, 1});
   // Bodies of which nothing can be proven.
-  for (const double x : {inf, -inf, std::nan("")}) {
+  for (const double x : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     const std::string no_finite = "a number of a body or of a generator is not finite";
     EXPECT_EQ(claim.with([&](Claim& c) { c.a.translation[1] = x; }), no_finite);
     EXPECT_EQ(claim.with([&](Claim& c) { c.b.matrix(1, 2) = x; }), no_finite);

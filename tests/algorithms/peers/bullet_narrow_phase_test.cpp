@@ -14,7 +14,8 @@
 namespace touchstone {
 namespace {
 
-constexpr std::array names = {"bullet-gjk-epa", "bullet-box-box", "bullet-sat", "bullet-mpr"};
+constexpr std::array bullet_names = {"bullet-gjk-epa", "bullet-box-box", "bullet-sat",
+                                     "bullet-mpr"};
 
 Shape round(ShapeKind kind, double radius, double half_length = 0) {
   Shape shape;
@@ -414,7 +415,7 @@ TEST_P(BulletNarrowPhaseTest, EndsOnDegenerateInput) {
 }
 
 TEST(BulletNarrowPhase, SaysWhatItTakes) {
-  for (const char* name : names) {
+  for (const char* name : bullet_names) {
     const NarrowPhaseEntry* entry = find_narrow_phase(name);
     ASSERT_NE(entry, nullptr) << name;
     EXPECT_TRUE(offers(*entry, Precision::float32));
@@ -447,7 +448,7 @@ TEST(BulletNarrowPhase, MprStopsAtTheCapItIsGiven) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Peers, BulletNarrowPhaseTest,
-                         testing::Combine(testing::ValuesIn(names),
+                         testing::Combine(testing::ValuesIn(bullet_names),
                                           testing::Values(Precision::float32, Precision::float64)),
                          build_name);
 

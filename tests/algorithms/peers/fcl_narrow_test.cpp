@@ -10,7 +10,7 @@ namespace {
 
 using namespace narrow_pairs;
 
-constexpr std::array<double, 5> gaps = {1, 0.1, 0.01, -0.01, -0.05};
+constexpr std::array<double, 5> fcl_gaps = {1, 0.1, 0.01, -0.01, -0.05};
 constexpr std::array<double, 3> apart = {1, 0.1, 0.01};
 constexpr std::array<double, 2> overlaps = {-0.01, -0.05};
 
@@ -65,7 +65,7 @@ TEST_F(FclTest, TellsSeparatedFromOverlappingForEveryKindPair) {
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     for (const Precision scalar : {Precision::float64, Precision::float32}) {
       int pairs = 0, wrong = 0;
-      for_known_pairs(*entry, Task::intersect, gaps, 2, [&](const KnownPair& pair) {
+      for_known_pairs(*entry, Task::intersect, fcl_gaps, 2, [&](const KnownPair& pair) {
         if (is_wrong_in_fcl(pair)) return;
         const Outcome outcome = ask(*entry, Task::intersect, pair.a, pair.b, {.scalar = scalar});
         ASSERT_EQ(outcome.status, Status::not_reported);
@@ -123,7 +123,7 @@ TEST_F(FclTest, GivesNoDistanceOfOverlappingBodies) {
 TEST_F(FclTest, ClosedFormsGiveTheDepthAndTheNormal) {
   for (const NarrowPhaseEntry* entry : {libccd_, indep_}) {
     for (const Precision scalar : {Precision::float64, Precision::float32}) {
-      for_known_pairs(*entry, Task::penetration, gaps, 2, [&](const KnownPair& pair) {
+      for_known_pairs(*entry, Task::penetration, fcl_gaps, 2, [&](const KnownPair& pair) {
         if (!has_closed_form(pair) || is_wrong_in_fcl(pair)) return;
         const Outcome outcome = ask(*entry, Task::penetration, pair.a, pair.b, {.scalar = scalar});
         ASSERT_EQ(outcome.status, Status::not_reported);

@@ -10,7 +10,7 @@ namespace {
 
 using namespace narrow_pairs;
 
-constexpr std::array<double, 5> gaps = {1, 0.1, 0.01, -0.01, -0.05};
+constexpr std::array<double, 5> libccd_gaps = {1, 0.1, 0.01, -0.01, -0.05};
 constexpr std::array<double, 2> overlaps = {-0.01, -0.05};
 
 class LibccdTest : public testing::Test {
@@ -42,7 +42,7 @@ TEST_F(LibccdTest, OffersBoundedShapesInDouble) {
 
 TEST_F(LibccdTest, TellsSeparatedFromOverlappingForEveryKindPair) {
   for (const NarrowPhaseEntry* entry : {gjk_, mpr_}) {
-    for_known_pairs(*entry, Task::intersect, gaps, 2, [&](const KnownPair& pair) {
+    for_known_pairs(*entry, Task::intersect, libccd_gaps, 2, [&](const KnownPair& pair) {
       const Outcome outcome = ask(*entry, Task::intersect, pair.a, pair.b);
       ASSERT_EQ(outcome.answer, pair.gap > 0 ? Answer::separated : Answer::overlapping)
           << entry->info.name << ": " << to_string(pair.a.shape.kind) << ", "
@@ -55,7 +55,7 @@ TEST_F(LibccdTest, TellsSeparatedFromOverlappingForEveryKindPair) {
 }
 
 TEST_F(LibccdTest, MprGivesADepthThatSeparates) {
-  for_known_pairs(*mpr_, Task::penetration, gaps, 2, [&](const KnownPair& pair) {
+  for_known_pairs(*mpr_, Task::penetration, libccd_gaps, 2, [&](const KnownPair& pair) {
     const Outcome outcome = ask(*mpr_, Task::penetration, pair.a, pair.b, {.tolerance = 1e-8});
     ASSERT_EQ(outcome.status, Status::not_reported);
     ASSERT_EQ(outcome.answer, pair.gap > 0 ? Answer::separated : Answer::overlapping);
@@ -74,7 +74,7 @@ TEST_F(LibccdTest, MprGivesADepthThatSeparates) {
 
 TEST_F(LibccdTest, EpaGivesTheDepthInAllButAFewPairs) {
   int pairs = 0, exact = 0;
-  for_known_pairs(*epa_, Task::penetration, gaps, 1, [&](const KnownPair& pair) {
+  for_known_pairs(*epa_, Task::penetration, libccd_gaps, 1, [&](const KnownPair& pair) {
     const Outcome outcome = ask(*epa_, Task::penetration, pair.a, pair.b, {.tolerance = 1e-6});
     ASSERT_EQ(outcome.answer, pair.gap > 0 ? Answer::separated : Answer::overlapping);
     if (pair.gap > 0) {
@@ -110,7 +110,7 @@ TEST_F(LibccdTest, ToleranceReachesTheLibrary) {
 TEST_F(LibccdTest, SaysWhenTheIterationsRanOut) {
   for (const NarrowPhaseEntry* entry : {gjk_, mpr_}) {
     int not_converged = 0;
-    for_known_pairs(*entry, Task::intersect, gaps, 1, [&](const KnownPair& pair) {
+    for_known_pairs(*entry, Task::intersect, libccd_gaps, 1, [&](const KnownPair& pair) {
       const Outcome outcome = ask(*entry, Task::intersect, pair.a, pair.b, {.max_iterations = 1});
       if (outcome.status == Status::not_converged) {
         ++not_converged;

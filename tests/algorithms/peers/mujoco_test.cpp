@@ -11,7 +11,7 @@ namespace {
 using namespace narrow_pairs;
 
 // Beyond the floats of a mesh.
-constexpr std::array<double, 6> gaps = {1, 0.1, 1e-4, -1e-4, -0.01, -0.05};
+constexpr std::array<double, 6> mujoco_gaps = {1, 0.1, 1e-4, -1e-4, -0.01, -0.05};
 
 class MujocoTest : public testing::Test {
  protected:
@@ -54,7 +54,7 @@ bool is_let_through(const KnownPair& pair, const Outcome& outcome) {
 
 TEST_F(MujocoTest, TellsSeparatedFromOverlapping) {
   int let_through = 0;
-  for_known_pairs(*entry_, Task::intersect, gaps, 4, [&](const KnownPair& pair) {
+  for_known_pairs(*entry_, Task::intersect, mujoco_gaps, 4, [&](const KnownPair& pair) {
     const Outcome outcome = ask(*entry_, Task::intersect, pair.a, pair.b);
     ASSERT_EQ(outcome.status, Status::not_reported);
     ASSERT_TRUE(std::isnan(outcome.distance));
@@ -71,7 +71,7 @@ TEST_F(MujocoTest, TellsSeparatedFromOverlapping) {
 // The known defect of two boxes, where faces meet: half of the depth. MPR's is an upper bound.
 TEST_F(MujocoTest, GivesDepthAndNormal) {
   int exact = 0, halved = 0, bounds = 0;
-  for_known_pairs(*entry_, Task::penetration, gaps, 4, [&](const KnownPair& pair) {
+  for_known_pairs(*entry_, Task::penetration, mujoco_gaps, 4, [&](const KnownPair& pair) {
     const Outcome outcome = ask(*entry_, Task::penetration, pair.a, pair.b);
     if (pair.gap > 0) {
       ASSERT_TRUE(std::isnan(outcome.distance));

@@ -10,7 +10,7 @@ namespace {
 
 using namespace narrow_pairs;
 
-constexpr std::array<double, 7> gaps = {1, 0.1, 1e-3, 1e-9, -1e-9, -1e-3, -0.05};
+constexpr std::array<double, 7> ode_gaps = {1, 0.1, 1e-3, 1e-9, -1e-9, -1e-3, -0.05};
 
 class OdeNarrowPhaseTest : public testing::Test {
  protected:
@@ -42,7 +42,7 @@ TEST_F(OdeNarrowPhaseTest, OffersSpheresCapsulesBoxesAndPlanes) {
 }
 
 TEST_F(OdeNarrowPhaseTest, TellsSeparatedFromOverlapping) {
-  for_known_pairs(*entry_, Task::intersect, gaps, 4, [&](const KnownPair& pair) {
+  for_known_pairs(*entry_, Task::intersect, ode_gaps, 4, [&](const KnownPair& pair) {
     const Outcome outcome = answer(Task::intersect, pair.a, pair.b);
     ASSERT_EQ(outcome.status, Status::not_reported);
     ASSERT_EQ(outcome.answer, pair.gap > 0 ? Answer::separated : Answer::overlapping)
@@ -52,7 +52,7 @@ TEST_F(OdeNarrowPhaseTest, TellsSeparatedFromOverlapping) {
 }
 
 TEST_F(OdeNarrowPhaseTest, GivesDepthAndNormal) {
-  for_known_pairs(*entry_, Task::penetration, gaps, 4, [&](const KnownPair& pair) {
+  for_known_pairs(*entry_, Task::penetration, ode_gaps, 4, [&](const KnownPair& pair) {
     const Outcome outcome = answer(Task::penetration, pair.a, pair.b);
     ASSERT_EQ(outcome.answer, pair.gap > 0 ? Answer::separated : Answer::overlapping);
     if (pair.gap > 0) {

@@ -21,7 +21,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::uint64_t count = 240;  // indices of a regime
+constexpr std::uint64_t indices = 240;  // of a regime
 
 std::vector<std::string> parts_of(const std::string& id) {
   std::vector<std::string> parts(1);
@@ -81,7 +81,7 @@ TEST(Regimes, HaveUniqueNamesInGroups) {
 TEST(Regimes, MakeGoodCasesWithUniqueIds) {
   std::set<std::string> ids;
   for (const check::Regime& regime : check::regimes()) {
-    for (std::uint64_t i = 0; i < count; ++i) {
+    for (std::uint64_t i = 0; i < indices; ++i) {
       const files::Case c = make(regime, 7, i);
       EXPECT_TRUE(ids.insert(c.id).second) << c.id;
       const std::vector<std::string> parts = parts_of(c.id);
@@ -180,7 +180,7 @@ TEST(Regimes, HaveTheSizesTheyName) {
     const files::Case c = make(*check::find_regime(name), 2, i);
     return std::pair(grade::shape_size(c.shape_a), grade::shape_size(c.shape_b));
   };
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = 0; i < indices; ++i) {
     for (const char* name : {"gap-1e-3", "depth-1e-12", "random-mixed", "aspect-1e8", "far-1e8"}) {
       const files::Case c = make(*check::find_regime(name), 2, i);
       EXPECT_GT(grade::pair_size(c), 0.3) << c.id;
@@ -208,7 +208,7 @@ TEST(Regimes, HaveTheSizesTheyName) {
 
 TEST(Regimes, HaveNeedlesAndPlates) {
   int needles = 0, plates = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = 0; i < indices; ++i) {
     const files::Case c = make(*check::find_regime("aspect-1e6"), 2, i);
     for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
       if (shape->kind != ShapeKind::box) continue;

@@ -22,15 +22,15 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* header = "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n";
-const std::vector<std::string> columns = {"frame",      "algorithm", "threads", "status",
-                                          "pair_count", "pair_hash", "seconds"};
+constexpr const char* box_header = "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n";
+const std::vector<std::string> pair_columns = {"frame",      "algorithm", "threads", "status",
+                                               "pair_count", "pair_hash", "seconds"};
 
 // Makes some frames in which boxes move, come and go.
 std::string random_boxes(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> place(0, 10), size(0, 3);
-  std::string text = header;
+  std::string text = box_header;
   std::vector<std::array<float, 6>> boxes;
   for (int frame = 0; frame < 6; ++frame) {
     const std::size_t count = 40 + random() % 30;
@@ -81,7 +81,7 @@ TEST_F(PairsCommand, EveryBroadPhaseGivesTheRowsOfTheContract) {
     const Ran ran =
         run_program("pairs " + file.string() + " --broad all --out " + path("out.csv") + how);
     ASSERT_EQ(ran.status, 0) << ran.text;
-    const auto rows = read_rows(folder.path() / "out.csv", columns);
+    const auto rows = read_rows(folder.path() / "out.csv", pair_columns);
     std::size_t next = 0;
     for (std::size_t frame = 0; frame < expected.size(); ++frame) {
       for (const BroadPhaseEntry& entry : broad_phases()) {
@@ -108,10 +108,10 @@ TEST_F(PairsCommand, TheHashIsTheContracts) {
   // The expected hash is the sum over the pairs (0,1) and (0,2), each mixed as the contract says,
   // computed separately.
   const auto file = folder.write(
-      "in.csv", std::string(header) + "0,0,0,0,0,9,9,9\n0,1,1,1,1,2,2,2\n0,2,9,9,9,9,9,9\n");
+      "in.csv", std::string(box_header) + "0,0,0,0,0,9,9,9\n0,1,1,1,1,2,2,2\n0,2,9,9,9,9,9,9\n");
   ASSERT_EQ(
       run_program("pairs " + file.string() + " --broad naive --out " + path("out.csv")).status, 0);
-  const auto rows = read_rows(folder.path() / "out.csv", columns);
+  const auto rows = read_rows(folder.path() / "out.csv", pair_columns);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0][4], "2");
   EXPECT_EQ(rows[0][5], "286263caa599b38f");
@@ -147,7 +147,7 @@ TEST_F(PairsCommand, ReadsRecordings) {
 }
 
 TEST_F(PairsCommand, WhatTakesTooLongIsARowOfItsOwn) {
-  std::string text = header;
+  std::string text = box_header;
   for (int id = 0; id < 100000; ++id) text += fmt::format("0,{0},{0},0,0,{0}.5,1,1\n", id);
   text += "1,0,0,0,0,1,1,1\n1,1,1,1,1,1,1,1\n";
   const auto file = folder.write("in.csv", text);
@@ -169,9 +169,9 @@ TEST_F(PairsCommand, BadInput) {
     expect_refusal(path("in.csv") + " --broad naive --out " + path("out.csv"),
                    path("in.csv") + text);
   };
-  const std::string good = std::string(header) + "0,0,0,0,0,1,1,1\n";
+  const std::string good = std::string(box_header) + "0,0,0,0,0,1,1,1\n";
   refuse("", ":1: an empty file; expected a header line");
-  refuse(header, ":1: no box behind the header");
+  refuse(box_header, ":1: no box behind the header");
   refuse("0,0,0,0,0,1,1,1\n", ":1: no column 'frame'");
   refuse(good + "0,1,0,0,nan,1,1,1\n", ":3: found nan; expected a finite number");
   refuse(good + "0,1,0,0,0,1,-inf,1\n", ":3: found -inf; expected a finite number");
@@ -185,7 +185,7 @@ TEST_F(PairsCommand, BadInput) {
 }
 
 TEST_F(PairsCommand, BadRequests) {
-  folder.write("in.csv", std::string(header) + "0,0,0,0,0,1,1,1\n");
+  folder.write("in.csv", std::string(box_header) + "0,0,0,0,0,1,1,1\n");
   const std::string in = path("in.csv");
   const std::string out = " --out " + path("out.csv");
   expect_refusal(in + out, "--broad");

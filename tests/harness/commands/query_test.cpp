@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::AnyOf;
 
-const std::vector<std::string> columns = {
+const std::vector<std::string> query_columns = {
     "id",    "algorithm", "scalar",   "task",     "answer",     "status",       "distance",
     "lower", "upper",     "normal_x", "normal_y", "normal_z",   "a_x",          "a_y",
     "a_z",   "b_x",       "b_y",      "b_z",      "iterations", "support_calls"};
@@ -70,7 +70,7 @@ class QueryCommand : public ::testing::Test {
     EXPECT_EQ(header,
               "id,algorithm,scalar,task,answer,status,distance,lower,upper,normal_x,normal_y,"
               "normal_z,a_x,a_y,a_z,b_x,b_y,b_z,iterations,support_calls");
-    const auto rows = read_rows(folder.path() / "out.csv", columns);
+    const auto rows = read_rows(folder.path() / "out.csv", query_columns);
     const auto names = built_names();
     const std::vector<files::Case> read = files::read_cases(file);
     if (rows.size() != names.size() * read.size()) {

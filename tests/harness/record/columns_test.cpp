@@ -10,7 +10,7 @@ TEST(Columns, OfMeasurementsAreDocumented) {
   expect_documented("raw.csv", record::column_docs<record::RawRow>());
 }
 
-TEST(Columns, OfDiscrepanciesAreDocumented) {
+TEST(Columns, OfDeparturesAreDocumented) {
   expect_documented("departures.csv", record::column_docs<record::Departure>());
 }
 

@@ -13,20 +13,15 @@
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/input_fault.h"
-#include "tests/harness/temporary_folder.h"
+#include "tests/harness/scene/scene_text.h"
 
 namespace touchstone {
 namespace {
 
 using ::testing::HasSubstr;
 
-scene::Scene load(const std::string& content) {
-  const TemporaryFolder folder;
-  return scene::load_scene(folder.write("scene.toml", content));
-}
-
 std::string error(const std::string& content) {
-  return input_fault([&] { load(content); });
+  return input_fault([&] { load_text(content); });
 }
 
 bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof(Aabb)) == 0; }
@@ -45,9 +40,9 @@ std::vector<Vec3d> sorted_places(const scene::Kinematics& kinematics, std::size_
 TEST(Step, IsTheGreatestDisplacementInMedianSizes) {
   for (const char* generator : {"uniform", "clustered", "ground", "stack", "brownian"}) {
     const scene::Scene scene =
-        load(std::string("generator = \"") + generator +
-             "\"\ncount = 400\nmoving = 1\nframes = 3\nstep = 0.05\n" +
-             (generator == std::string("stack") ? "size = 2" : "size = [2, 2]"));
+        load_text(std::string("generator = \"") + generator +
+                  "\"\ncount = 400\nmoving = 1\nframes = 3\nstep = 0.05\n" +
+                  (generator == std::string("stack") ? "size = 2" : "size = [2, 2]"));
     scene::Kinematics kinematics(scene);
     double greatest = 0;
     for (int frame = 1; frame < scene.frames; ++frame) {
@@ -75,9 +70,11 @@ TEST(Order, ShufflingKeepsTheBodies) {
   for (const char* generator : {"city", "ground", "uniform"}) {
     const std::string content =
         std::string("generator = \"") + generator + "\"\ncount = 300\nframes = 2\n";
-    const scene::Scene plain = load(content), shuffled = load(content + "shuffled = true\n");
+    const scene::Scene plain = load_text(content),
+                       shuffled = load_text(content + "shuffled = true\n");
     EXPECT_NE(scene::scene_hash(plain), scene::scene_hash(shuffled));
-    EXPECT_EQ(scene::scene_hash(plain), scene::scene_hash(load(content + "shuffled = false\n")));
+    EXPECT_EQ(scene::scene_hash(plain),
+              scene::scene_hash(load_text(content + "shuffled = false\n")));
     const auto boxes = [](const scene::Scene& scene) {
       const scene::ScenePlayer player(scene, scene::BoxKind::tight);
       std::vector<Aabb> all(player.boxes().begin(), player.boxes().end());
@@ -93,7 +90,7 @@ TEST(Order, ShufflingKeepsTheBodies) {
 }
 
 TEST(Exchange, TeleportsPermuteThePlacesOfThoseThatMove) {
-  const scene::Scene scene = load(
+  const scene::Scene scene = load_text(
       "generator = \"clustered\"\ncount = 300\nframes = 6\nmoving = 0.5\nspeed = 0\nspin = 0\n"
       "teleports = 0.1\n");
   EXPECT_EQ(scene.motion.teleports, 15u);
@@ -119,7 +116,7 @@ TEST(Exchange, TeleportsPermuteThePlacesOfThoseThatMove) {
 
 // Checks the promises of FrameChange and of the file's format.
 TEST(Exchange, ChurnKeepsTheContractOfFrameChange) {
-  const scene::Scene scene = load(
+  const scene::Scene scene = load_text(
       "generator = \"uniform\"\ncount = 400\nframes = 12\nmoving = 0.5\nchurn = 0.1\n"
       "teleports = 0.05\n");
   EXPECT_EQ(scene.size(), 400u);
@@ -168,8 +165,8 @@ TEST(Exchange, ChurnKeepsTheContractOfFrameChange) {
 }
 
 TEST(Exchange, ThoseThatComeTakeThePlacesLeft) {
-  const scene::Scene scene =
-      load("generator = \"uniform\"\ncount = 200\nframes = 8\nspeed = 0\nspin = 0\nchurn = 0.25\n");
+  const scene::Scene scene = load_text(
+      "generator = \"uniform\"\ncount = 200\nframes = 8\nspeed = 0\nspin = 0\nchurn = 0.25\n");
   scene::Kinematics kinematics(scene);
   const auto start = sorted_places(kinematics, scene.bodies.size());
   for (int frame = 1; frame < scene.frames; ++frame) {
@@ -180,13 +177,13 @@ TEST(Exchange, ThoseThatComeTakeThePlacesLeft) {
 
 TEST(Exchange, ShareOfOneAndOneBody) {
   scene::Scene scene =
-      load("generator = \"uniform\"\ncount = 50\nframes = 4\nchurn = 1\nteleports = 1\n");
+      load_text("generator = \"uniform\"\ncount = 50\nframes = 4\nchurn = 1\nteleports = 1\n");
   scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.next()) {
     EXPECT_TRUE(player.change().moved.empty());
     EXPECT_EQ(player.change().removed.size(), 50u);
   }
-  scene = load("generator = \"uniform\"\ncount = 1\nframes = 3\nchurn = 1\nteleports = 1\n");
+  scene = load_text("generator = \"uniform\"\ncount = 1\nframes = 3\nchurn = 1\nteleports = 1\n");
   EXPECT_EQ(scene.motion.teleports, 0u);
   scene::ScenePlayer alone(scene, scene::BoxKind::tight);
   while (alone.next()) EXPECT_EQ(alone.change().inserted.size(), 1u);
@@ -197,7 +194,7 @@ TEST(Exchange, HashAndFramesAreTheSameEachTimeAndTellTheKeysApart) {
   std::set<std::string> hashes;
   for (const char* more : {"", "churn = 0.1", "churn = 0.2", "teleports = 0.1", "teleports = 0.2",
                            "churn = 0.1\nteleports = 0.1"}) {
-    const scene::Scene a = load(content + more), b = load(content + more);
+    const scene::Scene a = load_text(content + more), b = load_text(content + more);
     EXPECT_EQ(scene::scene_hash(a), scene::scene_hash(b));
     EXPECT_TRUE(hashes.insert(scene::scene_hash(a)).second) << more;
     scene::ScenePlayer first(a, scene::BoxKind::tight), second(b, scene::BoxKind::tight);
@@ -207,7 +204,8 @@ TEST(Exchange, HashAndFramesAreTheSameEachTimeAndTellTheKeysApart) {
     } while (first.next());
   }
   // Zero is equal to a missing key.
-  EXPECT_TRUE(hashes.contains(scene::scene_hash(load(content + "churn = 0\nteleports = 0\n"))));
+  EXPECT_TRUE(
+      hashes.contains(scene::scene_hash(load_text(content + "churn = 0\nteleports = 0\n"))));
 }
 
 TEST(Exchange, FaultsAreTold) {

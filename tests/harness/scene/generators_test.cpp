@@ -9,16 +9,11 @@
 #include "harness/base/error.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
-#include "tests/harness/temporary_folder.h"
+#include "tests/harness/scene/scene_text.h"
 #include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
-
-scene::Scene load(const std::string& content) {
-  const TemporaryFolder folder;
-  return scene::load_scene(folder.write("scene.toml", content));
-}
 
 std::filesystem::path dataset(const std::string& name) {
   return std::filesystem::path(touchstone::project_folder) / "datasets" / (name + ".toml");
@@ -79,8 +74,8 @@ TEST(Generators, TheSeedDecides) {
   for (const std::string name :
        {"uniform", "clustered", "mixed", "city", "ground", "brownian", "rotating_gravity"}) {
     const auto hash = [&](int seed) {
-      return scene::scene_hash(
-          load("count = 50\ngenerator = \"" + name + "\"\nseed = " + std::to_string(seed) + "\n"));
+      return scene::scene_hash(load_text("count = 50\ngenerator = \"" + name +
+                                         "\"\nseed = " + std::to_string(seed) + "\n"));
     };
     EXPECT_EQ(hash(1), hash(1)) << name;
     EXPECT_NE(hash(1), hash(2)) << name;
@@ -102,8 +97,8 @@ TEST_P(Overlaps, AreAboutWhatWasAsked) {
   constexpr int seeds = 3;
   for (int seed = 1; seed <= seeds; ++seed) {
     const scene::Scene scene =
-        load("count = 1000\nframes = 1\nseed = " + std::to_string(seed) +
-             "\noverlaps = " + std::to_string(asked.overlaps) + "\n" + asked.options);
+        load_text("count = 1000\nframes = 1\nseed = " + std::to_string(seed) +
+                  "\noverlaps = " + std::to_string(asked.overlaps) + "\n" + asked.options);
     const scene::ScenePlayer player(scene, scene::BoxKind::tight);
     sum += mean_overlaps(player.boxes().subspan(asked.first)) / seeds;
   }
@@ -123,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
         Asked{"generator = \"brownian\"\n", 1, 0}, Asked{"generator = \"free_fall\"\n", 10, 0}));
 
 TEST(Generators, DensityIsBroadmarks) {
-  const scene::Scene scene = load("generator = \"brownian\"\ncount = 1000\ndensity = 0.125\n");
+  const scene::Scene scene = load_text("generator = \"brownian\"\ncount = 1000\ndensity = 0.125\n");
   EXPECT_NEAR(scene.motion.wall_max.x() - scene.motion.wall_min.x(), 20, 1e-3);
   for (const scene::Body& body : scene.bodies) {
     EXPECT_LE(body.pose.translation.norm(), 9);
@@ -131,10 +126,10 @@ TEST(Generators, DensityIsBroadmarks) {
     EXPECT_EQ(scene.shapes[body.shape].half_extents, Vec3d(0.5, 0.5, 0.5));
   }
   EXPECT_NEAR(
-      load("generator = \"free_fall\"\ncount = 1000\ndensity = 0.125\n").motion.acceleration, 1.962,
-      1e-3);
+      load_text("generator = \"free_fall\"\ncount = 1000\ndensity = 0.125\n").motion.acceleration,
+      1.962, 1e-3);
   const scene::Motion turning =
-      load("generator = \"rotating_gravity\"\ncount = 1000\ndensity = 0.125\n").motion;
+      load_text("generator = \"rotating_gravity\"\ncount = 1000\ndensity = 0.125\n").motion;
   EXPECT_NEAR(turning.acceleration, 7.848, 1e-2);
   EXPECT_EQ(turning.period, 6.2);
 }
@@ -142,8 +137,8 @@ TEST(Generators, DensityIsBroadmarks) {
 TEST(Generators, ExactlyTheAskedShareMoves) {
   for (const std::string share : {"0", "0.25", "0.5", "1"}) {
     for (const std::string name : {"uniform", "ground", "stack", "city"}) {
-      const scene::Scene scene =
-          load("count = 81\nwalls = true\ngenerator = \"" + name + "\"\nmoving = " + share + "\n");
+      const scene::Scene scene = load_text("count = 81\nwalls = true\ngenerator = \"" + name +
+                                           "\"\nmoving = " + share + "\n");
       const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                         [](const scene::Body& body) { return body.moving; });
       const double of = name == "ground" || name == "city" ? 80 : 81;
@@ -157,7 +152,7 @@ TEST(Generators, ExactlyTheAskedShareMoves) {
 
 TEST(Generators, MixedSizesCoverThreeMagnitudes) {
   const scene::Scene scene =
-      load("generator = \"mixed\"\ncount = 2000\ndistinct = 2000\nshapes = [\"sphere\"]\n");
+      load_text("generator = \"mixed\"\ncount = 2000\ndistinct = 2000\nshapes = [\"sphere\"]\n");
   ASSERT_EQ(scene.shapes.size(), 2000u);
   int in_decade[3] = {};
   for (const Shape& shape : scene.shapes) {
@@ -170,7 +165,7 @@ TEST(Generators, MixedSizesCoverThreeMagnitudes) {
 }
 
 TEST(Generators, MixFollowsTheWeights) {
-  const scene::Scene scene = load(
+  const scene::Scene scene = load_text(
       "generator = \"uniform\"\ncount = 4000\ndistinct = 4000\n"
       "shapes = [{type = \"box\", weight = 3}, {type = \"sphere\", radius = 0.5}]\n");
   const auto spheres = std::count_if(
@@ -184,7 +179,7 @@ TEST(Generators, MixFollowsTheWeights) {
 }
 
 TEST(Generators, SizesAndAspectAreKept) {
-  const scene::Scene scene = load(
+  const scene::Scene scene = load_text(
       "generator = \"uniform\"\ncount = 500\nsize = [1, 2]\naspect = 0.25\n"
       "shapes = [\"box\", \"ellipsoid\"]\n");
   for (const Shape& shape : scene.shapes) {
@@ -196,7 +191,8 @@ TEST(Generators, SizesAndAspectAreKept) {
 }
 
 TEST(Generators, StacksTouchFaceToFace) {
-  const scene::Scene scene = load("generator = \"stack\"\ncount = 30\nheight = 10\nmoving = 0\n");
+  const scene::Scene scene =
+      load_text("generator = \"stack\"\ncount = 30\nheight = 10\nmoving = 0\n");
   for (std::size_t i = 0; i + 1 < scene.bodies.size(); ++i) {
     if (i % 10 == 9) continue;
     const Vec3d step = scene.bodies[i + 1].pose.translation - scene.bodies[i].pose.translation;
@@ -207,7 +203,7 @@ TEST(Generators, StacksTouchFaceToFace) {
 }
 
 TEST(Generators, ACityStandsOnTheGround) {
-  const scene::Scene scene = load("generator = \"city\"\ncount = 101\n");
+  const scene::Scene scene = load_text("generator = \"city\"\ncount = 101\n");
   ASSERT_EQ(scene.shapes[scene.bodies[0].shape].kind, ShapeKind::halfspace);
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     const scene::Body& body = scene.bodies[i];
@@ -222,7 +218,7 @@ TEST(Generators, ACityStandsOnTheGround) {
 TEST(Generators, OneBodyIsAScene) {
   for (const std::string name : {"uniform", "clustered", "mixed", "city", "stack", "ground",
                                  "brownian", "free_fall", "rotating_gravity"}) {
-    const scene::Scene scene = load("generator = \"" + name + "\"\ncount = 1\n");
+    const scene::Scene scene = load_text("generator = \"" + name + "\"\ncount = 1\n");
     ASSERT_EQ(scene.size(), 1u) << name;
     scene::ScenePlayer player(scene, scene::BoxKind::loose);
     while (player.next()) {

@@ -13,7 +13,7 @@
 namespace touchstone {
 namespace {
 
-scene::Scene load(const std::string& content, const scene::SceneOverrides& overrides = {}) {
+scene::Scene load_pairs(const std::string& content, const scene::SceneOverrides& overrides = {}) {
   const TemporaryFolder folder;
   return scene::load_scene(folder.write("scene.toml", "generator = \"pairs\"\n" + content),
                            overrides);
@@ -32,8 +32,8 @@ TEST(Pairs, GapsAreExactForEveryKind) {
   const double gaps[] = {1e-4, 0.01, 0.5, 20};
   for (const char* kind : {"sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "hull"}) {
     const scene::Scene scene =
-        load(std::string("count = 48\ngaps = [1e-4, 0.01, 0.5, 20]\nshapes = [\"") + kind +
-             "\", \"box\"]\n");
+        load_pairs(std::string("count = 48\ngaps = [1e-4, 0.01, 0.5, 20]\nshapes = [\"") + kind +
+                   "\", \"box\"]\n");
     ASSERT_EQ(scene.pairs.size(), 24u) << kind;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       EXPECT_EQ(scene.pairs[i], (IndexPair{static_cast<std::uint32_t>(2 * i),
@@ -48,7 +48,7 @@ TEST(Pairs, GapsAreExactForEveryKind) {
 
 TEST(Pairs, DepthsAreAtMostWhatIsAsked) {
   const scene::Scene scene =
-      load("count = 200\ngaps = [-0.001, -0.05]\nshapes = [\"ellipsoid\"]\n");
+      load_pairs("count = 200\ngaps = [-0.001, -0.05]\nshapes = [\"ellipsoid\"]\n");
   int overlapping = 0;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const double depth = i % 2 == 0 ? 0.001 : 0.05;
@@ -61,7 +61,7 @@ TEST(Pairs, DepthsAreAtMostWhatIsAsked) {
 
 TEST(Pairs, SettledOnesAreAsFarApartOrAsDeepAsAsked) {
   for (const double gap : {0.1, 1e-3, -1e-3, -0.1}) {
-    const scene::Scene scene = load(
+    const scene::Scene scene = load_pairs(
         "count = 60\nshapes = [\"sphere\", \"box\", \"capsule\", \"hull\"]\nsize = [0.5, 1.0]\n"
         "aspect = 0.5\nplacement = \"settled\"\n",
         {.gap = gap});
@@ -76,8 +76,9 @@ TEST(Pairs, SettledOnesAreAsFarApartOrAsDeepAsAsked) {
 
 TEST(Pairs, AGapFromOutsideReplacesThoseOfTheFileAndIsInTheName) {
   const std::string content = "count = 20\ngaps = [0.5, 20]\n";
-  const scene::Scene near = load(content, {.gap = 0.25}), deep = load(content, {.gap = -0.01});
-  EXPECT_EQ(load(content).name, "scene");
+  const scene::Scene near = load_pairs(content, {.gap = 0.25}),
+                     deep = load_pairs(content, {.gap = -0.01});
+  EXPECT_EQ(load_pairs(content).name, "scene");
   EXPECT_EQ(near.name, "scene gap 0.25");
   EXPECT_EQ(deep.name, "scene depth 0.01");
   for (const IndexPair& pair : near.pairs) {
@@ -87,17 +88,17 @@ TEST(Pairs, AGapFromOutsideReplacesThoseOfTheFileAndIsInTheName) {
 }
 
 TEST(Pairs, ListedPairsAreOfTheSceneAndItsHash) {
-  const scene::Scene scene = load("count = 20\n");
+  const scene::Scene scene = load_pairs("count = 20\n");
   EXPECT_EQ(scene.frames, 1);
   scene::Scene other = scene;
   other.pairs.pop_back();
   EXPECT_NE(scene::scene_hash(scene), scene::scene_hash(other));
-  EXPECT_EQ(scene::scene_hash(scene), scene::scene_hash(load("count = 20\n")));
-  EXPECT_NE(scene::scene_hash(scene), scene::scene_hash(load("count = 20\n", {.seed = 9})));
+  EXPECT_EQ(scene::scene_hash(scene), scene::scene_hash(load_pairs("count = 20\n")));
+  EXPECT_NE(scene::scene_hash(scene), scene::scene_hash(load_pairs("count = 20\n", {.seed = 9})));
 }
 
 TEST(Pairs, RadiiAreDrawnFromANormalDistribution) {
-  const scene::Scene scene = load(
+  const scene::Scene scene = load_pairs(
       "count = 4000\ndistinct = 4000\n"
       "shapes = [{type = \"ellipsoid\", radii_normal = {mean = 0.1, deviation = 0.025}}]\n");
   double sum = 0, squares = 0;
@@ -115,7 +116,7 @@ TEST(Pairs, RadiiAreDrawnFromANormalDistribution) {
 TEST(Pairs, BadRequestsAreRefused) {
   using testing::HasSubstr;
   const auto refusal = [](const std::string& content) {
-    return input_fault([&] { load(content); });
+    return input_fault([&] { load_pairs(content); });
   };
   EXPECT_THAT(refusal("count = 7\n"), HasSubstr("expected an even one"));
   EXPECT_THAT(refusal("placement = \"near\"\n"), HasSubstr("placement"));
@@ -142,7 +143,7 @@ TEST(Pairs, BadRequestsAreRefused) {
 
 TEST(Pairs, SwayingOnesStayAboutAsFarApart) {
   for (const double gap : {0.1, 1e-3, 1e-6, -1e-3, -0.1}) {
-    const scene::Scene scene = load(
+    const scene::Scene scene = load_pairs(
         "count = 40\nshapes = [\"box\", \"ellipsoid\", {type = \"hull\", points = 30}]\n"
         "placement = \"meeting\"\nsway = 0.2\nframes = 21\n",
         {.gap = gap});
@@ -175,13 +176,13 @@ TEST(Pairs, SwayingOnesStayAboutAsFarApart) {
 }
 
 TEST(Pairs, SwayIsRefusedWhereItMakesNoSense) {
-  const auto fault = [](const std::string& keys) { return input_fault([&] { load(keys); }); };
+  const auto fault = [](const std::string& keys) { return input_fault([&] { load_pairs(keys); }); };
   EXPECT_THAT(fault("count = 2\nsway = -0.1\n"), testing::HasSubstr("scene.toml:3: sway"));
   EXPECT_THAT(fault("count = 2\nsway = 0.1\nmotion = \"brownian\"\n"),
               testing::HasSubstr("motion"));
   EXPECT_THAT(fault("count = 2\nsway = 0.1\nframes = 3\nstep = 0.1\n"), testing::HasSubstr("step"));
-  const scene::Scene still = load("count = 4\nframes = 5\n"),
-                     swaying = load("count = 4\nsway = 0.1\n");
+  const scene::Scene still = load_pairs("count = 4\nframes = 5\n"),
+                     swaying = load_pairs("count = 4\nsway = 0.1\n");
   for (const scene::Body& body : still.bodies) EXPECT_FALSE(body.moving);
   for (const scene::Body& body : swaying.bodies) EXPECT_FALSE(body.moving);  // of one frame
 }

@@ -10,7 +10,7 @@
 #include "algorithms/core/bounds.h"
 #include "harness/base/random.h"
 #include "harness/scene/scene.h"
-#include "tests/harness/temporary_folder.h"
+#include "tests/harness/scene/scene_text.h"
 
 namespace touchstone {
 namespace {
@@ -77,14 +77,9 @@ std::string every_kind(const std::string& motion) {
          motion + "\"\n";
 }
 
-scene::Scene load(const std::string& content) {
-  const TemporaryFolder folder;
-  return scene::load_scene(folder.write("scene.toml", content));
-}
-
 TEST(Player, BoxesHoldAllPointsInAllFrames) {
   for (const std::string motion : {"inertial", "brownian", "free_fall", "rotating_gravity"}) {
-    const scene::Scene scene = load(every_kind(motion));
+    const scene::Scene scene = load_text(every_kind(motion));
     base::Random random(7);
     for (const scene::BoxKind kind : {scene::BoxKind::tight, scene::BoxKind::loose}) {
       scene::ScenePlayer player(scene, kind);
@@ -118,7 +113,7 @@ TEST(Player, BoxesHoldAllPointsInAllFrames) {
 }
 
 TEST(Player, LooseBoxesHoldTightOnesAndKeepTheirSize) {
-  const scene::Scene scene = load(every_kind("inertial"));
+  const scene::Scene scene = load_text(every_kind("inertial"));
   scene::ScenePlayer tight(scene, scene::BoxKind::tight), loose(scene, scene::BoxKind::loose);
   const std::vector<Aabb> first(loose.boxes().begin(), loose.boxes().end());
   do {
@@ -135,7 +130,7 @@ TEST(Player, LooseBoxesHoldTightOnesAndKeepTheirSize) {
 
 TEST(Player, MovedListsExactlyWhatChanged) {
   const scene::Scene scene =
-      load("generator = \"uniform\"\ncount = 200\nmoving = 0.3\nframes = 8\n");
+      load_text("generator = \"uniform\"\ncount = 200\nmoving = 0.3\nframes = 8\n");
   scene::ScenePlayer player(scene, scene::BoxKind::tight);
   EXPECT_TRUE(player.change().moved.empty());
   std::vector<Aabb> before(player.boxes().begin(), player.boxes().end());
@@ -155,7 +150,7 @@ TEST(Player, MovedListsExactlyWhatChanged) {
 }
 
 TEST(Player, TheFrameBeforeStaysAlive) {
-  const scene::Scene scene = load("generator = \"uniform\"\ncount = 20\nframes = 3\n");
+  const scene::Scene scene = load_text("generator = \"uniform\"\ncount = 20\nframes = 3\n");
   scene::ScenePlayer player(scene, scene::BoxKind::tight);
   const std::span<const Aabb> before = player.boxes();
   const std::vector<Aabb> copy(before.begin(), before.end());
@@ -164,7 +159,7 @@ TEST(Player, TheFrameBeforeStaysAlive) {
 }
 
 TEST(Player, PlaysTheSameBitsEachTime) {
-  const scene::Scene scene = load(every_kind("brownian"));
+  const scene::Scene scene = load_text(every_kind("brownian"));
   scene::ScenePlayer a(scene, scene::BoxKind::tight), b(scene, scene::BoxKind::tight);
   do {
     EXPECT_EQ(std::memcmp(a.boxes().data(), b.boxes().data(), a.boxes().size_bytes()), 0);
@@ -271,7 +266,7 @@ TEST(Player, WallsAreElastic) {
 
 TEST(Player, BrownianKicksOneInAHundredInTurn) {
   const scene::Scene scene =
-      load("generator = \"brownian\"\ncount = 250\nwalls = false\nframes = 200\n");
+      load_text("generator = \"brownian\"\ncount = 250\nwalls = false\nframes = 200\n");
   scene::Kinematics kinematics(scene);
   std::vector<int> kicks(250);
   for (int frame = 0; frame < 84; ++frame) {  // 250 / 3, rounded up

@@ -19,9 +19,9 @@ using ::testing::HasSubstr;
 using Find = std::function<Status(std::span<const Aabb>, PairSink&)>;
 
 // Tests all pairs, which `find` writes or spoils.
-class Planted final : public BroadPhase {
+class PlantedBroadPhase final : public BroadPhase {
  public:
-  explicit Planted(Find find) : find_(std::move(find)) {}
+  explicit PlantedBroadPhase(Find find) : find_(std::move(find)) {}
   void build(std::span<const Aabb> boxes) override { boxes_ = boxes; }
   void update(const FrameChange& change) override { boxes_ = change.boxes; }
   Status find_pairs(PairSink& sink) override { return find_(boxes_, sink); }
@@ -33,7 +33,7 @@ class Planted final : public BroadPhase {
 
 BroadPhaseEntry planted(const Find& find, Origin origin = Origin::ours) {
   return {.info = {.name = "planted", .citation = "a test", .origin = origin},
-          .make = [=](Executor&) { return std::make_unique<Planted>(find); }};
+          .make = [=](Executor&) { return std::make_unique<PlantedBroadPhase>(find); }};
 }
 
 // Writes all pairs whose boxes overlap, except the last `dropped` of each frame.
