@@ -107,8 +107,9 @@ class Certified final : public NarrowPhase {
   }
 
  private:
-  void solve_pair(const PlacedBody& a, const PlacedBody& b, Task task, const PairBatch& batch,
-                  Outcome& outcome);
+  // A call of it costs pairs far apart 4 % of their instructions.
+  [[gnu::always_inline]] inline void solve_pair(const PlacedBody& a, const PlacedBody& b, Task task,
+                                                const PairBatch& batch, Outcome& outcome);
   bool filter(const PlacedBody& a, const PlacedBody& b, Task task, Outcome& outcome);
   bool fast_gjk_decides(Pair& pair, Outcome& outcome) const;
   bool gjk_distance_decides(Pair& pair, const PlacedBody& a, const PlacedBody& b, Task task,
