@@ -6,7 +6,7 @@
 
 namespace touchstone {
 
-// A call of it would cost a twentieth of a query.
+// It is inlined, since a call costs sat an eighth of its instructions for pairs far apart.
 template <class Scalar>
 [[gnu::always_inline]] inline Mat3<Scalar> cofactor_matrix(const Mat3<Scalar>& m) {
   Mat3<Scalar> cofactors;

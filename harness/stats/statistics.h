@@ -9,7 +9,7 @@
 
 namespace touchstone::stats {
 
-// It stands for a number that there is none of.
+// NaN stands for a number that is not known.
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Returns the middle value, or the mean of the middle two; NaN for none. No value is NaN.

@@ -5,6 +5,7 @@
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
+
 std::vector<NarrowBestRow> narrow_best(const Results& results, Noise noise, const Tables& tables) {
   std::vector<NarrowBestRow> rows;
   for (const SampleSet& set : results.sets) {

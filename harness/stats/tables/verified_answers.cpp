@@ -8,6 +8,7 @@
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
+
 bool is_wrong(const SampleSet& set, const Contestant& contestant) {
   if (set.key.narrow()) {
     return std::ranges::any_of(contestant.checks,

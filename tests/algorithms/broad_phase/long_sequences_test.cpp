@@ -189,7 +189,7 @@ std::string test_name(const testing::TestParamInfo<Sequence>& param) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(SequenceBodies, LongSequences, testing::ValuesIn(sequences), test_name);
+INSTANTIATE_TEST_SUITE_P(Bodies, LongSequences, testing::ValuesIn(sequences), test_name);
 
 TEST_P(LongSequences, AreFollowed) {
   const Sequence& sequence = GetParam();
