@@ -25,10 +25,12 @@
 //          its normalised form if a core has corners) until that makes no progress, and continues
 //          as plain GJK. gjk-switched does so only between bodies without corners that are less
 //          than about their size apart.
-// Answers: never `touching`.
+// Answers: `touching`, with bounds on the signed distance for every task, if the bounds enclose
+//          zero and are at most 2.9e-14 (double) or 1.6e-5 (float) of the pair's unit apart, which
+//          is at most twice its size (kernels/minkowski/resolution).
 // Warm:    gjk starts from a PairMemory, except EPA; the others start cold.
-// Fails:   unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching, relative to
-//          the pair's size. The depth of smooth, nearly round bodies far inside each other reaches
+// Fails:   unknown / not_converged where the bounds enclose zero and are further apart, as between
+//          slivers and between smooth bodies that touch. The depth of smooth, nearly round bodies far inside each other reaches
 //          EPA's cap first: not_converged with bounds.
 // Cost:    O(1) space; a few support calls for each digit on smooth shapes, finite on polytopes.
 //          Caps: 128 iterations of GJK, 256 of EPA. Tolerance relative to the size: 1e-10 (double)

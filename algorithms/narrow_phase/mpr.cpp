@@ -37,7 +37,7 @@ void solve_pair(SupportPair<Scalar>& pair, int max_iterations, Scalar tolerance,
                 Outcome& outcome) {
   using Search = PortalSearch<Scalar>;
   Search search(pair, max_iterations, tolerance);
-  const auto exit = search.decide(outcome);
+  const auto exit = search.decide(task, outcome);
   if (outcome.answer == Answer::overlapping && task == Task::penetration) {
     const typename Search::Depth found =
         exit == Search::Exit::straight

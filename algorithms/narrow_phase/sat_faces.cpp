@@ -18,9 +18,10 @@
 //          certified, and there is no upper one. Witness points are the closest points of the two
 //          supporting features seen along the normal; if an edge pair is shallower they need not
 //          lie on one line along it.
-// Fails:   reports not_converged if the greatest gap is below its rounding error, degenerate for a
-//          solid hull without faces that no tested axis separates, and capacity for one of more
-//          than 16,384 vertices.
+//          If the greatest gap is below its rounding error, the answer is `touching`, with the
+//          lower bound alone.
+// Fails:   reports degenerate for a solid hull without faces that no tested axis separates, and
+//          capacity for one of more than 16,384 vertices.
 // Cost:    O(Fa Vb + Fb Va) time; no memory.
 #include "algorithms/kernels/sat/polytope_query.h"
 #include "algorithms/kernels/sat/separating_axis.h"

@@ -44,6 +44,7 @@ record::RawRow RunContext::row(std::size_t frame, const measure::NarrowChoice& c
   result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
   result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
   if (choice.warm) result.warm = true;
+  if (choice.entry->traits.depth_is_bound) result.depth_bound = true;
   result.phase = record::Phase::narrow;
   return result;
 }

@@ -144,7 +144,11 @@ class Job {
       ++count.compared;
       const Outcome turned_back = to_original(variant, of_variant);
       const double scale = original.scale;
-      if (grade::is_contact(outcome.answer) != grade::is_contact(of_variant.answer)) {
+      const bool takes_sides =
+          !grade::is_within_resolution(outcome) && !grade::is_within_resolution(of_variant);
+      const bool other_side =
+          grade::is_contact(outcome.answer) != grade::is_contact(of_variant.answer);
+      if (takes_sides && other_side) {
         if (original.exact == Answer::separated || original.exact == Answer::overlapping) {
           const double gap = original.exact == Answer::separated ? original.lower : -original.upper;
           ++count.flips;
@@ -152,7 +156,7 @@ class Job {
           count.worst_flip = std::max(count.worst_flip, gap / scale);
           beyond = beyond || (gap / scale >= margins.verdict && !algorithm.traits.approximate);
         }
-      } else if (grade::asks_for_distance(original.task, outcome.answer) &&
+      } else if (!other_side && grade::asks_for_distance(original.task, outcome.answer) &&
                  std::isfinite(outcome.distance) && std::isfinite(turned_back.distance)) {
         const double difference = std::abs(outcome.distance - turned_back.distance) / scale;
         count.worst_difference = std::max(count.worst_difference, difference);

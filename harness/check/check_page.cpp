@@ -33,17 +33,21 @@ std::string sides_of_contact(const GroupedCounts& grouped) {
       "status does not tell. *Given* is against the exact answer for the bits that the "
       "algorithm was given, after conversion to float or to a quaternion; *end to end* is "
       "against the pair as the case has it. *Margin* is the greatest exact distance or depth "
-      "of a pair that was called wrongly; an honest "
-      "failure is one that the algorithm told of, up to that distance or depth. Pairs that touch "
-      "exactly are not scored: the column "
+      "of a pair that was called wrongly. *Within resolution* are answers `touching` with bounds "
+      "on "
+      "the signed distance: they are right if the bounds hold, and take no side; *width* is the "
+      "greatest distance of the bounds. An honest "
+      "failure is one that the status states, up to that distance or depth. Pairs that touch "
+      "exactly are not scored otherwise: the column "
       "says how many of them were called contact.\n\n";
   base::Table table({"algorithm", "answers", "silent, given", "margin", "silent, end to end",
-                     "margin", "honest failures", "up to", "status says nothing", "crashed", "hung",
-                     "touching: contact"});
+                     "margin", "within resolution", "width", "honest failures", "up to",
+                     "status says nothing", "crashed", "hung", "touching: contact"});
   for (const auto& [label, totals] : grouped.totals()) {
     const grade::AnswerCount& a = totals.answers;
     table.add({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
-               count(a.silent_end), digits(a.margin_end), count(a.honest), digits(a.honest_margin),
+               count(a.silent_end), digits(a.margin_end), count(a.within_resolution),
+               digits(a.resolution), count(a.honest), digits(a.honest_margin),
                count(a.not_reported), count(a.crashed), count(a.timed_out),
                fmt::format("{} of {}", a.touching_contact, a.touching)});
   }

@@ -16,14 +16,15 @@ namespace {
 std::string count(std::int64_t n) { return std::to_string(n); }
 
 base::Table summary_table(const GroupedCounts& grouped) {
-  base::Table table({"", "answers", "silent", "margin", "honest", "unsaid", "lost", "gap", "deep",
-                     "shallow", "stuck", "bounds", "flips", "beyond"});
+  base::Table table({"", "answers", "silent", "margin", "near", "width", "honest", "unsaid", "lost",
+                     "gap", "deep", "shallow", "stuck", "bounds", "flips", "beyond"});
   for (const auto& [label, totals] : grouped.totals()) {
     const grade::AnswerCount& a = totals.answers;
     table.add({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
-               count(a.honest), count(a.not_reported), count(a.crashed + a.timed_out),
-               digits(a.distance), digits(a.too_deep), digits(a.too_shallow),
-               digits(a.does_not_separate), count(a.bounds), count(totals.flips.flips),
+               count(a.within_resolution), digits(a.resolution), count(a.honest),
+               count(a.not_reported), count(a.crashed + a.timed_out), digits(a.distance),
+               digits(a.too_deep), digits(a.too_shallow), digits(a.does_not_separate),
+               count(a.bounds), count(totals.flips.flips),
                grouped.is_ours(label) ? count(a.beyond + totals.flips.beyond) : "-"});
   }
   return table;
@@ -33,12 +34,15 @@ constexpr std::size_t shown_lines = 30;  // lines shown of faults of ours
 
 constexpr std::string_view summary_key =
     "silent: on the wrong side of contact, with a status that does not tell; margin: the greatest\n"
-    "exact |signed distance| of those; honest: failures that were told; unsaid: answers whose\n"
-    "status says nothing; lost: crashed or hung; gap, too deep, shallow: the greatest errors of\n"
-    "distance and depth; stuck: by how far the reported translation does not separate; bounds:\n"
-    "certified bounds that miss the exact value; flips: other answers to the same pair in another\n"
-    "form; beyond: ours, beyond the documented margins. All against the exact answer for the bits\n"
-    "that the algorithm was given; lengths as parts of the pair's size.\n";
+    "exact |signed distance| of those; near: answers `touching` within bounds on the signed\n"
+    "distance, which are right if these hold; width: the greatest distance of the bounds; honest:\n"
+    "failures that were told; unsaid: answers whose status says nothing; lost: crashed or hung;\n"
+    "gap, deep, shallow: the greatest errors of distance and depth; stuck: by how far the "
+    "reported\n"
+    "translation does not separate; bounds: certified bounds that miss the exact value; flips:\n"
+    "other answers to the same pair in another form; beyond: ours, beyond the documented margins.\n"
+    "All against the exact answer for the bits that the algorithm was given; lengths as parts of\n"
+    "the pair's size.\n";
 
 }  // namespace
 

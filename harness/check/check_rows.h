@@ -46,6 +46,8 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
         "Length that the reported direction needs beyond the least, metres.");
   visit("bounds_error", row.given.bounds_error,
         "Length by which certified bounds miss the exact value, metres.");
+  visit("resolution", record::newer(row.given.resolution),
+        "Distance between the bounds of an answer `touching`, metres.");
   visit("end_margin", row.end_to_end.margin, "margin, against the case.");
   visit("end_distance_error", row.end_to_end.distance_error, "distance_error, against the case.");
   visit("end_depth_error", row.end_to_end.depth_error, "depth_error, against the case.");

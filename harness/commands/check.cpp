@@ -9,6 +9,7 @@
 #include "harness/campaign/selection.h"
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
+#include "harness/check/regimes/select_regimes.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -23,40 +24,6 @@ struct CheckOptions {
   check::CheckRequest request;
 };
 
-// Returns the regimes of these names and of these groups, or all if both are empty.
-std::vector<const check::Regime*> chosen_regimes(const std::string& names,
-                                                 const std::string& groups) {
-  std::vector<std::string> wanted, wanted_groups;
-  if (!names.empty()) wanted = campaign::split_names(names);
-  if (!groups.empty()) wanted_groups = campaign::split_names(groups);
-  const auto expect = [](std::string_view what, const std::vector<std::string>& asked,
-                         std::string check::Regime::*field) {
-    for (const std::string& name : asked) {
-      std::string known;
-      bool found = false;
-      for (const check::Regime& regime : check::regimes()) {
-        const std::string& own = regime.*field;
-        found = found || own == name;
-        if (known.find(own + ",") == std::string::npos) known += own + ", ";
-      }
-      if (found) continue;
-      throw base::InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name,
-                                         known.substr(0, known.size() - 2)));
-    }
-  };
-  expect("regime", wanted, &check::Regime::name);
-  expect("group of regimes", wanted_groups, &check::Regime::group);
-  std::vector<const check::Regime*> chosen;
-  const bool all = wanted.empty() && wanted_groups.empty();
-  for (const check::Regime& regime : check::regimes()) {
-    if (all || std::ranges::find(wanted, regime.name) != wanted.end() ||
-        std::ranges::find(wanted_groups, regime.group) != wanted_groups.end()) {
-      chosen.push_back(&regime);
-    }
-  }
-  return chosen;
-}
-
 int verify(const std::string& file) {
   const check::CertificateVerdicts verdicts = check::verify_certificates(file);
   for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
@@ -70,7 +37,7 @@ int check(CheckOptions& options, const std::string& command) {
   request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
   request.broad =
       campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
-  request.regimes = chosen_regimes(options.regimes, options.groups);
+  request.regimes = check::select_regimes(options.regimes, options.groups);
   request.out = results_folder(options.out, "check");
   if (!options.page.empty()) files::check_output(options.page);
   if (!options.saved.empty()) {

@@ -8,6 +8,7 @@
 
 #include "harness/base/table.h"
 #include "harness/campaign/selection.h"
+#include "harness/check/regimes/select_regimes.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -16,7 +17,7 @@ namespace touchstone::commands {
 namespace {
 
 struct SoakOptions {
-  std::string narrow = "certified", out;
+  std::string narrow = "certified", regimes, groups, out;
   check::SoakRequest request;
 };
 
@@ -45,7 +46,7 @@ int soak(SoakOptions& options) {
   request.narrow =
       campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
   request.out = results_folder(options.out, "soak");
-  for (const check::Regime& regime : check::regimes()) request.regimes.push_back(&regime);
+  request.regimes = check::select_regimes(options.regimes, options.groups);
   const check::SoakResult result = check::run_soak(request);
   print(request, result);
   fmt::print("\nBy regime: {}\n", (request.out / "soak.csv").string());
@@ -61,6 +62,8 @@ void add_soak(Arguments command) {
   command.number("--pairs", request.pairs, "Pairs in all, spread over the regimes")
       .within(1, 1'000'000'000'000)
       .show_default();
+  command.text("--regimes", options->regimes, "Regimes: names joined by commas");
+  command.text("--group,--groups", options->groups, "Groups of regimes, joined by commas");
   command.job([options] { return soak(*options); });
 }
 

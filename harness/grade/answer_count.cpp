@@ -11,7 +11,8 @@ void keep_greater(double& worst, double value) {
 }
 
 AnswerCount::AnswerCount()
-    : honest_margin(Grade::none),
+    : resolution(Grade::none),
+      honest_margin(Grade::none),
       margin(Grade::none),
       margin_end(Grade::none),
       distance(Grade::none),
@@ -44,6 +45,8 @@ void AnswerCount::add(const GradedAnswer& answer) {
     ++touching;
     if (is_contact(answer.answer)) ++touching_contact;
   }
+  if (!std::isnan(given.resolution)) ++within_resolution;
+  keep_greater(resolution, given.resolution / scale);
   if (given.bounds_error > 0) ++bounds;
   if (answer.witnesses.not_a_number) ++not_a_number;
   if (answer.beyond) ++beyond;
@@ -73,16 +76,17 @@ void AnswerCount::add(const AnswerCount& other) {
   for (const auto count :
        {&AnswerCount::answers, &AnswerCount::not_reported, &AnswerCount::silent,
         &AnswerCount::silent_end, &AnswerCount::honest, &AnswerCount::crashed,
-        &AnswerCount::timed_out, &AnswerCount::touching, &AnswerCount::touching_contact,
-        &AnswerCount::bounds, &AnswerCount::not_a_number, &AnswerCount::beyond}) {
+        &AnswerCount::timed_out, &AnswerCount::within_resolution, &AnswerCount::touching,
+        &AnswerCount::touching_contact, &AnswerCount::bounds, &AnswerCount::not_a_number,
+        &AnswerCount::beyond}) {
     this->*count += other.*count;
   }
   for (const auto worst :
-       {&AnswerCount::honest_margin, &AnswerCount::margin, &AnswerCount::margin_end,
-        &AnswerCount::distance, &AnswerCount::distance_end, &AnswerCount::too_deep,
-        &AnswerCount::too_shallow, &AnswerCount::depth_end, &AnswerCount::does_not_separate,
-        &AnswerCount::excess, &AnswerCount::bounds_missed, &AnswerCount::witness,
-        &AnswerCount::witness_length, &AnswerCount::normal}) {
+       {&AnswerCount::resolution, &AnswerCount::honest_margin, &AnswerCount::margin,
+        &AnswerCount::margin_end, &AnswerCount::distance, &AnswerCount::distance_end,
+        &AnswerCount::too_deep, &AnswerCount::too_shallow, &AnswerCount::depth_end,
+        &AnswerCount::does_not_separate, &AnswerCount::excess, &AnswerCount::bounds_missed,
+        &AnswerCount::witness, &AnswerCount::witness_length, &AnswerCount::normal}) {
     keep_greater(this->*worst, other.*worst);
   }
 }

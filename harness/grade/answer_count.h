@@ -17,11 +17,13 @@ struct AnswerCount {
   std::int64_t honest = 0;        // failures that the algorithm reports as such
   std::int64_t crashed = 0;
   std::int64_t timed_out = 0;
-  std::int64_t touching = 0;          // answers about bodies that touch exactly
-  std::int64_t touching_contact = 0;  // number of these that are contact
-  std::int64_t bounds = 0;            // certified bounds that miss the exact value
+  std::int64_t within_resolution = 0;  // `touching` within bounds on the signed distance
+  std::int64_t touching = 0;           // answers about bodies that touch exactly
+  std::int64_t touching_contact = 0;   // number of these that are contact
+  std::int64_t bounds = 0;             // certified bounds that miss the exact value
   std::int64_t not_a_number = 0;
   std::int64_t beyond = 0;        // answers of ours beyond the documented margins
+  double resolution;              // distance between the bounds of `touching`
   double honest_margin;           // exact |signed distance| of an honest failure
   double margin, margin_end;      // exact |signed distance| with a wrong verdict
   double distance, distance_end;  // |error| of a gap

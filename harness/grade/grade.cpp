@@ -75,6 +75,7 @@ Verdict judge(const Outcome& outcome, Answer exact, Touching touching) {
     default: break;
   }
   if (!stands_by(outcome)) return Verdict::honest_failure;
+  if (is_within_resolution(outcome)) return Verdict::right;
   if (exact == Answer::unknown) return Verdict::unscored;
   if (exact == Answer::touching && touching == Touching::unscored) return Verdict::unscored;
   return is_contact(outcome.answer) == is_contact(exact) ? Verdict::right : Verdict::silent_error;
@@ -89,6 +90,10 @@ bool asks_for_distance(Task task, Answer answer) {
 double least_magnitude(double lower, double upper) {
   if (lower > 0) return lower;
   return upper < 0 ? -upper : 0;
+}
+
+bool is_within_resolution(const Outcome& outcome) {
+  return outcome.answer == Answer::touching && outcome.lower <= 0 && outcome.upper >= 0;
 }
 
 bool stands_by(const Outcome& outcome) {
@@ -108,6 +113,7 @@ Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, con
     default: break;
   }
   grade.bounds_error = bounds_error(outcome, exact);
+  if (is_within_resolution(outcome)) grade.resolution = outcome.upper - outcome.lower;
   if (!stands_by(outcome) || !asks_for_distance(task, outcome.answer)) return grade;
   // The number has nothing to be compared with if the exact answer is on the other side of contact.
   const bool both_apart = task == Task::distance && !(exact.upper < 0);

@@ -26,11 +26,14 @@ inline bool is_contact(Answer answer) {
 }
 // Returns whether the algorithm gave an answer, and either stands by it or reports no status.
 bool stands_by(const Outcome& outcome);
+// Returns whether the answer is `touching` within bounds on the signed distance (core/outcome.h).
+bool is_within_resolution(const Outcome& outcome);
 
 // The treatment of bodies that touch exactly: their answers are not scored, or they are in contact.
 enum class Touching : std::uint8_t { unscored, contact };
 // Judges the side of contact; all judgements in the project use this function. The caller applies
-// the band in which a wrong side is tolerated: see margins.h.
+// the band in which a wrong side is tolerated: see margins.h. `touching` within bounds takes no side:
+// it is right, and its bounds are graded.
 Verdict judge(const Outcome& outcome, Answer exact, Touching touching = Touching::unscored);
 
 // Lengths in metres. A number is NaN if the task does not ask for it, the algorithm does not report
@@ -52,6 +55,7 @@ struct Grade {
   // h(n)/|n| less the exact depth (or plus the gap): > 0 if the direction is not the best.
   double excess = none;
   double bounds_error = none;  // distance by which the certified bounds miss; 0 is right
+  double resolution = none;    // `touching` within bounds: the distance between these
 };
 
 // Grades an outcome against the exact answer for two bodies. Touching and overlapping are one side

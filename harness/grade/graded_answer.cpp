@@ -60,7 +60,10 @@ GradedAnswer grade_answer(const NarrowPhaseEntry& algorithm, bool extreme, const
     answer.given = grade(outcome, query.task, given.measure, given.pair.a(), given.pair.b());
   }
   answer.size = pair_size(c.pair());
-  answer.scale = std::max(answer.size, coordinate_share * greatest_coordinate(c.pair()));
+  // Two points at one place have no size; their answers have bounds, in the least unit there is.
+  constexpr double least_scale = 0x1p-900;
+  answer.scale =
+      std::max({answer.size, coordinate_share * greatest_coordinate(c.pair()), least_scale});
   for (const double end_of : {answer.lower, answer.upper, answer.given_lower, answer.given_upper}) {
     if (std::isfinite(end_of)) answer.scale = std::max(answer.scale, std::abs(end_of));
   }

@@ -6,8 +6,10 @@
 namespace touchstone::grade {
 
 Margins documented_margins(Precision scalar, bool extreme) {
-  if (scalar == Precision::float32) return {.verdict = extreme ? 1e-4 : 1e-5, .length = 1e-4};
-  return {.verdict = extreme ? 1e-9 : 1e-12, .length = 1e-9};
+  if (scalar == Precision::float32) {
+    return {.verdict = extreme ? 1e-4 : 1e-5, .length = 1e-4, .resolution = 4e-5};
+  }
+  return {.verdict = extreme ? 1e-9 : 1e-12, .length = 1e-9, .resolution = 6e-14};
 }
 
 double grazing_band(double size, double reach, Precision scalar) {

@@ -36,7 +36,8 @@ bool is_wrong(const NarrowPhaseEntry& entry, const GradedAnswer& answer, const G
               bool extreme) {
   const Margins margins = documented_margins(answer.scalar, extreme);
   bool wrong = is_wrong_side(entry, answer, grade) || answer.witnesses.not_a_number ||
-               grade.bounds_error > margins.verdict * answer.scale;
+               grade.bounds_error > margins.verdict * answer.scale ||
+               grade.resolution > margins.resolution * answer.scale;
   for_each_length(entry, answer, grade, margins, [&](const char*, double error, double margin) {
     wrong = wrong || error > margin * answer.scale;
   });
@@ -101,6 +102,7 @@ std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& an
          grade.margin, margins.verdict);
   }
   test("the certified bounds miss the exact value", grade.bounds_error, margins.verdict);
+  test("called touching within bounds that are apart", grade.resolution, margins.resolution);
   for_each_length(entry, answer, grade, margins, test);
   if (answer.witnesses.not_a_number) remarks.add("a reported number is NaN or infinite");
   return remarks.text();

@@ -92,6 +92,8 @@ struct RawRow {
   std::string noise, words, stop;
   // True if the narrow phase started from the memory that the frames before left.
   std::optional<bool> warm;
+  // True if the narrow phase's depth is that of some translation that separates, by design.
+  std::optional<bool> depth_bound;
 
   void take(const BroadPhaseWork& work);
 
@@ -229,6 +231,9 @@ void columns(Row& row, Visit visit) {
   visit("warm", newer(row.warm),
         "1 for a narrow phase that starts from what it kept of each pair; its label ends in "
         "` warm`.");
+  visit("depth_bound", newer(row.depth_bound),
+        "1 for a narrow phase whose depth is an upper bound by design: that of some translation "
+        "that separates the bodies, in general not the least.");
 }
 
 // Returns a narrow phase with its settings, as the tables name it: "gjk double", "gjk double

@@ -141,6 +141,7 @@ class Reader {
       found = at != set.contestants.end() ? &*at : &set.contestants.emplace_back();
     }
     found->label = label;
+    if (row.depth_bound.value_or(false)) found->depth_is_bound = true;
     if (!found->origin) {
       found->origin = row.origin;
       if (!row.origin && origin_of_) {

@@ -115,6 +115,7 @@ struct Fault {
   std::string what;                   // the first departure
   std::size_t more = 0;               // the number of further departures
   double worst_error = std::nan("");  // error of a distance or depth beyond the stated error
+  bool is_bound = false;              // of a depth that is an upper bound by design
   std::int64_t unknown = 0, queries = 0;
 };
 
@@ -143,6 +144,7 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     if (!off && (row.unknown == 0 || !ours)) continue;
     Fault& fault = fault_of(row.label, ours);
     if (off) fault.worst_error = std::fmax(fault.worst_error, row.worst_error);
+    fault.is_bound = fault.is_bound || (row.depth_is_bound && row.key.task == "penetration");
     fault.unknown += row.unknown;
     fault.queries += row.queries;
   }
@@ -161,7 +163,9 @@ std::string line_of(const Fault& fault) {
   }
   if (!std::isnan(fault.worst_error)) {
     words.push_back(
-        fmt::format("distance or depth off by up to {:.2g} of the size", fault.worst_error));
+        fmt::format("{} off by up to {:.2g} of the size",
+                    fault.is_bound ? "depth, an upper bound by design," : "distance or depth",
+                    fault.worst_error));
   }
   if (fault.unknown > 0) {
     words.push_back(fmt::format("{} of {} answers unknown", fault.unknown, fault.queries));

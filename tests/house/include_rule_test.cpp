@@ -73,7 +73,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"minkowski", {"simd"}},
     {"epa", {"minkowski", "simd"}},
     {"gjk", {"epa", "minkowski", "simd"}},
-    {"mpr", {"minkowski"}},
+    {"mpr", {"gjk", "minkowski"}},
     {"sat", {"minkowski", "simd"}},
     {"batch", {"minkowski", "simd"}},
 };
@@ -137,8 +137,8 @@ bool may_include(const std::string& from, const std::string& to) {
   if (in(from, "algorithms/peers")) return in(to, "algorithms/peers") && to.ends_with(".h");
   // Asks the oracle where its doubles prove nothing. What the oracle grades is then its own answer:
   // that the doubles are never wrong is what is left to check of it.
-  if (from == "algorithms/narrow_phase/certified/certified.cpp" &&
-      to == "algorithms/oracle/answer.h") {
+  if (in(from, "algorithms/narrow_phase/certified") &&
+      (to == "algorithms/oracle/answer.h" || to == "algorithms/oracle/solid.h")) {
     return true;
   }
   if (is_in_algorithms(from)) {

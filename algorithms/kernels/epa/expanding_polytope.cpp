@@ -38,6 +38,7 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(SupportPair<Scalar>& pair,
     return result;
   }
 
+  result.has_surface = true;
   std::array<int, 3> best{};  // corners of the last face that lowered the upper bound
   Scalar held = infinity;     // the nearest face that cannot be expanded
   result.end = ExpansionEnd::cap;

@@ -63,6 +63,7 @@ struct Expansion {
   Vec3<Scalar> a = Vec3<Scalar>::Zero();        // the points of the cores with
   Vec3<Scalar> b = Vec3<Scalar>::Zero();        // a - b = depth * normal
   int iterations = 0;
+  bool has_surface = false;  // surface() is that of this call
 };
 
 template <class Scalar>
@@ -74,6 +75,9 @@ class ExpandingPolytope {
   // The simplex may have any size and contains the origin, possibly on its boundary up to rounding.
   Expansion<Scalar> expand(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex,
                            const ExpansionGoal<Scalar>& goal);
+
+  // The closed surface that the last call left, if its result says that it has one.
+  const EpaHull<Scalar>& surface() const { return surface_; }
 
  private:
   bool grow_to_tetrahedron(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex,

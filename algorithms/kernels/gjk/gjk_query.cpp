@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "algorithms/kernels/minkowski/resolution.h"
+#include "algorithms/kernels/minkowski/simplex_face.h"
+
 namespace touchstone {
 namespace {
 
@@ -20,6 +23,35 @@ void write(const SupportPair<Scalar>& pair, Scalar distance, Scalar lower, Scala
   outcome.normal = normal.template cast<double>();
   outcome.witness_a = pair.to_world(a + pair.radius_a() * normal);
   outcome.witness_b = pair.to_world(b - pair.radius_b() * normal);
+}
+
+// Writes `touching` and returns true if the bounds on the signed distance, in the pair's unit, allow
+// it.
+template <class Scalar>
+bool write_if_touching(const SupportPair<Scalar>& pair, Scalar lower, Scalar upper,
+                       Outcome& outcome) {
+  constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
+  const double unit = pair.unit();
+  return write_if_touching(unit * (static_cast<double>(lower) - rounding),
+                           unit * (static_cast<double>(upper) + rounding),
+                           unit * resolution<Scalar>, outcome);
+}
+
+// Writes `touching` and returns true if cores without radius touch in the plane of a triangle of the
+// simplex: its points bound the signed distance from above, the support along its normal from below.
+template <class Scalar>
+bool is_at_a_face(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex, Outcome& outcome) {
+  constexpr Scalar near = 2 * SupportPair<Scalar>::rounding;
+  if (pair.radius() > 0) return false;
+  const auto face = nearest_face(simplex, Vec3<Scalar>(-pair.centre_b()));
+  if (!face || face->distance > near) return false;
+  Simplex<Scalar> triangle;
+  triangle.size = 3;
+  for (std::size_t k = 0; k < 3; ++k) triangle.points[k] = simplex.points[face->corners[k]];
+  const Scalar upper = reduce_to_nearest(triangle).distance;
+  if (upper > near) return false;
+  const Scalar height = face->normal.dot(pair.support(face->normal).difference);
+  return write_if_touching(pair, std::min(-height, Scalar{0}), upper, outcome);
 }
 
 }  // namespace
@@ -88,21 +120,20 @@ void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStar
     outcome.answer = lower > rounding    ? Answer::separated
                      : upper < -rounding ? Answer::overlapping
                                          : Answer::unknown;
+    const bool touching =
+        outcome.answer == Answer::unknown && write_if_touching(pair, lower, upper, outcome);
     const bool asked = (task == Task::distance && outcome.answer != Answer::overlapping) ||
                        (task == Task::penetration && outcome.answer != Answer::separated);
     // A bound that the answer did not need may be open.
-    const bool known = outcome.answer != Answer::unknown &&
-                       (!asked || !goal.is_open(pair, found.nearest.distance, found.lower));
+    const bool known =
+        touching || (outcome.answer != Answer::unknown &&
+                     (!asked || !goal.is_open(pair, found.nearest.distance, found.lower)));
     outcome.status = known ? Status::ok : Status::not_converged;
     if (asked) {
-      Vec3<Scalar> a = Vec3<Scalar>::Zero();
-      Vec3<Scalar> b = Vec3<Scalar>::Zero();
-      for (int i = 0; i < found.simplex.size; ++i) {
-        a += found.simplex.weights[i] * found.simplex.points[i].a;
-        b += found.simplex.weights[i] * found.simplex.points[i].b;
-      }
+      const DifferencePoint<Scalar> nearest = weighted_mean(found.simplex);
       const Vec3<Scalar> normal = -found.nearest.direction;
-      write(pair, found.nearest.distance - pair.radius(), lower, upper, normal, a, b, outcome);
+      write(pair, found.nearest.distance - pair.radius(), lower, upper, normal, nearest.a, nearest.b,
+            outcome);
     }
   }
   outcome.support_calls = pair.support_calls();
@@ -113,16 +144,18 @@ template <class Scalar>
 void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
                                      const GjkDistanceResult<Scalar>& found, Task task,
                                      Outcome& outcome) {
-  constexpr Scalar open = 4 * rounding;  // a reported contact may have a gap up to this
   const Scalar radius = pair.radius();
+  // A bound on the cores' distance.
+  const Scalar nearest = found.nearest.inside ? Scalar{0} : distance_from_origin(found.simplex);
   const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
-  const bool on_core = !found.nearest.inside && distance_from_origin(found.simplex) <= 4 * rounding;
+  const bool on_core = !found.nearest.inside && nearest <= 4 * rounding;
   const bool proven = inside_core || (on_core && radius > 8 * rounding);
   if (proven && task != Task::penetration) {
     outcome.answer = Answer::overlapping;
     outcome.status = Status::ok;
     return;
   }
+  if (task == Task::intersect && is_at_a_face(pair, found.simplex, outcome)) return;
   ExpansionGoal<Scalar> goal{.tolerance = tolerance(pair.is_polytope()),
                              .doubtful = !inside_core && !on_core};
   if (task != Task::penetration) goal.enough = rounding;
@@ -140,11 +173,12 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
   outcome.status = Status::not_converged;
   if (inside && (known || task != Task::penetration)) outcome.status = Status::ok;
   if (!inside && depth.end == ExpansionEnd::flat) outcome.status = Status::degenerate;
-  if (task == Task::intersect || (inside && task == Task::distance)) return;
+  const Scalar lower = -(radius + depth.upper);
   // If the origin may be outside the polytope, its faces give no bound from the other side.
-  const Scalar least = inside ? radius + depth.lower : std::min(radius + depth.lower, -open);
-  write(pair, -(radius + depth.upper), -(radius + depth.upper), -least, depth.normal, depth.a,
-        depth.b, outcome);
+  const Scalar upper = inside ? -(radius + depth.lower) : nearest - radius;
+  if (!inside) write_if_touching(pair, lower, upper, outcome);
+  if (task == Task::intersect || (inside && task == Task::distance)) return;
+  write(pair, lower, lower, upper, depth.normal, depth.a, depth.b, outcome);
 }
 
 template class GjkQuery<float>;

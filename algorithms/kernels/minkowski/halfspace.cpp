@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "algorithms/core/cofactors.h"
+#include "algorithms/kernels/minkowski/resolution.h"
 
 namespace touchstone {
 namespace {
@@ -37,14 +38,19 @@ WorldPlane world_plane(const SupportShape<Scalar>& halfspace, const Pose& pose) 
 // Relative rounding of lengths that cancel.
 constexpr Wide wide_rounding = 64 * std::numeric_limits<Wide>::epsilon();
 
-// Writes the results that the task asks for. Lengths are in metres; `normal` is from a to b; `on_a`
-// is the witness point on a.
-void answer(Task task, double distance, double rounding, const Vec3d& normal, const Vec3d& on_a,
-            Outcome& outcome) {
+// Writes the results that the task asks for. Lengths are in metres; `widest` is the resolution;
+// `normal` is from a to b; `on_a` is the witness point on a.
+void answer(Task task, double distance, double rounding, double widest, const Vec3d& normal,
+            const Vec3d& on_a, Outcome& outcome) {
   const bool apart = distance > rounding;
   const bool common = distance < -rounding;
-  outcome.answer = apart ? Answer::separated : common ? Answer::overlapping : Answer::unknown;
-  outcome.status = apart || common ? Status::ok : Status::not_converged;
+  if (apart || common) {
+    outcome.answer = apart ? Answer::separated : Answer::overlapping;
+    outcome.status = Status::ok;
+  } else if (!write_if_touching(distance - rounding, distance + rounding, widest, outcome)) {
+    outcome.answer = Answer::unknown;
+    outcome.status = Status::not_converged;
+  }
   if (task == Task::intersect || (task == Task::distance && common) ||
       (task == Task::penetration && apart)) {
     return;
@@ -84,7 +90,8 @@ void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
                                                 static_cast<double>(turned.radius()) * normal);
   constexpr double rounding = static_cast<double>(SupportPair<Scalar>::rounding);
   answer(task, static_cast<double>(distance) * unit,
-         rounding * unit + static_cast<double>(wide_rounding * lengths), normal, on_a, outcome);
+         rounding * unit + static_cast<double>(wide_rounding * lengths), unit * resolution<Scalar>,
+         normal, on_a, outcome);
   outcome.iterations = 0;
   outcome.support_calls = 1;
 }
@@ -109,8 +116,8 @@ void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
   const double size =
       static_cast<double>(std::max({std::abs(height_a), std::abs(place_b), std::abs(height_b)}));
   const Vec3d normal = normal_a.template cast<double>();
-  answer(task, static_cast<double>(height_b - height_a), rounding * size, normal,
-         pose_a.translation + static_cast<double>(height_a) * normal, outcome);
+  answer(task, static_cast<double>(height_b - height_a), rounding * size, size * resolution<Scalar>,
+         normal, pose_a.translation + static_cast<double>(height_a) * normal, outcome);
 }
 
 template void solve_halfspace(const SupportShape<float>&, const Pose&, const SupportShape<float>&,

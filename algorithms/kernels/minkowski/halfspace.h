@@ -12,7 +12,8 @@
 namespace touchstone {
 
 // Solves a pair of a bounded body a and a half-space b. The distance is exact up to rounding. If
-// rounding hides its sign, the answer is `unknown` and the status `not_converged`.
+// rounding hides its sign, the answer is `touching` with bounds (resolution.h), or `unknown` with the
+// status `not_converged` if the bounds are too far apart for that.
 template <class Scalar>
 void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b, Task task,

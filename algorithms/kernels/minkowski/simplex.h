@@ -36,6 +36,18 @@ struct NearestPoint {
   Vec3<Scalar> direction = Vec3<Scalar>::Zero();
 };
 
+// Returns the point with the simplex's weights.
+template <class Scalar>
+DifferencePoint<Scalar> weighted_mean(const Simplex<Scalar>& simplex) {
+  DifferencePoint<Scalar> mean{Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero(), Vec3<Scalar>::Zero()};
+  for (int i = 0; i < simplex.size; ++i) {
+    mean.difference += simplex.weights[i] * simplex.points[i].difference;
+    mean.a += simplex.weights[i] * simplex.points[i].a;
+    mean.b += simplex.weights[i] * simplex.points[i].b;
+  }
+  return mean;
+}
+
 // Reduces the simplex to the vertices of the feature that contains the nearest point. If the origin
 // is inside, all four remain and the weights are not set.
 template <class Scalar>

@@ -79,8 +79,8 @@ struct SupportShape {
 template <class Scalar>
 std::vector<SupportShape<Scalar>> make_support_shapes(std::span<const Shape> shapes);
 
-// The least power of two above a length, so that length / result is in [1/2, 1); 1 for zero.
-// Clamped so that the result and its inverse are normal numbers.
+// The least power of two above a length, so that length / result is in [1/2, 1).
+// Clamped so that the result and its inverse are normal numbers; the least of these for zero.
 double power_of_two_above(double length);
 
 }  // namespace touchstone

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "algorithms/kernels/gjk/gjk_iteration.h"
+#include "algorithms/kernels/minkowski/resolution.h"
+#include "algorithms/kernels/minkowski/simplex.h"
+
 namespace touchstone {
 
 template <class Scalar>
@@ -21,23 +25,96 @@ DifferencePoint<Scalar> PortalSearch<Scalar>::support(const Vec3<Scalar>& direct
 }
 
 template <class Scalar>
-typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::decide(Outcome& outcome) {
-  const Vec3<Scalar> inside = -pair_.centre_b();
-  const bool coincident = inside.norm() <= rounding;
-  start_ = {inside, Vec3<Scalar>::Zero(), pair_.centre_b()};
-  ray_ = coincident ? Vec3<Scalar>::UnitX() : Vec3<Scalar>(-inside.normalized());
-  Exit exit = discover(support(ray_));
-  if (exit == Exit::done && !separated_) exit = refine(Goal::origin);
-  outcome.status = Status::ok;
-  if (separated_) {
-    outcome.answer = Answer::separated;
-  } else if ((exit == Exit::straight || coincident || origin_is_inside()) && depth_ > rounding) {
-    outcome.answer = Answer::overlapping;
-  } else {
-    outcome.answer = Answer::unknown;
-    outcome.status = Status::not_converged;
+typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::decide(Task task, Outcome& outcome) {
+  start_ = {-pair_.centre_b(), Vec3<Scalar>::Zero(), pair_.centre_b()};
+  outcome.answer = Answer::unknown;
+  outcome.status = Status::not_converged;
+  Exit exit = Exit::stuck;
+  for (int attempt = 0; attempt < most_starts; ++attempt) {
+    const Vec3<Scalar> inside = start_.difference;
+    const bool coincident = inside.norm() <= rounding;
+    ray_ = coincident ? Vec3<Scalar>::UnitX() : Vec3<Scalar>(-inside.normalized());
+    exit = discover(support(ray_));
+    if (exit == Exit::done && !separated_) exit = refine(Goal::origin);
+    if (separated_) {
+      outcome.answer = Answer::separated;
+      outcome.status = Status::ok;
+      return exit;
+    }
+    if (exit == Exit::stuck) break;
+    if (depth_ > rounding && origin_is_surely_inside(exit)) {
+      outcome.answer = Answer::overlapping;
+      outcome.status = Status::ok;
+      return exit;
+    }
+    if (is_touching(exit, task, outcome)) return exit;
+    move_start();
   }
   return exit;
+}
+
+// Writes `touching` and returns true if the bounds on the signed distance are near enough: from
+// below that of a support plane along the normal, from above that of the start or the portal.
+template <class Scalar>
+bool PortalSearch<Scalar>::is_touching(Exit exit, Task task, Outcome& outcome) {
+  Simplex<Scalar> near;
+  near.size = exit == Exit::straight ? 1 : 3;
+  std::ranges::copy(portal_, near.points.begin());
+  Scalar off = reduce_to_nearest(near).distance;
+  if (start_.difference.norm() < off) {
+    off = start_.difference.norm();
+    near = {};
+    near.size = 1;
+    near.points[0] = start_;
+    near.weights[0] = 1;
+  }
+  if (!(off <= 4 * rounding) || normal_.isZero(0)) return false;
+  const Scalar height = support(normal_).difference.dot(normal_);
+  const double unit = pair_.unit();
+  if (!write_if_touching(-unit * static_cast<double>(std::max(height, Scalar{0}) + rounding),
+                         unit * static_cast<double>(off + rounding), unit * resolution<Scalar>,
+                         outcome)) {
+    return false;
+  }
+  if (task == Task::intersect) return true;
+  outcome.distance = (outcome.lower + outcome.upper) / 2;
+  outcome.normal = normal_.template cast<double>().normalized();
+  const Point nearest = weighted_mean(near);
+  outcome.witness_a = pair_.to_world(nearest.a);
+  outcome.witness_b = pair_.to_world(nearest.b);
+  return true;
+}
+
+// Moves the start inside of C, so that the ray no longer passes an edge or a corner of the portal.
+// Three parts that differ make it unlikely that the new one does, even where C is symmetric.
+template <class Scalar>
+void PortalSearch<Scalar>::move_start() {
+  const Vec3<Scalar> side = ray_.unitOrthogonal();
+  const auto move = [&](double share, const Vec3<Scalar>& direction) {
+    const Point to = pair_.support(direction);
+    const auto part = static_cast<Scalar>(share);
+    start_.difference += part * (to.difference - start_.difference);
+    start_.a += part * (to.a - start_.a);
+    start_.b += part * (to.b - start_.b);
+  };
+  move(0.28, side);
+  move(0.17, ray_.cross(side));
+  move(0.07, -ray_);
+}
+
+// Returns true if the start and the portal contain the origin whatever rounding did to them. Where
+// the ray leaves C at a single point, they do so if the ball around the start, which is as large as
+// the radii, reaches far enough.
+template <class Scalar>
+bool PortalSearch<Scalar>::origin_is_surely_inside(Exit exit) const {
+  if (exit == Exit::straight) {
+    const Scalar length = from_start(portal_[0]).norm();
+    return depth_ * pair_.radius() > 4 * rounding * (length + pair_.radius());
+  }
+  Simplex<Scalar> simplex;
+  simplex.size = 4;
+  simplex.points = {portal_[0], portal_[1], portal_[2], start_};
+  return is_surely_inside(simplex);
 }
 
 template <class Scalar>
@@ -172,6 +249,7 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::turn() {
 
 template <class Scalar>
 typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::refine(Goal goal) {
+  constexpr Scalar clearly = 16 * rounding;
   auto& [v1, v2, v3] = portal_;
   for (int loop = 0; loop < max_iterations_; ++loop) {
     ++iterations_;
@@ -183,13 +261,13 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::refine(Goal goal) {
     const Scalar nearest = std::min(
         {v1.difference.dot(normal_), v2.difference.dot(normal_), v3.difference.dot(normal_)});
     depth_ = nearest;
-    if (goal == Goal::origin && nearest > rounding) return Exit::done;
+    if (goal == Goal::origin && nearest > clearly) return Exit::done;
     const Point v4 = support(normal_);
     if (separated_) return Exit::done;
     depth_ = v4.difference.dot(normal_);
-    // This form of the comparison ends the loop for NaN. Until the origin is inside, only the limit
-    // of precision ends the search.
-    const Scalar slack = nearest > rounding ? tolerance_ : rounding / 4;
+    // This form of the comparison ends the loop for NaN. Until the origin is clearly inside, only the
+    // limit of precision ends the search.
+    const Scalar slack = nearest > clearly ? tolerance_ : rounding / 4;
     if (!(depth_ - nearest > slack)) return Exit::done;
     // The point v4 makes three portals with two old corners each. The search keeps the one that the
     // ray passes most clearly; signs alone are noise if the ray passes a corner.
@@ -200,23 +278,6 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::refine(Goal goal) {
     dropped = v4;
   }
   return Exit::capped;
-}
-
-// Returns true if the origin is, up to rounding, a mean of the start and the portal with
-// non-negative weights.
-template <class Scalar>
-bool PortalSearch<Scalar>::origin_is_inside() const {
-  const auto& [v1, v2, v3] = portal_;
-  const Vec3<Scalar>&p0 = start_.difference, &p1 = v1.difference, &p2 = v2.difference,
-        &p3 = v3.difference;
-  Eigen::Matrix<Scalar, 4, 1> weight(p1.cross(p2).dot(p3), -p0.cross(p2).dot(p3),
-                                     p0.cross(p1).dot(p3), -p0.cross(p1).dot(p2));
-  if (weight.sum() < 0) weight = -weight;
-  weight = weight.cwiseMax(Scalar{0});
-  const Scalar total = weight.sum();
-  if (!(total > 0)) return false;
-  const Vec3<Scalar> mean = (weight[0] * p0 + weight[1] * p1 + weight[2] * p2 + weight[3] * p3);
-  return mean.norm() <= rounding * total;
 }
 
 template <class Scalar>

@@ -11,8 +11,10 @@
 //          4. If the origin is inside the portal's plane, stop. Otherwise the point makes three
 //             portals with the old corners: keep the one that the ray passes most clearly, and
 //             repeat step 3.
-//          5. Accept an overlap only if weights of the start and the portal give the origin up to
-//             rounding.
+//          5. Accept an overlap only if the start and the portal contain the origin whatever
+//             rounding did to them; otherwise repeat from another start, at most three times. If a
+//             plane and the portal's weights show that contact is nearer than rounding, the answer
+//             is `touching`, with these bounds.
 //          6. For a depth, push the portal to the surface of C; its plane's height is the depth
 //             (`settle_from_portal`).
 //          7. Cast a ray from the origin along that normal, find its portal, and repeat while the
@@ -61,9 +63,10 @@ class PortalSearch {
   PortalSearch(SupportPair<Scalar>& pair, int max_iterations, Scalar tolerance)
       : pair_(pair), max_iterations_(max_iterations), tolerance_(tolerance) {}
 
-  // Writes answer and status. If the bodies overlap, the start and the portal enclose the origin,
-  // and normal() and depth() are those of the portal, or of the ray if the exit is `straight`.
-  Exit decide(Outcome& outcome);
+  // Writes answer and status, and for bodies that touch what the task asks for. If they overlap, the
+  // start and the portal enclose the origin, and normal() and depth() are those of the portal, or of
+  // the ray if the exit is `straight`.
+  Exit decide(Task task, Outcome& outcome);
   // Pushes the portal of decide() to the surface, then settles as below.
   Depth settle_from_portal();
   // Casts rays from the origin, each along the normal of the last portal, while the depth falls by
@@ -102,7 +105,12 @@ class PortalSearch {
   Exit refine(Goal goal);
   bool is_portal_of(const Vec3<Scalar>& ray);
   Exit turn();
-  bool origin_is_inside() const;
+  bool is_touching(Exit exit, Task task, Outcome& outcome);
+  void move_start();
+  bool origin_is_surely_inside(Exit exit) const;
+
+  // The number of starts from which `decide` tries to prove an overlap.
+  static constexpr int most_starts = 4;
 
   SupportPair<Scalar>& pair_;
   int max_iterations_;

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "algorithms/core/cofactors.h"
-#include "algorithms/kernels/minkowski/support.h"
+#include "algorithms/kernels/minkowski/resolution.h"
 #include "algorithms/kernels/sat/witness_points.h"
 
 namespace touchstone {
@@ -129,14 +129,20 @@ void PolytopePair<Scalar>::report(const Axis<Scalar>& best, Task task, bool exac
     outcome.status = too_large_ ? Status::capacity : Status::degenerate;
     return;
   }
-  const bool sure = best.gap < -error_;
-  outcome.answer = sure ? Answer::overlapping : Answer::unknown;
-  outcome.status = sure ? Status::ok : Status::not_converged;
-  if (task != Task::penetration) return;
   const auto metres = [&](Scalar length) { return unit_ * static_cast<double>(length); };
+  const double lower = metres(best.gap - error_), upper = metres(best.gap + error_);
+  outcome.answer = Answer::overlapping;
+  outcome.status = Status::ok;
+  if (!(best.gap < -error_) &&
+      !write_if_touching(lower, upper, unit_ * resolution<Scalar>, outcome)) {
+    outcome.answer = Answer::unknown;
+    outcome.status = Status::not_converged;
+  }
+  if (!exact) outcome.upper = Outcome::none;
+  if (task != Task::penetration) return;
   outcome.distance = metres(best.gap);
-  outcome.lower = metres(best.gap - error_);
-  if (exact) outcome.upper = metres(best.gap + error_);
+  outcome.lower = lower;
+  if (exact) outcome.upper = upper;
   outcome.normal = best.normal.template cast<double>().normalized();
   const WitnessPoints<Scalar> point = witness_points(a_, b_, best.normal, best.gap, 4 * error_);
   outcome.witness_a = anchor_ + unit_ * point.a.template cast<double>();

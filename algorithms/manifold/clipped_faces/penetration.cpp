@@ -4,11 +4,24 @@
 #include <algorithm>
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
+#include "algorithms/kernels/minkowski/resolution.h"
 
 namespace touchstone {
 namespace {
 
 constexpr int most_iterations = 128;  // cap on GJK's iterations
+
+// Writes `touching` if these bounds on the signed distance are within the resolution.
+template <class Scalar>
+void write_if_touching(Scalar lower, Scalar upper, Penetration<Scalar>& result) {
+  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+  if (!are_at_contact(lower - rounding, upper + rounding,
+                      static_cast<Scalar>(resolution<Scalar>))) {
+    return;
+  }
+  result.answer = Answer::touching;
+  result.status = Status::ok;
+}
 
 // EPA, from a simplex whose distance to the origin is zero up to rounding.
 template <class Scalar>
@@ -31,6 +44,9 @@ Penetration<Scalar> expand_from(SupportPair<Scalar>& pair, const GjkDistanceResu
   const bool known = depth.end == ExpansionEnd::converged || depth.end == ExpansionEnd::flat;
   result.answer = inside ? Answer::overlapping : Answer::unknown;
   if (inside && known) result.status = Status::ok;
+  // The simplex bounds the gap from above, the nearest face the depth.
+  const Scalar gap = found.nearest.inside ? Scalar{0} : distance_from_origin(found.simplex);
+  if (!inside) write_if_touching(-depth.upper - pair.radius(), gap - pair.radius(), result);
   result.depth = pair.radius() + depth.upper;
   result.normal = depth.normal;
   result.a = depth.a + pair.radius_a() * depth.normal;
@@ -62,14 +78,14 @@ Penetration<Scalar> find_penetration(SupportPair<Scalar>& pair,
     result.answer = Answer::overlapping;
     if (!goal.is_open(pair, found.nearest.distance, found.lower)) result.status = Status::ok;
   }
+  if (result.answer == Answer::unknown) {
+    write_if_touching(found.lower - pair.radius(), found.upper - pair.radius(), result);
+  }
   result.depth = pair.radius() - found.nearest.distance;
   result.normal = -found.nearest.direction;
-  result.a = pair.radius_a() * result.normal;
-  result.b = -pair.radius_b() * result.normal;
-  for (int i = 0; i < found.simplex.size; ++i) {
-    result.a += found.simplex.weights[i] * found.simplex.points[i].a;
-    result.b += found.simplex.weights[i] * found.simplex.points[i].b;
-  }
+  const DifferencePoint<Scalar> nearest = weighted_mean(found.simplex);
+  result.a = nearest.a + pair.radius_a() * result.normal;
+  result.b = nearest.b - pair.radius_b() * result.normal;
   return result;
 }
 

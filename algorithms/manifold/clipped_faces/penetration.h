@@ -13,7 +13,7 @@ template <class Scalar>
 struct Penetration {
   Answer answer = Answer::unknown;
   Status status = Status::not_converged;
-  Scalar depth = 0;  // negative only when the answer is unknown, and then below rounding
+  Scalar depth = 0;  // negative only if the answer is touching or unknown, and then below rounding
   Vec3<Scalar> normal = Vec3<Scalar>::UnitX();  // unit, from a to b
   Vec3<Scalar> a, b;                            // points on the bodies, a - b = depth * normal
 };

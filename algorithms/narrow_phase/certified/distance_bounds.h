@@ -9,10 +9,13 @@
 #pragma once
 
 #include "algorithms/core/pose.h"
+#include "algorithms/kernels/epa/epa_hull.h"
 #include "algorithms/kernels/minkowski/simplex.h"
 #include "algorithms/narrow_phase/certified/support_bounds.h"
 
 namespace touchstone {
+
+struct WidePair;
 
 class DistanceBounder {
  public:
@@ -23,9 +26,19 @@ class DistanceBounder {
                          const Pose& pose_b, const SupportPair<double>& pair,
                          const Simplex<double>& simplex, const Vec3d& normal);
 
+  // Bounds the signed distance of two polytopes without radius that overlap. `surface` is closed,
+  // its corners are support points of this pair, and the origin is behind each of its faces: then
+  // the difference holds a ball around the origin that reaches to the nearest face. `normal` (unit,
+  // from a to b) is that face's; the support along it bounds the depth from above.
+  DistanceBounds inside(const BoundedShape& a, const Pose& pose_a, const BoundedShape& b,
+                        const Pose& pose_b, const SupportPair<double>& pair,
+                        const EpaHull<double>& surface, const Vec3d& normal);
+
  private:
+  double bound_along(const WidePair& pair, const Wide3& n);
+
   std::vector<std::uint32_t> furthest_a_, furthest_b_;  // hulls: vertices that may be furthest
-  std::vector<double> values_;
+  Eigen::ArrayXd values_;
 };
 
 }  // namespace touchstone

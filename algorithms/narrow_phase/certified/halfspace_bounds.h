@@ -24,7 +24,7 @@ class HalfspaceBounder {
 
  private:
   std::vector<std::uint32_t> furthest_;  // hulls: vertices that may be furthest
-  std::vector<double> values_;
+  Eigen::ArrayXd values_;
 };
 
 }  // namespace touchstone

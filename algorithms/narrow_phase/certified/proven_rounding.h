@@ -29,6 +29,7 @@ namespace touchstone {
 inline constexpr double proven_rounding = 128 * std::numeric_limits<double>::epsilon();
 
 // The condition of the proof: lengths are below the unit. (`power_of_two_above` ends there.)
-inline bool is_in_range(const SupportPair<double>& pair) { return pair.unit() < 0x1p959; }
+inline constexpr double greatest_unit = 0x1p959;
+inline bool is_in_range(const SupportPair<double>& pair) { return pair.unit() < greatest_unit; }
 
 }  // namespace touchstone

@@ -24,6 +24,11 @@ struct BoundedShape {
   const Shape* shape;
   SupportShape<double> support;
   Vec3d reach;  // the greatest magnitude of each body coordinate in the core, metres
+  // Hull: the vertices' coordinates, for vector instructions.
+  Eigen::ArrayXd x, y, z;
+
+ private:
+  void set_coordinates(const std::vector<Vec3d>& vertices);
 };
 
 // A proven interval: lower <= signed distance <= upper (metres). Infinite if nothing is proven.
@@ -53,26 +58,26 @@ struct Sum {
   Real value = 0, terms = 0;
 };
 
-// Lists the vertices that may be furthest along g given the rounding of doubles. It may list
-// others.
-void find_furthest(const std::vector<Vec3d>& vertices, const Vec3d& g, const Vec3d& reach,
-                   std::vector<double>& values, std::vector<std::uint32_t>& furthest);
+// Lists the hull's vertices that may be furthest along g given the rounding of doubles. It may list
+// others. `values` is memory to work in.
+void find_furthest(const BoundedShape& hull, const Vec3d& g, Eigen::ArrayXd& values,
+                   std::vector<std::uint32_t>& furthest);
 
 // Finds a hull's support along g in long double: tests all vertices that may be furthest.
 class AllThatMayBe {
  public:
-  AllThatMayBe(std::vector<double>& values, std::vector<std::uint32_t>& furthest)
+  AllThatMayBe(Eigen::ArrayXd& values, std::vector<std::uint32_t>& furthest)
       : values_(values), furthest_(furthest) {}
   Wide operator()(const BoundedShape& body, const Wide3& g) const {
     const std::vector<Vec3d>& vertices = body.shape->hull->vertices;
-    find_furthest(vertices, g.cast<double>(), body.reach, values_, furthest_);
+    find_furthest(body, g.cast<double>(), values_, furthest_);
     Wide most = -std::numeric_limits<Wide>::infinity();
     for (const std::uint32_t i : furthest_) most = std::max(most, g.dot(wide(vertices[i])));
     return most;
   }
 
  private:
-  std::vector<double>& values_;
+  Eigen::ArrayXd& values_;
   std::vector<std::uint32_t>& furthest_;
 };
 // Finds a hull's support along g in double: the best vertex by coordinates from the centre. That

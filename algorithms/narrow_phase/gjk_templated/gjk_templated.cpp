@@ -11,10 +11,8 @@
 // Departs: the loops are gjk's, compiled with the two cores as template parameters, so outcomes
 //          have the bits of gjk's. Code that runs once per query and EPA are gjk's own, with the
 //          switch. The search in a hull depends on the hull. It always starts cold.
-// Answers: like gjk; never `touching`.
-// Fails:   like gjk: unknown / not_converged within 1e-14 (double) or 5e-6 (float) of touching,
-//          relative to the pair's size; the depth of smooth bodies far inside each other by EPA's
-//          cap.
+// Answers: like gjk, with its resolution.
+// Fails:   like gjk.
 // Cost:    like gjk, without the switch; 28 copies of the iteration for each scalar and each level
 //          of vector instructions, in the program and in the time to compile it.
 #include <algorithm>

@@ -115,7 +115,7 @@ class RefinedDepth {
     // A warm start does all that a cold start does from here on, so that it is never worse.
     const Depth before = std::exchange(best_, {});
     const Point witness_before = witness_;
-    const Exit exit = search_.decide(outcome);
+    const Exit exit = search_.decide(task, outcome);
     if (outcome.answer != Answer::overlapping || task != Task::penetration) return;
     const auto& [p, q, r] = search_.portal();
     const std::array<Point, 4> tetrahedron{p, q, r, search_.start()};

@@ -19,9 +19,10 @@
 //          moves the gap by no more than rounding, because the facet of the Minkowski difference is
 //          as narrow as the axis is uncertain. Flat hulls, segments and points have the normals and
 //          edges of a prism or box without thickness.
-// Answers: the depth and both bounds are exact up to rounding.
-// Fails:   reports not_converged if the greatest gap is below its rounding error (1e-14 of the size
-//          in double, 1e-5 in float); degenerate for a solid hull without faces that no tested axis
+// Answers: the depth and both bounds are exact up to rounding. If the greatest gap is below its
+//          rounding error (1e-14 of the size in double, 1e-5 in float), the answer is `touching`
+//          with these bounds on the signed distance.
+// Fails:   reports degenerate for a solid hull without faces that no tested axis
 //          separates, and for matrices far from rotations; capacity for a hull of more than 16,384
 //          vertices that the line of centres does not separate, and for two hulls of some thousand
 //          vertices each that no face normal separates.

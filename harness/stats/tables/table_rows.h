@@ -124,6 +124,7 @@ void columns(Row& row, Visit visit) {
         "Queries that lack an answer of the algorithm or the oracle.");
   visit("worst_error", row.worst_error,
         "Greatest error of a distance or depth, as a part of the pair's size.");
+  visit("depth_bound", row.depth_is_bound, "1 where the depth is an upper bound by design.");
 }
 
 // work.csv

@@ -58,6 +58,7 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
   for (const double z : modified_z(all)) row.outliers += std::abs(z) > outlier_z;
   row.wrong = is_wrong(set, contestant);
   row.worst_error = worst_error(contestant);
+  row.depth_is_bound = contestant.depth_is_bound;
   if (const auto agreement = agreement_row(set, contestant)) {
     row.queries = agreement->queries;
     row.unknown = agreement->failed + agreement->unanswered;

@@ -28,6 +28,7 @@ struct TimeRow {
   // Counts of narrow phases, over all verified frames.
   std::int64_t queries = 0, unknown = 0;  // unknown: failed, or without an answer
   double worst_error = std::numeric_limits<double>::quiet_NaN();  // see AgreementRow
+  bool depth_is_bound = false;  // its depths are upper bounds by design
 };
 
 // A ratio of a contestant's time to the baseline's. The twin's row is the canary: its true ratio is
@@ -77,6 +78,7 @@ struct AgreementRow {
   std::int64_t queries = 0, right = 0, wrong = 0, failed = 0, unanswered = 0;
   // The greatest error of a distance or depth, as a part of the pair's size; NaN if there is none.
   double worst_error = std::numeric_limits<double>::quiet_NaN();
+  bool depth_is_bound = false;
 };
 
 // The amount of a contestant's work, over all its verified frames. A number that is not counted is

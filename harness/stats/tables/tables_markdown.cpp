@@ -14,11 +14,17 @@ namespace {
 
 std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
 
+// What is said of a depth that is an upper bound by design.
+template <class Row>
+std::string_view bound_words(const Row& row) {
+  return row.depth_is_bound && row.key.task == "penetration" ? " (a bound)" : "";
+}
+
 std::string remark(const TimeRow& row, double depth_error) {
   std::vector<std::string> words;
   if (row.wrong) words.emplace_back("**wrong on some**");
   if (row.worst_error > depth_error)
-    words.push_back(fmt::format("**off by {:.1g}**", row.worst_error));
+    words.push_back(fmt::format("**off by {:.1g}**{}", row.worst_error, bound_words(row)));
   if (row.unknown > 0) words.push_back(fmt::format("{} of {} unknown", row.unknown, row.queries));
   if (!row.failure.empty()) words.push_back(row.failure);
   if (row.noisy > 0) words.push_back(fmt::format("{} of {} noisy", row.noisy, row.samples));
@@ -89,7 +95,10 @@ std::vector<AgreementRow> by_task(const std::vector<AgreementRow>& rows) {
     auto at = std::ranges::find_if(sums, [&](const AgreementRow& sum) {
       return sum.key.task == row.key.task && sum.label == row.label;
     });
-    if (at == sums.end()) at = sums.insert(sums.end(), {row.key, row.label, row.origin});
+    if (at == sums.end()) {
+      at = sums.insert(sums.end(), {row.key, row.label, row.origin});
+      at->depth_is_bound = row.depth_is_bound;
+    }
     at->queries += row.queries;
     at->right += row.right;
     at->wrong += row.wrong;
@@ -237,8 +246,9 @@ std::string tables_markdown(const Tables& tables) {
       table.add({row.key.task, row.label, std::to_string(row.queries), std::to_string(row.right),
                  std::to_string(row.wrong), std::to_string(row.failed),
                  std::to_string(row.unanswered),
-                 row.worst_error > tables.depth_error ? fmt::format("**{:.4g}**", row.worst_error)
-                                                      : base::cell(row.worst_error)});
+                 row.worst_error > tables.depth_error
+                     ? fmt::format("**{:.4g}**{}", row.worst_error, bound_words(row))
+                     : base::cell(row.worst_error)});
     }
     all += table.markdown() + "\n";
   }

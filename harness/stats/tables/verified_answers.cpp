@@ -40,6 +40,7 @@ double worst_error(const Contestant& contestant) {
 std::optional<AgreementRow> agreement_row(const SampleSet& set, const Contestant& contestant) {
   if (!set.key.narrow()) return std::nullopt;
   AgreementRow row{set.key, contestant.label, contestant.origin};
+  row.depth_is_bound = contestant.depth_is_bound;
   for (const Check& check : contestant.checks) {
     if (check.pair_count < 0) continue;
     const std::int64_t wrong = std::max<std::int64_t>(check.disagreements, 0);

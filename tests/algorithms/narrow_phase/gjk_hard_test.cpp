@@ -140,8 +140,8 @@ TEST(GjkDegenerate, CoplanarPolygonsAreNoDepthDeep) {
   const Body a = at(square(1), {0, 0, 0}, rotation);
   const Body b = at(square(1), rotation * Vec3d{0.5, 0.25, 0}, rotation);
   const Outcome outcome = query(*gjk, Task::penetration, a, b);
-  EXPECT_NE(outcome.answer, Answer::separated);
-  EXPECT_NE(outcome.status, Status::ok);
+  EXPECT_EQ(outcome.answer, Answer::touching);
+  EXPECT_EQ(outcome.status, Status::ok);
   EXPECT_NEAR(outcome.distance, 0, 1e-14);
   EXPECT_NEAR(std::abs(outcome.normal.dot(rotation.col(2))), 1, 1e-12);
 }
@@ -193,15 +193,18 @@ TEST(GjkDegenerate, ContainedBodies) {
   }
 }
 
-// Resting exactly on each other cannot be told from nearly so: no claim, but the number is right.
-TEST(GjkDegenerate, TouchingIsNoClaim) {
+// Resting exactly on each other cannot be told from nearly so: the bounds say how nearly.
+TEST(GjkDegenerate, TouchingHasBounds) {
   const auto gjk = make_gjk();
   const Body a = at(make_box(1, 1, 1), {0, 0, 0});
   const Body b = at(make_box(1, 1, 1), {0.5, 0.25, 2});
   for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
     const Outcome outcome = query(*gjk, task, a, b);
-    EXPECT_EQ(outcome.answer, Answer::unknown);
-    EXPECT_EQ(outcome.status, Status::not_converged);
+    EXPECT_EQ(outcome.answer, Answer::touching);
+    EXPECT_EQ(outcome.status, Status::ok);
+    EXPECT_LE(outcome.lower, 0);
+    EXPECT_GE(outcome.upper, 0);
+    EXPECT_LE(outcome.upper - outcome.lower, 1e-13);
     if (task == Task::intersect) continue;
     EXPECT_NEAR(outcome.distance, 0, 1e-14);
     EXPECT_NEAR(outcome.normal.z(), 1, 1e-12);

@@ -106,15 +106,17 @@ TEST_P(MprRefined, FindsTheLeastDepthOfMostHulls) {
   expect_mostly_least(sweep(GetParam(), any_hull, 400, 2.1, margin()));
 }
 
-// The ray from the centre passes a corner of the difference, the worst way out.
+// The ray from the centre passes a corner of the difference, the worst way out. From there no face
+// is proven to hold the origin, so the search starts again beside it.
 TEST_P(MprRefined, LeavesTheCorner) {
   const Body a{box(1, 1, 1), {}};
   for (const double shift : {0.1, 0.5, 1.9}) {
     const Body b{box(1, 1, 1), {Mat3d::Identity(), Vec3d(shift, shift, shift)}};
-    EXPECT_LT(ask_named("mpr", GetParam(), a, b).distance, shift - 2 - 0.05);
-    const Outcome outcome = ask_named("mpr-refined", GetParam(), a, b);
-    EXPECT_EQ(outcome.status, Status::ok);
-    EXPECT_NEAR(outcome.distance, shift - 2, margin());
+    for (const char* const name : {"mpr", "mpr-refined"}) {
+      const Outcome outcome = ask_named(name, GetParam(), a, b);
+      EXPECT_EQ(outcome.status, Status::ok) << name;
+      EXPECT_NEAR(outcome.distance, shift - 2, margin()) << name;
+    }
   }
 }
 

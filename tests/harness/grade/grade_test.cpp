@@ -96,6 +96,28 @@ TEST(Grade, BodiesThatTouchAreUnscoredOrInContact) {
             grade::Verdict::right);
 }
 
+TEST(Grade, TouchingWithinBoundsTakesNoSide) {
+  const auto within = [](double lower, double upper) {
+    Outcome o = outcome(Answer::touching);
+    o.lower = lower;
+    o.upper = upper;
+    return o;
+  };
+  for (const double x : {2 + 1e-14, 2., 2 - 1e-14}) {
+    const Cubes cubes(x);
+    const grade::Grade grade = cubes.grade(within(-2e-14, 2e-14), Task::intersect);
+    EXPECT_EQ(grade.verdict, grade::Verdict::right) << x;
+    EXPECT_EQ(grade.bounds_error, 0) << x;
+    EXPECT_EQ(grade.resolution, 4e-14) << x;
+  }
+  const grade::Grade apart = Cubes(2.25).grade(within(-2e-14, 2e-14), Task::intersect);
+  EXPECT_EQ(apart.verdict, grade::Verdict::right);
+  EXPECT_NEAR(apart.bounds_error, 0.25, 1e-13);
+  // One bound alone is none.
+  EXPECT_EQ(Cubes(2.25).grade(within(-1, Outcome::none), Task::intersect).verdict,
+            grade::Verdict::silent_error);
+}
+
 TEST(Grade, MarginIsTheExactDistanceThatWasCalledWrongly) {
   EXPECT_EQ(Cubes(3).grade(outcome(Answer::overlapping), Task::intersect).margin, 1);
   EXPECT_EQ(Cubes(1.5).grade(outcome(Answer::separated), Task::intersect).margin, 0.5);

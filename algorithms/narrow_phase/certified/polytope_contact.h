@@ -1,0 +1,50 @@
+// Part of certified: verdicts and depths of polytopes, rounded or not, at contact and inside it.
+// Includes core, kernels and this folder.
+//
+// Each function writes a proven answer and returns true, or returns false; then normal and witness
+// points may have changed.
+#pragma once
+
+#include "algorithms/kernels/epa/expanding_polytope.h"
+#include "algorithms/kernels/minkowski/simplex.h"
+#include "algorithms/narrow_phase/certified/distance_bounds.h"
+#include "algorithms/narrow_phase/certified/exact_contact.h"
+#include "algorithms/narrow_phase/certified/placed_body.h"
+
+namespace touchstone {
+
+class PolytopeContact {
+ public:
+  // In the pair's unit: what is nearer to contact is decided exactly.
+  static constexpr double nearly = 64 * SupportPair<double>::rounding;
+
+  // Decides polytopes without radius exactly. The direction (any length, or zero) is one along which
+  // a plane may separate them, from a to b. What the task asks for is found at contact alone.
+  bool decide_exactly(SupportPair<double>& pair, const Vec3d& direction, const PlacedPair& bodies,
+                      Task task, Outcome& outcome);
+  // Whether EPA's faces, from a simplex around the origin, prove that polytopes without radius
+  // overlap.
+  bool encloses(SupportPair<double>& pair, const Simplex<double>& simplex, Outcome& outcome);
+  // Finds the depth of polytopes without radius that share a point, or their exact verdict at
+  // contact. `bounder` proves the depth.
+  bool find_depth(SupportPair<double>& pair, const Simplex<double>& simplex,
+                  const PlacedPair& bodies, DistanceBounder& bounder, Outcome& outcome);
+  // Decides whether the cores of rounded polytopes are their radii apart, if `gap`, the bounds on
+  // the signed distance, leaves that open. The simplex is the feature nearest to the origin, and
+  // `normal` the direction from a to b.
+  bool decide_rounded(SupportPair<double>& pair, const Simplex<double>& simplex,
+                      const Vec3d& normal, DistanceBounds gap, const PlacedPair& bodies, Task task,
+                      Outcome& outcome);
+  // The same for a polytope a and a half-space b. `unit` (metres) is above the reach of a.
+  bool decide_over_plane(DistanceBounds gap, double unit, const PlacedPair& bodies, Task task,
+                         Outcome& outcome);
+
+ private:
+  ExactContact find(const ContactGuess& guess, SupportPair<double>& pair, const PlacedPair& bodies,
+                    bool close);
+
+  ExactContactFinder finder_;
+  ExpandingPolytope<double> polytope_{64};
+};
+
+}  // namespace touchstone

@@ -1,0 +1,195 @@
+// Certified at contact and inside it: polytopes and rounded polytopes that touch exactly, or miss
+// it by less than rounding, are decided as the oracle decides them, and without asking it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "algorithms/oracle/oracle.h"
+#include "algorithms/registry.h"
+#include "tests/algorithms/narrow_phase/bodies.h"
+
+namespace touchstone {
+namespace {
+
+using namespace test;
+
+struct ContactCount {
+  int asked = 0, of_oracle = 0, touching = 0, separated = 0, overlapping = 0;
+
+  void expect_all(int least) const {
+    EXPECT_GT(touching, least);
+    EXPECT_GT(separated, least);
+    EXPECT_GT(overlapping, least);
+  }
+  // The share of the queries that the oracle answered.
+  double share_of_oracle() const { return static_cast<double>(of_oracle) / asked; }
+};
+
+void grade(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+           const std::vector<Task>& tasks, ContactCount& count) {
+  const oracle::Solid solid_a(a), solid_b(b);
+  oracle::Oracle oracle;
+  const oracle::Measure exact =
+      oracle.measure(oracle::Body(solid_a, pose_a), oracle::Body(solid_b, pose_b));
+  ++(exact.answer == Answer::touching    ? count.touching
+     : exact.answer == Answer::separated ? count.separated
+                                         : count.overlapping);
+  const NarrowPhaseEntry& certified = *find_narrow_phase("certified");
+  for (const Task task : tasks) {
+    const Outcome outcome = ask(certified, {}, task, a, pose_a, b, pose_b);
+    ++count.asked;
+    if (outcome.support_calls < 0) ++count.of_oracle;
+    ASSERT_EQ(outcome.answer, exact.answer) << exact.lower << " to " << exact.upper;
+    ASSERT_EQ(outcome.status, Status::ok);
+    const bool has_interval = (task == Task::distance && exact.answer == Answer::separated) ||
+                              (task == Task::penetration && exact.answer == Answer::overlapping);
+    if (!has_interval) continue;
+    ASSERT_LE(outcome.lower, exact.upper);
+    ASSERT_GE(outcome.upper, exact.lower);
+    const double size = a.kind == ShapeKind::halfspace ? 1 : pose_b.translation.norm() + 100;
+    ASSERT_LE(outcome.upper - outcome.lower, 1e-14 * size);
+  }
+}
+
+// A few units in the last place, of either sign, or none.
+double nudge(Random& random) {
+  const int steps = static_cast<int>(random() % 5) - 2;
+  return random() % 2 == 0 ? 0 : std::ldexp(steps, -50);
+}
+
+TEST(CertifiedContact, BoxesThatMeetInAFaceAnEdgeOrACorner) {
+  Random random(1);
+  ContactCount count;
+  for (int i = 0; i < 3000; ++i) {
+    const auto whole = [&] { return 1 + static_cast<double>(random() % 8); };
+    const Vec3d half_a(whole(), whole(), whole()), half_b(whole(), whole(), whole());
+    // One, two or three coordinates are those at which faces meet.
+    const std::size_t meeting = 1 + random() % 3;
+    Vec3d offset;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double reach = half_a[k] + half_b[k];
+      offset[k] = k < meeting ? reach : std::floor(uniform(random, -reach, reach));
+    }
+    offset[0] += nudge(random);
+    const Mat3d rotation = i % 3 == 0 ? random_rotation(random) : Mat3d(Mat3d::Identity());
+    grade(box(half_a.x(), half_a.y(), half_a.z()), {rotation, Vec3d::Zero()},
+          box(half_b.x(), half_b.y(), half_b.z()), {rotation, rotation * offset},
+          {Task::intersect, Task::distance}, count);
+  }
+  count.expect_all(300);
+  EXPECT_LT(count.share_of_oracle(), 0.02);
+}
+
+// A hull of points with whole coordinates, below or above the plane z = 0, some of them in it.
+Shape half_of_grid(Random& random, double side, std::size_t in_plane) {
+  const auto whole = [&](std::size_t most) { return static_cast<double>(random() % most) - 20; };
+  std::vector<Vec3d> points;
+  for (std::size_t i = 0; i < in_plane; ++i) points.emplace_back(whole(40), whole(40), 0);
+  for (int i = 0; i < 12; ++i) points.emplace_back(whole(40), whole(40), side * (1 + i));
+  return bare_hull(std::move(points), 3);
+}
+
+TEST(CertifiedContact, HullsThatMeetInAPlaneUnderAnyRotation) {
+  Random random(2);
+  ContactCount count;
+  for (int i = 0; i < 2000; ++i) {
+    const Shape a = half_of_grid(random, -1, 3 + random() % 4);
+    const Shape b = half_of_grid(random, 1, 3 + random() % 4);
+    const Mat3d rotation = random_rotation(random);
+    const Vec3d off = i % 2 == 0 ? Vec3d(0, 0, 0) : Vec3d(nudge(random) * rotation.col(2));
+    grade(a, {rotation, Vec3d::Zero()}, b, {rotation, off}, {Task::intersect, Task::distance},
+          count);
+  }
+  count.expect_all(100);
+  EXPECT_LT(count.share_of_oracle(), 0.05);
+}
+
+TEST(CertifiedContact, RoundedBodiesAreComparedByTheSquareOfTheirDistance) {
+  Random random(3);
+  ContactCount count;
+  const std::vector<Vec3d> whole_lengths = {{3, 4, 0}, {2, 3, 6}, {1, 4, 8}, {0, 0, 5}, {2, 6, 9}};
+  for (int i = 0; i < 2000; ++i) {
+    Vec3d line = whole_lengths[random() % whole_lengths.size()];
+    const double length = line.norm();
+    const double radius_a = 0.25 * static_cast<double>(1 + random() % 8);
+    const double radius_b = length - radius_a + nudge(random);
+    Shape a = sphere(radius_a), b = sphere(radius_b);
+    Pose pose_b;
+    pose_b.translation = line;
+    // Capsules' segments are square to the line between them, if that has no height.
+    if (line.z() == 0 && i % 2 == 0) {
+      for (Shape* shape : {&a, &b}) {
+        shape->kind = ShapeKind::capsule;
+        shape->half_length = static_cast<double>(random() % 4) + 1;
+      }
+    }
+    grade(a, {}, b, pose_b, {Task::intersect, Task::distance}, count);
+  }
+  count.expect_all(100);
+  EXPECT_LT(count.share_of_oracle(), 0.02);
+}
+
+TEST(CertifiedContact, BallsOnFacesAndEdges) {
+  Random random(4);
+  ContactCount count;
+  for (int i = 0; i < 2000; ++i) {
+    const Shape below = i % 2 == 0 ? half_of_grid(random, -1, 3) : box(4, 5, 6);
+    const double radius = 0.5 * static_cast<double>(1 + random() % 9);
+    const double top = i % 2 == 0 ? 0 : 6;
+    Pose pose_b;
+    pose_b.translation = {std::floor(uniform(random, -4, 4)), std::floor(uniform(random, -5, 5)),
+                          top + radius + nudge(random)};
+    grade(below, {}, sphere(radius), pose_b, {Task::intersect, Task::distance}, count);
+  }
+  EXPECT_GT(count.touching, 300);
+  EXPECT_GT(count.separated, 300);
+  EXPECT_GT(count.overlapping, 100);
+  EXPECT_LT(count.share_of_oracle(), 0.02);
+}
+
+TEST(CertifiedContact, BodiesThatStandOnAPlane) {
+  Random random(6);
+  ContactCount count;
+  for (int i = 0; i < 2000; ++i) {
+    Shape plane;
+    plane.kind = ShapeKind::halfspace;
+    plane.normal = {0, 0, 1};
+    plane.offset = std::floor(uniform(random, -3, 3));
+    const Shape stands = i % 3 == 0   ? box(1, 2, 3)
+                         : i % 3 == 1 ? sphere(3)
+                                      : half_of_grid(random, 1, 3 + random() % 4);
+    Pose pose_a, pose_b;
+    pose_b.translation = {0, 0, std::floor(uniform(random, -5, 5))};
+    pose_a.translation = pose_b.translation;
+    pose_a.translation.z() += plane.offset + (i % 3 == 2 ? 0 : 3) + nudge(random);
+    grade(stands, pose_a, plane, pose_b, {Task::intersect, Task::distance}, count);
+  }
+  count.expect_all(100);
+  EXPECT_LT(count.share_of_oracle(), 0.02);
+}
+
+TEST(CertifiedContact, DepthsAreProvenWithoutTheOracle) {
+  Random random(5);
+  ContactCount count;
+  for (int i = 0; i < 1500; ++i) {
+    const double deep = std::pow(10.0, uniform(random, -7, -0.3));
+    const bool boxes = i % 3 == 0;
+    const Shape a = boxes ? box(1, 2, 3) : random_hull(random, 8 + static_cast<int>(random() % 8));
+    const Shape b = boxes ? box(2, 1, 1) : random_hull(random, 8 + static_cast<int>(random() % 8));
+    const Pose pose_a{random_rotation(random), random_direction(random)};
+    Pose pose_b{random_rotation(random), random_direction(random)};
+    const oracle::Solid solid_a(a), solid_b(b);
+    oracle::Oracle oracle;
+    const oracle::Measure now =
+        oracle.measure(oracle::Body(solid_a, pose_a), oracle::Body(solid_b, pose_b));
+    pose_b.translation -= (now.middle() + deep) * now.normal.stableNormalized();
+    grade(a, pose_a, b, pose_b, {Task::penetration}, count);
+  }
+  EXPECT_GT(count.overlapping, 1400);
+  EXPECT_LT(count.share_of_oracle(), 0.1);
+}
+
+}  // namespace
+}  // namespace touchstone

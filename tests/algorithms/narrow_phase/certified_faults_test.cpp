@@ -1,0 +1,180 @@
+// Certified with planted faults: what GJK and EPA found is replaced by what they find for bodies
+// that lie elsewhere, by less or more than rounding. Each stage proves what is so for the bodies as
+// they lie, or nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algorithms/kernels/epa/expanding_polytope.h"
+#include "algorithms/kernels/gjk/gjk_distance.h"
+#include "algorithms/narrow_phase/certified/distance_bounds.h"
+#include "algorithms/narrow_phase/certified/enclosure.h"
+#include "algorithms/narrow_phase/certified/exact_contact.h"
+#include "algorithms/oracle/oracle.h"
+#include "tests/algorithms/narrow_phase/bodies.h"
+
+namespace touchstone {
+namespace {
+
+using namespace test;
+
+// Two polytopes near contact, and where the stages before suppose the second.
+struct Misplaced {
+  Shape a, b;
+  Pose pose_a, pose_b, supposed;
+  oracle::Measure exact;
+};
+
+Misplaced misplaced(Random& random) {
+  const auto any = [&] {
+    return random() % 3 == 0 ? box(uniform(random, 0.5, 2), uniform(random, 0.5, 2), 1)
+                             : random_hull(random, 6 + static_cast<int>(random() % 12));
+  };
+  Misplaced bodies{any(), any(), {random_rotation(random), random_direction(random)}, {}, {}, {}};
+  bodies.pose_b = {random_rotation(random), random_direction(random)};
+  const oracle::Solid a(bodies.a), b(bodies.b);
+  oracle::Oracle oracle;
+  const auto measure = [&] {
+    return oracle.measure(oracle::Body(a, bodies.pose_a), oracle::Body(b, bodies.pose_b));
+  };
+  const oracle::Measure now = measure();
+  const double wanted = (random() % 2 == 0 ? 1 : -1) * std::pow(10.0, uniform(random, -18, -0.5));
+  bodies.pose_b.translation += (wanted - now.middle()) * now.normal.stableNormalized();
+  bodies.exact = measure();
+  bodies.supposed = bodies.pose_b;
+  bodies.supposed.translation +=
+      std::pow(10.0, uniform(random, -18, -0.5)) * random_direction(random);
+  return bodies;
+}
+
+TEST(CertifiedFaults, GapsHoldWhateverGjkFound) {
+  Random random(1);
+  DistanceBounder bounder;
+  int gaps = 0, open = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Misplaced bodies = misplaced(random);
+    const BoundedShape a(bodies.a), b(bodies.b);
+    SupportPair<double> supposed(a.support, bodies.pose_a, b.support, bodies.supposed);
+    const SupportPair<double> pair(a.support, bodies.pose_a, b.support, bodies.pose_b);
+    if (pair.unit() != supposed.unit()) continue;
+    const GjkDistanceResult<double> found = gjk_distance(
+        supposed, {.task = Task::distance, .tolerance = 1e-15, .most_iterations = 128});
+    if (found.nearest.direction.isZero(0)) continue;
+    const DistanceBounds gap = bounder.between(a, bodies.pose_a, b, bodies.pose_b, pair,
+                                               found.simplex, -found.nearest.direction);
+    ASSERT_LE(gap.lower, bodies.exact.upper) << i;
+    ASSERT_GE(gap.upper, std::max(0.0, bodies.exact.lower)) << i;
+    ++(gap.lower > 0 ? gaps : open);
+  }
+  EXPECT_GT(gaps, 300);
+  EXPECT_GT(open, 300);
+}
+
+// EPA's surface may be any that encloses the origin, and the normal any.
+TEST(CertifiedFaults, DepthsHoldWhereverEpaStopped) {
+  Random random(5);
+  ExpandingPolytope<double> polytope(64);
+  DistanceBounder bounder;
+  int depths = 0, close = 0, refused = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Misplaced bodies = misplaced(random);
+    const BoundedShape a(bodies.a), b(bodies.b);
+    SupportPair<double> pair(a.support, bodies.pose_a, b.support, bodies.pose_b);
+    const GjkDistanceResult<double> found =
+        gjk_distance(pair, {.task = Task::penetration, .tolerance = 1e-15, .most_iterations = 128});
+    if (found.end != GjkDistanceResult<double>::End::contact) continue;
+    const double tolerance = i % 3 == 0 ? pair.rounding : std::pow(10.0, uniform(random, -15, 0));
+    const Expansion<double> depth = polytope.expand(pair, found.simplex, {.tolerance = tolerance});
+    if (!depth.has_surface) continue;
+    const Vec3d normal = i % 2 == 0 ? depth.normal : random_direction(random);
+    const DistanceBounds bounds =
+        bounder.inside(a, bodies.pose_a, b, bodies.pose_b, pair, polytope.surface(), normal);
+    ASSERT_LE(bounds.lower, bodies.exact.upper) << i;
+    ASSERT_GE(bounds.upper, bodies.exact.lower) << i;
+    ++(bounds.upper < 0 ? depths : refused);
+    if (bounds.upper - bounds.lower < 1e-15) ++close;
+  }
+  EXPECT_GT(depths, 1000);
+  EXPECT_GT(close, 500);
+  EXPECT_GT(refused, 100);
+}
+
+TEST(CertifiedFaults, ExactVerdictsHoldWhateverThePlane) {
+  Random random(2);
+  ExactContactFinder finder;
+  int proven = 0, unknown = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Misplaced bodies = misplaced(random);
+    const oracle::Solid a(bodies.a), b(bodies.b);
+    const SupportShape<double> support_a(bodies.a), support_b(bodies.b);
+    SupportPair<double> pair(support_a, bodies.pose_a, support_b, bodies.pose_b);
+    const ContactGuess guess{random_direction(random)};
+    const ExactContact found =
+        finder.find(a, bodies.pose_a, b, bodies.pose_b, guess, pair, i % 2 == 0);
+    ++(found.answer == Answer::unknown ? unknown : proven);
+    if (found.answer == Answer::unknown) continue;
+    ASSERT_EQ(found.answer, bodies.exact.answer) << i;
+    ASSERT_LE(found.lower, bodies.exact.upper) << i;
+    ASSERT_GE(found.upper, bodies.exact.lower) << i;
+  }
+  EXPECT_GT(proven, 3900);
+  EXPECT_LT(unknown, 40);
+}
+
+TEST(CertifiedFaults, RoundedVerdictsHoldWhateverTheFeature) {
+  Random random(3);
+  ExactContactFinder finder;
+  int proven = 0, unknown = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Misplaced bodies = misplaced(random);
+    if (!(bodies.exact.lower > 0)) continue;
+    bodies.a = sphere(0);
+    // The ball reaches the polytope, or misses it by rounding.
+    const oracle::Solid core(bodies.a), b(bodies.b);
+    oracle::Oracle oracle;
+    const oracle::Measure apart =
+        oracle.measure(oracle::Body(core, bodies.pose_a), oracle::Body(b, bodies.pose_b));
+    if (!(apart.lower > 0)) continue;
+    bodies.a.radius = apart.middle() + std::ldexp(static_cast<double>(random() % 5) - 2, -53);
+    const oracle::Solid a(bodies.a);
+    const oracle::Measure exact =
+        oracle.measure(oracle::Body(a, bodies.pose_a), oracle::Body(b, bodies.pose_b));
+    const SupportShape<double> support_a(bodies.a), support_b(bodies.b);
+    SupportPair<double> pair(support_a, bodies.pose_a, support_b, bodies.pose_b);
+    // The direction is right, the feature is any.
+    ContactGuess guess{apart.normal.stableNormalized(), 1 + random() % 3};
+    for (std::size_t k = 0; k < guess.count; ++k) {
+      const Vec3d& vertex = b.vertices[random() % b.vertices.size()];
+      guess.b[k] =
+          bodies.pose_b.rotation * vertex + bodies.pose_b.translation - bodies.pose_a.translation;
+    }
+    const ExactContact found = finder.find(a, bodies.pose_a, b, bodies.pose_b, guess, pair, false);
+    ++(found.answer == Answer::unknown ? unknown : proven);
+    if (found.answer == Answer::unknown) continue;
+    ASSERT_EQ(found.answer, exact.answer) << i;
+  }
+  EXPECT_GT(proven, 100);
+  EXPECT_GT(unknown, 100);
+}
+
+TEST(CertifiedFaults, ATriangleThroughTheOriginIsNotBehindIt) {
+  Random random(4);
+  int behind = 0, doubtful = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3d p = random_direction(random), q = random_direction(random);
+    const double height = std::pow(10.0, uniform(random, -18, -1));
+    const Vec3d n = p.cross(q).normalized();
+    const Vec3d r = uniform(random, -1, 1) * p + uniform(random, -1, 1) * q;
+    for (const double side : {0.0, -1.0, 1.0}) {
+      const bool found = is_surely_behind({p, q, Vec3d(r + side * height * n)});
+      // The determinant has the sign of the side, and doubt is wider than 1e-16.
+      EXPECT_FALSE(found && (side <= 0 || height < 1e-16));
+      ++(found ? behind : doubtful);
+    }
+  }
+  EXPECT_GT(behind, 1000);
+  EXPECT_GT(doubtful, 1000);
+}
+
+}  // namespace
+}  // namespace touchstone
