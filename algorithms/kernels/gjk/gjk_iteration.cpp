@@ -20,8 +20,9 @@ template <class Scalar>
 bool is_surely_inside(const Simplex<Scalar>& simplex) {
   constexpr Scalar u = std::numeric_limits<Scalar>::epsilon() / 2;
   const auto w = [&](int i) -> const Vec3<Scalar>& { return simplex.points[i].difference; };
-  Scalar greatest = 0;
-  for (int i = 0; i < 4; ++i) greatest = std::max(greatest, w(i).squaredNorm());
+  std::array<Scalar, 4> squares;
+  for (int i = 0; i < 4; ++i) squares[i] = w(i).squaredNorm();
+  const Scalar greatest = std::ranges::max(squares);
   const Scalar longest = std::sqrt(greatest);
   const auto determinant = [&](int i, int j, int k) {
     return w(i).dot((w(j) - w(i)).cross(w(k) - w(i)));
@@ -42,9 +43,12 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   const std::array<Scalar, 4> areas = {a12 + a23 + a13, a02 + a23 + a03, a01 + a13 + a03,
                                        a01 + a12 + a02};
   constexpr Scalar r = 112 * u;  // includes what is lost in these sums
-  const Scalar rest =
-      r * (16 * u * greatest + 3 * r * longest + r * r) + 64 * u * greatest * longest;
   for (int i = 0; i < 4; ++i) {
+    // Of the face's own corners, since one may be far from the others.
+    const Scalar square =
+        std::max({squares[(i + 1) % 4], squares[(i + 2) % 4], squares[(i + 3) % 4]});
+    const Scalar length = std::sqrt(square);
+    const Scalar rest = r * (16 * u * square + 3 * r * length + r * r) + 64 * u * square * length;
     if (!(std::abs(parts[i]) > r * areas[i] + rest)) return false;
   }
   return true;

@@ -70,12 +70,12 @@ FixedInteger<size> sum_on_grid(std::span<const SplitDouble> parts, int step) {
 template <std::size_t size>
 void write(const ExactPortal<size>& portal, const GridBody<size>& a, const GridBody<size>& b,
            double metres, const Vec3d& origin, ExactContact& contact) {
-  contact.normal = portal.unit_normal();
-  const Vec3d weights = portal.weights();
+  const auto& proof = portal.proof();
+  contact.normal = proof.normal;
   Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto& corner = portal.portal()[k];
-    const double weight = weights[static_cast<int>(k)];
+    const auto& corner = proof.portal[k];
+    const double weight = proof.weights[static_cast<int>(k)];
     on_a += weight * a[corner.a].rounded;
     on_b += weight * b[corner.b].rounded;
   }
@@ -83,9 +83,9 @@ void write(const ExactPortal<size>& portal, const GridBody<size>& a, const GridB
   contact.on_b = origin + metres * on_b;
   if (contact.answer == Answer::touching) return;
   // The plane bounds the signed distance from below, the portal's point from above.
-  const double along = metres * portal.along();
+  const double along = metres * proof.lower;
   contact.lower = along - 0x1p-48 * std::abs(along);
-  contact.upper = contact.answer == Answer::separated ? metres * portal.furthest() : 0;
+  contact.upper = contact.answer == Answer::separated ? metres * proof.upper : 0;
 }
 
 template <std::size_t size>

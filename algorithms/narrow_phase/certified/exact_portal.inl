@@ -28,8 +28,8 @@ class ExactPortal {
   ExactPortal(Body& a, Body& b, double metres, double unit, double slab, bool close)
       : a_(a), b_(b), unit_(unit / metres), slab_(slab), close_(close) {}
 
-  // Returns unknown if nothing is proven. If the answer is another, the bound and the portal are
-  // valid. `normal` is a direction near which the plane of contact may be.
+  // Returns unknown if nothing is proven. If the answer is another, the proof is valid. `normal` is
+  // a direction near which the plane of contact may be.
   Answer decide(RoughPortal& rough, const Vec3d& normal) {
     Answer answer = Answer::unknown;
     for (int attempt = 0; attempt < 3; ++attempt) {
@@ -44,36 +44,15 @@ class ExactPortal {
     return answer != Answer::unknown ? answer : decide_along(normal);
   }
 
-  // A unit vector, and the signed distance along it in steps of the grid.
-  const Vec3d& unit_normal() const { return unit_normal_; }
-  double along() const { return along_; }
-
-  const std::array<Corner, 3>& portal() const { return portal_; }
-  // A bound, in steps of the grid, on the distance of the origin from where the ray passes the
-  // portal. It is along the ray, which passes the origin.
-  double furthest() const {
-    const auto& [p, q, r] = portal_;
-    const auto normal = cross(q.point.exact - p.point.exact, r.point.exact - p.point.exact);
-    const double steep = unit_of(normal).dot(ray_.rounded.stableNormalized());
-    // The portal is a point, or the ray nearly in its plane.
-    if (!(steep > 0x1p-20)) {
-      return (1 + 0x1p-48) *
-             std::max({p.point.rounded.norm(), q.point.rounded.norm(), r.point.rounded.norm()});
-    }
-    const double height = std::abs(to_double(dot(normal, p.point.exact))) / length_of(normal);
-    // The height is off by 2^-49 of itself, each of the directions by 2^-49.
-    return height * (1 + 0x1p-48) / (steep - 0x1p-47);
-  }
-  // Weights of the point where the ray passes the portal.
-  Vec3d weights() const {
-    const auto& [p, q, r] = portal_;
-    const auto part = [&](const Corner& x, const Corner& y) {
-      return std::max(0.0, ray_.rounded.dot(x.point.rounded.cross(y.point.rounded)));
-    };
-    const Vec3d parts(part(q, r), part(r, p), part(p, q));
-    const double sum = parts.sum();
-    return sum > 0 ? Vec3d(parts / sum) : Vec3d::Constant(1.0 / 3);
-  }
+  // What was proven of the signed distance, in steps of the grid.
+  struct Proof {
+    Vec3d normal = Vec3d::Zero();                             // unit length
+    double lower = -std::numeric_limits<double>::infinity();  // along the normal
+    double upper = std::numeric_limits<double>::infinity();   // if separated: to a point of C
+    std::array<Corner, 3> portal = {};
+    Vec3d weights = Vec3d::Zero();  // of that point, in the portal
+  };
+  const Proof& proof() const { return proof_; }
 
  private:
   static constexpr int most_portals = 32;
@@ -140,6 +119,7 @@ class ExactPortal {
     if (!list_along(normal)) return Answer::unknown;
     if (a_.near().size() * b_.near().size() > 4) return Answer::unknown;
     double most = -std::numeric_limits<double>::infinity();
+    Corner nearest = corner(a_.near().front(), b_.near().front());
     for (const std::size_t i : a_.near()) {
       for (const std::size_t j : b_.near()) {
         const Corner here = corner(i, j);
@@ -147,17 +127,16 @@ class ExactPortal {
         const double height = listed_.dot(w) + 0x1p-48 * w.cwiseAbs().sum();
         if (!(height > most)) continue;
         most = height;
-        portal_ = {here, here, here};
+        nearest = here;
       }
     }
-    unit_normal_ = listed_;
-    along_ = -most;
-    const Vec3d& nearest = portal_[0].point.rounded;
-    if (most < 0 && (!close_ || nearest.norm() - along_ <= close_enough * unit_)) {
+    const double upper = (1 + 0x1p-48) * nearest.point.rounded.norm();
+    proof_ = {listed_, -most, upper, {nearest, nearest, nearest}, Vec3d::Constant(1.0 / 3)};
+    if (most < 0 && (!close_ || upper + most <= close_enough * unit_)) {
       return Answer::separated;
     }
     const bool is_single = a_.near().size() == 1 && b_.near().size() == 1;
-    return is_single && nearest.isZero(0) ? Answer::touching : Answer::unknown;
+    return is_single && nearest.point.rounded.isZero(0) ? Answer::touching : Answer::unknown;
   }
 
   // The sign of ray . (p x q).
@@ -189,10 +168,10 @@ class ExactPortal {
       const Reach reach = furthest_along(normal);
       const int above = reach.height.sign();
       if (height.sign() > 0 || above < 0 || (above == 0 && height.sign() == 0)) {
-        set_bound(normal, reach.height);
         answer = height.sign() > 0 ? Answer::overlapping
                  : above < 0       ? Answer::separated
                                    : Answer::touching;
+        keep(normal, reach.height, answer);
         const double off = to_double(reach.height - height) / length_of(normal);
         is_close_ = off <= close_enough * unit_;
         if (!close_ || is_close_) return answer;
@@ -214,8 +193,9 @@ class ExactPortal {
   // Lists what is near the support planes along a direction, unless that is listed.
   bool list_along(const Vec3d& direction) {
     if (is_same_direction(direction, listed_)) return true;
-    listed_ = direction;
-    return a_.list_near(direction, slab_) && b_.list_near(-direction, slab_);
+    const bool listed = a_.list_near(direction, slab_) && b_.list_near(-direction, slab_);
+    listed_ = listed ? direction : Vec3d::Zero();
+    return listed;
   }
 
   static Vec3d rounded(const FixedVector<2 * size>& v) {
@@ -248,12 +228,43 @@ class ExactPortal {
     return reach;
   }
 
-  void set_bound(const FixedVector<2 * size>& normal, const FixedInteger<3 * size>& height) {
-    const Vec3d direction = rounded(normal);
-    const double greatest = direction.cwiseAbs().maxCoeff();
-    unit_normal_ = direction / greatest;
-    along_ = -to_double(height) / greatest / unit_normal_.norm();
-    unit_normal_.normalize();
+  // Keeps what the portal proves, with its normal and the height of C along it, if that is closer
+  // than what is kept.
+  void keep(const FixedVector<2 * size>& normal, const FixedInteger<3 * size>& height,
+            Answer answer) {
+    const double length = length_of(normal), along = -to_double(height) / length;
+    if (!(along > proof_.lower)) return;
+    proof_.normal = unit_of(normal);
+    proof_.lower = along;
+    proof_.portal = portal_;
+    proof_.weights = weights();
+    if (answer == Answer::separated)
+      proof_.upper = std::min(proof_.upper, furthest(normal, length));
+  }
+
+  // Bounds the distance of the origin from where the ray passes the portal, along the ray, which
+  // passes the origin.
+  double furthest(const FixedVector<2 * size>& normal, double length) const {
+    const auto& [p, q, r] = portal_;
+    const double steep = unit_of(normal).dot(ray_.rounded.stableNormalized());
+    if (!(steep > 0x1p-20)) {
+      return (1 + 0x1p-48) *
+             std::max({p.point.rounded.norm(), q.point.rounded.norm(), r.point.rounded.norm()});
+    }
+    const double height = std::abs(to_double(dot(normal, p.point.exact))) / length;
+    // The height is off by 2^-49 of itself, each of the directions by 2^-49.
+    return height * (1 + 0x1p-48) / (steep - 0x1p-47);
+  }
+
+  // Weights of the point where the ray passes the portal.
+  Vec3d weights() const {
+    const auto& [p, q, r] = portal_;
+    const auto part = [&](const Corner& x, const Corner& y) {
+      return std::max(0.0, ray_.rounded.dot(x.point.rounded.cross(y.point.rounded)));
+    };
+    const Vec3d parts(part(q, r), part(r, p), part(p, q));
+    const double sum = parts.sum();
+    return sum > 0 ? Vec3d(parts / sum) : Vec3d::Constant(1.0 / 3);
   }
 
   // Replaces a corner so that the ray still passes through the portal.
@@ -281,8 +292,7 @@ class ExactPortal {
   GridPoint<size + 1> ray_;  // a sum of points
   bool starts_inside_ = false;
   std::array<Corner, 3> portal_;
-  Vec3d unit_normal_ = Vec3d::Zero();
-  double along_ = 0;
+  Proof proof_;
 };
 
 }  // namespace

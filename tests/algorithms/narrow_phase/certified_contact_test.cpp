@@ -170,6 +170,26 @@ TEST(CertifiedContact, BodiesThatStandOnAPlane) {
   EXPECT_LT(count.share_of_oracle(), 0.02);
 }
 
+// More vertices in the plane of contact than are looked at exactly: the oracle decides.
+TEST(CertifiedContact, FacesOfManyVertices) {
+  Random random(7);
+  ContactCount count;
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 0.0314159 * i;
+    for (const double z : {-1.0, 1.0}) points.emplace_back(std::cos(angle), std::sin(angle), z);
+  }
+  const Shape drum = bare_hull(points, 3);
+  for (int i = 0; i < 60; ++i) {
+    const Mat3d rotation = i % 2 == 0 ? random_rotation(random) : Mat3d(Mat3d::Identity());
+    const Vec3d offset(uniform(random, -1, 1), 0, 2 + nudge(random));
+    grade(drum, {rotation, Vec3d::Zero()}, drum, {rotation, rotation * offset}, {Task::intersect},
+          count);
+  }
+  count.expect_all(3);
+  EXPECT_GT(count.share_of_oracle(), 0.5);
+}
+
 TEST(CertifiedContact, DepthsAreProvenWithoutTheOracle) {
   Random random(5);
   ContactCount count;
