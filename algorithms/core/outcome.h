@@ -24,9 +24,10 @@ enum class Precision : std::uint8_t { float32, float64 };
 
 // Fields that the task does not need, or that are not known, are NaN.
 //
-// `touching` without bounds says that the bodies have common points and no common interior. With
-// bounds, `lower` <= 0 <= `upper` for every task, it says that the signed distance lies within them:
-// the algorithm's arithmetic cannot tell more, and documents how far apart they may be. To a yes or
+// `touching` without bounds, or with both zero, says that the bodies have common points and no
+// common interior. With other bounds, `lower` <= 0 <= `upper` for every task, it says that the signed
+// distance lies within them: the algorithm's arithmetic cannot tell more, and documents how far apart
+// they may be. To a yes or
 // no question both are a yes, because closed bodies that touch share a point.
 struct Outcome {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();

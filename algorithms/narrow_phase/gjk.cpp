@@ -30,8 +30,8 @@
 //          is at most twice its size (kernels/minkowski/resolution).
 // Warm:    gjk starts from a PairMemory, except EPA; the others start cold.
 // Fails:   unknown / not_converged where the bounds enclose zero and are further apart, as between
-//          slivers and between smooth bodies that touch. The depth of smooth, nearly round bodies far inside each other reaches
-//          EPA's cap first: not_converged with bounds.
+//          slivers and between smooth bodies that touch. The depth of smooth, nearly round bodies
+//          far inside each other reaches EPA's cap first: not_converged with bounds.
 // Cost:    O(1) space; a few support calls for each digit on smooth shapes, finite on polytopes.
 //          Caps: 128 iterations of GJK, 256 of EPA. Tolerance relative to the size: 1e-10 (double)
 //          or 1e-5 (float); polytopes continue until only rounding is left.

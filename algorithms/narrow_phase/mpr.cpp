@@ -17,9 +17,10 @@
 //          normal stays, which lowers the bound each time.
 // Answers: the depth is that along the normal of the last portal. Moving b by it separates, so it
 //          is an upper bound on the penetration depth and in general not the least. `lower` is
-//          certified; `upper` is 0. For a half-space the depth is exact.
+//          certified; `upper` is 0. For a half-space the depth is exact. `touching`, with bounds on
+//          the signed distance, within gjk's resolution (kernels/minkowski/resolution).
 // Fails:   reports not_converged at the cap, and if rounding hides on which side of C the origin
-//          is. Flat and very thin differences end there sooner (plates of 1:1e8 at gaps of 1e-6).
+//          is and the bounds are further apart than that. Flat and very thin differences end there sooner (plates of 1:1e8 at gaps of 1e-6).
 // Cost:    one support call per iteration; few iterations for polytopes, a hundred or more for the
 //          depth of curved shapes.
 #include <algorithm>

@@ -36,9 +36,8 @@ std::string sides_of_contact(const GroupedCounts& grouped) {
       "of a pair that was called wrongly. *Within resolution* are answers `touching` with bounds "
       "on "
       "the signed distance: they are right if the bounds hold, and take no side; *width* is the "
-      "greatest distance of the bounds. An honest "
-      "failure is one that the status states, up to that distance or depth. Pairs that touch "
-      "exactly are not scored otherwise: the column "
+      "greatest distance of the bounds. An honest failure is one that the status states, up to "
+      "that distance or depth. Pairs that touch exactly are not scored otherwise: the column "
       "says how many of them were called contact.\n\n";
   base::Table table({"algorithm", "answers", "silent, given", "margin", "silent, end to end",
                      "margin", "within resolution", "width", "honest failures", "up to",

@@ -37,12 +37,11 @@ constexpr std::string_view summary_key =
     "exact |signed distance| of those; near: answers `touching` within bounds on the signed\n"
     "distance, which are right if these hold; width: the greatest distance of the bounds; honest:\n"
     "failures that were told; unsaid: answers whose status says nothing; lost: crashed or hung;\n"
-    "gap, deep, shallow: the greatest errors of distance and depth; stuck: by how far the "
-    "reported\n"
-    "translation does not separate; bounds: certified bounds that miss the exact value; flips:\n"
-    "other answers to the same pair in another form; beyond: ours, beyond the documented margins.\n"
-    "All against the exact answer for the bits that the algorithm was given; lengths as parts of\n"
-    "the pair's size.\n";
+    "gap, deep, shallow: the greatest errors of distance and depth; stuck: by how far the\n"
+    "reported translation does not separate; bounds: certified bounds that miss the exact value;\n"
+    "flips: other answers to the same pair in another form; beyond: ours, beyond the documented\n"
+    "margins. All against the exact answer for the bits that the algorithm was given; lengths as\n"
+    "parts of the pair's size.\n";
 
 }  // namespace
 

@@ -25,14 +25,6 @@ double apart(double lower, double upper, double other_lower, double other_upper)
   return 0;
 }
 
-double bounds_error(const Outcome& outcome, const oracle::Measure& exact) {
-  if (std::isnan(outcome.lower) && std::isnan(outcome.upper)) return Grade::none;
-  double error = 0;
-  if (outcome.lower > exact.upper) error = outcome.lower - exact.upper;
-  if (outcome.upper < exact.lower) error = std::max(error, exact.lower - outcome.upper);
-  return error;
-}
-
 // Encloses the length by which b must move along n until the bodies are separated (negative: the
 // gap along n). The difference of a body and a half-space is a half-space, which has a support in
 // one direction only, and the reported direction seldom equals that one to the last bit. There the
@@ -92,8 +84,17 @@ double least_magnitude(double lower, double upper) {
   return upper < 0 ? -upper : 0;
 }
 
+double bounds_error(const Outcome& outcome, const oracle::Measure& exact) {
+  if (std::isnan(outcome.lower) && std::isnan(outcome.upper)) return Grade::none;
+  double error = 0;
+  if (outcome.lower > exact.upper) error = outcome.lower - exact.upper;
+  if (outcome.upper < exact.lower) error = std::max(error, exact.lower - outcome.upper);
+  return error;
+}
+
 bool is_within_resolution(const Outcome& outcome) {
-  return outcome.answer == Answer::touching && outcome.lower <= 0 && outcome.upper >= 0;
+  return outcome.answer == Answer::touching && outcome.lower <= 0 && outcome.upper >= 0 &&
+         outcome.lower < outcome.upper;
 }
 
 bool stands_by(const Outcome& outcome) {

@@ -28,12 +28,15 @@ inline bool is_contact(Answer answer) {
 bool stands_by(const Outcome& outcome);
 // Returns whether the answer is `touching` within bounds on the signed distance (core/outcome.h).
 bool is_within_resolution(const Outcome& outcome);
+// Returns the length (metres) by which the outcome's bounds on the signed distance miss the exact
+// one; 0 if they enclose it, NaN without bounds.
+double bounds_error(const Outcome& outcome, const oracle::Measure& exact);
 
 // The treatment of bodies that touch exactly: their answers are not scored, or they are in contact.
 enum class Touching : std::uint8_t { unscored, contact };
 // Judges the side of contact; all judgements in the project use this function. The caller applies
 // the band in which a wrong side is tolerated: see margins.h. `touching` within bounds takes no side:
-// it is right, and its bounds are graded.
+// it is right if the bounds hold, which the caller tests (bounds_error).
 Verdict judge(const Outcome& outcome, Answer exact, Touching touching = Touching::unscored);
 
 // Lengths in metres. A number is NaN if the task does not ask for it, the algorithm does not report

@@ -53,7 +53,14 @@ OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
     const Outcome& outcome = outcomes[i];
     const ReferenceOutcome& expected = reference[i];
     if (is_contact(outcome.answer)) ++faults.contacts;
-    switch (judge(outcome, expected.answer, Touching::contact)) {
+    Verdict verdict = judge(outcome, expected.answer, Touching::contact);
+    double by = std::abs(expected.distance);
+    const double band = grazing_band(expected.size, expected.reach, scalar);
+    if (verdict == Verdict::right && is_within_resolution(outcome)) {
+      by = std::max(outcome.lower - expected.distance, expected.distance - outcome.upper);
+      if (by > band) verdict = Verdict::silent_error;
+    }
+    switch (verdict) {
       case Verdict::crashed: ++faults.crashed; continue;
       case Verdict::timed_out: ++faults.timed_out; continue;
       case Verdict::unsupported: ++faults.unanswered; continue;
@@ -65,9 +72,8 @@ OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
       case Verdict::unscored: continue;
       case Verdict::silent_error: {
         ++faults.compared;
-        const double by = std::abs(expected.distance);
         // The comparison is written so that an unknown distance counts as a disagreement.
-        if (by <= grazing_band(expected.size, expected.reach, scalar)) {
+        if (by <= band) {
           ++faults.grazing;
         } else {
           ++faults.disagree;

@@ -1,6 +1,6 @@
 // GJK's fast iteration with plain products. It is accurate to most digits; only its support planes
 // and tetrahedra are proofs. The distance loop (gjk_distance) and minkowski/simplex refine its
-// result. Used by the GJK family, certified and mpr-refined (is_surely_inside).
+// result. Used by the GJK family, certified, mpr-refined and the room mpr (is_surely_inside).
 // Steps:   1. Start at the difference of the centres, or at a given simplex.
 //          2. Find the support point towards the origin, in vectors of four numbers.
 //          3. If its plane is further from the origin than the radii, or the bounds meet to the

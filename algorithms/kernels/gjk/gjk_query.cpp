@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "algorithms/kernels/gjk/simplex_face.h"
 #include "algorithms/kernels/minkowski/resolution.h"
-#include "algorithms/kernels/minkowski/simplex_face.h"
 
 namespace touchstone {
 namespace {
@@ -132,8 +132,8 @@ void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStar
     if (asked) {
       const DifferencePoint<Scalar> nearest = weighted_mean(found.simplex);
       const Vec3<Scalar> normal = -found.nearest.direction;
-      write(pair, found.nearest.distance - pair.radius(), lower, upper, normal, nearest.a, nearest.b,
-            outcome);
+      write(pair, found.nearest.distance - pair.radius(), lower, upper, normal, nearest.a,
+            nearest.b, outcome);
     }
   }
   outcome.support_calls = pair.support_calls();

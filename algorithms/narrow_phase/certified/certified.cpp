@@ -10,8 +10,9 @@
 //             proven_rounding.h. Otherwise run GJK's distance loop, which may prove the verdict in
 //             the same ways.
 //          4. Where that leaves the verdict of two polytopes open, decide it in integers, from the
-//             few vertices near the plane of contact (exact_contact). Rounded polytopes and
-//             half-spaces are decided likewise where the bounds of step 5 leave it open.
+//             few vertices near the plane of contact (exact_contact), or else by EPA's faces if
+//             they surely enclose the origin. Rounded polytopes and half-spaces are decided in
+//             integers where the bounds of step 5 leave it open.
 //          5. distance: from the last direction and simplex, compute an interval of the signed
 //             distance in long double with all rounding bounded (distance_bounds,
 //             support_bounds).

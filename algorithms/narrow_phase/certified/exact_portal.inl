@@ -82,8 +82,11 @@ class ExactPortal {
       }
     }
     ray_ = GridPoint<size + 1>(back);
-    const auto across = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    starts_inside_ = start.weights[3] > 0 && dot(across, corners[3] - corners[0]).sign() != 0;
+    starts_inside_ = false;
+    if (start.weights[3] > 0) {
+      const auto across = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      starts_inside_ = dot(across, corners[3] - corners[0]).sign() != 0;
+    }
     return true;
   }
 

@@ -5,10 +5,11 @@
 // power that a pair needs; the numbers of most pairs then fit into 64 or 128 bits.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "algorithms/core/pose.h"
 #include "algorithms/narrow_phase/certified/fixed_integer.h"

@@ -21,7 +21,7 @@
 // Departs: portals in all directions hold a lower bound on the depth. The papers only descend.
 // Answers: moving b by the depth along the normal separates, and no direction near it has less.
 //          `lower` and `upper` are certified; they meet if the depth is proven to be the least. For
-//          a half-space the depth is exact.
+//          a half-space the depth is exact. `touching` like mpr.
 // Warm:    keeps the last normal. Bodies that it still separates take one support point. If the
 //          depth from a normal that was the least is not proven again, the lesser of it and the
 //          cold one is the answer.

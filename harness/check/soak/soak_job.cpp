@@ -60,7 +60,10 @@ class Cases {
       const files::Case& c = cases_[i];
       const Encoding encoding =
           encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::intersect, scalar);
-      count_one(solved.answers[item], truth(i, encoding), first_ + static_cast<std::int64_t>(i),
+      const Outcome& outcome = solved.answers[item];
+      const bool bounds_hold =
+          !grade::is_within_resolution(outcome) || !(bounds_error(i, encoding, outcome) > 0);
+      count_one(outcome, truth(i, encoding), bounds_hold, first_ + static_cast<std::int64_t>(i),
                 count);
     }
     return count;
@@ -87,7 +90,14 @@ class Cases {
     return *known[i];
   }
 
-  static void count_one(const Outcome& outcome, Answer exact, std::int64_t index,
+  double bounds_error(std::size_t i, Encoding encoding, const Outcome& outcome) {
+    const grade::EncodedPair pair(cases_[i], encoding);
+    if (!pair.is_finite()) return Outcome::none;
+    return grade::bounds_error(outcome, oracle_->measure(pair.a(), pair.b()));
+  }
+
+  // `bounds_hold`: of an answer `touching` within bounds.
+  static void count_one(const Outcome& outcome, Answer exact, bool bounds_hold, std::int64_t index,
                         SoakCount& count) {
     ++count.pairs;
     switch (exact) {
@@ -98,6 +108,9 @@ class Cases {
     }
     switch (grade::judge(outcome, exact, grade::Touching::contact)) {
       case grade::Verdict::right:
+        if (bounds_hold) return;
+        ++count.silent;
+        break;
       case grade::Verdict::unscored: return;
       case grade::Verdict::unsupported:
       case grade::Verdict::honest_failure: ++count.honest; return;

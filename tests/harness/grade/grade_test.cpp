@@ -96,6 +96,15 @@ TEST(Grade, BodiesThatTouchAreUnscoredOrInContact) {
             grade::Verdict::right);
 }
 
+// Bounds that are both zero claim that the bodies touch exactly.
+TEST(Grade, TouchingWithBoundsOfZeroTakesASide) {
+  Outcome claim = outcome(Answer::touching);
+  claim.lower = claim.upper = 0;
+  EXPECT_FALSE(grade::is_within_resolution(claim));
+  EXPECT_EQ(Cubes(2.5).grade(claim, Task::distance).verdict, grade::Verdict::silent_error);
+  EXPECT_EQ(Cubes(1.5).grade(claim, Task::distance).verdict, grade::Verdict::right);
+}
+
 TEST(Grade, TouchingWithinBoundsTakesNoSide) {
   const auto within = [](double lower, double upper) {
     Outcome o = outcome(Answer::touching);

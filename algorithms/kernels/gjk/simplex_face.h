@@ -1,4 +1,4 @@
-// The plane of contact that a simplex around the origin shows. Used by the GJK family.
+// The plane of contact that a simplex around the origin shows. Used by the query of a pair.
 //
 // If the origin is on the surface of a convex set, and inside a triangle of points of the set, then
 // the triangle's plane supports the set.
