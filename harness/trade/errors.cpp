@@ -58,6 +58,9 @@ void ErrorCount::add(const TruePair& truth, const PairAnswer* answer) {
   const bool contact = grade::is_contact(truth.answer);
   const bool answered = answer == nullptr || answer->answer != Answer::unknown;
   const bool said_contact = answer != nullptr && grade::is_contact(answer->answer);
+  // `touching` within bounds is right if they hold.
+  const bool is_resolved =
+      answer != nullptr && answer->answer == Answer::touching && truth.gap <= answer->upper;
   GapBin& bin = errors_.bins[gap_bin(truth.answer, truth.gap / truth.size)];
   ++bin.pairs;
   ++errors_.near;
@@ -65,7 +68,7 @@ void ErrorCount::add(const TruePair& truth, const PairAnswer* answer) {
   if (!answered) {
     ++bin.failed;
     ++errors_.failed;
-  } else if (said_contact != contact) {
+  } else if (said_contact != contact && !is_resolved) {
     ++bin.wrong;
     ++(contact ? errors_.false_negatives : errors_.false_positives);
   }

@@ -231,7 +231,7 @@ void FramePipeline::reduce() {
   for (std::size_t i = 0; i < asked_.size(); ++i) {
     // If no pair of parts could meet, the bodies are apart.
     answers_[i] = {asked_[i], asks_nobody ? Answer::overlapping : Answer::separated, Status::ok,
-                   Outcome::none};
+                   Outcome::none, 0};
   }
   for (const Piece& piece : pieces_) {
     for (std::size_t i = piece.begin; i < piece.end; ++i) {
@@ -245,6 +245,7 @@ void FramePipeline::reduce() {
       if (grade::is_contact(outcome.answer) || outcome.answer == Answer::unknown) {
         answer.answer = outcome.answer;
         answer.status = outcome.status;
+        if (grade::is_within_resolution(outcome)) answer.upper = outcome.upper;
       }
     }
   }

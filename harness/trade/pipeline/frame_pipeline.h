@@ -47,6 +47,7 @@ struct PairAnswer {
   Answer answer = Answer::unknown;
   Status status = Status::unsupported;
   double distance = Outcome::none;  // metres, signed, if the task asks for it
+  double upper = 0;                 // of `touching`: the upper bound on the signed distance, metres
 };
 
 class FramePipeline {

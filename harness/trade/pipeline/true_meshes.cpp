@@ -1,6 +1,7 @@
 // Solves pairs with a mesh exactly.
 #include "harness/trade/pipeline/true_meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -44,16 +45,23 @@ std::vector<proxies::Part> triangle_parts(const geometry::Mesh& mesh) {
   return parts;
 }
 
-bool is_inside(const geometry::Mesh& mesh, const Vec3d& point) {
+std::optional<double> winding_number(const geometry::Mesh& mesh, const Vec3d& point) {
+  constexpr double near_a_corner = 1e-9, in_the_plane = 1e-12;  // relative to the lengths
   double angle = 0;
   for (const auto& triangle : mesh.triangles) {
     const Vec3d a = mesh.vertices[triangle[0]] - point, b = mesh.vertices[triangle[1]] - point,
                 c = mesh.vertices[triangle[2]] - point;
     const double x = a.norm(), y = b.norm(), z = c.norm();
-    angle +=
-        2 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
+    const double volume = a.dot(b.cross(c)), lengths = x * y * z;
+    const double rest = lengths + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+    const auto [least, most] = std::minmax({x, y, z});
+    if (!(least > near_a_corner * most) ||
+        (std::abs(volume) <= in_the_plane * lengths && rest <= in_the_plane * lengths)) {
+      return std::nullopt;
+    }
+    angle += 2 * std::atan2(volume, rest);
   }
-  return std::abs(angle) > 2 * std::numbers::pi;
+  return std::abs(angle) / (4 * std::numbers::pi);
 }
 
 TrueMeshes::TrueMeshes(const SceneFrames& frames, Executor& executor)
@@ -66,9 +74,19 @@ TrueMeshes::TrueMeshes(const SceneFrames& frames, Executor& executor)
   }
 }
 
-bool TrueMeshes::has_inside(std::uint32_t body, const Pose& pose, const Vec3d& point) const {
+// The surfaces share no point, so all points of the other body are on one side. One that is clear of
+// this body's surface decides.
+bool TrueMeshes::has_inside(std::uint32_t body, const Pose& pose, const StandIn& other,
+                            const Pose& pose_of_other) const {
   const geometry::Mesh* mesh = frames_->mesh_of[frames_->scene->bodies[body].shape];
-  return mesh != nullptr && is_inside(*mesh, pose.rotation.inverse() * (point - pose.translation));
+  if (mesh == nullptr) return false;
+  for (std::uint32_t i = 0; i < other.parts.size(); ++i) {
+    const Vec3d point = pose_of_other(other.tree.point(i));
+    const auto winding =
+        winding_number(*mesh, pose.rotation.inverse() * (point - pose.translation));
+    if (winding) return *winding > 0.5;
+  }
+  return false;
 }
 
 std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& pair, int worker) {
@@ -110,8 +128,7 @@ std::pair<Answer, double> TrueMeshes::solve(std::size_t frame, const IndexPair& 
       gap = std::min(gap, outcome.distance);
     }
   }
-  if (has_inside(pair.a, pose_a, pose_b(b.tree.point(0))) ||
-      has_inside(pair.b, pose_b, pose_a(a.tree.point(0)))) {
+  if (has_inside(pair.a, pose_a, b, pose_b) || has_inside(pair.b, pose_b, a, pose_a)) {
     return {Answer::overlapping, Outcome::none};
   }
   return {Answer::separated, gap};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,10 +15,10 @@ namespace touchstone::trade {
 // The mesh's triangles, each a flat hull, in the mesh's own frame.
 std::vector<proxies::Part> triangle_parts(const geometry::Mesh& mesh);
 
-// Returns true if a point lies inside of a closed mesh (metres, its frame) by the winding number
-// from solid angles (van Oosterom, Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983). A
-// mesh with small holes still has an inside.
-bool is_inside(const geometry::Mesh& mesh, const Vec3d& point);
+// How often a closed mesh goes around a point (metres, its frame), from solid angles (van Oosterom,
+// Strackee, IEEE Trans. Biomedical Engineering 30(2), 1983): 1 inside, 0 outside, nothing if the
+// point is on the surface up to rounding. Small holes change it little.
+std::optional<double> winding_number(const geometry::Mesh& mesh, const Vec3d& point);
 
 class TrueMeshes {
  public:
@@ -29,7 +30,8 @@ class TrueMeshes {
   std::pair<Answer, double> solve(std::size_t frame, const IndexPair& pair, int worker);
 
  private:
-  bool has_inside(std::uint32_t body, const Pose& pose, const Vec3d& point) const;
+  bool has_inside(std::uint32_t body, const Pose& pose, const StandIn& other,
+                  const Pose& pose_of_other) const;
 
   const SceneFrames* frames_;
   StandInLibrary library_;

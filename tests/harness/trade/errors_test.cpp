@@ -19,7 +19,7 @@ trade::TruePair truth(std::uint32_t a, std::uint32_t b, double gap, double size 
 }
 trade::PairAnswer said(std::uint32_t a, std::uint32_t b, Answer answer,
                        double distance = Outcome::none) {
-  return {{a, b}, answer, Status::ok, distance};
+  return {{a, b}, answer, Status::ok, distance, 0};
 }
 
 TEST(TradeErrors, BinsCoverEveryGapOnce) {
@@ -39,6 +39,16 @@ TEST(TradeErrors, BinsCoverEveryGapOnce) {
   }
   EXPECT_EQ(trade::gap_bin(Answer::touching, 0), trade::gap_decades.size());
   EXPECT_EQ(trade::gap_bin(Answer::overlapping, Outcome::none), trade::unknown_depth_bin);
+}
+
+TEST(TradeErrors, TouchingIsRightWithinItsBounds) {
+  trade::ErrorCount count(Task::intersect);
+  std::vector<trade::PairAnswer> answers = {
+      said(0, 1, Answer::touching), said(0, 2, Answer::touching), said(0, 3, Answer::touching)};
+  for (trade::PairAnswer& answer : answers) answer.upper = 1e-15;
+  count.add({0, {truth(0, 1, 1e-16), truth(0, 2, -1e-16), truth(0, 3, 2e-15)}}, answers);
+  EXPECT_EQ(count.errors().false_positives, 1);
+  EXPECT_EQ(count.errors().false_negatives, 0);
 }
 
 TEST(TradeErrors, VerdictsAreCountedAtTheirTrueGap) {

@@ -4,13 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "harness/trade/pipeline/true_meshes.h"
+#include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/harness/trade/trade_scenes.h"
 
 namespace touchstone {
 namespace {
+
+using testing::DoubleNear;
+using testing::Optional;
 
 TEST(TradeTruth, SamplesEveryFrameOnceAndSpreadsThem) {
   const std::vector<std::size_t> order = trade::sampling_order(65);
@@ -75,11 +80,29 @@ TEST(TradeTruth, AMeshIsASolidAndAnswersAsTheBoxThatItIs) {
   EXPECT_GT(apart, 50u);
 }
 
+// A vertex that nearly touches a face does not tell whether the other body is inside.
+TEST(TradeTruth, MeshesThatAreApartByARoundingAreApart) {
+  scene::Scene scene;
+  scene.add_shape(test::box(1, 1, 1), std::make_shared<geometry::Mesh>(mesh_of_box({1, 1, 1})));
+  scene.bodies.resize(2);
+  scene.bodies[1].pose.translation = {std::nextafter(2.0, 3.0), 0.25, 0.125};
+  const trade::SceneFrames frames(scene, 1);
+  const std::vector<std::size_t> wanted = {0};
+  const auto found = trade::find_truth(frames, wanted, 100, 1);
+  ASSERT_EQ(found.front().pairs.size(), 1u);
+  EXPECT_EQ(found.front().pairs.front().answer, Answer::separated);
+}
+
 TEST(TradeTruth, InsideIsByTheWindingNumber) {
   const geometry::Mesh mesh = mesh_of_box({1, 2, 3});
-  EXPECT_TRUE(trade::is_inside(mesh, {0.9, -1.9, 2.9}));
-  EXPECT_FALSE(trade::is_inside(mesh, {1.1, 0, 0}));
-  EXPECT_FALSE(trade::is_inside(mesh, {5, 5, 5}));
+  EXPECT_THAT(trade::winding_number(mesh, {0.9, -1.9, 2.9}), Optional(DoubleNear(1, 1e-12)));
+  EXPECT_THAT(trade::winding_number(mesh, {1.1, 0, 0}), Optional(DoubleNear(0, 1e-12)));
+  EXPECT_THAT(trade::winding_number(mesh, {1, 2.5, 0}), Optional(DoubleNear(0, 1e-12)));
+  // On a face, an edge, a diagonal of a face and beside a corner.
+  for (const Vec3d& point :
+       {Vec3d(1, 0.5, -0.5), Vec3d(1, 2, 0.5), Vec3d(1, 0, 0), Vec3d(1, 2, 3 + 1e-15)}) {
+    EXPECT_EQ(trade::winding_number(mesh, point), std::nullopt) << point.transpose();
+  }
 }
 
 TEST(TradeTruth, ARecordingHasNoBodies) {
