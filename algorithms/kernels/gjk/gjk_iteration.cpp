@@ -42,7 +42,7 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   const Scalar a12 = area(1, 2), a13 = area(1, 3), a23 = area(2, 3);
   const std::array<Scalar, 4> areas = {a12 + a23 + a13, a02 + a23 + a03, a01 + a13 + a03,
                                        a01 + a12 + a02};
-  constexpr Scalar r = 112 * u;  // includes what is lost in these sums
+  constexpr Scalar r = corner_rounding<Scalar>;
   for (int i = 0; i < 4; ++i) {
     // Of the face's own corners, since one may be far from the others.
     const Scalar square =

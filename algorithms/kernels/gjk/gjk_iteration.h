@@ -13,6 +13,8 @@
 //          7. Stop if the distance did not fall; otherwise repeat from step 2.
 #pragma once
 
+#include <limits>
+
 #include "algorithms/kernels/minkowski/simplex.h"
 
 namespace touchstone {
@@ -64,6 +66,11 @@ FastGjkResult<Scalar> fast_gjk(SupportPair<Scalar>& pair, const FastGjkGoal& goa
 template <class Scalar>
 using FastGjkFunction = FastGjkResult<Scalar> (*)(SupportPair<Scalar>&, const FastGjkGoal&, Scalar,
                                                   const FastGjkStart<Scalar>&);
+
+// How far rounding moves a corner, proven in certified/proven_rounding.h, with what is lost in sums
+// of lengths.
+template <class Scalar>
+inline constexpr Scalar corner_rounding = 56 * std::numeric_limits<Scalar>::epsilon();
 
 // Returns true if a tetrahedron contains the origin whatever rounding did to its corners.
 template <class Scalar>

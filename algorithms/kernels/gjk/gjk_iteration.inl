@@ -280,6 +280,9 @@ TOUCHSTONE_TARGET void fast_gjk_at(SupportPair<Scalar>& pair, const FastGjkGoal&
         if (numbered || found.iterations == goal.most_iterations) return;
         ++found.iterations;
         const auto behind = pair.template support<CoreOfA, CoreOfB>(vec<Scalar>(before));
+        // No tetrahedron is around an origin that is this near to a support plane.
+        const Scalar height = dot(before, quad(behind.difference));
+        if (!(height > corner_rounding<Scalar> * std::sqrt(dot(before, before)))) return;
         if (!find_enclosing_tetrahedron(found.simplex, behind)) return;
       }
       found.end = FastGjkEnd::inside;

@@ -13,20 +13,22 @@
 //             few vertices near the plane of contact (exact_contact), or else by EPA's faces if
 //             they surely enclose the origin. Rounded polytopes and half-spaces are decided in
 //             integers where the bounds of step 5 leave it open.
-//          5. distance: from the last direction and simplex, compute an interval of the signed
-//             distance in long double with all rounding bounded (distance_bounds,
-//             support_bounds).
+//          5. distance: GJK's support plane and nearest point bound the signed distance from both
+//             sides, in doubles (double_bounds). Where that is too wide, compute an interval from
+//             the last direction and simplex in long double (distance_bounds, support_bounds).
 //          6. penetration of polytopes: run EPA. The support along its nearest face bounds the
-//             depth from above; that its faces enclose a ball bounds it from below.
-//          7. Accept an interval if it decides and, for a distance or depth, is at most 4e-15 of
-//             the size or 2 units in the last place wide.
+//             depth from above; that its faces enclose a ball bounds it from below. In doubles
+//             first, too.
+//          7. Accept an interval if it decides and, for a distance or depth, is at most the
+//             tolerance (2e-13, if no other is set) of the greater body's size, or 2 units in the
+//             last place, wide. No tolerance is taken to be below 4e-15.
 //          8. Otherwise ask the oracle, in integers.
 // Departs: the filter covers whole queries instead of predicates. The depth of rounded and curved
 //          cores that share a point always comes from the oracle. Outcome::support_calls is -1 if
 //          the oracle answered, and a count otherwise.
 // Fails:   unknown / not_converged if the oracle's enclosure of curved cores contains zero, and
 //          not_converged with bounds if that of a depth is wider than 1e-9 of the size. Never
-//          wrong. Tolerance and iteration cap are ignored: they would only make it slower.
+//          wrong. The iteration cap is ignored: it would only make it slower.
 // Cost:    GJK's and EPA's, and half a microsecond for bounds or one for exact signs. The oracle
 //          takes 10 to 100 us, or some ms for distances of curved cores that GJK does not settle and
 //          for all their depths.
@@ -40,6 +42,7 @@
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/certified/distance_bounds.h"
+#include "algorithms/narrow_phase/certified/double_bounds.h"
 #include "algorithms/narrow_phase/certified/halfspace_bounds.h"
 #include "algorithms/narrow_phase/certified/placed_body.h"
 #include "algorithms/narrow_phase/certified/polytope_contact.h"
@@ -52,10 +55,14 @@ namespace {
 using Pair = SupportPair<double>;
 
 constexpr int most_iterations = 128;
+constexpr double default_tolerance = 2e-13, least_tolerance = 4e-15;  // relative to the size
 constexpr double least_digits = 1e-9;  // relative to the size: a wider enclosure is not a number
 
 class Certified final : public NarrowPhase {
  public:
+  explicit Certified(const NarrowPhaseSettings& settings)
+      : tolerance_(std::max(settings.tolerance.value_or(default_tolerance), least_tolerance)) {}
+
   void bind(std::span<const Shape> shapes) override {
     shapes_.clear();
     shapes_.reserve(shapes.size());
@@ -67,7 +74,7 @@ class Certified final : public NarrowPhase {
     for_each_pair(batch.pairs, shapes_, ahead_, task == Task::distance,
                   [&](std::size_t i, const PreparedShape& a, const Pose& pose_a,
                       const PreparedShape& b, const Pose& pose_b) {
-                    solve_pair({{a, pose_a}, {b, pose_b}}, task, batch, outcomes[i]);
+                    solve_pair({{a, pose_a}, {b, pose_b}, tolerance_}, task, batch, outcomes[i]);
                   });
   }
 
@@ -80,6 +87,7 @@ class Certified final : public NarrowPhase {
   bool gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task task, Outcome& outcome);
   bool on_plane(const PlacedPair& bodies, Task task, Outcome& outcome);
 
+  double tolerance_;
   std::vector<PreparedShape> shapes_;
   ShapePrefetch<double> ahead_;
   DistanceBounder gaps_;
@@ -95,7 +103,7 @@ void Certified::solve_pair(const PlacedPair& bodies, Task task, const PairBatch&
                        : batch.kind_b == ShapeKind::halfspace ? on_plane(bodies, task, outcome)
                                                               : filter(bodies, task, outcome);
   if (decided) return;
-  const auto& [a, b] = bodies;
+  const PlacedBody &a = bodies.a, &b = bodies.b;
   outcome.support_calls = -1;
   oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, task, outcome);
   // The enclosure of round cores deep in each other may be wide: then it is a bound, not a depth.
@@ -107,7 +115,7 @@ void Certified::solve_pair(const PlacedPair& bodies, Task task, const PairBatch&
 }
 
 bool Certified::filter(const PlacedPair& bodies, Task task, Outcome& outcome) {
-  const auto& [a, b] = bodies;
+  const PlacedBody &a = bodies.a, &b = bodies.b;
   if (task != Task::distance &&
       balls_are_apart(a.shape.support(), a.pose, b.shape.support(), b.pose)) {
     return write_verdict(Answer::separated, outcome);
@@ -139,7 +147,8 @@ bool Certified::fast_gjk_decides(Pair& pair, const PlacedPair& bodies, Outcome& 
     default: break;
   }
   if (pair.radius() == 0 && bodies.has_polytopes()) {
-    return contacts_.decide_exactly(pair, -found.direction, bodies, Task::intersect, outcome);
+    return contacts_.decide_exactly(pair, found.simplex, -found.direction, bodies, Task::intersect,
+                                    outcome);
   }
   if (found.simplex.size == 0) return false;
   const NearestPoint<double> nearest = reduce_to_nearest(found.simplex);
@@ -152,7 +161,8 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
                                      Outcome& outcome) {
   const GjkDistanceGoal<double> goal{
       .task = task == Task::penetration ? Task::penetration : Task::distance,
-      .tolerance = 4 * std::numeric_limits<double>::epsilon(),
+      .tolerance = std::max(4 * std::numeric_limits<double>::epsilon(),
+                            tolerance_in_doubles(pair, bodies.widest())),
       .most_iterations = most_iterations};
   const GjkDistanceResult<double> found = gjk_distance(pair, goal);
   outcome.iterations += found.iterations;
@@ -164,10 +174,12 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
   const bool at_contact = polytopes && !rounded && found.nearest.distance <= near;
   const auto contact_decides = [&] {
     const Vec3d direction = found.nearest.inside ? found.direction : -found.nearest.direction;
-    return contacts_.decide_exactly(pair, direction, bodies, task, outcome);
+    return contacts_.decide_exactly(pair, simplex, direction, bodies, task, outcome);
   };
   if (found.nearest.inside) {
-    if (task != Task::penetration && simplex.size == 4 && is_surely_inside(simplex)) {
+    // At contact no tetrahedron is surely around the origin.
+    if (task != Task::penetration && !at_contact && simplex.size == 4 &&
+        is_surely_inside(simplex)) {
       return write_verdict(Answer::overlapping, outcome);
     }
     if (at_contact && contact_decides()) return true;
@@ -186,14 +198,16 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
                              contacts_.find_depth(pair, simplex, bodies, gaps_, outcome)))) {
     return true;
   }
-  const auto& [a, b] = bodies;
   const Vec3d normal = -found.nearest.direction;
-  const DistanceBounds gap =
-      gaps_.between(a.shape.proven, a.pose, b.shape.proven, b.pose, pair, simplex, normal);
-  if (!write_bounds(gap, bodies.size(), task, outcome) &&
-      !(polytopes && rounded &&
-        contacts_.decide_rounded(pair, simplex, normal, gap, bodies, task, outcome))) {
-    return false;
+  if (!write_bounds(between_in_doubles(pair, found), bodies.widest(), task, outcome)) {
+    const PlacedBody &a = bodies.a, &b = bodies.b;
+    const DistanceBounds gap =
+        gaps_.between(a.shape.proven, a.pose, b.shape.proven, b.pose, pair, simplex, normal);
+    if (!write_bounds(gap, bodies.widest(), task, outcome) &&
+        !(polytopes && rounded &&
+          contacts_.decide_rounded(pair, simplex, normal, gap, bodies, task, outcome))) {
+      return false;
+    }
   }
   if (is_asked(task, outcome.answer)) {
     const DifferencePoint<double> nearest = weighted_mean(simplex);
@@ -206,21 +220,23 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
 
 // Solves a pair whose body b is a half-space.
 bool Certified::on_plane(const PlacedPair& bodies, Task task, Outcome& outcome) {
-  const auto& [a, b] = bodies;
+  const PlacedBody &a = bodies.a, &b = bodies.b;
   outcome.support_calls = 1;
-  if (task == Task::intersect &&
-      write_bounds(HalfspaceBounder::roughly(a.shape.proven, a.pose, b.shape.proven, b.pose),
-                   a.shape.size(), task, outcome)) {
-    return true;
-  }
+  const double widest = bodies.tolerance * a.shape.size();
   Vec3d outward = Vec3d::Zero();
-  const DistanceBounds gap =
-      heights_.closely(a.shape.proven, a.pose, b.shape.proven, b.pose, outward);
+  const bool is_clear = write_bounds(
+      HalfspaceBounder::roughly(a.shape.proven, a.pose, b.shape.proven, b.pose, outward), widest,
+      task, outcome);
+  if (is_clear && task == Task::intersect) return true;
   const SupportShape<double>& shape = a.shape.support();
   const double unit = power_of_two_above(shape.reach(a.pose.rotation));
-  if (!write_bounds(gap, a.shape.size(), task, outcome) &&
-      !contacts_.decide_over_plane(gap, unit, bodies, task, outcome)) {
-    return false;
+  if (!is_clear) {
+    const DistanceBounds gap =
+        heights_.closely(a.shape.proven, a.pose, b.shape.proven, b.pose, outward);
+    if (!write_bounds(gap, widest, task, outcome) &&
+        !contacts_.decide_over_plane(gap, unit, bodies, task, outcome)) {
+      return false;
+    }
   }
   if (is_asked(task, outcome.answer)) {
     PosedShape<double> turned(shape, a.pose.rotation, unit);
@@ -244,7 +260,9 @@ std::vector<NarrowPhaseEntry> narrow_phase_certified() {
                                 "18, 1997; Gilbert, Johnson, Keerthi, 1988"},
            .tasks = {Task::intersect, Task::distance, Task::penetration},
            .scalars = {Precision::float64},
-           .make = [](const NarrowPhaseSettings&) { return std::make_unique<Certified>(); }}};
+           .make = [](const NarrowPhaseSettings& settings) {
+             return std::make_unique<Certified>(settings);
+           }}};
 }
 
 }  // namespace touchstone::entries

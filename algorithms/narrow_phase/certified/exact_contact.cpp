@@ -19,29 +19,25 @@ constexpr double slab_of_unit = 0x1p-29;
 
 // The numbers of a pair of bodies, split.
 struct GridPair {
-  const oracle::Solid &a, &b;
-  const Pose &pose_a, &pose_b;
+  const PlacedBody &a, &b;
   SplitPose split_a, split_b;
   std::array<SplitDouble, 2> radii;
   double unit;   // metres
   int step = 0;  // of the grid: a power of two
 
   // Coordinates are relative to `origin`.
-  GridPair(const oracle::Solid& a_, const Pose& pose_a_, const oracle::Solid& b_,
-           const Pose& pose_b_, const Vec3d& origin, double unit_)
+  GridPair(const PlacedBody& a_, const PlacedBody& b_, const Vec3d& origin, double unit_)
       : a(a_),
         b(b_),
-        pose_a(pose_a_),
-        pose_b(pose_b_),
-        split_a(pose_a, origin),
-        split_b(pose_b, origin),
-        radii{SplitDouble(a.radius), SplitDouble(b.radius)},
+        split_a(a.pose, origin),
+        split_b(b.pose, origin),
+        radii{SplitDouble(a.shape.solid.radius), SplitDouble(b.shape.solid.radius)},
         unit(unit_) {}
 
   void add_to(GridRange& range) const {
     for (const SplitDouble& radius : radii) range.add(radius);
-    add(split_a, a, range);
-    add(split_b, b, range);
+    add(split_a, a.shape.solid, range);
+    add(split_b, b.shape.solid, range);
   }
 
  private:
@@ -76,12 +72,15 @@ void write(const ExactPortal<size>& portal, const GridBody<size>& a, const GridB
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& corner = proof.portal[k];
     const double weight = proof.weights[static_cast<int>(k)];
-    on_a += weight * a[corner.a].rounded;
-    on_b += weight * b[corner.b].rounded;
+    on_a += weight * rounded(a[corner.a]);
+    on_b += weight * rounded(b[corner.b]);
   }
   contact.on_a = origin + metres * on_a;
   contact.on_b = origin + metres * on_b;
-  if (contact.answer == Answer::touching) return;
+  if (contact.answer == Answer::touching) {
+    contact.lower = contact.upper = 0;
+    return;
+  }
   // The plane bounds the signed distance from below, the portal's point from above.
   const double along = metres * proof.lower;
   contact.lower = along - 0x1p-48 * std::abs(along);
@@ -90,27 +89,31 @@ void write(const ExactPortal<size>& portal, const GridBody<size>& a, const GridB
 
 template <std::size_t size>
 void solve(const GridPair& pair, const ContactGuess& guess, SupportPair<double>& supports,
-           bool close, std::vector<double>& heights, ExactContact& contact) {
-  GridBody<size> a(pair.a, pair.pose_a, pair.split_a, pair.step, heights);
-  GridBody<size> b(pair.b, pair.pose_b, pair.split_b, pair.step, heights);
+           Task task, std::vector<double>& heights, ExactContact& contact) {
+  GridBody<size> a(pair.a, pair.split_a, pair.step, heights);
+  GridBody<size> b(pair.b, pair.split_b, pair.step, heights);
   const double metres = std::ldexp(1.0, pair.step), slab = slab_of_unit * pair.unit;
-  if (pair.a.radius > 0 || pair.b.radius > 0) {
+  const oracle::Solid &solid_a = pair.a.shape.solid, &solid_b = pair.b.shape.solid;
+  if (solid_a.radius + solid_b.radius > 0) {
+    const auto count = static_cast<std::size_t>(guess.simplex.size);
     if (!a.list_near(guess.normal, slab) || !b.list_near(-guess.normal, slab)) return;
     std::array<std::array<std::size_t, 2>, 3> corners = {};
-    for (std::size_t k = 0; k < guess.count; ++k) {
-      corners[k] = {a.nearest(guess.a[k] / metres), b.nearest(guess.b[k] / metres)};
+    for (std::size_t k = 0; k < count; ++k) {
+      const DifferencePoint<double>& point = guess.simplex.points[k];
+      corners[k] = {a.nearest(point.a, pair.unit, Vec3d::Zero()),
+                    b.nearest(point.b, pair.unit, supports.centre_b())};
     }
     const ExactGap<size> gap(a, b, sum_on_grid<size>(pair.radii, pair.step));
-    contact.answer = gap.decide(std::span(corners).first(guess.count), [&](const Vec3d& direction) {
+    contact.answer = gap.decide(std::span(corners).first(count), [&](const Vec3d& direction) {
       return is_same_direction(direction.stableNormalized(), -guess.normal);
     });
     return;
   }
-  RoughPortal rough(supports, pair.a, pair.b);
-  ExactPortal<size> portal(a, b, metres, pair.unit, slab, close);
+  RoughPortal rough(supports, solid_a, solid_b, guess.simplex);
+  ExactPortal<size> portal(a, b, metres, pair.unit, slab, task);
   contact.answer = portal.decide(rough, guess.normal);
-  if (contact.answer != Answer::unknown) {
-    write(portal, a, b, metres, pair.pose_a.translation, contact);
+  if (is_asked(task, contact.answer)) {
+    write(portal, a, b, metres, pair.a.pose.translation, contact);
   }
 }
 
@@ -136,31 +139,31 @@ bool is_a_grid(const GridRange& range) {
 
 }  // namespace
 
-ExactContact ExactContactFinder::find(const oracle::Solid& a, const Pose& pose_a,
-                                      const oracle::Solid& b, const Pose& pose_b,
+ExactContact ExactContactFinder::find(const PlacedBody& a, const PlacedBody& b,
                                       const ContactGuess& guess, SupportPair<double>& supports,
-                                      bool close) {
-  if (guess.count == 0 && a.radius + b.radius > 0) return {};
+                                      Task task) {
+  const int count = guess.simplex.size;
+  if (!(count >= 1 && count <= 3) && a.shape.solid.radius + b.shape.solid.radius > 0) return {};
   if (!(std::abs(guess.normal.squaredNorm() - 1) < 0x1p-45)) return {};
-  GridPair pair(a, pose_a, b, pose_b, pose_a.translation, supports.unit());
+  GridPair pair(a, b, a.pose.translation, supports.unit());
   GridRange range;
   pair.add_to(range);
   if (!is_a_grid(range)) return {};
   pair.step = range.least;
   return with_size_of<ExactContact>(range.bits(), [&](auto size) {
     ExactContact contact;
-    solve<size>(pair, guess, supports, close, heights_, contact);
+    solve<size>(pair, guess, supports, task, heights_, contact);
     return contact;
   });
 }
 
-Answer ExactContactFinder::find_over_plane(const oracle::Solid& a, const Pose& pose_a,
-                                           const oracle::Solid& halfspace, const Pose& pose_b,
+Answer ExactContactFinder::find_over_plane(const PlacedBody& a, const PlacedBody& halfspace,
                                            double unit) {
+  const oracle::Solid& solid = halfspace.shape.solid;
   bool fits = false;
-  const GridPlane plane(halfspace.normal, halfspace.offset, fits);
-  if (!fits || !pose_b.rotation.isIdentity(0)) return Answer::unknown;
-  GridPair pair(a, pose_a, halfspace, pose_b, pose_b.translation, unit);
+  const GridPlane plane(solid.normal, solid.offset, fits);
+  if (!fits || !halfspace.pose.rotation.isIdentity(0)) return Answer::unknown;
+  GridPair pair(a, halfspace, halfspace.pose.translation, unit);
   SplitDouble offset = plane.offset;
   offset.exponent -= plane.exponent;
   GridRange range;
@@ -169,8 +172,8 @@ Answer ExactContactFinder::find_over_plane(const oracle::Solid& a, const Pose& p
   if (!is_a_grid(range)) return Answer::unknown;
   pair.step = range.least;
   const auto answer = with_size_of<std::optional<Answer>>(range.bits(), [&](auto size) {
-    GridBody<size> body(a, pose_a, pair.split_a, pair.step, heights_);
-    const Vec3d down = -halfspace.normal.stableNormalized();
+    GridBody<size> body(a, pair.split_a, pair.step, heights_);
+    const Vec3d down = -solid.normal.stableNormalized();
     if (!body.list_near(down, slab_of_unit * unit)) return std::optional<Answer>{};
     const auto radius = sum_on_grid<size>(pair.radii, pair.step);
     return std::optional(verdict_over_plane<size>(body, plane, radius, pair.step));

@@ -6,8 +6,9 @@
 // Paper:   Snethen, "XenoCollide: Complex Collision Made Simple", Game Programming Gems 7, 2008
 //          (portals); Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
 //          geometric predicates", Discrete & Computational Geometry 18, 1997 (filters).
-// Steps:   1. Cast a ray from a point inside the difference C = A - B through the origin, and find
-//             three points of C around it near the surface, in doubles (rough_portal).
+// Steps:   1. Cast a ray from a point inside the difference C = A - B through the origin. Take the
+//             face of GJK's last simplex that the ray passes, or find three points of C around the
+//             ray, and push them to the surface of C, in doubles (rough_portal).
 //          2. Place them on a grid of integers (grid_body); signs confirm that the ray passes their
 //             triangle, the portal.
 //          3. Take the portal's normal exactly, and list the vertices of a and of b within 2e-9 of
@@ -28,22 +29,22 @@
 //          do, 9 where one does.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "algorithms/core/outcome.h"
-#include "algorithms/kernels/minkowski/support.h"
-#include "algorithms/oracle/solid.h"
+#include "algorithms/kernels/minkowski/simplex.h"
+#include "algorithms/narrow_phase/certified/placed_body.h"
 
 namespace touchstone {
 
-// `answer` is unknown if nothing is proven. Otherwise the signed distance lies in [lower, upper]
-// (metres); the normal is from a to b, and the witness points (metres, world) are those of the
-// portal's point on the ray.
+// `answer` is unknown if nothing is proven. The rest is set if the task asks for it: the signed
+// distance lies in [lower, upper] (metres), the normal is from a to b, and the witness points
+// (metres, world) are those of the portal's point on the ray.
 struct ExactContact {
   Answer answer = Answer::unknown;
-  double lower = 0, upper = 0;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
   Vec3d normal = Vec3d::Zero();
   Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
 };
@@ -51,24 +52,20 @@ struct ExactContact {
 // What an iteration in doubles says of the place of contact. It need not be right.
 struct ContactGuess {
   Vec3d normal;  // unit length, from a to b, world
-  // Of rounded polytopes: corners of a and of b (metres, world axes, relative to the translation of
-  // a) whose differences are the feature nearest to the origin, up to three.
-  std::size_t count = 0;
-  std::array<Vec3d, 3> a = {}, b = {};
+  // Support points of the pair near the origin, which may be none. Of rounded polytopes: one to
+  // three, the corners of the feature nearest to the origin.
+  const Simplex<double>& simplex;
 };
 
 class ExactContactFinder {
  public:
-  // Both solids are polytopes, and `pair` has their cores. If they have a radius, the guess must
-  // have a corner, the answer is that of the rounded bodies, and nothing else is set. `close`:
-  // whether the bounds are to be as near to each other as the grid allows.
-  ExactContact find(const oracle::Solid& a, const Pose& pose_a, const oracle::Solid& b,
-                    const Pose& pose_b, const ContactGuess& guess, SupportPair<double>& pair,
-                    bool close);
+  // Both are polytopes, and `pair` has their cores. If they have a radius, the guess must
+  // have a corner, the answer is that of the rounded bodies, and nothing else is set.
+  ExactContact find(const PlacedBody& a, const PlacedBody& b, const ContactGuess& guess,
+                    SupportPair<double>& pair, Task task);
   // The verdict of a polytope, rounded or not, and a half-space whose pose has no rotation. Unknown
   // for a half-space that is turned. `unit` (metres) is above the reach of a.
-  Answer find_over_plane(const oracle::Solid& a, const Pose& pose_a, const oracle::Solid& halfspace,
-                         const Pose& pose_b, double unit);
+  Answer find_over_plane(const PlacedBody& a, const PlacedBody& halfspace, double unit);
 
  private:
   std::vector<double> heights_;  // memory to work in

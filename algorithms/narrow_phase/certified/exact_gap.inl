@@ -29,7 +29,7 @@ class ExactGap {
   Answer decide(std::span<const std::array<std::size_t, 2>> corners, const IsNear& is_near) const {
     std::array<FixedVector<size>, 3> points;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      points[k] = a_[corners[k][0]].exact - b_[corners[k][1]].exact;
+      points[k] = a_[corners[k][0]] - b_[corners[k][1]];
     }
     const auto& [p, q, r] = points;
     switch (corners.size()) {
@@ -71,16 +71,15 @@ class ExactGap {
   Answer verdict(int sign, const FixedVector<wide>& direction,
                  const FixedInteger<wide + size>& height, const IsNear& is_near) const {
     if (sign < 0) return Answer::overlapping;
-    const Vec3d rounded(to_double(direction[0]), to_double(direction[1]), to_double(direction[2]));
-    if (!is_near(rounded)) return Answer::unknown;
-    auto least = dot(direction, a_[a_.near().front()].exact);
-    auto most = dot(direction, b_[b_.near().front()].exact);
+    if (!is_near(rounded(direction))) return Answer::unknown;
+    auto least = dot(direction, a_[a_.near().front()]);
+    auto most = dot(direction, b_[b_.near().front()]);
     for (const std::size_t i : a_.near().subspan(1)) {
-      const auto value = dot(direction, a_[i].exact);
+      const auto value = dot(direction, a_[i]);
       if ((value - least).sign() < 0) least = value;
     }
     for (const std::size_t i : b_.near().subspan(1)) {
-      const auto value = dot(direction, b_[i].exact);
+      const auto value = dot(direction, b_[i]);
       if ((value - most).sign() > 0) most = value;
     }
     if ((least - most - height).sign() < 0) return Answer::unknown;

@@ -34,9 +34,9 @@ struct GridPlane {
 template <std::size_t size>
 Answer verdict_over_plane(const GridBody<size>& body, const GridPlane& plane,
                           const FixedInteger<size>& radius, int step) {
-  auto lowest = dot(plane.normal, body[body.near().front()].exact);
+  auto lowest = dot(plane.normal, body[body.near().front()]);
   for (const std::size_t i : body.near().subspan(1)) {
-    const auto height = dot(plane.normal, body[i].exact);
+    const auto height = dot(plane.normal, body[i]);
     if ((height - lowest).sign() < 0) lowest = height;
   }
   if (plane.offset.mantissa != 0) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "algorithms/narrow_phase/certified/grid_body.h"
+#include "algorithms/narrow_phase/certified/placed_body.h"
 #include "algorithms/narrow_phase/certified/rough_portal.h"
 
 namespace touchstone {
@@ -23,10 +24,10 @@ class ExactPortal {
  public:
   using Body = GridBody<size>;
   using Corner = PortalCorner<size>;
-  // `metres` is the grid's step, and `unit` and `slab` are in metres. The bounds are made close if
-  // that is asked.
-  ExactPortal(Body& a, Body& b, double metres, double unit, double slab, bool close)
-      : a_(a), b_(b), unit_(unit / metres), slab_(slab), close_(close) {}
+  // `metres` is the grid's step, and `unit` and `slab` are in metres. The task says for which
+  // answers bounds are needed; these are made close.
+  ExactPortal(Body& a, Body& b, double metres, double unit, double slab, Task task)
+      : a_(a), b_(b), unit_(unit / metres), slab_(slab), task_(task) {}
 
   // Returns unknown if nothing is proven. If the answer is another, the proof is valid. `normal` is
   // a direction near which the plane of contact may be.
@@ -36,15 +37,15 @@ class ExactPortal {
       const RoughPortal::Start start = attempt == 0   ? rough.start_behind(normal)
                                        : attempt == 1 ? rough.start_amid(normal, {9, 5, 3, 2})
                                                       : rough.start_amid(normal, {4, 3, 6, 7});
-      if (!rough.find(start) || !cast_from(start) || !take(rough.portal(), rough)) continue;
+      if (!rough.find(start, attempt == 0) || !cast_from(start) || !take(rough)) continue;
       const Answer found = refine();
       if (found != Answer::unknown) answer = found;
-      if (answer != Answer::unknown && (!close_ || is_close_)) return answer;
+      if (answer != Answer::unknown && (is_close_ || !is_asked(task_, answer))) return answer;
     }
     return answer != Answer::unknown ? answer : decide_along(normal);
   }
 
-  // What was proven of the signed distance, in steps of the grid.
+  // What was proven of the signed distance, in steps of the grid, if the task asks for it.
   struct Proof {
     Vec3d normal = Vec3d::Zero();                             // unit length
     double lower = -std::numeric_limits<double>::infinity();  // along the normal
@@ -59,13 +60,19 @@ class ExactPortal {
   static constexpr int most_turns = 8;
 
   Corner corner(std::size_t a, std::size_t b) const {
-    return {a, b, GridPoint<size>(a_[a].exact - b_[b].exact)};
+    return {a, b, GridPoint<size>(a_[a] - b_[b])};
   }
 
   std::optional<Corner> place(const RoughCorner& rough) {
     const auto a = a_.place(rough.a), b = b_.place(rough.b);
     if (!a || !b) return std::nullopt;
     return corner(*a, *b);
+  }
+
+  // The corner whose vertices, which are listed, are nearest to the rough one's.
+  Corner nearest(const RoughCorner& rough, const RoughPortal& portal) const {
+    return corner(a_.nearest(rough.point.a, portal.unit(), Vec3d::Zero()),
+                  b_.nearest(rough.point.b, portal.unit(), portal.centre_b()));
   }
 
   // The ray passes the origin. It starts inside C if it starts inside a tetrahedron.
@@ -90,13 +97,15 @@ class ExactPortal {
     return true;
   }
 
-  // Takes the points as the portal, anticlockwise around the ray. If the ray passes just beside
-  // them, the portal turns over its edges. Returns false if it is not found.
-  bool take(const std::array<RoughCorner, 3>& points, RoughPortal& rough) {
+  // Takes the rough portal, anticlockwise around the ray. If the ray passes just beside it, it turns
+  // over its edges. Returns false if it is not found.
+  bool take(RoughPortal& rough) {
+    if (!rough.is_numbered() && !list_along(rough.normal())) return false;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto corner = place(points[k]);
-      if (!corner) return false;
-      portal_[k] = *corner;
+      const RoughCorner& found = rough.portal()[k];
+      const auto placed = found.is_numbered() ? place(found) : std::optional(nearest(found, rough));
+      if (!placed) return false;
+      portal_[k] = *placed;
     }
     auto& [p, q, r] = portal_;
     if (side(p, q) < 0 && side(q, r) < 0 && side(r, p) < 0) std::swap(p, q);
@@ -133,9 +142,10 @@ class ExactPortal {
         nearest = here;
       }
     }
+    const bool measured = is_asked(task_, Answer::separated);
     const double upper = (1 + 0x1p-48) * nearest.point.rounded.norm();
     proof_ = {listed_, -most, upper, {nearest, nearest, nearest}, Vec3d::Constant(1.0 / 3)};
-    if (most < 0 && (!close_ || upper + most <= close_enough * unit_)) {
+    if (most < 0 && (!measured || upper + most <= close_enough * unit_)) {
       return Answer::separated;
     }
     const bool is_single = a_.near().size() == 1 && b_.near().size() == 1;
@@ -174,10 +184,11 @@ class ExactPortal {
         answer = height.sign() > 0 ? Answer::overlapping
                  : above < 0       ? Answer::separated
                                    : Answer::touching;
+        if (!is_asked(task_, answer)) return answer;
         keep(normal, reach.height, answer);
         const double off = to_double(reach.height - height) / length_of(normal);
         is_close_ = off <= close_enough * unit_;
-        if (!close_ || is_close_) return answer;
+        if (is_close_) return answer;
       }
       if ((reach.height - height).sign() <= 0 || !replace_by(corner(reach.a, reach.b))) {
         return answer;
@@ -201,9 +212,6 @@ class ExactPortal {
     return listed;
   }
 
-  static Vec3d rounded(const FixedVector<2 * size>& v) {
-    return {to_double(v[0]), to_double(v[1]), to_double(v[2])};
-  }
   static Vec3d unit_of(const FixedVector<2 * size>& v) { return rounded(v).stableNormalized(); }
   static double length_of(const FixedVector<2 * size>& v) { return rounded(v).stableNorm(); }
 
@@ -214,15 +222,15 @@ class ExactPortal {
   };
   Reach furthest_along(const FixedVector<2 * size>& normal) const {
     Reach reach{a_.near().front(), b_.near().front(), {}};
-    auto most = dot(normal, a_[reach.a].exact), least = dot(normal, b_[reach.b].exact);
+    auto most = dot(normal, a_[reach.a]), least = dot(normal, b_[reach.b]);
     for (const std::size_t i : a_.near().subspan(1)) {
-      const auto value = dot(normal, a_[i].exact);
+      const auto value = dot(normal, a_[i]);
       if ((value - most).sign() <= 0) continue;
       most = value;
       reach.a = i;
     }
     for (const std::size_t i : b_.near().subspan(1)) {
-      const auto value = dot(normal, b_[i].exact);
+      const auto value = dot(normal, b_[i]);
       if ((least - value).sign() <= 0) continue;
       least = value;
       reach.b = i;
@@ -291,7 +299,8 @@ class ExactPortal {
   Vec3d listed_ = Vec3d::Zero();  // the direction along which the bodies have listed what is near
   double unit_;                   // in steps of the grid
   double slab_;                   // metres
-  bool close_, is_close_ = false;
+  Task task_;
+  bool is_close_ = false;
   GridPoint<size + 1> ray_;  // a sum of points
   bool starts_inside_ = false;
   std::array<Corner, 3> portal_;

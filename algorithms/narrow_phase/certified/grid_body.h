@@ -1,5 +1,5 @@
 // Part of certified: a polytope whose vertices are placed on the grid of integers when they are
-// first asked for. Includes core, the oracle's solids and this folder.
+// first asked for. Includes this folder.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/narrow_phase/certified/grid_points.h"
-#include "algorithms/oracle/solid.h"
+#include "algorithms/narrow_phase/certified/placed_body.h"
 
 namespace touchstone {
 
@@ -19,14 +18,19 @@ namespace touchstone {
 template <std::size_t size>
 class GridBody {
  public:
-  using Point = GridPoint<size>;
+  using Point = FixedVector<size>;
   // No more are placed. Memory is not touched before it is used.
   static constexpr std::size_t most_points = 128;
 
   // The references must outlive this object; `heights` is memory to work in.
-  GridBody(const oracle::Solid& solid, const Pose& pose, const SplitPose& split, int step,
-           std::vector<double>& heights)
-      : solid_(solid), pose_(pose), split_(split), step_(step), heights_(heights) {}
+  GridBody(const PlacedBody& body, const SplitPose& split, int step, std::vector<double>& heights)
+      : solid_(body.shape.solid),
+        points_of_solid_(body.shape.split),
+        centre_(body.shape.support().centre),
+        pose_(body.pose),
+        split_(split),
+        step_(step),
+        heights_(heights) {}
 
   // Lists the vertices within `slab` (metres) of the support plane along the direction. Returns
   // false if they are too many.
@@ -59,16 +63,19 @@ class GridBody {
     if (found != vertices_.end()) return i;
     if (i == most_points) return std::nullopt;
     vertices_.push_back(vertex);
-    points_.emplace_back(on_grid<size>(split_, split_point(solid_.vertices[vertex]), step_));
+    points_.push_back(on_grid<size>(split_, points_of_solid_[vertex], step_));
     return i;
   }
 
   const Point& operator[](std::size_t i) const { return points_[i]; }
 
-  // The listed point that is nearest to a place in steps of the grid.
-  std::size_t nearest(const Vec3d& place) const {
-    return *std::ranges::min_element(
-        near_, {}, [&](std::size_t i) { return (points_[i].rounded - place).squaredNorm(); });
+  // The listed point that is nearest to a support point of this body in a pair: in the pair's unit
+  // (metres), relative to the centre of body a, from which `centre` is this body's.
+  std::size_t nearest(const Vec3d& support, double unit, const Vec3d& centre) const {
+    const Vec3d place = unit * (support - centre) + pose_.rotation * centre_;
+    return *std::ranges::min_element(near_, {}, [&](std::size_t i) {
+      return (pose_.rotation * solid_.vertices[vertices_[i]] - place).squaredNorm();
+    });
   }
 
  private:
@@ -76,6 +83,8 @@ class GridBody {
   using Few = boost::container::static_vector<T, most_points>;
 
   const oracle::Solid& solid_;
+  const std::vector<SplitPoint>& points_of_solid_;
+  const Vec3d& centre_;  // of the shape's support points
   const Pose& pose_;
   const SplitPose& split_;
   int step_;

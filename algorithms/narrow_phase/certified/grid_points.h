@@ -82,8 +82,13 @@ inline SplitPoint split_point(const Vec3d& v) {
   return {SplitDouble(v.x()), SplitDouble(v.y()), SplitDouble(v.z())};
 }
 
-// A vertex, or the difference of two, on the grid, and rounded to doubles: each component is off by
-// at most 2^-50 of itself.
+// Each component is off by at most 2^-50 of itself.
+template <std::size_t size>
+Vec3d rounded(const FixedVector<size>& point) {
+  return {to_double(point[0]), to_double(point[1]), to_double(point[2])};
+}
+
+// The difference of two vertices on the grid, and rounded to doubles.
 template <std::size_t size>
 struct GridPoint {
   FixedVector<size> exact;
@@ -91,7 +96,7 @@ struct GridPoint {
 
   GridPoint() = default;
   explicit GridPoint(const FixedVector<size>& point)
-      : exact(point), rounded(to_double(point[0]), to_double(point[1]), to_double(point[2])) {}
+      : exact(point), rounded(touchstone::rounded(point)) {}
 };
 
 // Returns true if the two unit vectors are the same up to 2^-33, so that no vertex that is not near

@@ -80,8 +80,9 @@ DistanceBounds HalfspaceBounder::closely(const BoundedShape& a, const Pose& pose
 }
 
 DistanceBounds HalfspaceBounder::roughly(const BoundedShape& a, const Pose& pose_a,
-                                         const BoundedShape& b, const Pose& pose_b) {
+                                         const BoundedShape& b, const Pose& pose_b, Vec3d& normal) {
   const auto height = height_over<double>(a, pose_a, b, pose_b, BestByScan());
+  normal = height.normal;
   // Nothing overflows if matrices and the plane's normal are below 2^100 and lengths below 2^200,
   // and all underflow amounts to less than 2^-500.
   const double factors =

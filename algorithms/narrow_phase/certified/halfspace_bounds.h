@@ -20,7 +20,7 @@ class HalfspaceBounder {
                          const Pose& pose_b, Vec3d& normal);
   // Returns a wider interval, faster.
   static DistanceBounds roughly(const BoundedShape& a, const Pose& pose_a, const BoundedShape& b,
-                                const Pose& pose_b);
+                                const Pose& pose_b, Vec3d& normal);
 
  private:
   std::vector<std::uint32_t> furthest_;  // hulls: vertices that may be furthest

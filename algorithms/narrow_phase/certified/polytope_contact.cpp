@@ -1,8 +1,9 @@
 // Part of certified: the guesses of GJK and EPA at contact, and what is proven of them.
 #include "algorithms/narrow_phase/certified/polytope_contact.h"
 
-#include <span>
+#include <algorithm>
 
+#include "algorithms/narrow_phase/certified/double_bounds.h"
 #include "algorithms/narrow_phase/certified/enclosure.h"
 
 namespace touchstone {
@@ -10,42 +11,31 @@ namespace {
 
 using Pair = SupportPair<double>;
 
-// A guess with these corners of the simplex.
-ContactGuess guess_of(const Vec3d& normal, const Pair& pair, const Simplex<double>& simplex,
-                      std::span<const std::size_t> corners, const PlacedBody& a) {
-  const Vec3d centre_a = a.pose.rotation * a.shape.support().centre;
-  ContactGuess guess{normal, corners.size()};
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const DifferencePoint<double>& corner = simplex.points[corners[k]];
-    guess.a[k] = pair.unit() * corner.a + centre_a;
-    guess.b[k] = pair.unit() * corner.b + centre_a;
-  }
-  return guess;
-}
-
 // Writes an exact verdict and bounds on the signed distance that did not know of it.
-bool write_side(Answer answer, DistanceBounds gap, double size, Task task, Outcome& outcome) {
+bool write_side(Answer answer, DistanceBounds gap, double widest, Task task, Outcome& outcome) {
   if (answer == Answer::unknown) return false;
   if (answer != Answer::overlapping) gap.lower = 0;
   if (answer != Answer::separated) gap.upper = 0;
-  return write_answer(answer, gap, size, task, outcome);
+  return write_answer(answer, gap, widest, task, outcome);
 }
 
 }  // namespace
 
-bool PolytopeContact::decide_exactly(Pair& pair, const Vec3d& direction, const PlacedPair& bodies,
-                                     Task task, Outcome& outcome) {
+bool PolytopeContact::decide_exactly(Pair& pair, const Simplex<double>& simplex,
+                                     const Vec3d& direction, const PlacedPair& bodies, Task task,
+                                     Outcome& outcome) {
   Vec3d normal = direction.stableNormalized();
   if (!(normal.squaredNorm() > 0.5)) normal = pair.centre_b().stableNormalized();
   if (!(normal.squaredNorm() > 0.5)) normal = Vec3d::UnitX();
-  const ExactContact contact = find({normal}, pair, bodies, task != Task::intersect);
+  const ExactContact contact = finder_.find(bodies.a, bodies.b, {normal, simplex}, pair, task);
   if (contact.answer == Answer::unknown) return false;
   if (is_asked(task, contact.answer)) {
     outcome.normal = contact.normal;
     outcome.witness_a = contact.on_a;
     outcome.witness_b = contact.on_b;
   }
-  return write_answer(contact.answer, {contact.lower, contact.upper}, bodies.size(), task, outcome);
+  return write_answer(contact.answer, {contact.lower, contact.upper}, bodies.widest(), task,
+                      outcome);
 }
 
 bool PolytopeContact::encloses(Pair& pair, const Simplex<double>& simplex, Outcome& outcome) {
@@ -59,46 +49,42 @@ bool PolytopeContact::encloses(Pair& pair, const Simplex<double>& simplex, Outco
 bool PolytopeContact::find_depth(Pair& pair, const Simplex<double>& simplex,
                                  const PlacedPair& bodies, DistanceBounder& bounder,
                                  Outcome& outcome) {
-  const Expansion<double> depth = polytope_.expand(pair, simplex, {.tolerance = Pair::rounding});
+  const double tolerance = std::max(Pair::rounding, tolerance_in_doubles(pair, bodies.widest()));
+  const Expansion<double> depth = polytope_.expand(pair, simplex, {.tolerance = tolerance});
   outcome.iterations += depth.iterations;
   if (depth.upper <= nearly &&
-      decide_exactly(pair, depth.normal, bodies, Task::penetration, outcome)) {
+      decide_exactly(pair, {}, depth.normal, bodies, Task::penetration, outcome)) {
     return true;
   }
   if (depth.end != ExpansionEnd::converged || !depth.has_surface) return false;
   outcome.normal = depth.normal;
   outcome.witness_a = pair.to_world(depth.a);
   outcome.witness_b = pair.to_world(depth.b);
+  if (write_bounds(inside_in_doubles(pair, polytope_.surface(), depth.upper), bodies.widest(),
+                   Task::penetration, outcome)) {
+    return true;
+  }
   const DistanceBounds bounds =
       bounder.inside(bodies.a.shape.proven, bodies.a.pose, bodies.b.shape.proven, bodies.b.pose,
                      pair, polytope_.surface(), depth.normal);
-  return write_bounds(bounds, bodies.size(), Task::penetration, outcome);
+  return write_bounds(bounds, bodies.widest(), Task::penetration, outcome);
 }
 
 bool PolytopeContact::decide_rounded(Pair& pair, const Simplex<double>& simplex,
                                      const Vec3d& normal, DistanceBounds gap,
                                      const PlacedPair& bodies, Task task, Outcome& outcome) {
   if (simplex.size > 3 || gap.lower > 0 || gap.upper < 0) return false;
-  static constexpr std::array<std::size_t, 3> all = {0, 1, 2};
-  const auto corners = std::span(all).first(static_cast<std::size_t>(simplex.size));
-  const Answer answer =
-      find(guess_of(normal, pair, simplex, corners, bodies.a), pair, bodies, false).answer;
-  return write_side(answer, gap, bodies.size(), task, outcome);
+  const Answer answer = finder_.find(bodies.a, bodies.b, {normal, simplex}, pair, task).answer;
+  return write_side(answer, gap, bodies.widest(), task, outcome);
 }
 
 bool PolytopeContact::decide_over_plane(DistanceBounds gap, double unit, const PlacedPair& bodies,
                                         Task task, Outcome& outcome) {
-  const auto& [a, b] = bodies;
+  const PlacedBody &a = bodies.a, &b = bodies.b;
   if (!a.shape.has_polytope() || gap.lower > 0 || gap.upper < 0) return false;
   if (!(unit < greatest_unit)) return false;
-  const Answer answer = finder_.find_over_plane(a.shape.solid, a.pose, b.shape.solid, b.pose, unit);
-  return write_side(answer, gap, a.shape.size(), task, outcome);
-}
-
-ExactContact PolytopeContact::find(const ContactGuess& guess, Pair& pair, const PlacedPair& bodies,
-                                   bool close) {
-  return finder_.find(bodies.a.shape.solid, bodies.a.pose, bodies.b.shape.solid, bodies.b.pose,
-                      guess, pair, close);
+  const Answer answer = finder_.find_over_plane(a, b, unit);
+  return write_side(answer, gap, bodies.tolerance * a.shape.size(), task, outcome);
 }
 
 }  // namespace touchstone

@@ -18,10 +18,12 @@ class PolytopeContact {
   // In the pair's unit: what is nearer to contact is decided exactly.
   static constexpr double nearly = 64 * SupportPair<double>::rounding;
 
-  // Decides polytopes without radius exactly. The direction (any length, or zero) is one along which
-  // a plane may separate them, from a to b. What the task asks for is found at contact alone.
-  bool decide_exactly(SupportPair<double>& pair, const Vec3d& direction, const PlacedPair& bodies,
-                      Task task, Outcome& outcome);
+  // Decides polytopes without radius exactly. The simplex, which may be empty, has a face near the
+  // origin. The direction (any length, or zero) is one along which a plane may separate them, from
+  // a to b. What the task asks for is found at contact alone.
+  bool decide_exactly(SupportPair<double>& pair, const Simplex<double>& simplex,
+                      const Vec3d& direction, const PlacedPair& bodies, Task task,
+                      Outcome& outcome);
   // Whether EPA's faces, from a simplex around the origin, prove that polytopes without radius
   // overlap.
   bool encloses(SupportPair<double>& pair, const Simplex<double>& simplex, Outcome& outcome);
@@ -40,9 +42,6 @@ class PolytopeContact {
                          Outcome& outcome);
 
  private:
-  ExactContact find(const ContactGuess& guess, SupportPair<double>& pair, const PlacedPair& bodies,
-                    bool close);
-
   ExactContactFinder finder_;
   ExpandingPolytope<double> polytope_{64};
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace touchstone {
@@ -32,7 +33,7 @@ std::uint32_t vertex_of(const PosedShape<double>& shape, const oracle::Solid& so
 
 RoughCorner RoughPortal::support(const Vec3d& direction) {
   RoughCorner corner;
-  corner.point = pair_.support(direction).difference;
+  corner.point = pair_.support(direction);
   corner.a = vertex_of(pair_.a(), a_, direction);
   corner.b = vertex_of(pair_.b(), b_, -direction);
   return corner;
@@ -48,31 +49,58 @@ RoughPortal::Start RoughPortal::start_amid(const Vec3d& normal,
   // The support point along the direction or against it for which `size` is greater.
   const auto greater = [&](const Vec3d& direction, const auto& size) {
     const RoughCorner along = support(direction), against = support(-direction);
-    return size(along.point) > size(against.point) ? along : against;
+    return size(along.point.difference) > size(against.point.difference) ? along : against;
   };
   const RoughCorner p = support(-normal), q = support(normal);
-  const Vec3d edge = q.point - p.point;
+  const Vec3d edge = q.point.difference - p.point.difference;
   const RoughCorner r = greater(normal.unitOrthogonal(), [&](const Vec3d& x) {
-    return edge.cross(x - p.point).squaredNorm();
+    return edge.cross(x - p.point.difference).squaredNorm();
   });
-  const Vec3d across = edge.cross(r.point - p.point).stableNormalized();
+  const Vec3d across = edge.cross(r.point.difference - p.point.difference).stableNormalized();
   const RoughCorner s =
-      greater(across, [&](const Vec3d& x) { return std::abs(across.dot(x - p.point)); });
+      greater(across, [&](const Vec3d& x) { return std::abs(across.dot(x - p.point.difference)); });
   return {{p, q, r, s}, weights};
 }
 
-bool RoughPortal::find(const Start& start) {
+bool RoughPortal::find(const Start& start, bool from_simplex) {
   ray_ = Vec3d::Zero();
-  for (std::size_t k = 0; k < 4; ++k) ray_ -= start.weights[k] * start.points[k].point;
-  if (!enclose_ray()) return false;
+  for (std::size_t k = 0; k < 4; ++k) ray_ -= start.weights[k] * start.points[k].point.difference;
+  if (!(from_simplex && take_face_of_simplex()) && !enclose_ray()) return false;
   approach_surface();
   return true;
+}
+
+// Takes the last face that the ray passes, anticlockwise around it.
+bool RoughPortal::take_face_of_simplex() {
+  static constexpr std::array<std::array<std::size_t, 3>, 4> faces = {
+      {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+  const double noise = 0x1p-44 * ray_.norm();
+  double furthest = -std::numeric_limits<double>::infinity();
+  const std::size_t count = simplex_.size == 4 ? 4 : simplex_.size == 3 ? 1 : 0;
+  for (const auto& [i, j, k] : std::span(faces).first(count)) {
+    const Vec3d &p = simplex_.points[i].difference, &q = simplex_.points[j].difference,
+                &r = simplex_.points[k].difference;
+    const double pq = ray_.dot(p.cross(q)), qr = ray_.dot(q.cross(r)), rp = ray_.dot(r.cross(p));
+    const double steep = pq + qr + rp;  // twice the triangle's area across the ray
+    const double side = std::copysign(1.0, steep);
+    if (!(std::min({side * pq, side * qr, side * rp}) > -noise)) continue;
+    const double height = (q - p).cross(r - p).dot(p) / steep;
+    if (!(std::abs(steep) > 4 * noise && height > furthest)) continue;
+    furthest = height;
+    portal_ = {RoughCorner{.point = simplex_.points[i]}, RoughCorner{.point = simplex_.points[j]},
+               RoughCorner{.point = simplex_.points[k]}};
+    if (side < 0) std::swap(portal_[1], portal_[2]);
+  }
+  return furthest > -std::numeric_limits<double>::infinity();
 }
 
 bool RoughPortal::enclose_ray() {
   const Vec3d along = ray_.stableNormalized();
   const Vec3d u = along.unitOrthogonal(), v = along.cross(u);
-  const auto flat = [&](const RoughCorner& x) { return Vec2d(u.dot(x.point), v.dot(x.point)); };
+  const auto flat = [&](const RoughCorner& x) {
+    const Vec3d& w = x.point.difference;
+    return Vec2d(u.dot(w), v.dot(w));
+  };
   const auto support_along = [&](const Vec2d& d) { return support(d.x() * u + d.y() * v); };
   const double tiny = 0x1p-40;  // lengths below this may be of either sign
   auto& [p, q, r] = portal_;
@@ -117,15 +145,15 @@ bool RoughPortal::enclose_ray() {
 void RoughPortal::approach_surface() {
   auto& [p, q, r] = portal_;
   for (int turn = 0; turn < most_turns; ++turn) {
-    const Vec3d normal = (q.point - p.point).cross(r.point - p.point);
+    const Vec3d normal = across();
     const double length = normal.norm();
     if (!(length > 0)) return;
     const RoughCorner next = support(normal);
-    if (!(normal.dot(next.point - p.point) > 0x1p-40 * length)) return;
+    if (!(normal.dot(next.point.difference - p.point.difference) > 0x1p-40 * length)) return;
     // The new point makes three portals with the old corners. The one is kept that the ray passes
     // most clearly, or the widest if it passes a corner or an edge of several.
     const auto side = [&](const RoughCorner& x, const RoughCorner& y) {
-      return ray_.dot(x.point.cross(y.point));
+      return ray_.dot(x.point.difference.cross(y.point.difference));
     };
     const std::array<double, 3> of = {side(next, p), side(next, q), side(next, r)};
     const double noise = 0x1p-44 * ray_.norm();

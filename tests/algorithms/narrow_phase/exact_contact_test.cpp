@@ -33,16 +33,17 @@ Shape half_of_grid(Random& random, bool upper, std::size_t in_plane) {
 
 struct ContactTally {
   std::map<Answer, int> decided;
-  int open = 0;
+  int open = 0, measured = 0;
 };
 
 void compare(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-             const Vec3d& normal, ContactTally& tally) {
-  const oracle::Solid solid_a(a), solid_b(b);
+             const Vec3d& normal, Task task, ContactTally& tally) {
+  const PreparedShape prepared_a(a), prepared_b(b);
+  const oracle::Solid &solid_a = prepared_a.solid, &solid_b = prepared_b.solid;
   ExactContactFinder finder;
-  const SupportShape<double> support_a(a), support_b(b);
-  SupportPair<double> pair(support_a, pose_a, support_b, pose_b);
-  const ExactContact found = finder.find(solid_a, pose_a, solid_b, pose_b, {normal}, pair, true);
+  SupportPair<double> pair(prepared_a.support(), pose_a, prepared_b.support(), pose_b);
+  const ExactContact found =
+      finder.find({prepared_a, pose_a}, {prepared_b, pose_b}, {normal, {}}, pair, task);
   oracle::Oracle oracle;
   const Answer exact = oracle.verdict({solid_a, pose_a}, {solid_b, pose_b});
   const oracle::Measure measure = oracle.measure({solid_a, pose_a}, {solid_b, pose_b});
@@ -53,8 +54,15 @@ void compare(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pos
   }
   ASSERT_EQ(found.answer, exact);
   ++tally.decided[exact];
+  const bool asked = exact == Answer::touching ||
+                     exact == (task == Task::distance ? Answer::separated : Answer::overlapping);
+  if (!asked) return;
+  ++tally.measured;
   EXPECT_LE(found.lower, measure.upper);
   EXPECT_GE(found.upper, measure.lower);
+  if (std::abs(measure.middle()) < 1e-12) {
+    EXPECT_LT(found.upper - found.lower, 1e-12);
+  }
   EXPECT_NEAR(found.normal.norm(), 1, 1e-14);
 }
 
@@ -73,11 +81,12 @@ TEST(ExactContact, AgreesWithTheOracle) {
       const double step = std::ldexp(random.uniform(-1, 1), -48 - random.below(6));
       pose_b.translation = step * normal;
     }
-    compare(a, pose_a, b, pose_b, normal, tally);
+    compare(a, pose_a, b, pose_b, normal, i % 4 < 2 ? Task::distance : Task::penetration, tally);
   }
   EXPECT_GT(tally.decided[Answer::touching], 300);
   EXPECT_GT(tally.decided[Answer::separated], 100);
   EXPECT_GT(tally.decided[Answer::overlapping], 100);
+  EXPECT_GT(tally.measured, 600);
   EXPECT_LE(tally.open, 3);
 }
 
@@ -91,7 +100,8 @@ TEST(ExactContact, BoxesOnAGrid) {
     const Mat3d rotation = Eigen::AngleAxisd(turn, Vec3d::UnitZ()).toRotationMatrix();
     const Vec3d place(random.below(8), random.below(8), half_a.z() + half_b.z());
     compare(make_box(half_a.x(), half_a.y(), half_a.z()), {Mat3d::Identity(), Vec3d::Zero()},
-            make_box(half_b.x(), half_b.y(), half_b.z()), {rotation, place}, Vec3d::UnitZ(), tally);
+            make_box(half_b.x(), half_b.y(), half_b.z()), {rotation, place}, Vec3d::UnitZ(),
+            Task::distance, tally);
   }
   EXPECT_GT(tally.decided[Answer::touching], 2000);
   EXPECT_EQ(tally.open, 0);
