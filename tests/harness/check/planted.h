@@ -15,7 +15,17 @@
 namespace touchstone {
 
 // The faults of a planted algorithm.
-enum class Harm : int { none, wrong_side, wrong_depth, bad_bounds, gives_up, crashes, hangs, nan };
+enum class Harm : int {
+  none,
+  wrong_side,
+  touches_elsewhere,
+  wrong_depth,
+  bad_bounds,
+  gives_up,
+  crashes,
+  hangs,
+  nan
+};
 
 // Answers for balls by the formula, and applies the harm to pairs whose second ball is to the right
 // of the first.
@@ -46,6 +56,11 @@ class Planted final : public NarrowPhase {
       case Harm::none: break;
       case Harm::wrong_side:
         out.answer = out.distance > 0 ? Answer::overlapping : Answer::separated;
+        break;
+      case Harm::touches_elsewhere:
+        out.answer = Answer::touching;
+        out.lower = -1e-15;
+        out.upper = 1e-15;
         break;
       case Harm::wrong_depth: out.distance *= 1.5; break;
       case Harm::bad_bounds: out.lower = out.distance + 0.1; break;

@@ -31,6 +31,14 @@ class SoakRun : public ::testing::Test {
   check::Regime balls = balls_regime(), others = balls_regime("others");
 };
 
+TEST_F(SoakRun, TouchingWithinBoundsThatDoNotHoldIsWrong) {
+  const NarrowPhaseEntry wrong = planted<Harm::touches_elsewhere>("wrong", Origin::ours);
+  const check::SoakRequest request = request_for({&wrong});
+  const check::SoakResult result = check::run_soak(request);
+  EXPECT_EQ(result.counts.at({0, Precision::float64, 0}).silent, 1000);
+  EXPECT_TRUE(result.ours_are_wrong(request));
+}
+
 TEST_F(SoakRun, CountsWhatIsTrueAndWhoIsWrong) {
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
   const NarrowPhaseEntry wrong = planted<Harm::wrong_side>("wrong", Origin::ours);
