@@ -64,7 +64,10 @@ RoughPortal::Start RoughPortal::start_amid(const Vec3d& normal,
 
 bool RoughPortal::find(const Start& start, bool from_simplex) {
   ray_ = Vec3d::Zero();
-  for (std::size_t k = 0; k < 4; ++k) ray_ -= start.weights[k] * start.points[k].point.difference;
+  // A point without weight is not set.
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (start.weights[k] != 0) ray_ -= start.weights[k] * start.points[k].point.difference;
+  }
   if (!(from_simplex && take_face_of_simplex()) && !enclose_ray()) return false;
   approach_surface();
   return true;

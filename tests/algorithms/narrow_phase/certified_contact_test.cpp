@@ -175,6 +175,52 @@ TEST(CertifiedContact, BodiesThatStandOnAPlane) {
   EXPECT_LT(count.share_of_oracle(), 0.02);
 }
 
+// Memory that a query finds, on the stack or in the algorithm, is that of another one.
+TEST(CertifiedContact, AnswersDoNotDependOnTheQueriesBefore) {
+  Random random(8);
+  const NarrowPhaseEntry& certified = *find_narrow_phase("certified");
+  std::vector<Shape> shapes;
+  std::vector<Pose> poses;
+  std::vector<std::uint32_t> first, second, shape_of;
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    for (const double side : {-1.0, 1.0}) {
+      shapes.push_back(half_of_grid(random, side, 1 + random() % 5));
+      shape_of.push_back(static_cast<std::uint32_t>(shape_of.size()));
+    }
+    const Mat3d rotation = i % 2 == 0 ? random_rotation(random) : Mat3d(Mat3d::Identity());
+    poses.push_back({rotation, Vec3d::Zero()});
+    poses.push_back({rotation, Vec3d(nudge(random) * rotation.col(2))});
+    first.push_back(2 * i);
+    second.push_back(2 * i + 1);
+  }
+  const auto solve = [&](Task task) {
+    const std::unique_ptr<NarrowPhase> narrow = certified.make({});
+    narrow->bind(shapes);
+    std::vector<Outcome> outcomes(first.size());
+    narrow->solve(task, {ShapeKind::hull, ShapeKind::hull, {first, second, shape_of, poses}},
+                  outcomes);
+    return outcomes;
+  };
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  for (const Task task : all_tasks) {
+    const std::vector<Outcome> forwards = solve(task);
+    std::ranges::reverse(first);
+    std::ranges::reverse(second);
+    const std::vector<Outcome> backwards = solve(task);
+    for (std::size_t i = 0; i < forwards.size(); ++i) {
+      const Outcome &x = forwards[forwards.size() - 1 - i], &y = backwards[i];
+      ASSERT_EQ(x.answer, y.answer) << i;
+      ASSERT_TRUE(same(x.distance, y.distance) && same(x.lower, y.lower) && same(x.upper, y.upper))
+          << i;
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_TRUE(same(x.normal[k], y.normal[k]) && same(x.witness_a[k], y.witness_a[k]) &&
+                    same(x.witness_b[k], y.witness_b[k]))
+            << i;
+      }
+    }
+  }
+}
+
 // More vertices in the plane of contact than are looked at exactly: the oracle decides.
 TEST(CertifiedContact, FacesOfManyVertices) {
   Random random(7);
