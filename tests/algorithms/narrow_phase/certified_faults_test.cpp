@@ -125,10 +125,10 @@ TEST(CertifiedFaults, DepthsHoldWhereverEpaStopped) {
     ASSERT_GE(in_doubles.upper, bodies.exact.lower) << i;
     if (in_doubles.upper - in_doubles.lower < 2e-13) ++close_in_doubles;
   }
-  EXPECT_GT(depths, 300);
-  EXPECT_GT(close, 150);
-  EXPECT_GT(close_in_doubles, 150);
-  EXPECT_GT(refused, 30);
+  EXPECT_GT(depths, 333);
+  EXPECT_GT(close, 166);
+  EXPECT_GT(close_in_doubles, 166);
+  EXPECT_GT(refused, 33);
 }
 
 TEST(CertifiedFaults, ExactVerdictsHoldWhateverThePlane) {
