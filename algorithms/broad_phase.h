@@ -14,6 +14,7 @@
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/status.h"
+#include "algorithms/core/structure_box.h"
 
 namespace touchstone {
 
@@ -49,6 +50,12 @@ class BroadPhase {
   // Returns the work of find_pairs on the last build or update. It repeats the search to count, so
   // that find_pairs itself does not have to; the harness calls it outside of the timed region.
   virtual BroadPhaseWork work() const { return {}; }
+
+  // Returns what it keeps of the last build or update, for pictures: boxes in world coordinates,
+  // at levels from 0, the coarsest; structure_box.h says what these are. Cells and nodes without a
+  // body are left out. Empty if it has nothing to show, as before the first build. It is not timed:
+  // it may be slow, so that nothing has to be kept for it.
+  virtual std::vector<StructureBox> structure() const { return {}; }
 };
 
 // A broad phase of a library that has its own types for boxes.

@@ -67,6 +67,13 @@ class LinearBvh final : public BroadPhase {
     return scratch.group.work;
   }
 
+  // The nodes with their depths, leaves among them.
+  std::vector<StructureBox> structure() const override {
+    std::vector<StructureBox> nodes;
+    if (!leaves_.empty()) show(root_, {bounds_of(boxes_, {0, boxes_.size()}), 0}, nodes);
+    return nodes;
+  }
+
  private:
   static constexpr std::size_t leaves_a_task = 32;
   static constexpr std::uint32_t leaf_bit = 0x80000000;
@@ -190,6 +197,18 @@ class LinearBvh final : public BroadPhase {
           open[count++] = child;
         }
       }
+    }
+  }
+
+  // Lists the node, whose own box is with its parent, and all nodes below it.
+  void show(std::uint32_t node, const StructureBox& own, std::vector<StructureBox>& nodes) const {
+    nodes.push_back(own);
+    if ((node & leaf_bit) != 0) return;
+    for (std::size_t side = 0; side < 2; ++side) {
+      StructureBox child{.box = {}, .level = own.level + 1};
+      std::copy_n(nodes_[node].low[side].begin(), 3, child.box.min.begin());
+      std::copy_n(nodes_[node].high[side].begin(), 3, child.box.max.begin());
+      show(nodes_[node].child[side], child, nodes);
     }
   }
 

@@ -66,6 +66,11 @@ class PackedRTree final : public BroadPhase {
     return scratch.work;
   }
 
+  // The nodes with their depths.
+  std::vector<StructureBox> structure() const override {
+    return order_.empty() ? std::vector<StructureBox>{} : tree_.structure();
+  }
+
  private:
   static constexpr std::size_t groups_a_task = 4;
 

@@ -25,6 +25,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/boxes/structure_boxes.h"
 #include "algorithms/kernels/sorting/insertion_sort.h"
 #include "algorithms/kernels/sorting/ordered_key.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
@@ -77,6 +78,21 @@ class SortAndSweep final : public BroadPhase {
     work.bytes = sum_held_bytes(ids_, radix_sort_, runs_);
     for (const Axis& axis : axes_) work.bytes += sum_held_bytes(axis.ends, axis.rank, axis.end);
     return work;
+  }
+
+  // The intervals on the axis with the shortest list, which is the one that is traversed. Boxes are
+  // not kept, but their ends are.
+  std::vector<StructureBox> structure() const override {
+    if (ids_.size() > most_boxes) return {};
+    std::vector<Aabb> boxes(ids_.size());
+    for (const Axis& axis : axes_) {
+      for (const std::uint64_t end : axis.ends) {
+        Aabb& box = boxes[index_of(end) & ~is_max];
+        ((index_of(end) & is_max) != 0 ? box.max : box.min)[axis.number] =
+            coordinate_of(key_of(end));
+      }
+    }
+    return intervals_of(boxes, static_cast<std::size_t>(shortest_));
   }
 
  private:

@@ -20,6 +20,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/boxes/structure_boxes.h"
 #include "algorithms/kernels/sorting/insertion_sort.h"
 #include "algorithms/kernels/sorting/ordered_key.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
@@ -68,6 +69,11 @@ class SweepAndPrune final : public BroadPhase {
         work_of_sweep(arrays_, static_cast<int>(axis_), {0, arrays_.size()}, arrays_.size());
     work.bytes = sum_held_bytes(ids_, sums_, order_, radix_sort_, arrays_);
     return work;
+  }
+
+  // The intervals on the sorted axis.
+  std::vector<StructureBox> structure() const override {
+    return intervals_of(list_boxes(arrays_), axis_);
   }
 
  private:

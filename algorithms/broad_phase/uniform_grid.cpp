@@ -30,6 +30,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/boxes/structure_boxes.h"
 #include "algorithms/kernels/grid/cell_space.h"
 #include "algorithms/kernels/grid/dense_cells.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
@@ -100,6 +101,24 @@ class UniformGrid final : public BroadPhase {
     sum.bytes = sum_held_bytes(ids_, begins_, entries_, large_, radix_sort_, dense_cells_,
                                dense_sort_, arrays_, marks_, wants_);
     return sum;
+  }
+
+  // Level 0 is the large boxes, which lie in no cell and are tested against all; level 1 the cells.
+  std::vector<StructureBox> structure() const override {
+    const std::vector<Aabb> boxes = list_boxes(arrays_);
+    const Aabb scene = bounds_of(boxes);
+    std::vector<StructureBox> structure;
+    for (std::size_t i = 0; i < large_.size(); ++i) structure.push_back({boxes[i], 0});
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      if (i > 0 && entries_[i].cell == entries_[i - 1].cell) continue;
+      std::array<std::uint32_t, 3> cell;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::uint64_t mask = std::bit_ceil(space_.last[axis] + std::uint64_t{1}) - 1;
+        cell[axis] = static_cast<std::uint32_t>(entries_[i].cell >> shift_[axis] & mask);
+      }
+      structure.push_back({box_of_cell(space_, cell, scene), 1});
+    }
+    return structure;
   }
 
  private:

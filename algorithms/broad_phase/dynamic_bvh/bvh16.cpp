@@ -232,6 +232,29 @@ double Bvh16::cost(std::size_t node) const {
   return sum;
 }
 
+// --- pictures ---
+
+std::vector<StructureBox> Bvh16::structure(bool with_bodies) const {
+  std::vector<StructureBox> nodes;
+  if (node_count_ > 0) show(root_, {bounds_of_node(root_), 0}, with_bodies, nodes);
+  return nodes;
+}
+
+// Lists the node, unless it is empty, and what is below it.
+void Bvh16::show(std::size_t node, const StructureBox& own, bool with_bodies,
+                 std::vector<StructureBox>& nodes) const {
+  if (own.box.is_empty()) return;
+  nodes.push_back(own);
+  for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
+    const StructureBox child{box_at(place), own.level + 1};
+    if (!is_leaf(node)) {
+      show(boxes_.ids()[place], child, with_bodies, nodes);
+    } else if (with_bodies && !child.box.is_empty()) {
+      nodes.push_back(child);
+    }
+  }
+}
+
 std::size_t Bvh16::held_bytes() const {
   return static_cast<std::size_t>(sum_held_bytes(boxes_, place_of_, parent_of_, height_of_,
                                                  cost_of_, is_marked_, marked_, free_nodes_,

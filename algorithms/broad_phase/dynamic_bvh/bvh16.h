@@ -20,6 +20,7 @@
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor.h"
+#include "algorithms/core/structure_box.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 
 namespace touchstone {
@@ -78,6 +79,10 @@ class Bvh16 {
   // Makes room in a scratch; call it after the last change and before a search.
   void make_room(Bvh16Scratch& scratch) const;
 
+  // Returns the nodes at their depths, for pictures, and if `with_bodies` the bodies' boxes below
+  // the leaves.
+  std::vector<StructureBox> structure(bool with_bodies) const;
+
   std::size_t held_bytes() const;
 
  private:
@@ -100,6 +105,9 @@ class Bvh16 {
   void split(std::size_t node, const Aabb& box, std::uint32_t child);
   void fit_above(std::size_t node);
   void mark(std::size_t node);
+
+  void show(std::size_t node, const StructureBox& own, bool with_bodies,
+            std::vector<StructureBox>& nodes) const;
 
   double cost(std::size_t node) const;
   std::size_t count_children(std::size_t node) const;

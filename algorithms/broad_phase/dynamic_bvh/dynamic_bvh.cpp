@@ -51,6 +51,10 @@ class DynamicBvh final : public BroadPhase {
   void update(const FrameChange& change) override;
   Status find_pairs(PairSink& sink) override;
   BroadPhaseWork work() const override;
+  // The nodes with their depths, and the fat boxes below the leaves where pairs of these are kept.
+  std::vector<StructureBox> structure() const override {
+    return bulk_.tree().structure(how_ != Pairs::searched);
+  }
 
  private:
   static constexpr std::size_t bodies_a_task = 64;

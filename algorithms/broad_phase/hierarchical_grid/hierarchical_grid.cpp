@@ -23,11 +23,14 @@
 //          cells. About 65 bytes a body.
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/broad_phase/hierarchical_grid/grid_levels.h"
 #include "algorithms/core/memory_usage.h"
+#include "algorithms/kernels/boxes/aabb_measure.h"
 #include "algorithms/kernels/boxes/group_scan.h"
+#include "algorithms/kernels/boxes/structure_boxes.h"
 
 namespace touchstone {
 namespace {
@@ -63,6 +66,8 @@ class HierarchicalGrid final : public BroadPhase {
     scratch.group.work.bytes = sum_held_bytes(ids_, grids_, boxes_, first_group_);
     return scratch.group.work;
   }
+
+  std::vector<StructureBox> structure() const override;
 
  private:
   using Level = GridLevels::Level;
@@ -133,6 +138,27 @@ void HierarchicalGrid::find_partners(const Level& level, const Aabb& bounds, std
       if (end > own_cell) add({grids_.find(level, first), grids_.find(level, end)});
     }
   }
+}
+
+// Shows the cells with bodies, each as the box of the minimum corners in it: a body may reach beyond
+// it. The level is the rank of the cells' longest side; dense cells' grids of one size share it.
+std::vector<StructureBox> HierarchicalGrid::structure() const {
+  std::set<double, std::greater<>> sides;
+  for (const Level& level : grids_.levels()) {
+    if (level.boxes.first < level.boxes.last) sides.insert(level.grid.side());
+  }
+  const Aabb scene = bounds_of(list_boxes(boxes_));
+  std::vector<StructureBox> cells;
+  for (const Level& level : grids_.levels()) {
+    const auto rank = std::distance(sides.begin(), sides.find(level.grid.side()));
+    const Aabb& region = contains(scene, level.bounds) ? level.bounds : scene;
+    for (std::size_t i = level.boxes.first; i < level.boxes.last; ++i) {
+      const std::uint64_t cell = grids_.cell(level, i);
+      if (i > level.boxes.first && cell == grids_.cell(level, i - 1)) continue;
+      cells.push_back({level.grid.box_of(cell, region), static_cast<std::uint32_t>(rank)});
+    }
+  }
+  return cells;
 }
 
 }  // namespace

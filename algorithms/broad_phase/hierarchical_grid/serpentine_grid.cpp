@@ -45,4 +45,17 @@ SerpentineGrid::SerpentineGrid(const Axes& axes, const Sides& longest, const Sid
   }
 }
 
+Aabb SerpentineGrid::box_of(std::uint64_t cell, const Aabb& region) const {
+  const std::uint64_t row = cell / count_[0];
+  const std::uint64_t slab = row / count_[1];
+  const auto unfolded = [](std::uint64_t line, std::uint64_t place, std::size_t count) {
+    return static_cast<std::uint32_t>(line % 2 == 0 ? place : count - 1 - place);
+  };
+  std::array<std::uint32_t, 3> places;
+  places[axes_[0]] = unfolded(row, cell % count_[0], count_[0]);
+  places[axes_[1]] = unfolded(slab, row % count_[1], count_[1]);
+  places[axes_[2]] = static_cast<std::uint32_t>(slab);
+  return box_of_cell(space_, places, region);
+}
+
 }  // namespace touchstone

@@ -4,6 +4,7 @@
 // Paper: Ericson, "Real-Time Collision Detection", 2005, section 7.2 (the grid of a size class).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,10 @@ class SerpentineGrid {
   std::uint64_t first_cell_of_slab(std::size_t slab) const {
     return std::uint64_t{slab} * count_[1] * count_[0];
   }
+  // For pictures: the box of the minimum corners in a cell; box_of_cell explains the region.
+  Aabb box_of(std::uint64_t cell, const Aabb& region) const;
+  // The longest side of the cells, metres; infinite if there is only one, for boxes in one point.
+  double side() const { return 1 / std::ranges::min(space_.inverse_side); }
 
  private:
   // Cells are shorter along a row than the rows are wide: this is free, since a run spans many

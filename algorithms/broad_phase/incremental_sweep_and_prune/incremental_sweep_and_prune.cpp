@@ -32,6 +32,7 @@
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/boxes/aabb_scan.h"
 #include "algorithms/kernels/boxes/aabb_stack.h"
+#include "algorithms/kernels/boxes/structure_boxes.h"
 
 namespace touchstone {
 namespace {
@@ -67,6 +68,16 @@ class IncrementalSweepAndPrune final : public BroadPhase {
         .candidates = best.candidates,
         .bytes = sum_held_bytes(found_, ids_, before_, axes_[0], axes_[1], axes_[2], radix_sort_,
                                 arrays_, set_, mark_, jumpers_, walkers_, motion_)};
+  }
+
+  // The intervals on the axis of the last sweep, which was the best then. The other two may be
+  // sorted as well.
+  std::vector<StructureBox> structure() const override {
+    std::vector<Aabb> boxes;
+    for (const Endpoint point : axes_[axis_].points()) {
+      if (!is_max(point)) boxes.push_back(before_[body_of(point)]);
+    }
+    return intervals_of(boxes, axis_);
   }
 
  private:

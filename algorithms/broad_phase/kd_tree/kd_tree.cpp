@@ -73,6 +73,13 @@ class KdTree final : public BroadPhase {
     return scratch.work;
   }
 
+  // The nodes with their depths.
+  std::vector<StructureBox> structure() const override {
+    std::vector<StructureBox> nodes;
+    if (!nodes_.tops().empty()) show(nodes_[nodes_.node_of_top(0)], 0, nodes);
+    return nodes;
+  }
+
  private:
   static constexpr std::uint32_t rows_a_task = 512;
   // A subtree of at most this many bodies is searched as one array, not node by node.
@@ -97,6 +104,7 @@ class KdTree final : public BroadPhase {
             PairBuffer& out) const;
   void collect(const KdNode& from, const Aabb& bound, Scratch& scratch) const;
   void take(IndexRange range, const Aabb& bound, Scratch& scratch) const;
+  void show(const KdNode& node, std::uint32_t depth, std::vector<StructureBox>& nodes) const;
 
   Executor& executor_;
   std::vector<Scratch> scratch_;
@@ -187,6 +195,14 @@ void KdTree::collect(const KdNode& from, const Aabb& bound, Scratch& scratch) co
   take({from.first, from.own_end}, bound, scratch);
   collect(nodes_[from.left], bound, scratch);
   collect(nodes_[from.left + 1], bound, scratch);
+}
+
+// Lists the node and all nodes below it.
+void KdTree::show(const KdNode& node, std::uint32_t depth, std::vector<StructureBox>& nodes) const {
+  nodes.push_back({node.bounds, depth});
+  if (node.is_leaf()) return;
+  show(nodes_[node.left], depth + 1, nodes);
+  show(nodes_[node.left + 1], depth + 1, nodes);
 }
 
 }  // namespace

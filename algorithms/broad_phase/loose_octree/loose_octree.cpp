@@ -30,6 +30,7 @@
 #include "algorithms/broad_phase/loose_octree/tree_self_join.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/boxes/group_scan.h"
+#include "algorithms/kernels/boxes/structure_boxes.h"
 
 namespace touchstone {
 namespace {
@@ -71,6 +72,8 @@ class LooseOctree final : public BroadPhase {
     scratch.work.bytes = sum_held_bytes(ids_, order_, boxes_, cells_, refs_, tree_, tasks_);
     return scratch.work;
   }
+
+  std::vector<StructureBox> structure() const override;
 
  private:
   static constexpr std::uint32_t fan = NodeRef::fan;
@@ -223,6 +226,22 @@ void LooseOctree::fit() {
     const std::size_t node = tree_.parent[block];
     nodes.set(node, bounds_of(nodes, {block * fan, block * fan + fan}), refs_[node].packed);
   }
+}
+
+// Shows the loose boxes, the bounds of a cell's bodies, since the search uses no others. The root
+// has none of its own, because the search starts at its parts; it is shown with the bounds of all.
+std::vector<StructureBox> LooseOctree::structure() const {
+  if (cells_.empty()) return {};
+  std::vector<StructureBox> nodes{{bounds_of(boxes_, {0, boxes_.size()}), 0}};
+  std::vector<std::uint32_t> depths(cells_.size(), 1);  // of the nodes of each block
+  for (std::size_t block = 1; block < cells_.size(); ++block) {
+    depths[block] = depths[tree_.parent[block] / fan] + 1;
+  }
+  const std::vector<Aabb> boxes = list_boxes(tree_.nodes);
+  for (std::size_t node = 0; node < boxes.size(); ++node) {
+    if (!boxes[node].is_empty()) nodes.push_back({boxes[node], depths[node / fan]});
+  }
+  return nodes;
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ class VerletList final : public BroadPhase {
   void update(const FrameChange& change) override;
   Status find_pairs(PairSink& sink) override;
   BroadPhaseWork work() const override;
+  std::vector<StructureBox> structure() const override;
 
  private:
   static constexpr std::size_t block_size = 4096;
@@ -251,6 +252,18 @@ BroadPhaseWork VerletList::work() const {
   scratch.work.bytes = sum_held_bytes(order_, tree_, reference_, escaped_flag_, escaped_,
                                       escaped_boxes_, counts_, candidates_);
   return scratch.work;
+}
+
+// Shows the grown boxes while there is a list, with the own boxes of bodies that have escaped, and
+// otherwise the nodes of the R-tree with their depths.
+std::vector<StructureBox> VerletList::structure() const {
+  if (!listed_) return order_.empty() ? std::vector<StructureBox>{} : tree_.structure();
+  std::vector<StructureBox> grown;
+  for (std::size_t id = 0; id < boxes_.size(); ++id) {
+    if (boxes_[id].is_empty()) continue;
+    grown.push_back({escaped_flag_[id] != 0 ? boxes_[id] : reference_[id]});
+  }
+  return grown;
 }
 
 }  // namespace

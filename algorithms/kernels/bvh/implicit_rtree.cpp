@@ -6,6 +6,7 @@
 
 #include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/boxes/aabb_simd.h"
+#include "algorithms/kernels/boxes/structure_boxes.h"
 
 namespace touchstone {
 namespace {
@@ -69,6 +70,16 @@ double ImplicitRTree::spread() const {
     for (std::size_t i = whole; i < blocks.size(); ++i) sums[0] += double{max[i]} - min[i];
   }
   return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+std::vector<StructureBox> ImplicitRTree::structure() const {
+  std::vector<StructureBox> nodes;
+  for (std::uint32_t depth = 0; depth + 1 < used_; ++depth) {
+    for (const Aabb& box : list_boxes(levels_[used_ - 1 - depth])) {
+      if (!box.is_empty()) nodes.push_back({box, depth});
+    }
+  }
+  return nodes;
 }
 
 std::size_t ImplicitRTree::held_bytes() const {

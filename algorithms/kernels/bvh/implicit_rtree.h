@@ -14,6 +14,7 @@
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/executor.h"
 #include "algorithms/core/pair_sink.h"
+#include "algorithms/core/structure_box.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 #include "algorithms/kernels/boxes/aabb_stack.h"
 #include "algorithms/kernels/boxes/group_search.h"
@@ -39,6 +40,8 @@ class ImplicitRTree {
   std::span<const AabbSoA> levels() const { return {levels_.data(), used_}; }
   // Returns the sum of the sides of all blocks' bounds (metres); a better order makes it smaller.
   double spread() const;
+  // Returns the nodes from the root down, at their depths; the boxes themselves are no nodes.
+  std::vector<StructureBox> structure() const;
   std::size_t held_bytes() const;
 
  private:

@@ -3,13 +3,49 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+
+#include "algorithms/kernels/sorting/ordered_key.h"
 
 namespace touchstone {
 namespace {
 
 constexpr std::size_t sample_size = 256;
+constexpr float most = std::numeric_limits<float>::max();
+
+// Returns the least float in this cell or a later one, or the greatest float. It is looked for,
+// since the inverse of the rounded place is not exact.
+float begin_of_cell(const CellSpace& space, std::uint32_t cell, std::size_t axis) {
+  std::uint32_t first = ordered_key(-most);
+  std::uint32_t last = ordered_key(most);
+  while (first < last) {
+    const std::uint32_t middle = first + (last - first) / 2;
+    if (space.cell(coordinate_of(middle), axis) < cell) {
+      first = middle + 1;
+    } else {
+      last = middle;
+    }
+  }
+  return coordinate_of(first);
+}
 
 }  // namespace
+
+Aabb box_of_cell(const CellSpace& space, const std::array<std::uint32_t, 3>& cell,
+                 const Aabb& region) {
+  Aabb box = region;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (cell[axis] > 0) box.min[axis] = begin_of_cell(space, cell[axis], axis);
+    if (cell[axis] < space.last[axis]) {
+      box.max[axis] = begin_of_cell(space, cell[axis] + 1, axis);
+      continue;
+    }
+    // The end is infinite on an axis on which the cells have no size.
+    const double end = space.origin[axis] + (space.last[axis] + 1.0) / space.inverse_side[axis];
+    if (end <= most) box.max[axis] = std::max(box.max[axis], round_up(end));
+  }
+  return box;
+}
 
 double BoxSample::extent() const {
   return std::max(

@@ -35,6 +35,11 @@ struct CellSpace {
   }
 };
 
+// Returns the box of the points in a cell. Outermost cells have no end; they reach to the ends of
+// the region, which contains all bodies, or to their full size if that is more.
+Aabb box_of_cell(const CellSpace& space, const std::array<std::uint32_t, 3>& cell,
+                 const Aabb& region);
+
 // Estimates for all boxes from a sample of them. The quantiles keep a few huge or distant boxes
 // from making the cells useless for the others.
 struct BoxSample {

@@ -13,6 +13,10 @@ inline std::uint32_t ordered_key(float x) {
   const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);  // -0 + 0 is +0
   return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
 }
+// The coordinate of a key; the sign of a zero is lost.
+inline float coordinate_of(std::uint32_t key) {
+  return std::bit_cast<float>(key ^ (key >> 31 != 0 ? 0x80000000u : 0xffffffffu));
+}
 
 // Packs the key above the index: items compare by key first and by index among equal keys.
 constexpr std::uint64_t sort_item(std::uint32_t key, std::uint32_t index) {
