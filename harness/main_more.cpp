@@ -14,5 +14,6 @@ int main(int argc, char** argv) {
                                 {"trade", commands::add_trade},
                                 {"advise", commands::add_advise},
                                 {"represent", commands::add_represent},
+                                {"report", commands::add_report},
                                 {"run", commands::add_run_trade}});
 }

@@ -31,6 +31,7 @@ void add_record(Arguments command);
 void add_trade(Arguments command);
 void add_advise(Arguments command);
 void add_represent(Arguments command);
+void add_report(Arguments command);
 void add_run_trade(Arguments command);  // `run` for a file with a table [trade]
 
 }  // namespace touchstone::commands

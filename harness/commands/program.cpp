@@ -38,6 +38,7 @@ constexpr std::array all_commands = std::to_array<CommandName>({
     {"soak", "Count verdicts by the million against exact ones, in regimes that are hard"},
     {"stress",
      "Drive every narrow phase to where it breaks: scale, proportions, distance, gap, ..."},
+    {"report", "Make a page of results and scenes that opens in a browser"},
     {"list", "List the algorithms, built or not"},
     {"query", "Ask narrow phases about pairs of bodies"},
     {"manifold", "The contact points of bodies that lie on each other"},

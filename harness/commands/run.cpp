@@ -9,6 +9,7 @@
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/pictures/page.h"
 #include "harness/commands/program.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/text_file.h"
@@ -37,7 +38,7 @@ struct RunOptions {
   bool product = false, rebuild = false, warm = false;
   // These options decide how the campaign is measured.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
-  bool tables = false;
+  bool tables = false, with_page = false;
   double depth_error = stats::usual_depth_error;
 };
 
@@ -106,11 +107,12 @@ record::FolderStart start_of(const RunOptions& options) {
   return options.overwrite ? record::FolderStart::overwrite : record::FolderStart::fresh;
 }
 
-// Runs the file of a trade instead of a campaign; it has no option but --out.
+// Runs the file of a trade instead of a campaign; it has no options but --out and --report.
 int run_trade_file(const RunOptions& options) {
   if (options.resume || options.overwrite || options.strict || options.noisy || options.dry_run) {
-    throw base::InputError(options.campaign +
-                           " has a table [trade]; expected no option but --out with such a file");
+    throw base::InputError(
+        options.campaign +
+        " has a table [trade]; expected no options but --out and --report with such a file");
   }
   hand_over();
 }
@@ -149,6 +151,7 @@ int run(const RunOptions& options) {
   }
   const campaign::RunResult result = campaign::run_campaign(campaign, folder, start_of(options));
   report(campaign, result, folder, options);
+  if (options.with_page) make_page(folder);
   if (result.interrupted) {
     fmt::print(stderr,
                "touchstone: interrupted; what was measured until then is kept, and --resume goes "
@@ -176,6 +179,8 @@ void add_run(Arguments command) {
   command.flag("--noisy", options->noisy, "Let the tables count rounds that the machine disturbed");
   command.flag("--tables", options->tables,
                "Print all tables, which are in tables.md, before the summary");
+  command.flag("--report", options->with_page,
+               "Make a page of the results, report.html in the folder");
   add_depth_error(command, options->depth_error);
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 

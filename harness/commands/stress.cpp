@@ -11,7 +11,7 @@
 #include "harness/check/axes/stress_run.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/commands/figures.h"
+#include "harness/commands/pictures/figures.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/text_file.h"
 

@@ -1,7 +1,7 @@
 // touchstone trade: measures speed against accuracy on one scene.
 #include "harness/commands/trade.h"
 #include "harness/commands/arguments.h"
-#include "harness/commands/figures.h"
+#include "harness/commands/pictures/figures.h"
 #include "harness/commands/shared_options.h"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 #include "harness/base/error.h"
 #include "harness/base/table.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/pictures/page.h"
 #include "harness/trade/trade_files.h"
 
 namespace touchstone::commands {
@@ -20,7 +21,7 @@ namespace {
 struct TradeOptions {
   trade::TradeRequest request;
   std::string scene, out, error;
-  bool plain = false;
+  bool plain = false, with_page = false;
 };
 
 void draw(const std::filesystem::path& folder) {
@@ -99,9 +100,14 @@ void add_run_trade(Arguments command) {
   auto options = std::make_shared<TradeOptions>();
   command.text("campaign", options->scene, "A file with a table [trade]").required();
   command.text("--out", options->out, "Folder (default: results/local/trade-NAME in the project)");
+  command.flag("--report", options->with_page,
+               "Make a page of the results, report.html in the folder");
   command.job([options] {
     const trade::TradeRequest request = trade::read_trade(options->scene);
-    return run_trade(request, trade_folder(options->out, request.name), true);
+    const std::filesystem::path folder = trade_folder(options->out, request.name);
+    const int status = run_trade(request, folder, true);
+    if (options->with_page) make_page(folder);
+    return status;
   });
 }
 

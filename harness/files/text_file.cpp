@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <system_error>
 
 #include "harness/base/error.h"
 
@@ -16,8 +17,12 @@ void write_text(const std::filesystem::path& file, const std::string& content) {
   stream << content;
   stream.close();
   if (!stream) {
+    const int cause = errno;
+    std::error_code ignored;
+    // Half a file would pass for a whole one. Devices stay.
+    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
     throw base::InputError(file.string(), 0,
-                           fmt::format("cannot be written: {}", std::strerror(errno)));
+                           fmt::format("cannot be written: {}", std::strerror(cause)));
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace touchstone::files {
 
-// Throws InputError if the file cannot be written whole.
+// Throws InputError if the file cannot be written whole; what was written of it is removed.
 void write_text(const std::filesystem::path& file, const std::string& content);
 
 }  // namespace touchstone::files

@@ -1,7 +1,7 @@
 // Reads the facts of machine, program and source.
 #include "harness/record/machine.h"
 
-#include <fmt/core.h>
+#include <fmt/chrono.h>
 #include <sched.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -236,6 +236,10 @@ std::string facts_as_list(std::initializer_list<std::string_view> names) {
       text += fmt::format("- {}: {}\n", name, value);
   }
   return text;
+}
+
+std::string date_now() {
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)));
 }
 
 std::string hash_of_program() {

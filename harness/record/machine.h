@@ -20,6 +20,9 @@ inline constexpr std::string_view command_line_fact = "command_line";
 // Returns the machine's facts of these names as a list in Markdown.
 std::string facts_as_list(std::initializer_list<std::string_view> names);
 
+// Returns date and time in UTC: "2026-01-31 13:05:00 UTC".
+std::string date_now();
+
 // Returns 16 hexadecimal digits, a hash of the bytes of this program.
 std::string hash_of_program();
 

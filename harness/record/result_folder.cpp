@@ -27,6 +27,7 @@ namespace touchstone::record {
 namespace {
 
 constexpr const char* finished_key = "finished";
+constexpr const char* begun_key = "begun";
 constexpr const char* units_key = "units";
 constexpr double seconds_for_others = 2;
 
@@ -136,6 +137,7 @@ void ResultFolder::begin_anew() {
     if (error) throw base::InputError(file.string(), 0, "cannot be replaced: " + error.message());
   }
   for (const std::string& name : plan_.removed) std::filesystem::remove_all(path(name), error);
+  begun_ = date_now();
   write_facts(false, {});
   open();
   write_progress();
@@ -145,6 +147,8 @@ void ResultFolder::compare_identity() {
   std::map<std::string, std::string> old = read_facts(machine());
   was_finished_ = old[finished_key] == "yes";
   old.erase(finished_key);
+  begun_ = old[begun_key];
+  old.erase(begun_key);
   const auto fail = [&](const std::string& message) {
     throw base::InputError(machine().string(), 0, message + "; expected the same to resume");
   };
@@ -250,6 +254,7 @@ void ResultFolder::write_facts(bool finished, const Facts& more) const {
   for (const Facts* facts : {&plan_.identity, &plan_.notes, &more}) {
     for (const auto& [name, value] : *facts) csv.field(name).field(value).end_row();
   }
+  csv.field(begun_key).field(begun_).end_row();
   csv.field(finished_key).field(finished ? "yes" : "no").end_row();
   csv.close();
 }

@@ -98,6 +98,7 @@ class ResultFolder {
   ResultFolderPlan plan_;
   int lock_ = -1;  // descriptor of the folder
   bool was_finished_ = false;
+  std::string begun_;  // when the work was begun, not when it was resumed
   std::int64_t units_ = 0;
   std::vector<std::unique_ptr<files::CsvWriter>> writers_;  // one for each file
 };

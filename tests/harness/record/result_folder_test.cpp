@@ -86,7 +86,8 @@ TEST_F(ResultFolderTest, GoesOnBehindTheLastWholeUnit) {
   write_unit(folder);
   folder.finish({{"result", "good"}});
   EXPECT_EQ(folder_.read("out/b.csv"), "unit,value\n0,9\n1,9\n2,9\n");
-  EXPECT_THAT(folder_.read("out/machine.csv"), HasSubstr("result,good\nfinished,yes\n"));
+  EXPECT_THAT(folder_.read("out/machine.csv"), HasSubstr("result,good\nbegun,20"));
+  EXPECT_THAT(folder_.read("out/machine.csv"), HasSubstr(" UTC\nfinished,yes\n"));
   EXPECT_THAT(folder_.read("out/progress.csv"), HasSubstr("units,3\n"));
 }
 
@@ -150,13 +151,16 @@ TEST_F(ResultFolderTest, OtherWorkIsNotResumed) {
 
 TEST_F(ResultFolderTest, TheSourceAndTheCommandMayDiffer) {
   { record::ResultFolder folder(plan(record::FolderStart::fresh)); }
+  std::string facts = folder_.read("out/machine.csv");
+  const std::size_t begun = facts.find("begun,") + 6;
+  folder_.write("out/machine.csv", facts.replace(begun, facts.find('\n', begun) - begun, "then"));
   record::ResultFolderPlan again = plan(record::FolderStart::resume);
   again.identity = {{"seed", "1"}, {"commit", "xyz"}, {"command_line", "run --resume"}};
   again.notes = {{"processor", "Q"}};
   record::ResultFolder(again).finish();
   EXPECT_EQ(folder_.read("out/machine.csv"),
             "name,value\nseed,1\ncommit,abc1\ncommand_line,run 1 && run --resume\nprocessor,Q\n"
-            "finished,yes\n");
+            "begun,then\nfinished,yes\n");
   EXPECT_TRUE(record::ResultFolder(again).was_finished());
 }
 

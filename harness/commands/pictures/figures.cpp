@@ -1,5 +1,5 @@
 // Runs the scripts of plots/.
-#include "harness/commands/figures.h"
+#include "harness/commands/pictures/figures.h"
 
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"

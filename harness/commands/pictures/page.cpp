@@ -1,0 +1,32 @@
+// Runs the program's own command `report`.
+#include "harness/commands/pictures/page.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "harness/process/subprocess.h"
+
+namespace touchstone::commands {
+
+void make_page(const std::filesystem::path& folder) {
+  const std::filesystem::path log = folder / "report.txt";
+  const std::string page = (folder / "report.html").string();
+  const std::filesystem::path program =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "touchstone_more";
+  const int status =
+      process::run_and_wait(program.string(), {"report", folder.string(), "--out", page}, log);
+  if (status != 0) {
+    std::ifstream stream(log);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    fmt::print(stderr, "touchstone: there is no page: {}", text);
+  } else {
+    fmt::print("{}: the page\n", page);
+  }
+  std::filesystem::remove(log);
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,184 @@
+// touchstone report: makes a page of results and scenes that opens in a browser.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "harness/base/error.h"
+#include "harness/campaign/campaign.h"
+#include "harness/campaign/selection.h"
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
+#include "harness/files/csv.h"
+#include "harness/files/toml_table.h"
+#include "harness/record/machine.h"
+#include "harness/report/page_file.h"
+#include "harness/report/recording_view.h"
+#include "harness/report/results_view.h"
+
+namespace touchstone::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportOptions {
+  std::vector<std::string> results, scenes;
+  std::string narrow = "certified,gjk", broad = "uniform-grid,linear-bvh,sweep-and-prune";
+  std::string out, page;
+  scene::SceneOverrides overrides;
+  int frames = report::RecordingRequest{}.most_frames;
+  int cases = report::ResultsRequest{}.most_cases;
+  double time_limit = report::ResultsRequest{}.time_limit;
+};
+
+// The launcher builds the page beside the programs.
+fs::path usual_page() {
+  return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "page" / "page.html";
+}
+
+std::string built_page(const ReportOptions& options) {
+  const fs::path file = options.page.empty() ? usual_page() : fs::path(options.page);
+  std::ifstream in(file, std::ios::binary);
+  std::string page{std::istreambuf_iterator<char>(in), {}};
+  if (page.empty()) {
+    throw base::InputError(file.string() +
+                           ": the page is not built; `./touchstone report` builds it, for which it "
+                           "needs Node.js (Debian: nodejs, npm)");
+  }
+  return page;
+}
+
+files::OrderedJson made() {
+  files::OrderedJson facts = {{"date", record::date_now()}};
+  for (const auto& [name, value] : record::machine_facts()) {
+    if (name == "touchstone") facts["version"] = value;
+    if (name == "commit" || name == "tree") facts[name] = value;
+  }
+  return facts;
+}
+
+report::RecordingRequest recording_request(const ReportOptions& options) {
+  report::RecordingRequest request;
+  request.overrides = options.overrides;
+  request.most_frames = options.frames;
+  request.time_limit = options.time_limit;
+  request.narrow =
+      campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
+  request.broad =
+      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+  return request;
+}
+
+// Returns the request for a scene, or for each scene of a campaign, once.
+std::vector<report::RecordingRequest> recordings(const std::string& file,
+                                                 report::RecordingRequest request) {
+  request.scene = file;
+  if (fs::path(file).extension() != ".toml" || !files::has_key(file, "group")) return {request};
+  if (request.overrides.count >= 0 || request.overrides.seed >= 0) {
+    throw base::InputError(file +
+                           " is a campaign, which has counts and seeds; expected neither "
+                           "--count nor --seed with it");
+  }
+  std::vector<report::RecordingRequest> all;
+  std::set<std::tuple<fs::path, std::int64_t, std::int64_t>> seen;
+  for (const campaign::CampaignGroup& group : campaign::read_campaign(file).groups) {
+    for (const fs::path& scene : group.scenes) {
+      for (const std::int64_t count : group.counts) {
+        for (const std::int64_t seed : group.seeds) {
+          if (!seen.insert({scene, count, seed}).second) continue;
+          request.scene = scene;
+          request.overrides = {.count = count, .seed = seed, .frames = group.frames};
+          all.push_back(request);
+        }
+      }
+    }
+  }
+  return all;
+}
+
+// The page calls a folder by its own name, or by its whole path where two have the same.
+std::vector<report::ResultsRequest> results_requests(const ReportOptions& options) {
+  std::vector<report::ResultsRequest> requests;
+  std::map<std::string, int> folders_of;
+  for (const std::string& given : options.results) {
+    const fs::path whole = (fs::absolute(given) / "").lexically_normal().parent_path();
+    for (const fs::path& folder : report::folders_with_tables(given)) {
+      report::ResultsRequest& request = requests.emplace_back();
+      request.folder = folder;
+      request.name =
+          (whole.filename() / folder.lexically_relative(given)).lexically_normal().string();
+      if (request.name.ends_with('/')) request.name.pop_back();
+      request.most_cases = options.cases;
+      request.time_limit = options.time_limit;
+      ++folders_of[request.name];
+    }
+  }
+  for (report::ResultsRequest& request : requests) {
+    if (folders_of[request.name] > 1) request.name = request.folder.string();
+  }
+  return requests;
+}
+
+void make_report(const ReportOptions& options) {
+  if (options.results.empty() && options.scenes.empty()) {
+    throw base::InputError("nothing to report; expected folders of results, or --scene SCENE");
+  }
+  const std::string page = built_page(options);
+  files::check_output(options.out);
+  const report::RecordingRequest recording = recording_request(options);
+  files::OrderedJson results = files::OrderedJson::array(), scenes = files::OrderedJson::array();
+  for (const report::ResultsRequest& request : results_requests(options)) {
+    results.push_back(report::results_view(request));
+  }
+  for (const std::string& scene : options.scenes) {
+    for (const report::RecordingRequest& request : recordings(scene, recording)) {
+      scenes.push_back(report::recording_view(request));
+    }
+  }
+  report::write_page(options.out, page,
+                     {{"format", 1},
+                      {"made", made()},
+                      {"results", std::move(results)},
+                      {"scenes", std::move(scenes)}});
+  fmt::print("{}: {:.1f} MB\n", options.out, static_cast<double>(fs::file_size(options.out)) / 1e6);
+}
+
+}  // namespace
+
+void add_report(Arguments command) {
+  const auto options = std::make_shared<ReportOptions>();
+  command.texts("RESULTS", options->results,
+                "Folders that run, check, stress, soak, trade or advise wrote");
+  command.text("--out", options->out, "The page, .html").required();
+  command
+      .texts("--scene", options->scenes,
+             "Scenes to play: .toml, rigid-ipc's .json, .aabbs, or a campaign's")
+      .once_each();
+  command.text("--narrow", options->narrow, "Narrow phases whose verdicts a scene shows: names")
+      .show_default();
+  command.text("--broad", options->broad, "Broad phases whose structure a scene shows: names")
+      .show_default();
+  command.number("--frames", options->frames, "The most frames of a scene")
+      .within(1, 100'000)
+      .show_default();
+  add_scene_overrides(command, options->overrides);
+  command.number("--cases", options->cases, "The most pairs of a folder that are drawn")
+      .within(0, 100'000)
+      .show_default();
+  add_time_limit(command, options->time_limit).show_default();
+  command.text("--page", options->page, "Another built page than the launcher's");
+  command.job([options] {
+    make_report(*options);
+    return exit_done;
+  });
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,177 @@
+// Asks the oracle and the algorithms about the pairs that the page shows.
+#include "harness/report/case_view.h"
+
+#include <fmt/format.h>
+
+#include "algorithms/oracle/answer.h"
+#include "algorithms/registry.h"
+#include "harness/grade/grade.h"
+#include "harness/grade/true_case.h"
+#include "harness/process/isolate.h"
+#include "harness/process/queries/solve_case.h"
+#include "harness/report/body_view.h"
+
+namespace touchstone::report {
+namespace {
+
+using files::OrderedJson;
+
+// A pair that the page shows.
+struct Subject {
+  grade::TrueCase pair;
+  Outcome truth;  // distance or depth, with witness points
+  OrderedJson answers = OrderedJson::array();
+
+  const files::Case& bodies() const { return pair.pair(); }
+  // Returns what is asked about the pair besides its verdict.
+  Task measure() const {
+    return truth.answer == Answer::overlapping ? Task::penetration : Task::distance;
+  }
+};
+
+Subject subject_of(const files::Case& c, std::uint64_t index, oracle::Oracle& oracle) {
+  Subject subject = {.pair = grade::TrueCase(c, index, oracle), .truth = {}};
+  const auto& given = subject.pair.truth(Encoding::as_given);
+  subject.truth.answer = given.measure.answer;
+  oracle::answer(oracle, given.pair.a(), given.pair.b(), subject.measure(), subject.truth);
+  return subject;
+}
+
+// Returns whether the side of contact is wrong, or bounds on the distance do not hold.
+bool is_wrong(const Outcome& outcome, const oracle::Measure& exact) {
+  return grade::judge(outcome, exact.answer) == grade::Verdict::silent_error ||
+         grade::bounds_error(outcome, exact) > 0;
+}
+
+OrderedJson answer_view(const NarrowPhaseEntry& entry, Precision scalar, Task task,
+                        const Outcome& outcome, Subject& subject) {
+  const files::Case& c = subject.bodies();
+  // An algorithm is responsible for the pair that it is given, in its own numbers.
+  const Encoding encoding = encoding_of(entry, c.shape_a.kind, c.shape_b.kind, task, scalar);
+  const bool wrong = is_wrong(outcome, subject.pair.truth(encoding).measure);
+  const bool departs = is_wrong(outcome, subject.pair.truth(Encoding::as_given).measure);
+  return {{"algorithm", entry.info.name},
+          {"origin", to_string(entry.info.origin)},
+          {"scalar", to_string(scalar)},
+          {"task", to_string(task)},
+          {"answer", to_string(outcome.answer)},
+          {"status", to_string(outcome.status)},
+          {"distance", number(outcome.distance)},
+          {"lower", number(outcome.lower)},
+          {"upper", number(outcome.upper)},
+          {"normal", triple(outcome.normal)},
+          {"witness_a", triple(outcome.witness_a)},
+          {"witness_b", triple(outcome.witness_b)},
+          {"wrong", wrong},
+          {"rounded", departs && !wrong}};
+}
+
+// The proof of a pair; its parts that do not apply are null. The plane lies half way between the
+// witness points. Moving b by less than the depth leaves the bodies overlapping, so that b's
+// witness point is the centre of a ball that it has to leave before they are apart.
+OrderedJson proof_view(const Outcome& truth) {
+  const bool overlaps = truth.answer == Answer::overlapping;
+  const Vec3d middle = truth.witness_a + (truth.witness_b - truth.witness_a) / 2;
+  OrderedJson plane, point, ball;
+  if (!overlaps && middle.allFinite() && truth.normal.squaredNorm() > 0) {
+    const Vec3d n = truth.normal.stableNormalized();
+    plane = {{"normal", triple(n)}, {"offset", n.dot(middle)}};
+  }
+  if (truth.answer == Answer::touching) point = triple(middle);
+  if (overlaps && truth.witness_b.allFinite() && std::isfinite(truth.distance)) {
+    ball = {{"centre", triple(truth.witness_b)}, {"radius", -truth.distance}};
+  }
+  return {{"plane", std::move(plane)},
+          {"point", std::move(point)},
+          {"ball", std::move(ball)},
+          {"on_a", triple(truth.witness_a)},
+          {"on_b", triple(truth.witness_b)}};
+}
+
+struct Query {
+  Subject* subject;
+  Task task;
+};
+
+// Adds the answers of one algorithm to those of the pairs that it takes.
+void ask(const NarrowPhaseEntry& entry, Precision scalar, double time_limit,
+         std::vector<Subject>& subjects) {
+  std::vector<Query> queries;
+  for (Subject& subject : subjects) {
+    const files::Case& c = subject.bodies();
+    for (const Task task : {Task::intersect, subject.measure()}) {
+      if (offers(entry, c.shape_a.kind, c.shape_b.kind, task)) queries.push_back({&subject, task});
+    }
+  }
+  const NarrowPhaseSettings settings{.scalar = scalar};
+  const process::IsolationLimits limits = {.item_seconds = time_limit};
+  const auto solved = process::isolated_answers<Outcome>(queries.size(), limits, [&] {
+    return [&](std::size_t item) {
+      const Query& query = queries[item];
+      return process::solve_case(entry, settings, query.subject->bodies(), query.task);
+    };
+  });
+  for (std::size_t item = 0; item < queries.size(); ++item) {
+    const auto [subject, task] = queries[item];
+    subject->answers.push_back(answer_view(entry, scalar, task, solved.answers[item], *subject));
+  }
+}
+
+OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& folder,
+                      Subject& subject) {
+  const files::Case& c = listed.c;
+  const Outcome& truth = subject.truth;
+  return {{"id", c.id},
+          {"source", listed.file},
+          {"about", listed.about},
+          {"line", files::to_json(c)},
+          {"query", fmt::format("./touchstone query '{}' --narrow all --task {} --out answers.csv",
+                                (folder / listed.file).string(), to_string(subject.measure()))},
+          {"a", body_view(c.shape_a, c.pose_a)},
+          {"b", body_view(c.shape_b, c.pose_b)},
+          {"truth",
+           {{"answer", to_string(truth.answer)},
+            {"lower", number(truth.lower)},
+            {"upper", number(truth.upper)},
+            {"normal", triple(truth.normal)}}},
+          {"proof", proof_view(truth)},
+          {"answers", std::move(subject.answers)}};
+}
+
+}  // namespace
+
+std::vector<ListedCase> listed_cases(const std::filesystem::path& folder, const std::string& file) {
+  std::vector<ListedCase> cases;
+  for (files::Case& c : files::read_cases(folder / file)) {
+    cases.push_back({std::move(c), file, file});
+  }
+  std::size_t next = 0;
+  files::for_each_json_line(folder / file, "a case", [&](const files::JsonNode& line) {
+    std::string& about = cases[next++].about;
+    if (!line.has("source") || !line.value()["source"].is_object()) return;
+    const files::Json& source = line.value()["source"];
+    if (source.contains("wrong") && source["wrong"].is_string()) about = source["wrong"];
+  });
+  return cases;
+}
+
+OrderedJson case_views(const std::vector<ListedCase>& cases, const std::filesystem::path& folder,
+                       double time_limit) {
+  oracle::Oracle oracle;
+  std::vector<Subject> subjects;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    subjects.push_back(subject_of(cases[i].c, i, oracle));
+  }
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    for (const Precision scalar : {Precision::float64, Precision::float32}) {
+      if (is_built(entry.info) && offers(entry, scalar)) ask(entry, scalar, time_limit, subjects);
+    }
+  }
+  OrderedJson views = OrderedJson::array();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    views.push_back(case_view(cases[i], folder, subjects[i]));
+  }
+  return views;
+}
+
+}  // namespace touchstone::report

@@ -1,0 +1,28 @@
+// Pairs of bodies with what is true of them and what every algorithm says.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/files/cases.h"
+#include "harness/files/json_line.h"
+
+namespace touchstone::report {
+
+struct ListedCase {
+  files::Case c;
+  std::string file;   // relative to the results folder
+  std::string about;  // why the file lists it; the file's name if it does not say
+};
+
+// Reads the cases of a file in the results folder.
+std::vector<ListedCase> listed_cases(const std::filesystem::path& folder, const std::string& file);
+
+// Asks every narrow phase that takes a pair, in a child process, whether its bodies are in contact,
+// and for their distance or depth; a query may take `time_limit` seconds. The truth and its proof
+// are the oracle's.
+files::OrderedJson case_views(const std::vector<ListedCase>& cases,
+                              const std::filesystem::path& folder, double time_limit);
+
+}  // namespace touchstone::report

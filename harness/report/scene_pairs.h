@@ -1,0 +1,46 @@
+// The pairs of a played scene, and what algorithms say of them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/grade/pair_groups.h"
+#include "harness/measure/phases/block_input.h"
+
+namespace touchstone::report {
+
+// The pairs of all frames, one frame after the other; within a frame they are grouped by kind.
+class ScenePairs {
+ public:
+  // The input must outlive this object.
+  explicit ScenePairs(const measure::BlockInput& input);
+
+  std::size_t frames() const { return groups_.size(); }
+  std::size_t start(std::size_t frame) const { return starts_[frame]; }
+  std::size_t all() const { return starts_.back(); }
+
+  // Returns the two bodies of each pair of a frame.
+  std::vector<std::uint32_t> bodies(std::size_t frame) const;
+
+  // The two functions below ask in a child process. A frame that crashes, or takes more than
+  // `time_limit` seconds, is not answered.
+
+  // Returns a verdict for each pair: 0 apart, 1 touching, 2 overlapping, 3 unknown or not asked.
+  std::vector<std::uint8_t> verdicts(const NarrowPhaseEntry& entry, double time_limit) const;
+  // Returns the signed distance of each pair in metres; NaN if it is unknown.
+  std::vector<double> distances(const NarrowPhaseEntry& entry, double time_limit) const;
+
+ private:
+  template <class Number, class Take>
+  std::vector<Number> ask(const NarrowPhaseEntry& entry, Task task, double time_limit, Number lost,
+                          const Take& take) const;
+  std::vector<Outcome> solve(NarrowPhase& narrow, const NarrowPhaseEntry& entry, Task task,
+                             std::size_t frame) const;
+
+  const measure::BlockInput* input_;
+  std::vector<std::size_t> starts_ = {0};
+  std::vector<std::vector<grade::PairGroup>> groups_;  // by frame
+};
+
+}  // namespace touchstone::report

@@ -1,0 +1,53 @@
+// Numbers as people read them. Tables show the text of the files instead.
+
+const time_units: [number, string][] = [
+  [1, "s"],
+  [1e-3, "ms"],
+  [1e-6, "µs"],
+  [1e-9, "ns"],
+];
+
+// Seconds with three digits and a unit.
+export function time_text(seconds: number): string {
+  if (!Number.isFinite(seconds)) return "–";
+  const [size, unit] = time_units.find(([least]) => seconds >= least) ?? [1e-9, "ns"];
+  return `${number_text(seconds / size)} ${unit}`;
+}
+
+export function number_text(value: number): string {
+  if (Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
+  const size = Math.abs(value);
+  if (value !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replace("-", "−");
+  return value.toLocaleString("en", { maximumSignificantDigits: 3 }).replace("-", "−");
+}
+
+export const count_text = (value: number): string => value.toLocaleString("en");
+
+// The ends of an interval in words.
+export const interval_text = (low: number, high: number): string =>
+  Number.isNaN(low) || Number.isNaN(high)
+    ? "no interval"
+    : `${number_text(low)} to ${number_text(high)}`;
+
+// That of a row's time.
+export function time_interval(row: { number: (column: string) => number }): string {
+  const low = row.number("seconds_low"),
+    high = row.number("seconds_high");
+  return Number.isNaN(low) || Number.isNaN(high)
+    ? "no interval"
+    : `${time_text(low)} to ${time_text(high)}`;
+}
+
+// The number that a field of a CSV file has; NaN if there is none. The programs write infinity and NaN
+// as C++ does.
+export function number_of(text: string): number {
+  if (text === "") return NaN;
+  const value = Number(text);
+  if (!Number.isNaN(value)) return value;
+  if (/^\+?inf(inity)?$/i.test(text)) return Infinity;
+  return /^-inf(inity)?$/i.test(text) ? -Infinity : NaN;
+}
+
+export const is_number_text = (text: string): boolean =>
+  !Number.isNaN(number_of(text)) || /^[+-]?nan$/i.test(text);

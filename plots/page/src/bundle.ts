@@ -1,0 +1,142 @@
+// What `touchstone report` puts into the page: zlib-compressed JSON, as base64.
+
+export interface Bundle {
+  format: 1;
+  made: { version: string; commit: string; tree: string; date: string };
+  results: Results[];
+  scenes: Recording[];
+}
+
+// A results folder. Its CSV files are here as they stand, so that no number is changed on the way.
+export interface Results {
+  name: string;
+  folder: string;
+  files: Record<string, string>;
+  cases: CaseView[];
+  notes: string[]; // what could not be read, and why
+}
+
+export type Triple = [number, number, number];
+
+// A shape in body coordinates, with the keys of a case file. `faces` are those of a hull:
+// vertices' indices, anticlockwise from outside.
+export interface ShapeView {
+  type: string;
+  radius?: number;
+  half_length?: number;
+  half_extents?: Triple;
+  radii?: Triple;
+  normal?: Triple;
+  offset?: number;
+  vertices?: Triple[];
+  faces?: number[][];
+}
+
+export interface BodyView {
+  shape: ShapeView;
+  matrix: number[]; // nine, by rows; it need not be a rotation
+  translation: Triple;
+}
+
+export interface AnswerView {
+  algorithm: string;
+  origin: string;
+  scalar: string;
+  task: string;
+  answer: string;
+  status: string;
+  distance: number | null; // metres
+  lower: number | null;
+  upper: number | null;
+  normal: Triple | null; // from a to b
+  witness_a: Triple | null;
+  witness_b: Triple | null;
+  wrong: boolean; // for the pair in the algorithm's own numbers
+  rounded: boolean; // right for these, wrong for the pair as it is given
+}
+
+// A pair of bodies with what is true of it. The proof's parts that do not apply are null.
+export interface CaseView {
+  id: string;
+  source: string; // the file that lists it
+  about: string; // why it is listed
+  line: string; // the case as JSON, on one line
+  query: string; // the command that asks all algorithms about it
+  a: BodyView;
+  b: BodyView;
+  truth: { answer: string; lower: number | null; upper: number | null; normal: Triple | null };
+  proof: {
+    plane: { normal: Triple; offset: number } | null; // all of a below, all of b above
+    point: Triple | null; // in both bodies
+    on_a: Triple | null; // the shortest connection, or the two sides of the depth
+    on_b: Triple | null;
+    // Of overlapping bodies, around `on_b`: while that stays inside, b may be moved and they overlap still.
+    ball: { centre: Triple; radius: number } | null;
+  };
+  answers: AnswerView[];
+}
+
+// A scene, played. Arrays are base64 of little-endian numbers.
+export interface Recording {
+  name: string;
+  source: string; // the scene's file
+  hash: string;
+  boxes_only: boolean; // there are boxes and no bodies: `shapes`, `algorithms` and `poses` are empty
+  bodies: number;
+  time_step: number; // seconds
+  frames: number;
+  frames_of_scene: number; // those beyond `frames` were left out
+  shapes: ShapeView[];
+  shape_of: number[]; // for each body
+  // Frames of float32 (frames_of_floats): for each body a translation and a quaternion (w, x, y, z).
+  poses: string;
+  // Frames of float32: for each body the least and the greatest corner. An absent body has an empty box:
+  // its least corner is above its greatest.
+  boxes: string;
+  algorithms: string[]; // verdicts are in this order; the first is the reference
+  pairs: FramePairs[];
+  structures: Structure[]; // one for each broad phase that has one to show
+}
+
+// The pairs whose boxes overlap in a frame: two bodies each, a verdict for each algorithm
+// (0 apart, 1 touching, 2 overlapping, 3 unknown), and the signed distance that `certified` proves
+// (NaN: not known).
+export interface FramePairs {
+  bodies: string; // uint32
+  verdicts: string; // uint8
+  distances: string; // float64
+}
+
+// The boxes of a broad phase's structure in each frame: cells, nodes or intervals.
+export interface Structure {
+  broad: string;
+  frames: { boxes: string; levels: string }[]; // float32: least and greatest corners; uint8, one a box
+}
+
+function bytes_of(base64: string): Uint8Array<ArrayBuffer> {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+export const floats = (base64: string): Float32Array => new Float32Array(bytes_of(base64).buffer);
+
+// Frames of as many numbers each. From the second on, the bits of each are those of an exclusive or with
+// the frame before, so that what does not move takes no space.
+export function frames_of_floats(base64: string, in_a_frame: number): Float32Array {
+  const words = new Uint32Array(bytes_of(base64).buffer);
+  for (let i = in_a_frame; i < words.length; ++i) words[i]! ^= words[i - in_a_frame]!;
+  return new Float32Array(words.buffer);
+}
+export const doubles = (base64: string): Float64Array => new Float64Array(bytes_of(base64).buffer);
+export const indices = (base64: string): Uint32Array => new Uint32Array(bytes_of(base64).buffer);
+export const octets = (base64: string): Uint8Array => bytes_of(base64);
+
+export async function read_bundle(element: HTMLElement): Promise<Bundle> {
+  const packed = bytes_of((element.textContent ?? "").trim());
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const bundle = (await new Response(stream).json()) as Bundle;
+  if (bundle.format !== 1) throw new Error("the page and its data are of different versions");
+  return bundle;
+}

@@ -1,0 +1,96 @@
+// What a frame's time is made of: building or updating, and finding pairs.
+import * as Plot from "@observablehq/plot";
+import { choice, controls } from "../base/controls";
+import { make, quiet } from "../base/dom";
+import { time_text } from "../base/numbers";
+import { part } from "../base/section";
+import type { Folder } from "../tables/folder";
+import { grouped, set_key, set_text } from "../tables/set";
+import type { Row } from "../tables/table";
+
+const phase_names = ["build", "update", "find_pairs"];
+const phase_colours = ["#b07d2b", "#3f7fbf", "#6aa56a"];
+
+interface Bar {
+  algorithm: string;
+  phase: string;
+  from: number;
+  to: number;
+}
+
+// Where rows are updated, the frame's time has no build in it.
+function bars_of(row: Row): Bar[] {
+  let from = 0;
+  const updated = row.number("update") > 0;
+  return phase_names
+    .filter((name) => row.number(name) > 0 && !(name === "build" && updated))
+    .map((name) => {
+      const to = from + row.number(name);
+      const bar = { algorithm: row.text("algorithm"), phase: name.replace("_", " "), from, to };
+      from = to;
+      return bar;
+    });
+}
+
+function chart_of(rows: Row[]): Element {
+  const bars = rows.flatMap(bars_of);
+  const order = [...grouped(bars, (bar) => bar.algorithm)]
+    .sort(([, a], [, b]) => a[a.length - 1]!.to - b[b.length - 1]!.to)
+    .map(([name]) => name);
+  return Plot.plot({
+    width: 960,
+    height: 60 + order.length * 24,
+    marginLeft: 180,
+    ariaLabel: "phases of a frame",
+    x: { label: "time of a frame", tickFormat: time_text, grid: true },
+    y: { label: null, domain: order },
+    color: { domain: phase_names.map((name) => name.replace("_", " ")), range: phase_colours },
+    marks: [
+      Plot.barX(bars, { x1: "from", x2: "to", y: "algorithm", fill: "phase", inset: 1 }),
+      // The phase in letters, where it is wide enough for a reader to need it.
+      Plot.text(
+        bars.filter((bar) => bar.to - bar.from > 0.08 * Math.max(...bars.map((each) => each.to))),
+        {
+          x: (bar: Bar) => (bar.from + bar.to) / 2,
+          y: "algorithm",
+          text: "phase",
+          fill: "white",
+          fontSize: 10,
+        },
+      ),
+      Plot.tip(
+        bars,
+        Plot.pointerY({
+          x: (bar: Bar) => (bar.from + bar.to) / 2,
+          y: "algorithm",
+          title: (bar: Bar) => `${bar.algorithm}: ${bar.phase} ${time_text(bar.to - bar.from)}`,
+        }),
+      ),
+    ],
+  });
+}
+
+export function phases(folder: Folder): HTMLElement | null {
+  const rows = folder
+    .rows("times.csv")
+    .filter((row) => phase_names.some((name) => row.number(name) > 0));
+  if (rows.length === 0) return null;
+  const sets = [...grouped(rows, (row) => set_key(row)).values()];
+  const figure = make("figure", { class: "scroll" });
+  const show = (place: number): void => figure.replaceChildren(chart_of(sets[place]!));
+  show(0);
+  return part(
+    `${folder.anchor}-phases`,
+    "Phases of a frame",
+    quiet("Medians of the phases. A structure that is updated is built once, which is not drawn."),
+    controls(
+      choice(
+        "Set",
+        sets.map((set) => set_text(set[0]!)),
+        0,
+        show,
+      ),
+    ),
+    figure,
+  );
+}

@@ -1,0 +1,76 @@
+// Speed-up with threads.
+import * as Plot from "@observablehq/plot";
+import { choice, controls } from "../base/controls";
+import { make, quiet } from "../base/dom";
+import { interval_text, number_text } from "../base/numbers";
+import { part } from "../base/section";
+import type { Folder } from "../tables/folder";
+import { grouped, set_key, set_text } from "../tables/set";
+import type { Row } from "../tables/table";
+
+interface Bar {
+  name: string;
+  speed_up: number;
+  low: number;
+  high: number;
+}
+
+const bar_of = (row: Row): Bar => ({
+  name: `${row.text("algorithm")}, ${row.text("threads")} threads`,
+  speed_up: row.number("speed_up"),
+  low: row.number("speed_up_low"),
+  high: row.number("speed_up_high"),
+});
+
+function chart_of(rows: Row[]): Element {
+  const bars = rows.map(bar_of).filter((bar) => Number.isFinite(bar.speed_up));
+  bars.sort((a, b) => b.speed_up - a.speed_up);
+  return Plot.plot({
+    width: 960,
+    height: 60 + bars.length * 22,
+    marginLeft: 240,
+    ariaLabel: "speed-up with threads",
+    x: { label: "time with the fewest threads over the time with these", grid: true, zero: true },
+    y: { label: null, domain: bars.map((bar) => bar.name) },
+    marks: [
+      Plot.ruleX([1], { strokeDasharray: "3 3" }),
+      Plot.ruleY(
+        bars.filter((bar) => bar.low > 0),
+        { y: "name", x1: "low", x2: "high" },
+      ),
+      Plot.dot(bars, {
+        x: "speed_up",
+        y: "name",
+        fill: "var(--ours)",
+        tip: true,
+        title: (bar: Bar) =>
+          `${bar.name}\n${number_text(bar.speed_up)} (${interval_text(bar.low, bar.high)})`,
+      }),
+    ],
+  });
+}
+
+export function speed_up(folder: Folder): HTMLElement | null {
+  if (!folder.has("speed_ups.csv")) return null;
+  const sets = [
+    ...grouped(folder.rows("speed_ups.csv"), (row) => set_key(row, ["threads"])).values(),
+  ];
+  const figure = make("figure", { class: "scroll" });
+  const show = (place: number): void => figure.replaceChildren(chart_of(sets[place]!));
+  show(0);
+  return part(
+    `${folder.anchor}-threads`,
+    "Speed-up with threads",
+    quiet("Right of the dashed line more threads are faster. Bars are 95 % intervals."),
+    controls(
+      choice(
+        "Set",
+        sets.map((set) => set_text(set[0]!, ["threads"])),
+        0,
+        show,
+      ),
+    ),
+    figure,
+    folder.grid("speed_ups.csv", { lead: ["scene", "bodies", "algorithm", "threads", "speed_up"] }),
+  );
+}

@@ -1,0 +1,54 @@
+// Builds the page from the bundle that is in it.
+import { show_address } from "./base/anchors";
+import { make } from "./base/dom";
+import { read_bundle, type Results } from "./bundle";
+import { playback } from "./scene/playback";
+import { compare } from "./sections/compare";
+import { files } from "./sections/files";
+import { speed } from "./sections/speed";
+import { summary } from "./sections/summary";
+import { trade } from "./sections/trade";
+import { verdicts } from "./sections/verdicts";
+import { Folder } from "./tables/folder";
+
+// Folders of the same name are told apart by their paths.
+function folder_of(results: Results, _: number, all: Results[]): Folder {
+  const alone = all.filter((each) => each.name === results.name).length === 1;
+  return new Folder(results, alone ? results.name : results.folder);
+}
+
+function contents(sections: HTMLElement[]): HTMLElement {
+  const links = sections.map((each) => {
+    const title = each.querySelector("h2")?.firstChild?.textContent ?? "";
+    return make("li", {}, make("a", { href: `#${each.id}` }, title));
+  });
+  return make("nav", { "aria-label": "contents" }, make("ul", {}, ...links));
+}
+
+async function build(page: HTMLElement): Promise<void> {
+  const bundle = await read_bundle(document.getElementById("bundle")!);
+  const folders = bundle.results.map(folder_of);
+  const names = [
+    ...folders.map((folder) => folder.name),
+    ...bundle.scenes.map((scene) => scene.name),
+  ];
+  document.title = `Touchstone: ${names.join(", ")}`;
+  const sections = [
+    summary(bundle, folders),
+    compare(folders),
+    ...folders.flatMap((folder) => [speed(folder), trade(folder), verdicts(folder), files(folder)]),
+    ...bundle.scenes.map(playback),
+  ].filter((each) => each !== null);
+  page.replaceChildren(make("h1", {}, "Touchstone"), contents(sections), ...sections);
+  document.documentElement.dataset["ready"] = "yes";
+  window.addEventListener("hashchange", show_address);
+  show_address();
+}
+
+const page = document.getElementById("page")!;
+build(page).catch((error: unknown) => {
+  page.replaceChildren(
+    make("p", { class: "wrong" }, `The page could not be drawn: ${String(error)}`),
+  );
+  document.documentElement.dataset["ready"] = "failed";
+});

@@ -1,0 +1,62 @@
+// The pairs of a body, or those about which two algorithms differ, in a frame.
+import { make, quiet } from "../base/dom";
+import { grid } from "../tables/grid";
+import { Table } from "../tables/table";
+import { verdict_names, type Recorded } from "./recorded";
+
+export interface Question {
+  frame: number;
+  selected: number; // a body, or -1
+  left: number;
+  right: number;
+}
+
+export function pair_table(
+  recorded: Recorded,
+  asked: Question,
+  picked: (body: number) => void,
+): HTMLElement {
+  const { frame, selected, left, right } = asked;
+  const { bodies, distances } = recorded.pairs(frame);
+  const differing = recorded.disagreements(frame, left, right);
+  const shown = selected < 0 ? differing : pairs_of(bodies, selected);
+  const columns = ["first", "second", ...recorded.algorithms, "proven distance, m", "differ"];
+  const rows = shown.map((pair) => [
+    String(bodies[2 * pair]),
+    String(bodies[2 * pair + 1]),
+    ...recorded.algorithms.map(
+      (_, k) => verdict_names[recorded.verdict(frame, pair, k)] ?? "unknown",
+    ),
+    Number.isNaN(distances[pair] ?? NaN) ? "" : String(distances[pair]),
+    differing.includes(pair) ? "✗" : "",
+  ]);
+  return make(
+    "div",
+    { class: "pairs-of-frame" },
+    quiet(differ_text(recorded, asked, differing.length)),
+    selected >= 0
+      ? make("p", {}, `Body ${selected} has ${rows.length} pairs whose boxes overlap.`)
+      : null,
+    rows.length > 0
+      ? grid(Table.of(columns, rows), {
+          picked: (row) =>
+            picked(row.number(row.number("first") === selected ? "second" : "first")),
+        })
+      : null,
+  );
+}
+
+function differ_text(recorded: Recorded, { frame, left, right }: Question, differ: number): string {
+  const pairs = Math.floor(recorded.pairs(frame).bodies.length / 2);
+  const all = `${pairs} pairs of boxes overlap in this frame.`;
+  if (recorded.algorithms.length < 2) return all;
+  return `${all} ${recorded.algorithms[left]} and ${recorded.algorithms[right]} differ on ${differ} of them.`;
+}
+
+function pairs_of(bodies: Uint32Array, body: number): number[] {
+  const pairs: number[] = [];
+  for (let pair = 0; 2 * pair + 1 < bodies.length; ++pair) {
+    if (bodies[2 * pair] === body || bodies[2 * pair + 1] === body) pairs.push(pair);
+  }
+  return pairs;
+}

@@ -1,0 +1,172 @@
+// The controls of a scene that plays.
+import type { Recording } from "../bundle";
+import { button, checkbox, choice, controls } from "../base/controls";
+import { make, quiet } from "../base/dom";
+import { number_text } from "../base/numbers";
+import { Clock } from "./clock";
+import { pair_table } from "./pair_table";
+import { Recorded } from "./recorded";
+import { SceneView, type Shown } from "./scene_view";
+import { Stage } from "./stage";
+
+export function player(recording: Recording): HTMLElement {
+  const opened = Stage.open(`${recording.name}, played`, false);
+  if (!opened) return quiet("This browser draws nothing in three dimensions.");
+  const stage = opened;
+  const recorded = new Recorded(recording);
+  const view = new SceneView(stage, recording, recorded);
+  const several = recorded.algorithms.length > 1;
+  const shown: Shown = {
+    frame: 0,
+    left: 0,
+    right: several ? 1 : 0,
+    side_by_side: false,
+    boxes: false,
+    structure: -1,
+    selected: -1,
+  };
+
+  const where = make("output", { class: "frame" });
+  const rate = make("output", { class: "rate quiet" });
+  const pairs = make("div", { "aria-live": "polite" });
+  const names = make("div", { class: "names" });
+  const slider = make("input", {
+    type: "range",
+    min: 0,
+    max: Math.max(0, recording.frames - 1),
+    value: 0,
+    "aria-label": "frame",
+  });
+  slider.addEventListener("input", () => go_to(Number(slider.value)));
+
+  function draw(): void {
+    view.show(shown);
+    slider.value = String(shown.frame);
+    where.textContent = `frame ${shown.frame} of 0 to ${recording.frames - 1}, ${number_text(shown.frame * recording.time_step)} s`;
+  }
+
+  // Tables take longer than frames: while it plays they follow four times a second.
+  let told_at = 0;
+  function tell(): void {
+    if (clock.playing && performance.now() - told_at < 250) return;
+    told_at = performance.now();
+    pairs.replaceChildren(pair_table(recorded, shown, select));
+  }
+
+  function update(change: Partial<Shown>): void {
+    Object.assign(shown, change);
+    draw();
+    tell();
+  }
+
+  const go_to = (frame: number): void => {
+    const frames = Math.max(1, recording.frames);
+    update({ frame: ((frame % frames) + frames) % frames });
+  };
+
+  function select(body: number): void {
+    const is_body = Number.isInteger(body) && body >= 0 && body < recording.bodies;
+    number.value = is_body ? String(body) : "";
+    update({ selected: is_body ? body : -1 });
+  }
+
+  const clock = new Clock(
+    recording.time_step,
+    (frames) => go_to(shown.frame + frames),
+    (frames_a_second) => (rate.textContent = `${frames_a_second.toFixed(0)} frames drawn a second`),
+    () => stage.element.isConnected,
+  );
+  const play = button("Play", () => {
+    clock.toggle();
+    play.textContent = clock.playing ? "Pause" : "Play";
+    tell();
+  });
+
+  const number = make("input", {
+    type: "number",
+    min: 0,
+    max: recording.bodies - 1,
+    placeholder: "none",
+  });
+  number.addEventListener("change", () => select(number.value === "" ? -1 : Number(number.value)));
+  pick_by_mouse(stage, (event) => select(view.body_at(event)));
+
+  function show_side_by_side(on: boolean): void {
+    stage.show_views(on ? 2 : 1);
+    name_views(on);
+    update({ side_by_side: on });
+  }
+
+  function name_views(two: boolean): void {
+    const places = two ? [shown.left, shown.right] : [shown.left];
+    names.replaceChildren(
+      ...places.map((place) => make("span", {}, recorded.algorithms[place] ?? "boxes alone")),
+    );
+  }
+
+  const chooser = (label: string, side: "left" | "right"): HTMLElement =>
+    choice(label, recorded.algorithms, shown[side], (place) => {
+      update({ [side]: place });
+      name_views(shown.side_by_side);
+    });
+
+  // The next frame in which the two algorithms differ.
+  function next_difference(): void {
+    for (let ahead = 1; ahead <= recording.frames; ++ahead) {
+      const frame = (shown.frame + ahead) % recording.frames;
+      if (recorded.disagreements(frame, shown.left, shown.right).length > 0) return go_to(frame);
+    }
+    where.textContent = "they differ in no frame";
+  }
+
+  name_views(false);
+  update({});
+  return make(
+    "div",
+    { class: "player" },
+    controls(
+      button("◀", () => go_to(shown.frame - 1), "one frame back"),
+      play,
+      button("▶", () => go_to(shown.frame + 1), "one frame on"),
+      slider,
+      where,
+      rate,
+    ),
+    controls(
+      checkbox("boxes", false, (boxes) => update({ boxes })).element,
+      recording.structures.length > 0
+        ? choice(
+            "Structure of",
+            ["none", ...recording.structures.map((each) => each.broad)],
+            0,
+            (place) => update({ structure: place - 1 }),
+          )
+        : null,
+      recorded.algorithms.length > 0 ? chooser("Coloured by", "left") : null,
+      several ? chooser("compared with", "right") : null,
+      several ? checkbox("side by side", false, show_side_by_side).element : null,
+      several ? button("next difference", next_difference) : null,
+      make("label", {}, "Body ", number),
+    ),
+    names,
+    stage.element,
+    quiet(
+      "Click on a body, or give its number, for its pairs; it has a yellow box. Side by side, boxes in magenta are " +
+        "around bodies about which the algorithms differ. A structure's boxes have a colour for each level. " +
+        "Arrow keys turn the view, + and − move it.",
+    ),
+    pairs,
+  );
+}
+
+// A press that does not move is a choice; one that moves turns the view.
+function pick_by_mouse(stage: Stage, picked: (event: PointerEvent) => void): void {
+  let pressed = { x: 0, y: 0 };
+  stage.canvas.addEventListener(
+    "pointerdown",
+    (event) => (pressed = { x: event.clientX, y: event.clientY }),
+  );
+  stage.canvas.addEventListener("pointerup", (event) => {
+    if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) <= 4) picked(event);
+  });
+}

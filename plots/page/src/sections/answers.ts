@@ -1,0 +1,115 @@
+// What came out of a results folder, in a few sentences.
+import { count_text, interval_text, number_text, time_interval, time_text } from "../base/numbers";
+import type { Folder } from "../tables/folder";
+import { distinct, set_key, set_text } from "../tables/set";
+import type { Row } from "../tables/table";
+
+const total = (rows: Row[], column: string): number =>
+  rows.reduce((sum, row) => sum + (row.number(column) || 0), 0);
+
+export function answers(folder: Folder): string[] {
+  const lines = [
+    ...timed(folder),
+    ...fastest(folder.rows("broad_best.csv"), "peer", "Broad phases"),
+    ...fastest(folder.rows("narrow_best.csv"), "right_peer", "Narrow phases"),
+    ...agreed(folder),
+    ...checked(folder),
+    ...swept(folder),
+    ...soaked(folder),
+    ...traded(folder),
+  ];
+  if (folder.fact("finished") === "no") lines.push("The run did not come to its end.");
+  return lines.length > 0 ? lines : ["The folder has no rows to sum up."];
+}
+
+function timed(folder: Folder): string[] {
+  const times = folder.rows("times.csv");
+  if (times.length === 0) return [];
+  const sets = distinct(times.map((row) => set_key(row))).length;
+  const algorithms = distinct(times.map((row) => row.text("algorithm"))).length;
+  const samples = total(times, "samples");
+  const disturbed = (100 * total(times, "noisy")) / Math.max(samples, 1);
+  return [
+    `${algorithms} algorithms were timed in ${sets} sets: ${count_text(samples)} samples, ` +
+      `of which ${number_text(disturbed)} % were disturbed.`,
+  ];
+}
+
+// The set in the middle of all stands for them: its interval is one that was measured.
+function fastest(rows: Row[], peer: string, what: string): string[] {
+  const ratio = `${peer}_ratio`;
+  const usable = rows.filter((row) => row.number(ratio) > 0);
+  usable.sort((a, b) => a.number(ratio) - b.number(ratio));
+  const middle = usable[Math.floor((usable.length - 1) / 2)];
+  if (!middle) return [];
+  const ahead = usable.filter((row) => row.number(`${ratio}_low`) > 1).length;
+  const behind = usable.filter((row) => row.number(`${ratio}_high`) < 1).length;
+  const interval = interval_text(middle.number(`${ratio}_low`), middle.number(`${ratio}_high`));
+  return [
+    `${what}: the fastest of ours is faster than every library that answers right in ${ahead} of ` +
+      `${usable.length} sets, slower in ${behind}, undecided in ${usable.length - ahead - behind}. In the middle set ` +
+      `(${set_text(middle)}) the time of ${middle.text(peer)} is ${number_text(middle.number(ratio))} times that of ` +
+      `${middle.text("ours")} (${interval}).`,
+  ];
+}
+
+function agreed(folder: Folder): string[] {
+  const all = folder.rows("agreement.csv");
+  return [
+    { origin: "ours", who: "Ours" },
+    { origin: "peer", who: "The libraries" },
+  ].flatMap(({ origin, who }) => {
+    const rows = all.filter((row) => row.text("origin") === origin);
+    if (rows.length === 0) return [];
+    return [
+      `${who} answered ${count_text(total(rows, "queries"))} queries: ` +
+        `${count_text(total(rows, "wrong"))} on the wrong side of contact, ` +
+        `${count_text(total(rows, "failed"))} given up, ${count_text(total(rows, "unanswered"))} without an answer.`,
+    ];
+  });
+}
+
+function checked(folder: Folder): string[] {
+  const rows = folder.rows("summary.csv");
+  if (rows.length === 0) return [];
+  return [
+    `${count_text(total(rows, "answers"))} answers were graded against exact arithmetic: ` +
+      `${count_text(total(rows, "silent"))} silently wrong, ${count_text(total(rows, "honest"))} failures that were said, ` +
+      `${count_text(total(rows, "crashed"))} crashes.`,
+  ];
+}
+
+function swept(folder: Folder): string[] {
+  const rows = folder.rows("envelope.csv");
+  if (rows.length === 0) return [];
+  const silent = (origin: string): string => {
+    const of_origin = rows.filter((row) => row.text("origin") === origin);
+    return `${count_text(total(of_origin, "silent"))} of ${count_text(total(of_origin, "answers"))}`;
+  };
+  return [
+    `Along ${distinct(rows.map((row) => row.text("axis"))).length} axes towards hard input ${silent("ours")} answers of ours ` +
+      `are silently wrong, and ${silent("peer")} of the libraries'.`,
+  ];
+}
+
+function soaked(folder: Folder): string[] {
+  const rows = folder.rows("soak.csv");
+  if (rows.length === 0) return [];
+  return [
+    `In a soak ${count_text(total(rows, "pairs"))} verdicts were compared with exact ones: ` +
+      `${count_text(total(rows, "silent"))} silently wrong, ${count_text(total(rows, "lost"))} lost.`,
+  ];
+}
+
+function traded(folder: Folder): string[] {
+  const points = folder.rows("points.csv"),
+    front = folder.rows("front.csv");
+  if (points.length === 0) return [];
+  const told = (row: Row): string =>
+    `${time_text(row.number("seconds"))} (${time_interval(row)}) a frame at an error of ${number_text(row.number("error"))}`;
+  const ends = [front[0], front[front.length - 1]].filter((row) => row !== undefined);
+  return [
+    `${points.length} configurations were played, ${front.length} are on the front` +
+      (ends.length === 2 ? `: from ${told(ends[0]!)} to ${told(ends[1]!)}.` : "."),
+  ];
+}

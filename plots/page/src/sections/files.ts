@@ -1,0 +1,27 @@
+// The files of a folder that no other part shows, as tables that are filled when they are opened.
+import { answer_for, element_of } from "../base/anchors";
+import { quiet } from "../base/dom";
+import { folded, section } from "../base/section";
+import type { Folder } from "../tables/folder";
+
+export function files(folder: Folder): HTMLElement | null {
+  const rest = folder.rest();
+  if (rest.length === 0) return null;
+  return section(
+    `${folder.name}: other tables`,
+    quiet("Every file of the folder that is not shown above, as it stands."),
+    ...rest.map((file) => unfolding(folder, file)),
+  );
+}
+
+function unfolding(folder: Folder, file: string): HTMLElement {
+  const anchor = folder.anchor_of(file);
+  const { element, open } = folded(file, () => folder.grid(file));
+  element.classList.add("file");
+  // Once it is filled, the table answers for itself.
+  answer_for(anchor, (rest) => {
+    open();
+    return element_of(rest === "" ? anchor : `${anchor}-${rest}`);
+  });
+  return element;
+}

@@ -1,0 +1,52 @@
+// Times: curves against count, the winner of each set, phases, speed-up, and the samples of a cell.
+import { quiet, make } from "../base/dom";
+import { part, section } from "../base/section";
+import { time_against_count } from "../charts/curves";
+import { phases } from "../charts/phases";
+import { samples_of } from "../charts/samples";
+import { speed_up } from "../charts/speed_up";
+import { winners } from "../charts/winners";
+import type { Folder } from "../tables/folder";
+import type { Row } from "../tables/table";
+
+export function speed(folder: Folder): HTMLElement | null {
+  if (!folder.has("times.csv")) return null;
+  const samples = make("div", { id: `${folder.anchor}-samples`, "aria-live": "polite" });
+  const sampled = folder.files.includes("raw.csv");
+  const pick = (row: Row): void => {
+    if (!sampled) return;
+    samples.replaceChildren(samples_of(folder, row));
+    samples.scrollIntoView({ block: "nearest" });
+  };
+  const hint = sampled
+    ? " Click on a row or a point, or press Enter on a row, for its samples."
+    : "";
+  return section(
+    `${folder.name}: speed`,
+    time_against_count(folder, pick),
+    winners(folder),
+    phases(folder),
+    speed_up(folder),
+    part(
+      `${folder.anchor}-times-part`,
+      "Times of all sets",
+      quiet(`Seconds: medians with 95 % intervals.${hint}`),
+      samples,
+      folder.grid("times.csv", {
+        lead: [
+          "scene",
+          "bodies",
+          "threads",
+          "task",
+          "pair_kind",
+          "algorithm",
+          "origin",
+          "seconds",
+          "seconds_low",
+          "seconds_high",
+        ],
+        picked: sampled ? pick : undefined,
+      }),
+    ),
+  );
+}

@@ -1,0 +1,104 @@
+// A results folder, parsed when something is first asked of it.
+import { fresh_anchor } from "../base/anchors";
+import type { CaseView, Results } from "../bundle";
+import { file_grid, type GridOptions } from "./grid";
+import { Row, Table } from "./table";
+
+export class Folder {
+  readonly anchor: string;
+  readonly files: string[];
+  private readonly texts: Map<string, string>;
+  private readonly parsed = new Map<string, Table>();
+  private readonly shown = new Set<string>();
+
+  // `name` tells the folder from the others of the page.
+  constructor(
+    readonly results: Results,
+    readonly name: string,
+  ) {
+    this.anchor = fresh_anchor(name);
+    this.texts = new Map(Object.entries(results.files));
+    this.files = [...this.texts.keys()];
+  }
+
+  has(file: string): boolean {
+    return this.rows(file).length > 0;
+  }
+
+  table(file: string): Table {
+    let table = this.parsed.get(file);
+    if (!table) {
+      table = new Table(this.texts.get(file) ?? "");
+      this.parsed.set(file, table);
+    }
+    return table;
+  }
+
+  rows(file: string): Row[] {
+    return this.table(file).rows;
+  }
+
+  // The file's table on the page; each file has one. Its anchor is the folder's and the file's name.
+  grid(file: string, options: GridOptions = {}): HTMLElement {
+    this.shown.add(file);
+    return file_grid(this.table(file), {
+      ...options,
+      file,
+      folder: this.results.folder,
+      anchor: this.anchor_of(file),
+    });
+  }
+
+  anchor_of(file: string): string {
+    return `${this.anchor}-${file.replace(/\.csv$/, "").replaceAll("_", "-")}`;
+  }
+
+  // The files that no part of the page has shown yet.
+  rest(): string[] {
+    return this.files.filter((file) => !this.shown.has(file));
+  }
+
+  // An entry of machine.csv.
+  fact(name: string): string {
+    return (
+      this.rows("machine.csv")
+        .find((row) => row.text("name") === name)
+        ?.text("value") ?? ""
+    );
+  }
+
+  // The hash of each scene, by its name.
+  scenes(): [string, string][] {
+    const listed = this.rows("machine.csv")
+      .filter((row) => row.text("name").startsWith("scene "))
+      .map((row): [string, string] => [row.text("name").slice("scene ".length), row.text("value")]);
+    const one = this.fact("scene_hash");
+    return one ? [...listed, [this.fact("scene"), one]] : listed;
+  }
+
+  get cases(): CaseView[] {
+    return this.results.cases;
+  }
+
+  case_anchor(place: number): string {
+    return `${this.anchor}-pair-${place}`;
+  }
+
+  // The address of the first pair of a case file; the path may start anywhere above the folder.
+  case_of_file(path: string): string | undefined {
+    if (!path) return undefined;
+    const place = this.cases.findIndex(
+      ({ source }) => source !== "" && (path === source || path.endsWith(`/${source}`)),
+    );
+    return place < 0 ? undefined : this.case_anchor(place);
+  }
+
+  // The address of the first pair that a check or a sweep keeps of an algorithm.
+  case_of_algorithm(algorithm: string, scalar: string, task = ""): string | undefined {
+    const name = `failures/${[algorithm, scalar, task].filter(Boolean).join("-")}`;
+    const place = this.cases.findIndex(
+      ({ source }) => source.startsWith(`${name}-`) || source === `${name}.jsonl`,
+    );
+    return place < 0 ? undefined : this.case_anchor(place);
+  }
+}

@@ -1,0 +1,193 @@
+// What a reader does with the page: switch, sort, filter, hover, click, follow links, play.
+import assert from "node:assert/strict";
+import { mkdtemp } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { boxes_alone, deep_pair, pair, raw_csv, recording, times_csv } from "./made_up.mjs";
+import { bundle_of, fill, folder_of, launch, open } from "./pages.mjs";
+
+let browser, file;
+
+before(async () => {
+  browser = await launch();
+  const rows = [100, 1000, 10000].flatMap((bodies) => [
+    [bodies, "tree", "ours", bodies * 1e-7],
+    [bodies, "their-tree", "peer", bodies * 3e-7],
+  ]);
+  const many = Array.from({ length: 500 }, (_, i) => `${i},x${i},${(i * 37) % 500}\n`).join("");
+  const results = folder_of(
+    "made",
+    {
+      "times.csv": times_csv(rows),
+      "raw.csv": raw_csv(30),
+      "work.csv": `number,name,shuffled\n${many}`,
+      "departures.csv": `block,algorithm,where,what,reproduction\n0,gjk float,here,wrong,results/local/made/${pair.source}\n`,
+      "summary.csv":
+        "algorithm,scalar,regime,group,answers,silent,margin\ngjk,float,thin,gaps,10,1,1e-9\ngjk,float,deep,depths,10,0,0\n",
+      "stress.csv":
+        "axis,value,algorithm,scalar,task,right,rounded,honest,silent,crashed,hung\ngap,1e-3,gjk,float,distance,1,0,0,0,0,0\ngap,1e-6,gjk,float,distance,0,0,0,1,0,0\n",
+      "points.csv":
+        "point,front,error,seconds,seconds_low,seconds_high\nfast,1,0.1,0.001,0.0009,0.0011\nright,1,0,0.01,0.009,0.011\n",
+      "machine.csv":
+        'name,value\nprocessor,a processor\ncommand_line,touchstone trade\n"scene grid, 100 bodies",h100\n',
+    },
+    [pair, deep_pair],
+  );
+  const out = join(await mkdtemp(join(tmpdir(), "page-")), "page.html");
+  file = await fill(process.env.PAGE, out, bundle_of([results], [recording(10), boxes_alone(4)]));
+});
+after(() => browser.close());
+
+async function on_page(work, hash = "", options = {}) {
+  const { page, complaints } = await open(browser, file, hash, options);
+  await work(page);
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
+const column = (page, data_file, name) =>
+  page.evaluate(
+    ([data_file, name]) => {
+      const table = document.querySelector(`table[data-file="${data_file}"]`);
+      const place = [...table.tHead.rows[0].cells].findIndex(
+        (cell) => cell.dataset.column === name,
+      );
+      return [...table.tBodies[0].rows].map((row) => row.cells[place].textContent);
+    },
+    [data_file, name],
+  );
+
+test("algorithms are switched, all and none too", () =>
+  on_page(async (page) => {
+    const curves = page.locator("#made-curves");
+    const lines = () => curves.locator('g[aria-label="line"] path').count();
+    assert.equal(await lines(), 2);
+    await curves.getByLabel("their-tree").uncheck();
+    assert.equal(await lines(), 1);
+    await curves.getByText("none", { exact: true }).click();
+    assert.equal(await lines(), 0);
+    await curves.getByText("all", { exact: true }).click();
+    assert.equal(await lines(), 2);
+  }));
+
+test("tables sort by number, filter, and show all", () =>
+  on_page(async (page) => {
+    await page.locator("#made-other-tables summary", { hasText: "work.csv" }).click();
+    const grid = page.locator("#made-work");
+    assert.equal((await column(page, "work.csv", "shuffled")).length, 200);
+    await grid.getByText("Show all").click();
+    assert.equal((await column(page, "work.csv", "shuffled")).length, 500);
+    const sort = grid.locator('th[data-column="shuffled"] button');
+    await sort.focus();
+    await page.keyboard.press("Enter");
+    assert.deepEqual((await column(page, "work.csv", "shuffled")).slice(0, 3), ["0", "1", "2"]);
+    await sort.click();
+    assert.deepEqual((await column(page, "work.csv", "shuffled")).slice(0, 2), ["499", "498"]);
+    await grid.getByLabel("filter the table").fill("x77");
+    assert.deepEqual(await column(page, "work.csv", "name"), ["x77"]);
+  }));
+
+test("grades filter by regime and by the size of an error", () =>
+  on_page(async (page) => {
+    const grades = page.locator("#made-grades");
+    await grades.getByLabel("errors of at least").selectOption("1e-9");
+    assert.deepEqual(await column(page, "summary.csv", "regime"), ["thin"]);
+    await grades.getByLabel("errors of at least").selectOption("(all)");
+    await grades.getByRole("combobox", { name: "regime" }).selectOption("deep");
+    assert.deepEqual(await column(page, "summary.csv", "regime"), ["deep"]);
+  }));
+
+test("hovering tells, and clicking shows the samples", () =>
+  on_page(async (page) => {
+    const chart = page.locator("#made-curves figure svg");
+    const dot = chart.locator('g[aria-label="dot"] path').first();
+    await dot.scrollIntoViewIfNeeded();
+    await dot.hover({ force: true });
+    assert.match(await chart.locator('g[aria-label="tip"]').textContent(), /bodies/);
+    await page.locator('table[data-file="times.csv"] tbody tr').first().focus();
+    await page.keyboard.press("Enter");
+    const samples = page.locator("#made-samples");
+    assert.match(await samples.textContent(), /30 samples, of which 6 were disturbed/);
+    assert.equal(await samples.locator('g[aria-label="dot"] path').count(), 30);
+  }));
+
+test("a departure leads to its pair, which is drawn", () =>
+  on_page(async (page) => {
+    await page.locator('table[data-file="departures.csv"] a', { hasText: "3D" }).click();
+    const view = page.locator("#made-pair-0");
+    await view.locator("canvas").waitFor();
+    const picture = () => view.locator("canvas").screenshot();
+    const whole = await picture();
+    await view.getByText("show the gap").click();
+    await page.waitForTimeout(200);
+    const enlarged = await picture();
+    assert.notDeepEqual(enlarged, whole);
+    await view.locator("canvas").focus();
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForTimeout(200);
+    assert.notDeepEqual(await picture(), enlarged);
+    assert.match(await view.textContent(), /touchstone query/);
+  }));
+
+test("addresses lead to rows that are not shown, to fields and to pairs", async () => {
+  await on_page(async (page) => {
+    assert.equal(await page.locator("#made-work-row-431 td").first().textContent(), "431");
+    assert.ok(await page.locator("#made-work-row-431").isVisible());
+  }, "#made-work-row-431");
+  await on_page(
+    async (page) => assert.equal(await page.locator("td.target").textContent(), "x7"),
+    "#made-work-row-7-name",
+  );
+  await on_page(async (page) => page.locator("#made-pair-1 canvas").waitFor(), "#made-pair-1");
+  await on_page(
+    async (page) => assert.ok(await page.locator("#made-breaks").isVisible()),
+    "#%E0%A4%A",
+  );
+});
+
+test("a scene plays, steps, and shows where two algorithms differ", () =>
+  on_page(async (page) => {
+    const scene = page.locator("#made-up-playback");
+    await scene.getByText("Open the scene").click();
+    const frame = () => scene.locator("output.frame").textContent();
+    assert.match(await frame(), /^frame 0 /);
+    await scene.getByLabel("one frame on").click();
+    assert.match(await frame(), /^frame 1 /);
+    await scene.getByLabel("one frame back").click();
+    await scene.getByLabel("one frame back").click();
+    assert.match(await frame(), /^frame 9 /);
+    await scene.getByText("Play", { exact: true }).click();
+    await page.waitForFunction(
+      () => !/^frame 9 /.test(document.querySelector("output.frame").textContent),
+    );
+    await scene.getByText("Pause", { exact: true }).click();
+    await scene.getByLabel("side by side").check();
+    await scene.getByLabel("boxes").check();
+    await scene.getByLabel("Structure of").selectOption("uniform-grid");
+    assert.match(await scene.textContent(), /certified and gjk differ on 1 of them/);
+    await scene.getByLabel("Body").fill("1");
+    await scene.getByLabel("Body").press("Enter");
+    assert.match(await scene.locator(".pairs-of-frame").textContent(), /Body 1 has 1 pairs/);
+    const boxes = page.locator("#boxes-alone-playback");
+    await boxes.getByText("Open the scene").click();
+    await boxes.locator("canvas").waitFor();
+  }));
+
+test("narrow, dark and printed", async () => {
+  await on_page(
+    async (page) => {
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= 700, `the page is ${wide} wide`);
+      const ground = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+      assert.equal(ground, "rgb(20, 23, 26)");
+    },
+    "",
+    { viewport: { width: 700, height: 900 }, colorScheme: "dark" },
+  );
+  await on_page(async (page) => {
+    await page.emulateMedia({ media: "print" });
+    assert.equal(await page.locator("nav").isVisible(), false);
+    assert.ok((await page.pdf({ pageRanges: "1" })).length > 1000);
+  });
+});

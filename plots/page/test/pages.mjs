@@ -1,0 +1,70 @@
+// Pages to test, and a browser to open them in.
+import { readFile, writeFile } from "node:fs/promises";
+import { deflateSync } from "node:zlib";
+import { existsSync } from "node:fs";
+import { chromium } from "playwright-core";
+
+export const browser_file = process.env.CHROMIUM ?? "/usr/bin/chromium";
+export const has_browser = () => existsSync(browser_file);
+
+export const launch = () =>
+  chromium.launch({
+    executablePath: browser_file,
+    args: [
+      "--no-sandbox",
+      "--use-gl=angle",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+    ],
+  });
+
+// Opens a page from the disk. `complaints` collects all that the browser says about it.
+export async function open(browser, file, hash = "", options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1200, height: 900 }, ...options });
+  const complaints = [];
+  page.on("console", (message) => {
+    // Drawing in software is slow, which the browser mentions.
+    if (
+      ["error", "warning"].includes(message.type()) &&
+      !/GPU stall|GL Driver/.test(message.text())
+    ) {
+      complaints.push(message.text());
+    }
+  });
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("dialog", (dialog) => {
+    complaints.push(`dialog: ${dialog.message()}`);
+    dialog.dismiss();
+  });
+  await page.goto(`file://${file}${hash}`);
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, {
+    timeout: 30000,
+  });
+  return { page, complaints };
+}
+
+// Puts data into a built page, as the program does.
+export async function fill(built, out, bundle) {
+  const page = await readFile(built, "utf8");
+  const packed = deflateSync(JSON.stringify(bundle)).toString("base64");
+  await writeFile(
+    out,
+    page.replace("<!--BUNDLE-->", () => packed),
+  );
+  return out;
+}
+
+export const bundle_of = (results, scenes = []) => ({
+  format: 1,
+  made: { version: "0", commit: "none", tree: "clean", date: "2000-01-01" },
+  results,
+  scenes,
+});
+
+export const folder_of = (name, files, cases = []) => ({
+  name,
+  folder: `results/${name}`,
+  files,
+  cases,
+  notes: [],
+});

@@ -1,0 +1,62 @@
+// The page's reader of CSV files, without a browser.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { build } from "esbuild";
+import { fileURLToPath } from "node:url";
+import { csv_rows } from "./csv.mjs";
+
+async function sources(file) {
+  const { outputFiles } = await build({
+    entryPoints: [fileURLToPath(new URL(`../src/${file}`, import.meta.url))],
+    bundle: true,
+    format: "esm",
+    write: false,
+  });
+  return import(
+    `data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`
+  );
+}
+const { Table } = await sources("tables/table.ts");
+const { number_of, time_text } = await sources("base/numbers.ts");
+
+const fields = (table) =>
+  table.rows.map((_, row) => table.columns.map((_, column) => table.field(row, column)));
+
+test("fields are the text of the file", () => {
+  const text = 'a,"b,c",d\n1,"x ""y""\nz",\r\n,,\n\n 2 ,nan,1e-09\n';
+  const table = new Table(text);
+  const { columns, lines } = csv_rows(text);
+  assert.deepEqual(table.columns, columns);
+  assert.deepEqual(fields(table), lines);
+});
+
+test("rows that are short or long, and files that are empty or cut", () => {
+  assert.deepEqual(fields(new Table("a,b,c\n1\n1,2,3,4\n")), [
+    ["1", "", ""],
+    ["1", "2", "3"],
+  ]);
+  assert.deepEqual(fields(new Table("")), []);
+  assert.deepEqual(fields(new Table("a,b\n")), []);
+  const cut = new Table("a,b\n1,2\n3,0.00");
+  assert.deepEqual(fields(cut), [["1", "2"]]);
+  assert.equal(cut.cut, true);
+  assert.equal(new Table('a\n"1').cut, true);
+});
+
+test("columns may have any name, and may be missing", () => {
+  const table = new Table("__proto__,constructor\nx,y\n");
+  assert.equal(table.rows[0].text("__proto__"), "x");
+  assert.equal(table.rows[0].text("constructor"), "y");
+  assert.equal(table.rows[0].text("toString"), "");
+  assert.ok(Number.isNaN(table.rows[0].number("missing")));
+});
+
+test("numbers as C++ writes them", () => {
+  assert.equal(number_of("inf"), Infinity);
+  assert.equal(number_of("-inf"), -Infinity);
+  assert.ok(Number.isNaN(number_of("nan")));
+  assert.ok(Number.isNaN(number_of("")));
+  assert.equal(number_of("4.3e-16"), 4.3e-16);
+  assert.equal(time_text(NaN), "–");
+  assert.equal(time_text(0.00123), "1.23 ms");
+});
