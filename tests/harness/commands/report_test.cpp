@@ -53,7 +53,9 @@ TEST_F(Report, SaysWhatIsMissing) {
   expect_refusal("report " + results + out + " --page nowhere.html", "./touchstone report", folder);
   expect_refusal("report " + results + "-none" + page + out, "expected a folder of results",
                  folder);
-  expect_refusal("report " + folder.path().string() + page + out, "no CSV file", folder);
+  std::filesystem::create_directory(folder.path() / "empty");
+  expect_refusal("report " + (folder.path() / "empty").string() + page + out, "no CSV file",
+                 folder);
   expect_refusal("report --scene nowhere.toml" + page + out, "nowhere.toml", folder);
   expect_refusal("report " + results + " --narrow none-such" + page + out, "none-such", folder);
   expect_refusal("report " + results + page + " --out /dev/full", "No space left", folder);
