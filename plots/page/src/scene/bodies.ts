@@ -1,38 +1,41 @@
 // The bodies of a scene: those of one shape are one instanced mesh. Their states colour them, and give
 // them a pattern for readers who do not see the colours.
 import * as THREE from "three";
-import type { BodyView, Recording, ShapeView } from "../bundle";
+import type { BodyView, Recording, ShapeView, Triple } from "../bundle";
 import type { Recorded } from "./recorded";
 import { even, surface_of, type Fineness } from "./surfaces";
 
-// Red and plain, green and striped, blue and dotted.
-const state_pattern = `
-#include <color_fragment>
-vec3 of_state = state_of_body < 0.5 ? vec3(0.62, 0.09, 0.07) : state_of_body < 1.5 ? vec3(0.06, 0.42, 0.12) : vec3(0.06, 0.16, 0.72);
-vec2 pixel = gl_FragCoord.xy;
-if (state_of_body > 1.5) {
-  if (length(mod(pixel, 7.0) - 3.5) < 1.7) of_state = vec3(0.75, 0.82, 1.0);
-} else if (state_of_body > 0.5) {
-  if (mod(pixel.x + pixel.y, 9.0) < 2.5) of_state = vec3(0.6, 0.85, 0.6);
-}
-diffuseColor.rgb = of_state;
-`;
+const vertex_shader = `
+attribute float state;
+varying float state_of_body;
+varying vec3 seen;
+void main() {
+  vec4 at = modelViewMatrix * instanceMatrix * vec4(position, 1.0);
+  state_of_body = state;
+  seen = at.xyz;
+  gl_Position = projectionMatrix * at;
+}`;
 
-function material(): THREE.Material {
-  const made = new THREE.MeshLambertMaterial({ flatShading: true });
-  made.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader
-      .replace(
-        "#include <common>",
-        "#include <common>\nattribute float state;\nvarying float state_of_body;",
-      )
-      .replace("#include <begin_vertex>", "#include <begin_vertex>\nstate_of_body = state;");
-    shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", "#include <common>\nvarying float state_of_body;")
-      .replace("#include <color_fragment>", state_pattern);
-  };
-  return made;
-}
+// Red and plain, green and striped, blue and dotted; lit from beside the eye. It does no more than that,
+// since without a graphics card the processor runs it for every point of the picture.
+const fragment_shader = `
+varying float state_of_body;
+varying vec3 seen;
+void main() {
+  vec3 colour = vec3(0.8, 0.28, 0.24);
+  vec2 pixel = gl_FragCoord.xy;
+  if (state_of_body > 1.5) {
+    vec2 off = mod(pixel, 7.0) - 3.5;
+    colour = dot(off, off) < 2.9 ? vec3(0.52, 0.64, 0.96) : vec3(0.26, 0.42, 0.86);
+  } else if (state_of_body > 0.5) {
+    colour = mod(pixel.x + pixel.y, 9.0) < 2.5 ? vec3(0.6, 0.83, 0.62) : vec3(0.24, 0.64, 0.34);
+  }
+  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
+  gl_FragColor = vec4(colour * (0.66 + 0.34 * dot(normal, vec3(0.27, 0.53, 0.8))), 1.0);
+}`;
+
+const material = (): THREE.Material =>
+  new THREE.ShaderMaterial({ vertexShader: vertex_shader, fragmentShader: fragment_shader });
 
 // The more bodies there are, the smaller each is drawn, and the fewer triangles it needs.
 function fineness_for(bodies: number): Fineness {
@@ -47,12 +50,25 @@ function geometry_of(shape: ShapeView, reach: number, fineness: Fineness): THREE
     points.map((point) => new THREE.Vector3(...point)),
   );
   geometry.setIndex(triangles.flat());
-  geometry.computeVertexNormals();
   return geometry;
+}
+
+// A shape of unit size, and how far it is stretched along its axes. Bodies of different sizes are one
+// mesh, where their shapes allow that: a scene may have as many sizes as bodies.
+export function unit_shape(shape: ShapeView): { shape: ShapeView; size: Triple } {
+  const { type, half_extents, radii, radius = 0, half_length = 0 } = shape;
+  if (type === "box" && half_extents) return { shape: { type, half_extents: [1, 1, 1] }, size: half_extents };
+  if (type === "ellipsoid" && radii) return { shape: { type, radii: [1, 1, 1] }, size: radii };
+  if (type === "sphere") return { shape: { type, radius: 1 }, size: [radius, radius, radius] };
+  if (type === "cylinder" || type === "cone") {
+    return { shape: { type, radius: 1, half_length: 1 }, size: [radius, radius, half_length] };
+  }
+  return { shape, size: [1, 1, 1] };
 }
 
 interface Group {
   bodies: number[];
+  sizes: Triple[]; // of the bodies
   meshes: THREE.InstancedMesh[]; // one a view
   states: THREE.InstancedBufferAttribute[];
 }
@@ -72,18 +88,32 @@ export class Bodies {
     scene: THREE.Scene,
     reach: number,
   ) {
-    const box: ShapeView = { type: "box", half_extents: [0.5, 0.5, 0.5] };
+    const box: ShapeView = { type: "box", half_extents: [1, 1, 1] };
     const shapes = recording.boxes_only ? [box] : recording.shapes;
-    const of_shape: number[][] = shapes.map(() => []);
+    const units = shapes.map(unit_shape);
+    const of_unit = new Map<string, { shape: ShapeView; bodies: number[]; sizes: Triple[] }>();
     for (let body = 0; body < recorded.bodies; ++body) {
-      of_shape[recording.boxes_only ? 0 : recording.shape_of[body]!]?.push(body);
+      const { shape, size } = units[recording.boxes_only ? 0 : recording.shape_of[body]!]!;
+      const name = JSON.stringify(shape);
+      const group = of_unit.get(name) ?? { shape, bodies: [], sizes: [] };
+      group.bodies.push(body);
+      group.sizes.push(size);
+      of_unit.set(name, group);
     }
-    this.groups = shapes.map((shape, i) => this.group(shape, of_shape[i]!, reach, scene));
+    this.groups = [...of_unit.values()].map(({ shape, bodies, sizes }) =>
+      this.group(shape, bodies, sizes, reach, scene),
+    );
   }
 
-  private group(shape: ShapeView, bodies: number[], reach: number, scene: THREE.Scene): Group {
+  private group(
+    shape: ShapeView,
+    bodies: number[],
+    sizes: Triple[],
+    reach: number,
+    scene: THREE.Scene,
+  ): Group {
     const base = geometry_of(shape, reach, fineness_for(this.recorded.bodies));
-    const group: Group = { bodies, meshes: [], states: [] };
+    const group: Group = { bodies, sizes, meshes: [], states: [] };
     for (const view of [0, 1]) {
       // The views differ in their bodies' states alone, and share all other numbers.
       const geometry = new THREE.BufferGeometry();
@@ -106,9 +136,11 @@ export class Bodies {
   move(frame: number): void {
     const poses = this.recorded.poses(frame),
       boxes = this.recorded.boxes(frame);
-    for (const { bodies, meshes } of this.groups) {
+    for (const { bodies, sizes, meshes } of this.groups) {
       const [mesh] = meshes;
-      bodies.forEach((body, i) => mesh!.setMatrixAt(i, this.matrix_of(body, poses, boxes)));
+      bodies.forEach((body, i) =>
+        mesh!.setMatrixAt(i, this.matrix_of(body, sizes[i]!, poses, boxes)),
+      );
       mesh!.instanceMatrix.needsUpdate = true;
     }
   }
@@ -131,7 +163,12 @@ export class Bodies {
     return group && hit?.instanceId !== undefined ? group.bodies[hit.instanceId]! : -1;
   }
 
-  private matrix_of(body: number, poses: Float32Array, boxes: Float32Array): THREE.Matrix4 {
+  private matrix_of(
+    body: number,
+    size: Triple,
+    poses: Float32Array,
+    boxes: Float32Array,
+  ): THREE.Matrix4 {
     const box = 6 * body;
     if (!(boxes[box]! <= boxes[box + 3]!)) return this.nowhere;
     if (this.recording.boxes_only) {
@@ -145,11 +182,15 @@ export class Bodies {
         boxes[box + 4]! - boxes[box + 1]!,
         boxes[box + 5]! - boxes[box + 2]!,
       );
-      return this.matrix.compose(this.at.multiplyScalar(0.5), this.turn.identity(), this.size);
+      return this.matrix.compose(
+        this.at.multiplyScalar(0.5),
+        this.turn.identity(),
+        this.size.multiplyScalar(0.5),
+      );
     }
     const pose = 7 * body;
     this.at.fromArray(poses, pose);
     this.turn.set(poses[pose + 4]!, poses[pose + 5]!, poses[pose + 6]!, poses[pose + 3]!);
-    return this.matrix.compose(this.at, this.turn, this.size.set(1, 1, 1));
+    return this.matrix.compose(this.at, this.turn, this.size.set(...size));
   }
 }

@@ -73,11 +73,16 @@ export function player(recording: Recording): HTMLElement {
   const clock = new Clock(
     recording.time_step,
     (frames) => go_to(shown.frame + frames),
-    (frames_a_second) => (rate.textContent = `${frames_a_second.toFixed(0)} frames drawn a second`),
+    (frames_a_second) => {
+      rate.textContent = `${frames_a_second.toFixed(0)} frames drawn a second`;
+      const pace = Math.min(60, 1 / recording.time_step);
+      if (frames_a_second < 0.9 * pace) stage.sharpen(0.6);
+    },
     () => stage.element.isConnected,
   );
   const play = button("Play", () => {
     clock.toggle();
+    if (!clock.playing) stage.sharpen(1);
     play.textContent = clock.playing ? "Pause" : "Play";
     tell();
   });
