@@ -6,11 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
+#include "harness/base/shell_word.h"
 #include "harness/commands/commands.h"
 
 namespace touchstone::commands {
@@ -61,18 +61,6 @@ CLI::Option* add_option(CLI::App& app, const std::string& name, const std::strin
 
 std::string join(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ","));
-}
-
-// Quotes a word for the shell.
-std::string quoted(const std::string& word) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
 }
 
 // Adds a check that shows `what` behind the option's type in --help.
@@ -266,7 +254,7 @@ std::string Arguments::shell_line(std::string_view left_out) const {
   for (const CLI::Option* option : app_->get_options()) {
     if (option->count() == 0 || option->get_name() == left_out) continue;
     if (!option->get_positional()) line += " " + option->get_name();
-    if (option->get_expected_max() > 0) line += " " + quoted(join(option->results()));
+    if (option->get_expected_max() > 0) line += " " + base::shell_word(join(option->results()));
   }
   return line;
 }

@@ -1,14 +1,15 @@
 // touchstone report: makes a page of results and scenes that opens in a browser.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "harness/base/error.h"
@@ -77,7 +78,25 @@ report::RecordingRequest recording_request(const ReportOptions& options) {
   return request;
 }
 
-// Returns the request for a scene, or for each scene of a campaign, once.
+// Adds a request for each scene of the group that is not among them yet.
+void add_scenes(const campaign::CampaignGroup& group, report::RecordingRequest request,
+                std::vector<report::RecordingRequest>& all) {
+  for (const fs::path& scene : group.scenes) {
+    for (const std::int64_t count : group.counts) {
+      for (const std::int64_t seed : group.seeds) {
+        for (const std::optional<double> gap : group.gaps) {
+          request.scene = scene;
+          request.overrides = {.count = count, .seed = seed, .frames = group.frames, .gap = gap};
+          if (std::ranges::find(all, request.key(), &report::RecordingRequest::key) == all.end()) {
+            all.push_back(request);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Returns the request for a scene, or for each scene of a campaign.
 std::vector<report::RecordingRequest> recordings(const std::string& file,
                                                  report::RecordingRequest request) {
   request.scene = file;
@@ -88,18 +107,8 @@ std::vector<report::RecordingRequest> recordings(const std::string& file,
                            "--count nor --seed with it");
   }
   std::vector<report::RecordingRequest> all;
-  std::set<std::tuple<fs::path, std::int64_t, std::int64_t>> seen;
   for (const campaign::CampaignGroup& group : campaign::read_campaign(file).groups) {
-    for (const fs::path& scene : group.scenes) {
-      for (const std::int64_t count : group.counts) {
-        for (const std::int64_t seed : group.seeds) {
-          if (!seen.insert({scene, count, seed}).second) continue;
-          request.scene = scene;
-          request.overrides = {.count = count, .seed = seed, .frames = group.frames};
-          all.push_back(request);
-        }
-      }
-    }
+    add_scenes(group, request, all);
   }
   return all;
 }
@@ -143,12 +152,12 @@ void make_report(const ReportOptions& options) {
       scenes.push_back(report::recording_view(request));
     }
   }
-  report::write_page(options.out, page,
-                     {{"format", 1},
-                      {"made", made()},
-                      {"results", std::move(results)},
-                      {"scenes", std::move(scenes)}});
-  fmt::print("{}: {:.1f} MB\n", options.out, static_cast<double>(fs::file_size(options.out)) / 1e6);
+  const std::size_t bytes = report::write_page(options.out, page,
+                                               {{"format", 1},
+                                                {"made", made()},
+                                                {"results", std::move(results)},
+                                                {"scenes", std::move(scenes)}});
+  fmt::print("{}: {:.1f} MB\n", options.out, static_cast<double>(bytes) / 1e6);
 }
 
 }  // namespace

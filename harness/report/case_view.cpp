@@ -5,6 +5,7 @@
 
 #include "algorithms/oracle/answer.h"
 #include "algorithms/registry.h"
+#include "harness/base/shell_word.h"
 #include "harness/grade/grade.h"
 #include "harness/grade/true_case.h"
 #include "harness/process/isolate.h"
@@ -125,8 +126,9 @@ OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& fol
           {"source", listed.file},
           {"about", listed.about},
           {"line", files::to_json(c)},
-          {"query", fmt::format("./touchstone query '{}' --narrow all --task {} --out answers.csv",
-                                (folder / listed.file).string(), to_string(subject.measure()))},
+          {"query", fmt::format("./touchstone query {} --narrow all --task {} --out answers.csv",
+                                base::shell_word((folder / listed.file).string()),
+                                to_string(subject.measure()))},
           {"a", body_view(c.shape_a, c.pose_a)},
           {"b", body_view(c.shape_b, c.pose_b)},
           {"truth",

@@ -42,8 +42,8 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-void write_page(const std::filesystem::path& out, const std::string& page,
-                const files::OrderedJson& bundle) {
+std::size_t write_page(const std::filesystem::path& out, const std::string& page,
+                       const files::OrderedJson& bundle) {
   const std::size_t place = page.find(place_of_bundle);
   if (place == std::string::npos) {
     throw base::InputError("the built page has no place for its data; build it again");
@@ -54,6 +54,7 @@ void write_page(const std::filesystem::path& out, const std::string& page,
   std::string whole = page;
   whole.replace(place, place_of_bundle.size(), base64(compressed(text)));
   files::write_text(out, whole);
+  return whole.size();
 }
 
 }  // namespace touchstone::report

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <tuple>
 #include <vector>
 
 #include "algorithms/registry.h"
@@ -19,6 +20,11 @@ struct RecordingRequest {
   // The structures of these are shown, if they have one to show.
   std::vector<const BroadPhaseEntry*> broad;
   double time_limit = 5;  // seconds a frame's queries of an algorithm may take
+
+  // Returns what tells one scene from another.
+  auto key() const {
+    return std::tuple(scene, overrides.count, overrides.seed, overrides.frames, overrides.gap);
+  }
 };
 
 // Plays the scene: poses, boxes, the pairs whose boxes overlap (or that the scene lists) with every

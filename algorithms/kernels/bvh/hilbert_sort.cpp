@@ -15,7 +15,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t boxes_of_a_task = 1024;
+constexpr std::size_t boxes_at_once = 1024;
 // Cells of the curve for each body, as a power of two: more lengthen the sort, fewer worsen the
 // order.
 constexpr int cells_a_body_log2 = 1;
@@ -133,9 +133,9 @@ void HilbertSort::make(Executor& executor, std::span<const Aabb> boxes) {
   id_bits_ = bits_of(boxes.size());
   const int wanted = (bits_of(boxes.size()) + cells_a_body_log2 + 2) / 3 * 3;
   const HilbertGrid grid(sample.region.low, sample.region.high, std::min(wanted, 30));
-  for_each_block(executor, boxes.size(), boxes_of_a_task,
+  for_each_block(executor, boxes.size(), boxes_at_once,
                  [&](std::size_t, std::size_t first, std::size_t last) {
-                   std::array<std::uint32_t, boxes_of_a_task> codes;
+                   std::array<std::uint32_t, boxes_at_once> codes;
                    grid.codes(boxes.subspan(first, last - first), codes.data());
                    for (std::size_t i = first; i < last; ++i) {
                      // Empty boxes come last.
@@ -220,7 +220,7 @@ void HilbertSort::gather(Executor& executor, std::span<const Aabb> boxes, AabbSo
     for (; place % group != 0; ++place) arrays.set(place, Aabb::empty(), 0);
     const std::size_t begin = begins_[at];
     const std::size_t members = begins_[at + 1] - begin;
-    for_each_block(executor, members, boxes_of_a_task,
+    for_each_block(executor, members, boxes_at_once,
                    [&](std::size_t, std::size_t first, std::size_t last) {
                      // The boxes are scattered in memory, so they are prefetched.
                      constexpr std::size_t ahead = 24;

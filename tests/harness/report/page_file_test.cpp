@@ -44,8 +44,10 @@ TEST(PageFile, HoldsTheBundleWhateverItsTextIs) {
   bundle["name"] = "</script><script>alert(1)</script><!--BUNDLE-->";
   bundle["bytes"] = "\xff\xfe and é";
   bundle["long"] = std::string(3'000'000, 'x');
-  write_page(folder.path() / "page.html", "<b>before</b><!--BUNDLE--><i>after</i>", bundle);
+  const std::size_t size =
+      write_page(folder.path() / "page.html", "<b>before</b><!--BUNDLE--><i>after</i>", bundle);
   const std::string page = folder.read("page.html");
+  EXPECT_EQ(page.size(), size);
   EXPECT_LT(page.size(), 20'000U);
   EXPECT_TRUE(page.starts_with("<b>before</b>"));
   EXPECT_TRUE(page.ends_with("<i>after</i>"));
