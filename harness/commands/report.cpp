@@ -66,6 +66,16 @@ files::OrderedJson made() {
   return facts;
 }
 
+files::OrderedJson origins() {
+  files::OrderedJson names = files::OrderedJson::object();
+  const auto add = [&](const auto& entries) {
+    for (const auto& entry : entries) names[entry.info.name] = to_string(entry.info.origin);
+  };
+  add(broad_phases());
+  add(narrow_phases());
+  return names;
+}
+
 report::RecordingRequest recording_request(const ReportOptions& options) {
   report::RecordingRequest request;
   request.overrides = options.overrides;
@@ -155,6 +165,7 @@ void make_report(const ReportOptions& options) {
   const std::size_t bytes = report::write_page(options.out, page,
                                                {{"format", 1},
                                                 {"made", made()},
+                                                {"origins", origins()},
                                                 {"results", std::move(results)},
                                                 {"scenes", std::move(scenes)}});
   fmt::print("{}: {:.1f} MB\n", options.out, static_cast<double>(bytes) / 1e6);

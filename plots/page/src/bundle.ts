@@ -3,6 +3,7 @@
 export interface Bundle {
   format: 1;
   made: { version: string; commit: string; tree: string; date: string };
+  origins: Record<string, string>; // of each algorithm: ours, peer or oracle
   results: Results[];
   scenes: Recording[];
 }

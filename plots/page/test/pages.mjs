@@ -57,6 +57,7 @@ export async function fill(built, out, bundle) {
 export const bundle_of = (results, scenes = []) => ({
   format: 1,
   made: { version: "0", commit: "none", tree: "clean", date: "2000-01-01" },
+  origins: { gjk: "ours" },
   results,
   scenes,
 });

@@ -21,7 +21,7 @@ export function ratio_chart(values: Ratio[], folders: string[], baseline: string
     ariaLabel: "ratios in each of the results",
     x: { type: "log", label: `time over that of ${baseline}`, grid: true, tickFormat: number_text },
     y: { label: null, axis: null, domain: folders },
-    fy: { label: null },
+    fy: { label: null, axis: "right" },
     color: {
       domain: folders,
       range: ["var(--ours)", "var(--peer)", "var(--right)", "var(--wrong)", "var(--quiet)"],

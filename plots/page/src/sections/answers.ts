@@ -7,13 +7,13 @@ import type { Row } from "../tables/table";
 const total = (rows: Row[], column: string): number =>
   rows.reduce((sum, row) => sum + (row.number(column) || 0), 0);
 
-export function answers(folder: Folder): string[] {
+export function answers(folder: Folder, origins: Record<string, string>): string[] {
   const lines = [
     ...timed(folder),
     ...fastest(folder.rows("broad_best.csv"), "peer", "Broad phases"),
     ...fastest(folder.rows("narrow_best.csv"), "right_peer", "Narrow phases"),
     ...agreed(folder),
-    ...checked(folder),
+    ...checked(folder, origins),
     ...swept(folder),
     ...soaked(folder),
     ...traded(folder),
@@ -69,14 +69,37 @@ function agreed(folder: Folder): string[] {
   });
 }
 
-function checked(folder: Folder): string[] {
-  const rows = folder.rows("summary.csv");
-  if (rows.length === 0) return [];
-  return [
-    `${count_text(total(rows, "answers"))} answers were graded against exact arithmetic: ` +
-      `${count_text(total(rows, "silent"))} silently wrong, ${count_text(total(rows, "honest"))} failures that were said, ` +
-      `${count_text(total(rows, "crashed"))} crashes.`,
-  ];
+// The three algorithms with the most silent errors.
+function most_silent(rows: Row[]): string {
+  const counts = distinct(rows.map((row) => row.text("algorithm")))
+    .map((algorithm): [string, number] => [
+      algorithm,
+      total(
+        rows.filter((row) => row.text("algorithm") === algorithm),
+        "silent",
+      ),
+    ])
+    .filter(([, count]) => count > 0)
+    .sort(([, a], [, b]) => b - a);
+  if (counts.length === 0) return "";
+  const named = counts.slice(0, 3).map(([name, count]) => `${name} ${count_text(count)}`);
+  return ` (${named.join(", ")}${counts.length > 3 ? ", ..." : ""})`;
+}
+
+function checked(folder: Folder, origins: Record<string, string>): string[] {
+  const subjects = { ours: "ours", peer: "the libraries" };
+  return Object.entries(subjects).flatMap(([origin, subject]) => {
+    const rows = folder
+      .rows("summary.csv")
+      .filter((row) => origins[row.text("algorithm")] === origin);
+    if (rows.length === 0) return [];
+    return [
+      `${count_text(total(rows, "answers"))} answers of ${subject} were graded against exact arithmetic: ` +
+        `${count_text(total(rows, "silent"))} are on the wrong side of contact and do not say so${most_silent(rows)}, ` +
+        `${count_text(total(rows, "honest"))} are failures that were said, ` +
+        `${count_text(total(rows, "crashed"))} are crashes.`,
+    ];
+  });
 }
 
 function swept(folder: Folder): string[] {

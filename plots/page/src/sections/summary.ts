@@ -14,7 +14,7 @@ export function summary(bundle: Bundle, folders: Folder[]): HTMLElement {
         `${folder.anchor}-summary`,
         folder.name,
         make("p", {}, measured(folder)),
-        make("ul", {}, ...answers(folder).map((text) => make("li", {}, text))),
+        make("ul", {}, ...answers(folder, bundle.origins).map((text) => make("li", {}, text))),
         ...folder.results.notes.map((note) => make("p", { class: "wrong" }, note)),
         hashes(folder),
         make("details", {}, make("summary", {}, "Machine and build"), folder.grid("machine.csv")),
