@@ -10,6 +10,7 @@
 #include "harness/grade/true_case.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
+#include "harness/record/build_info.h"
 #include "harness/report/body_view.h"
 
 namespace touchstone::report {
@@ -118,6 +119,13 @@ void ask(const NarrowPhaseEntry& entry, Precision scalar, double time_limit,
   }
 }
 
+// Returns the path from the project's folder, where commands are given, if it is below that.
+std::string from_project(const std::filesystem::path& file) {
+  const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
+  const std::filesystem::path inside = whole.lexically_relative(record::source_folder);
+  return inside.empty() || inside.begin()->string() == ".." ? whole.string() : inside.string();
+}
+
 OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& folder,
                       Subject& subject) {
   const files::Case& c = listed.c;
@@ -127,7 +135,7 @@ OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& fol
           {"about", listed.about},
           {"line", files::to_json(c)},
           {"query", fmt::format("./touchstone query {} --narrow all --task {} --out answers.csv",
-                                base::shell_word((folder / listed.file).string()),
+                                base::shell_word(from_project(folder / listed.file)),
                                 to_string(subject.measure()))},
           {"a", body_view(c.shape_a, c.pose_a)},
           {"b", body_view(c.shape_b, c.pose_b)},

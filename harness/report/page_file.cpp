@@ -1,6 +1,7 @@
 // Compresses the bundle and writes the page.
 #include "harness/report/page_file.h"
 
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
@@ -14,6 +15,9 @@
 
 namespace touchstone::report {
 namespace {
+
+// The longest text that Chromium holds is a little longer.
+constexpr std::size_t most_characters = 500'000'000;
 
 constexpr std::string_view place_of_bundle = "<!--BUNDLE-->";
 
@@ -51,6 +55,14 @@ std::size_t write_page(const std::filesystem::path& out, const std::string& page
   // Names may have any bytes; those that are not UTF-8 are replaced.
   const std::string text =
       bundle.dump(-1, ' ', false, files::OrderedJson::error_handler_t::replace);
+  if (text.size() > most_characters) {
+    throw base::InputError(
+        fmt::format("{}: its data would be {:.0f} MB, and browsers hold {:.0f}; expected fewer "
+                    "--frames, a smaller "
+                    "--count or fewer folders",
+                    out.string(), static_cast<double>(text.size()) / 1e6,
+                    static_cast<double>(most_characters) / 1e6));
+  }
   std::string whole = page;
   whole.replace(place, place_of_bundle.size(), base64(compressed(text)));
   files::write_text(out, whole);

@@ -1,8 +1,6 @@
 // Plays a scene and asks algorithms about its pairs.
 #include "harness/report/recording_view.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
@@ -73,9 +71,12 @@ OrderedJson pairs_view(const ScenePairs& pairs, const RecordingRequest& request)
 
 OrderedJson recording_view(const RecordingRequest& request) {
   scene::Scene scene = scene::load_scene(request.scene, request.overrides);
-  const int all_frames = scene.frames;
-  scene.frames = std::min(scene.frames, request.most_frames);
+  const std::string hash = scene::scene_hash(scene);  // of all frames
+  const int all_frames =
+      scene.recording.empty() ? scene.frames : static_cast<int>(scene.recording.size());
+  scene.frames = std::min(all_frames, request.most_frames);
   const bool boxes_only = !scene.recording.empty();
+  if (boxes_only) scene.recording.resize(static_cast<std::size_t>(scene.frames));
   const measure::BlockInput input(scene, scene::BoxKind::tight, !boxes_only);
   std::size_t bodies = 0;
   for (const measure::BlockFrame& frame : input.frames) {
@@ -89,7 +90,7 @@ OrderedJson recording_view(const RecordingRequest& request) {
   }
   return {{"name", scene.name},
           {"source", request.scene.string()},
-          {"hash", scene::scene_hash(scene)},
+          {"hash", hash},
           {"time_step", scene.motion.time_step},
           {"frames", input.frames.size()},
           {"frames_of_scene", all_frames},

@@ -25,6 +25,9 @@ constexpr std::uintmax_t most_bytes = 256u << 20;
 // These files say how a job went on, and nothing about results.
 constexpr std::array<std::string_view, 2> of_the_job = {"progress.csv", "jobs.csv"};
 
+// These folders hold pairs and frames that somebody got wrong.
+constexpr std::array<std::string_view, 2> of_cases = {"reproductions", "failures"};
+
 std::string read_all(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw base::InputError(file.string() + ": cannot be read");
@@ -64,7 +67,7 @@ files::OrderedJson csv_files(const fs::path& folder, files::OrderedJson& notes) 
 // Returns the case files below the folder, relative to it, in the order of their names.
 std::vector<std::string> case_files(const fs::path& folder) {
   std::vector<std::string> files;
-  for (const char* below : {"reproductions", "failures"}) {
+  for (const std::string_view below : of_cases) {
     if (!fs::is_directory(folder / below)) continue;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder / below)) {
       if (entry.path().extension() == ".jsonl") {
@@ -107,9 +110,13 @@ std::vector<fs::path> folders_with_tables(const fs::path& folder) {
   }
   std::vector<fs::path> folders;
   if (!files_ending(folder, ".csv").empty()) return {folder};
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_directory() && !files_ending(entry.path(), ".csv").empty()) {
-      folders.push_back(entry.path());
+  for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
+    if (!at->is_directory()) continue;
+    const std::string name = at->path().filename().string();
+    if (std::ranges::find(of_cases, name) != of_cases.end()) {
+      at.disable_recursion_pending();
+    } else if (!files_ending(at->path(), ".csv").empty()) {
+      folders.push_back(at->path());
     }
   }
   if (folders.empty()) {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <span>
 
+#include "harness/grade/grade.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::report {
@@ -74,13 +74,15 @@ std::vector<Number> ScenePairs::ask(const NarrowPhaseEntry& entry, Task task, do
 std::vector<std::uint8_t> ScenePairs::verdicts(const NarrowPhaseEntry& entry,
                                                double time_limit) const {
   constexpr auto unknown = static_cast<std::uint8_t>(Answer::unknown);
-  return ask(entry, Task::intersect, time_limit, unknown,
-             [](const Outcome& outcome) { return static_cast<std::uint8_t>(outcome.answer); });
+  return ask(entry, Task::intersect, time_limit, unknown, [](const Outcome& outcome) {
+    return grade::stands_by(outcome) ? static_cast<std::uint8_t>(outcome.answer) : unknown;
+  });
 }
 
 std::vector<double> ScenePairs::distances(const NarrowPhaseEntry& entry, double time_limit) const {
   constexpr double none = Outcome::none;
   const auto of = [](const Outcome& outcome) {
+    if (!grade::stands_by(outcome)) return none;
     return outcome.answer == Answer::touching ? 0.0 : outcome.distance;
   };
   std::vector<double> found = ask(entry, Task::distance, time_limit, none, of);

@@ -26,9 +26,10 @@ class ScenePairs {
   // The two functions below ask in a child process. A frame that crashes, or takes more than
   // `time_limit` seconds, is not answered.
 
-  // Returns a verdict for each pair: 0 apart, 1 touching, 2 overlapping, 3 unknown or not asked.
+  // Returns a verdict for each pair: 0 apart, 1 touching, 2 overlapping, 3 unknown, given up or not asked.
   std::vector<std::uint8_t> verdicts(const NarrowPhaseEntry& entry, double time_limit) const;
-  // Returns the signed distance of each pair in metres; NaN if it is unknown.
+  // Returns the signed distance of each pair in metres; NaN if it is unknown or
+  // only a bound.
   std::vector<double> distances(const NarrowPhaseEntry& entry, double time_limit) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -12,7 +13,9 @@
 
 namespace touchstone::commands {
 
-void make_page(const std::filesystem::path& folder) {
+namespace {
+
+void run_report(const std::filesystem::path& folder) {
   const std::filesystem::path log = folder / "report.txt";
   const std::string page = (folder / "report.html").string();
   const std::filesystem::path program =
@@ -27,6 +30,16 @@ void make_page(const std::filesystem::path& folder) {
     fmt::print("{}: the page\n", page);
   }
   std::filesystem::remove(log);
+}
+
+}  // namespace
+
+void make_page(const std::filesystem::path& folder) {
+  try {
+    run_report(folder);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "touchstone: there is no page: {}\n", error.what());
+  }
 }
 
 }  // namespace touchstone::commands

@@ -46,8 +46,10 @@ async function on_page(work, hash = "", options = {}) {
   await page.close();
 }
 
-const column = (page, data_file, name) =>
-  page.evaluate(
+// A table is filled after the click that opens its part.
+const column = async (page, data_file, name) => {
+  await page.waitForSelector(`table[data-file="${data_file}"]`, { state: "attached" });
+  return page.evaluate(
     ([data_file, name]) => {
       const table = document.querySelector(`table[data-file="${data_file}"]`);
       const place = [...table.tHead.rows[0].cells].findIndex(
@@ -57,6 +59,7 @@ const column = (page, data_file, name) =>
     },
     [data_file, name],
   );
+};
 
 test("algorithms are switched, all and none too", () =>
   on_page(async (page) => {

@@ -101,6 +101,8 @@ TEST(RecordingView, StopsAfterTheMostFrames) {
   EXPECT_EQ(view["frames"], 2);
   EXPECT_EQ(view["frames_of_scene"], 4);
   EXPECT_EQ(view["pairs"].size(), 2U);
+  // The hash is that of the whole scene, as in the rows that are measured on it.
+  EXPECT_EQ(view["hash"], scene::scene_hash(scene::load_scene(request.scene)));
 }
 
 TEST(RecordingView, HasBodiesThatComeAndGo) {
@@ -128,7 +130,7 @@ TEST(RecordingView, OfBoxesAloneHasNoVerdicts) {
   const std::vector<Aabb> second = {first[0], {{5, 5, 5}, {6, 6, 6}}};
   scene::write_aabbs({"boxes", "test", {{0, 0, 0}, {6, 6, 6}}, {first, second}},
                      folder.path() / "boxes.aabbs");
-  const RecordingRequest request = request_for(folder.path() / "boxes.aabbs");
+  RecordingRequest request = request_for(folder.path() / "boxes.aabbs");
   const OrderedJson view = recording_view(request);
   EXPECT_TRUE(view["boxes_only"]);
   EXPECT_EQ(view["bodies"], 2);
@@ -136,6 +138,11 @@ TEST(RecordingView, OfBoxesAloneHasNoVerdicts) {
   EXPECT_EQ(view["poses"], "");
   EXPECT_EQ(numbers_of<std::uint32_t>(std::string(view["pairs"][0]["bodies"])).size(), 2U);
   EXPECT_EQ(std::string(view["pairs"][1]["bodies"]), "");
+  request.most_frames = 1;
+  const OrderedJson first_alone = recording_view(request);
+  EXPECT_EQ(first_alone["frames"], 1);
+  EXPECT_EQ(first_alone["frames_of_scene"], 2);
+  EXPECT_EQ(first_alone["pairs"].size(), 1U);
 }
 
 }  // namespace

@@ -63,6 +63,8 @@ TEST_F(Results, AreInTheFolderOrBelowIt) {
   EXPECT_THROW(folders_with_tables(folder.path() / "none"), base::InputError);
   fs::create_directories(folder.path() / "b/grid");
   fs::create_directories(folder.path() / "a/figures");
+  fs::create_directories(folder.path() / "b/reproductions/block-1");
+  folder.write("b/reproductions/block-1/boxes.csv", "a\n");
   folder.write("b/grid/points.csv", "a\n");
   folder.write("a/front.csv", "a\n");
   EXPECT_EQ(folders_with_tables(folder.path()),

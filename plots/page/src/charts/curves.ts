@@ -112,7 +112,8 @@ function chart_of(points: Point[], all_names: string[], title: string): Element 
 export function time_against_count(folder: Folder, pick: (row: Row) => void): HTMLElement | null {
   const usable = folder
     .rows("times.csv")
-    .filter((row) => row.number("seconds") > 0 && row.number("bodies") > 0);
+    .filter((row) => row.number("seconds") > 0 && Number.isFinite(row.number("seconds")))
+    .filter((row) => row.number("bodies") > 0);
   // A scene's hash differs with its number of bodies.
   const beside_count = ["bodies", "scene_hash"];
   const sets = [...grouped(usable, (row) => set_key(row, beside_count)).values()].filter(

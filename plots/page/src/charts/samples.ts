@@ -12,11 +12,23 @@ interface Sample {
   noise: string;
 }
 
+// Tables give numbers in a label six digits, and write them as C does.
+const short = (text: string): string => (text === "" ? "" : Number(text).toPrecision(6));
+const comparable = (label: string): string =>
+  label.replace(/ (\d[^ ]*)/g, (_, number: string) => ` ${short(number)}`);
+
 // The label that the tables give a row of raw.csv.
 function label_of(raw: Row): string {
   const narrow = raw.text("narrow");
   if (!narrow) return raw.text("broad");
-  return [narrow, raw.text("scalar"), raw.text("warm") === "1" ? "warm" : ""]
+  const gap = short(raw.text("duality_gap"));
+  return [
+    narrow,
+    raw.text("scalar"),
+    short(raw.text("tolerance")),
+    gap && `gap ${gap}`,
+    raw.text("warm") === "1" ? "warm" : "",
+  ]
     .filter(Boolean)
     .join(" ");
 }
@@ -39,7 +51,7 @@ function is_in_set(raw: Row, cell: Row): boolean {
 }
 
 function samples_in(folder: Folder, cell: Row): Sample[] {
-  const algorithm = cell.text("algorithm");
+  const algorithm = comparable(cell.text("algorithm"));
   const samples = new Map<string, Sample>();
   for (const row of folder.rows("raw.csv")) {
     if (row.text("kind") !== "sample" || label_of(row) !== algorithm || !is_in_set(row, cell))

@@ -46,11 +46,9 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
   const drawing = new PairDrawing(pair);
   const group = new THREE.Group();
   stage.scene.add(group);
-  const first_wrong = Math.max(
-    0,
-    pair.answers.findIndex((each) => each.wrong),
-  );
-  let chosen = pair.answers.slice(first_wrong, first_wrong + 1);
+  // Nobody is chosen where no answer is on the wrong side of contact.
+  const first_wrong = pair.answers.findIndex((each) => each.wrong);
+  let chosen = first_wrong < 0 ? [] : pair.answers.slice(first_wrong, first_wrong + 1);
   const zoom = power_slider("Enlarged", 7, () => draw());
   const stretch = power_slider("Stretched along the normal", 15, () => draw());
 
@@ -96,7 +94,7 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
         set(0, 0);
         look(0.15);
       }),
-      choice("What it says", names, pair.answers.length > 0 ? first_wrong + 2 : 0, (place) => {
+      choice("What it says", names, first_wrong < 0 ? 0 : first_wrong + 2, (place) => {
         chosen =
           place === 0 ? [] : place === 1 ? pair.answers : pair.answers.slice(place - 2, place - 1);
         draw();

@@ -88,6 +88,7 @@ function ratios(shared: Measured[][], folders: string[]): HTMLElement {
 
 // Whether two intervals have no number in common. Unknown where one is missing.
 function are_apart(rows: Row[]): string {
+  if (rows.length < 2) return "";
   const low = Math.max(...rows.map((row) => row.number("ratio_low")));
   const high = Math.min(...rows.map((row) => row.number("ratio_high")));
   if (Number.isNaN(low) || Number.isNaN(high)) return "";

@@ -11,7 +11,7 @@ export function summary(bundle: Bundle, folders: Folder[]): HTMLElement {
     "Summary",
     ...folders.map((folder) =>
       part(
-        `${folder.anchor}-summary`,
+        `${folder.anchor}-overview`,
         folder.name,
         make("p", {}, measured(folder)),
         make("ul", {}, ...answers(folder, bundle.origins).map((text) => make("li", {}, text))),
