@@ -155,10 +155,12 @@ void make_report(const ReportOptions& options) {
   const report::RecordingRequest recording = recording_request(options);
   files::OrderedJson results = files::OrderedJson::array(), scenes = files::OrderedJson::array();
   for (const report::ResultsRequest& request : results_requests(options)) {
+    fmt::print(stderr, "{}\n", request.folder.string());
     results.push_back(report::results_view(request));
   }
   for (const std::string& scene : options.scenes) {
     for (const report::RecordingRequest& request : recordings(scene, recording)) {
+      fmt::print(stderr, "{}\n", request.scene.string());
       scenes.push_back(report::recording_view(request));
     }
   }

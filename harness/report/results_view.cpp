@@ -3,16 +3,22 @@
 
 #include <fmt/format.h>
 
+#include <stdlib.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "harness/base/error.h"
 #include "harness/report/case_view.h"
+#include "harness/stats/samples.h"
+#include "harness/stats/tables/tables.h"
 
 namespace touchstone::report {
 namespace {
@@ -62,6 +68,24 @@ files::OrderedJson csv_files(const fs::path& folder, files::OrderedJson& notes) 
                                 file.filename().string()));
   }
   return shown;
+}
+
+// A run leaves its rows alone; its tables are those that `tables` would write into the folder.
+void add_tables(const fs::path& folder, files::OrderedJson& shown, files::OrderedJson& notes) {
+  if (!shown.contains("raw.csv") || shown.contains("times.csv")) return;
+  std::string name = (fs::temp_directory_path() / "touchstone-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw base::InputError(name + ": cannot be made");
+  const std::shared_ptr<void> removed(nullptr, [&](void*) {
+    std::error_code ignored;
+    fs::remove_all(name, ignored);
+  });
+  try {
+    stats::write_tables(stats::make_tables(stats::read_results(folder), stats::Noise::left_out), 0,
+                        name);
+    shown.update(csv_files(name, notes));
+  } catch (const base::InputError& error) {
+    notes.push_back(error.what());  // a run that was stopped has half a row, or none
+  }
 }
 
 // Returns the case files below the folder, relative to it, in the order of their names.
@@ -131,6 +155,7 @@ std::vector<fs::path> folders_with_tables(const fs::path& folder) {
 files::OrderedJson results_view(const ResultsRequest& request) {
   files::OrderedJson notes = files::OrderedJson::array();
   files::OrderedJson shown = csv_files(request.folder, notes);
+  add_tables(request.folder, shown, notes);
   const std::vector<ListedCase> cases = cases_of(request, notes);
   return {{"name", request.name},
           {"folder", request.folder.string()},

@@ -58,16 +58,17 @@ std::vector<Number> ScenePairs::ask(const NarrowPhaseEntry& entry, Task task, do
   if (input_->shapes.empty()) return std::vector<Number>(all(), lost);
   NarrowPhaseSettings settings;
   if (!offers(entry, settings.scalar)) settings.scalar = Precision::float32;
-  process::isolate(frames(), {.item_seconds = time_limit}, [&]() -> process::ItemWork {
-    const std::shared_ptr<NarrowPhase> narrow = entry.make(settings);
-    narrow->bind(input_->shapes);
-    return [&, narrow](std::size_t frame) {
-      const std::vector<Outcome> outcomes = solve(*narrow, entry, task, frame);
-      for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        numbers[start(frame) + i] = take(outcomes[i]);
-      }
-    };
-  });
+  process::isolate(frames(), {.item_seconds = time_limit, .failures = 3},
+                   [&]() -> process::ItemWork {
+                     const std::shared_ptr<NarrowPhase> narrow = entry.make(settings);
+                     narrow->bind(input_->shapes);
+                     return [&, narrow](std::size_t frame) {
+                       const std::vector<Outcome> outcomes = solve(*narrow, entry, task, frame);
+                       for (std::size_t i = 0; i < outcomes.size(); ++i) {
+                         numbers[start(frame) + i] = take(outcomes[i]);
+                       }
+                     };
+                   });
   return {numbers.span().begin(), numbers.span().end()};
 }
 

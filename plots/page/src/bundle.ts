@@ -52,8 +52,10 @@ export interface AnswerView {
   normal: Triple | null; // from a to b
   witness_a: Triple | null;
   witness_b: Triple | null;
-  wrong: boolean; // for the pair in the algorithm's own numbers
-  rounded: boolean; // right for these, wrong for the pair as it is given
+  // right, honest (no answer, or one that is not stood by), silent, crashed, hung, approximate (wrong, as
+  // it is designed), or rounded: right for the pair in the algorithm's own numbers alone.
+  grade: string;
+  why: string; // in words, unless it is right
 }
 
 // A pair of bodies with what is true of it. The proof's parts that do not apply are null.

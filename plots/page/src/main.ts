@@ -1,7 +1,7 @@
 // Builds the page from the bundle that is in it.
 import { show_address } from "./base/anchors";
 import { make } from "./base/dom";
-import { read_bundle, type Results } from "./bundle";
+import { read_bundle } from "./bundle";
 import { playback } from "./scene/playback";
 import { compare } from "./sections/compare";
 import { files } from "./sections/files";
@@ -10,12 +10,6 @@ import { summary } from "./sections/summary";
 import { trade } from "./sections/trade";
 import { verdicts } from "./sections/verdicts";
 import { Folder } from "./tables/folder";
-
-// Folders of the same name are told apart by their paths.
-function folder_of(results: Results, _: number, all: Results[]): Folder {
-  const alone = all.filter((each) => each.name === results.name).length === 1;
-  return new Folder(results, alone ? results.name : results.folder);
-}
 
 function contents(sections: HTMLElement[]): HTMLElement {
   const links = sections.map((each) => {
@@ -27,7 +21,7 @@ function contents(sections: HTMLElement[]): HTMLElement {
 
 async function build(page: HTMLElement): Promise<void> {
   const bundle = await read_bundle(document.getElementById("bundle")!);
-  const folders = bundle.results.map(folder_of);
+  const folders = bundle.results.map((results) => new Folder(results));
   const names = [
     ...folders.map((folder) => folder.name),
     ...bundle.scenes.map((scene) => scene.name),

@@ -51,7 +51,8 @@ export const pair = {
       normal: [1, 0, 0],
       witness_a: [1, 0, 0],
       witness_b: [1, 0, 0],
-      wrong: true,
+      grade: "silent",
+      why: "called overlapping",
     },
   ],
 };

@@ -153,7 +153,7 @@ test("a scene plays, steps, and shows where two algorithms differ", () =>
   on_page(async (page) => {
     const scene = page.locator("#made-up-playback");
     await scene.getByText("Open the scene").click();
-    const frame = () => scene.locator("output.frame").textContent();
+    const frame = () => scene.locator("span.frame").textContent();
     assert.match(await frame(), /^frame 0 /);
     await scene.getByLabel("one frame on").click();
     assert.match(await frame(), /^frame 1 /);
@@ -162,7 +162,7 @@ test("a scene plays, steps, and shows where two algorithms differ", () =>
     assert.match(await frame(), /^frame 9 /);
     await scene.getByText("Play", { exact: true }).click();
     await page.waitForFunction(
-      () => !/^frame 9 /.test(document.querySelector("output.frame").textContent),
+      () => !/^frame 9 /.test(document.querySelector("span.frame").textContent),
     );
     await scene.getByText("Pause", { exact: true }).click();
     await scene.getByLabel("side by side").check();

@@ -102,3 +102,15 @@ export function switches(
     ...boxes.map((box) => box.element),
   );
 }
+
+// A chooser and the chart of what is chosen, the first to begin with.
+export function chosen_chart(
+  label: string,
+  options: string[],
+  chart: (place: number) => Element,
+): HTMLElement[] {
+  const figure = make("figure", { class: "scroll" });
+  const show = (place: number): void => figure.replaceChildren(chart(place));
+  show(0);
+  return [controls(choice(label, options, 0, show)), figure];
+}

@@ -1,7 +1,7 @@
 // What a frame's time is made of: building or updating, and finding pairs.
 import * as Plot from "@observablehq/plot";
-import { choice, controls } from "../base/controls";
-import { make, quiet } from "../base/dom";
+import { chosen_chart } from "../base/controls";
+import { quiet } from "../base/dom";
 import { time_text } from "../base/numbers";
 import { part } from "../base/section";
 import type { Folder } from "../tables/folder";
@@ -76,21 +76,14 @@ export function phases(folder: Folder): HTMLElement | null {
     .filter((row) => phase_names.some((name) => row.number(name) > 0));
   if (rows.length === 0) return null;
   const sets = [...grouped(rows, (row) => set_key(row)).values()];
-  const figure = make("figure", { class: "scroll" });
-  const show = (place: number): void => figure.replaceChildren(chart_of(sets[place]!));
-  show(0);
   return part(
     `${folder.anchor}-phases`,
     "Phases of a frame",
     quiet("Medians of the phases. A structure that is updated is built once, which is not drawn."),
-    controls(
-      choice(
-        "Set",
-        sets.map((set) => set_text(set[0]!)),
-        0,
-        show,
-      ),
+    ...chosen_chart(
+      "Set",
+      sets.map((set) => set_text(set[0]!)),
+      (place) => chart_of(sets[place]!),
     ),
-    figure,
   );
 }

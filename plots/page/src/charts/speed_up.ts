@@ -1,7 +1,7 @@
 // Speed-up with threads.
 import * as Plot from "@observablehq/plot";
-import { choice, controls } from "../base/controls";
-import { make, quiet } from "../base/dom";
+import { chosen_chart } from "../base/controls";
+import { quiet } from "../base/dom";
 import { interval_text, number_text } from "../base/numbers";
 import { part } from "../base/section";
 import type { Folder } from "../tables/folder";
@@ -55,22 +55,15 @@ export function speed_up(folder: Folder): HTMLElement | null {
   const sets = [
     ...grouped(folder.rows("speed_ups.csv"), (row) => set_key(row, ["threads"])).values(),
   ];
-  const figure = make("figure", { class: "scroll" });
-  const show = (place: number): void => figure.replaceChildren(chart_of(sets[place]!));
-  show(0);
   return part(
     `${folder.anchor}-threads`,
     "Speed-up with threads",
     quiet("Right of the dashed line more threads are faster. Bars are 95 % intervals."),
-    controls(
-      choice(
-        "Set",
-        sets.map((set) => set_text(set[0]!, ["threads"])),
-        0,
-        show,
-      ),
+    ...chosen_chart(
+      "Set",
+      sets.map((set) => set_text(set[0]!, ["threads"])),
+      (place) => chart_of(sets[place]!),
     ),
-    figure,
     folder.grid("speed_ups.csv", { lead: ["scene", "bodies", "algorithm", "threads", "speed_up"] }),
   );
 }

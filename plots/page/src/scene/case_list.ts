@@ -23,7 +23,7 @@ export function case_list(folder: Folder): HTMLElement {
         "summary",
         {},
         `${pair.id}: ${pair.truth.answer}, ${pair.about} `,
-        make("a", { href: `#${anchor}`, class: "link" }, "¶"),
+        make("a", { href: `#${anchor}`, class: "link", "aria-label": `link to ${pair.id}` }, "¶"),
       ),
       place,
     );

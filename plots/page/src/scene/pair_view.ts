@@ -46,8 +46,8 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
   const drawing = new PairDrawing(pair);
   const group = new THREE.Group();
   stage.scene.add(group);
-  // Nobody is chosen where no answer is on the wrong side of contact.
-  const first_wrong = pair.answers.findIndex((each) => each.wrong);
+  // Nobody is chosen where no answer is wrong.
+  const first_wrong = pair.answers.findIndex(is_wrong);
   let chosen = first_wrong < 0 ? [] : pair.answers.slice(first_wrong, first_wrong + 1);
   const zoom = power_slider("Enlarged", 7, () => draw());
   const stretch = power_slider("Stretched along the normal", 15, () => draw());
@@ -71,7 +71,7 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
     "none",
     "all",
     ...pair.answers.map(
-      (each) => `${each.algorithm} ${each.scalar} ${each.task}${each.wrong ? " ✗" : ""}`,
+      (each) => `${each.algorithm} ${each.scalar} ${each.task}${is_wrong(each) ? " ✗" : ""}`,
     ),
   ];
   draw();
@@ -135,6 +135,9 @@ function power_slider(
   };
 }
 
+const is_wrong = ({ grade }: AnswerView): boolean =>
+  ["silent", "approximate", "crashed", "hung"].includes(grade);
+
 function answer_table(answers: AnswerView[]): HTMLElement {
   const number = (value: number | null): string => (value === null ? "" : String(value));
   const columns = [
@@ -143,7 +146,8 @@ function answer_table(answers: AnswerView[]): HTMLElement {
     "scalar",
     "task",
     "answer",
-    "verdict",
+    "grade",
+    "why",
     "status",
     "distance",
     "lower",
@@ -158,7 +162,8 @@ function answer_table(answers: AnswerView[]): HTMLElement {
         each.scalar,
         each.task,
         each.answer,
-        each.wrong ? "✗ wrong" : each.rounded ? "~ right for rounded numbers" : "",
+        each.grade === "right" ? "" : `${is_wrong(each) ? "✗ " : ""}${each.grade}`,
+        each.why,
         each.status,
         number(each.distance),
         number(each.lower),

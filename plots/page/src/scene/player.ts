@@ -9,9 +9,19 @@ import { Recorded } from "./recorded";
 import { SceneView, type Shown } from "./scene_view";
 import { Stage } from "./stage";
 
-export function player(recording: Recording): HTMLElement {
+export interface Player {
+  element: HTMLElement;
+  dispose: () => void;
+}
+
+export function player(recording: Recording): Player {
   const opened = Stage.open(`${recording.name}, played`, false);
-  if (!opened) return quiet("This browser draws nothing in three dimensions.");
+  if (!opened) {
+    return {
+      element: quiet("This browser draws nothing in three dimensions."),
+      dispose: () => {},
+    };
+  }
   const stage = opened;
   const recorded = new Recorded(recording);
   const view = new SceneView(stage, recording, recorded);
@@ -26,9 +36,10 @@ export function player(recording: Recording): HTMLElement {
     selected: -1,
   };
 
-  const where = make("output", { class: "frame" });
-  const rate = make("output", { class: "rate quiet" });
-  const pairs = make("div", { "aria-live": "polite" });
+  // What changes while it plays is not read out.
+  const where = make("span", { class: "frame" });
+  const rate = make("span", { class: "rate quiet" });
+  const pairs = make("div");
   const names = make("div", { class: "names" });
   const slider = make("input", {
     type: "range",
@@ -42,6 +53,7 @@ export function player(recording: Recording): HTMLElement {
   function draw(): void {
     view.show(shown);
     slider.value = String(shown.frame);
+    slider.setAttribute("aria-valuetext", `frame ${shown.frame}`);
     where.textContent = `frame ${shown.frame} of 0 to ${recording.frames - 1}, ${number_text(shown.frame * recording.time_step)} s`;
   }
 
@@ -126,7 +138,7 @@ export function player(recording: Recording): HTMLElement {
 
   name_views(false);
   update({});
-  return make(
+  const element = make(
     "div",
     { class: "player" },
     controls(
@@ -162,6 +174,7 @@ export function player(recording: Recording): HTMLElement {
     ),
     pairs,
   );
+  return { element, dispose: () => stage.dispose() };
 }
 
 // A press that does not move is a choice; one that moves turns the view.

@@ -7,8 +7,6 @@ export class Stage {
   readonly element: HTMLElement;
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 1e4);
-  // Called before each drawing, however many are asked for.
-  drawn = (): void => {};
   private readonly renderer: THREE.WebGLRenderer;
   private readonly controls: OrbitControls;
   private readonly resized: ResizeObserver;
@@ -84,7 +82,6 @@ export class Stage {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.drawn();
       this.render();
     });
   }

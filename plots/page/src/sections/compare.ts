@@ -1,6 +1,6 @@
 // Several results side by side: each algorithm's time over that of the baseline of the same folder.
 // Times of two machines are never divided by each other.
-import { choice, controls } from "../base/controls";
+import { chosen_chart } from "../base/controls";
 import { make, quiet } from "../base/dom";
 import { part, section } from "../base/section";
 import { ratio_chart } from "../charts/ratios";
@@ -65,8 +65,7 @@ function ratios(shared: Measured[][], folders: string[]): HTMLElement {
   const titles = shared.map(
     (group) => `${set_text(group[0]!.row)}, over ${group[0]!.row.text("baseline")}`,
   );
-  const figure = make("figure", { class: "scroll" });
-  const show = (place: number): void => {
+  const chart = (place: number): Element => {
     const values = shared[place]!.map(({ folder, row }) => ({
       folder,
       algorithm: row.text("algorithm"),
@@ -74,14 +73,12 @@ function ratios(shared: Measured[][], folders: string[]): HTMLElement {
       low: row.number("ratio_low"),
       high: row.number("ratio_high"),
     }));
-    figure.replaceChildren(ratio_chart(values, folders, shared[place]![0]!.row.text("baseline")));
+    return ratio_chart(values, folders, shared[place]![0]!.row.text("baseline"));
   };
-  show(0);
   return part(
     "comparison-ratios",
     "Ratios within each folder",
-    controls(choice("Set", titles, 0, show)),
-    figure,
+    ...chosen_chart("Set", titles, chart),
     ratio_table(shared, folders),
   );
 }

@@ -1,5 +1,5 @@
 // Who is right and who is wrong: agreement of a campaign, grades of a check, maps of a sweep, a soak.
-import { choice, controls } from "../base/controls";
+import { choice, chosen_chart, controls } from "../base/controls";
 import { make, quiet } from "../base/dom";
 import { part, section } from "../base/section";
 import { outcome_legend, stress_map } from "../charts/stress_map";
@@ -134,15 +134,11 @@ function sweep(folder: Folder): HTMLElement | null {
   if (!folder.has("stress.csv")) return null;
   const rows = folder.rows("stress.csv");
   const axes = distinct(rows.map((row) => row.text("axis")));
-  const figure = make("figure", { class: "scroll" });
-  const show = (place: number): void => figure.replaceChildren(stress_map(rows, axes[place]!));
-  show(0);
   return part(
     `${folder.anchor}-breaks`,
     "Where algorithms break",
     quiet(outcome_legend),
-    controls(choice("Axis", axes, 0, show)),
-    figure,
+    ...chosen_chart("Axis", axes, (place) => stress_map(rows, axes[place]!)),
     ...filtered(
       folder,
       "envelope.csv",

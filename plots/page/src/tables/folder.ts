@@ -11,12 +11,11 @@ export class Folder {
   private readonly parsed = new Map<string, Table>();
   private readonly shown = new Set<string>();
 
-  // `name` tells the folder from the others of the page.
-  constructor(
-    readonly results: Results,
-    readonly name: string,
-  ) {
-    this.anchor = fresh_anchor(name);
+  readonly name: string; // which the program makes different from all others of the page
+
+  constructor(readonly results: Results) {
+    this.name = results.name;
+    this.anchor = fresh_anchor(this.name);
     this.texts = new Map(Object.entries(results.files));
     this.files = [...this.texts.keys()];
   }
