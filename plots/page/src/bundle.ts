@@ -1,26 +1,26 @@
-// What `touchstone report` puts into the page: zlib-compressed JSON, as base64.
+// `touchstone report` puts a bundle into the page. It is zlib-compressed JSON, as base64.
 
 export interface Bundle {
   format: 1;
   made: { version: string; commit: string; tree: string; date: string };
-  origins: Record<string, string>; // of each algorithm: ours, peer or oracle
+  origins: Record<string, string>; // each algorithm's: ours, peer or oracle
   results: Results[];
   scenes: Recording[];
 }
 
-// A results folder. Its CSV files are here as they stand, so that no number is changed on the way.
+// A results folder has its CSV files here as they stand, so that no number is changed on the way.
 export interface Results {
   name: string;
   folder: string;
   files: Record<string, string>;
   cases: CaseView[];
-  notes: string[]; // what could not be read, and why
+  notes: string[]; // sentences that say what could not be read, and why
 }
 
 export type Triple = [number, number, number];
 
-// A shape in body coordinates, with the keys of a case file. `faces` are those of a hull:
-// vertices' indices, anticlockwise from outside.
+// A shape is in body coordinates, with the keys of a case file and lengths in metres. `faces` are those of a hull:
+// they have indices of vertices, anticlockwise as seen from outside.
 export interface ShapeView {
   type: string;
   radius?: number;
@@ -52,34 +52,35 @@ export interface AnswerView {
   normal: Triple | null; // from a to b
   witness_a: Triple | null;
   witness_b: Triple | null;
-  // right, honest (no answer, or one that is not stood by), silent, crashed, hung, approximate (wrong, as
-  // it is designed), or rounded: right for the pair in the algorithm's own numbers alone.
+  // The grade is right, honest (no answer, or one that is not stood by), silent, crashed, hung, approximate (wrong,
+  // as it is designed), or rounded (right for the pair in the algorithm's own numbers alone).
   grade: string;
-  why: string; // in words, unless it is right
+  why: string; // the reason in words, unless it is right
 }
 
-// A pair of bodies with what is true of it. The proof's parts that do not apply are null.
+// A case is a pair of bodies with what is true of it. Parts of the proof that do not apply are null.
 export interface CaseView {
   id: string;
-  source: string; // the file that lists it
-  about: string; // why it is listed
+  source: string; // the path of the file that lists it
+  about: string; // the reason why it is listed
   line: string; // the case as JSON, on one line
   query: string; // the command that asks all algorithms about it
   a: BodyView;
   b: BodyView;
   truth: { answer: string; lower: number | null; upper: number | null; normal: Triple | null };
   proof: {
-    plane: { normal: Triple; offset: number } | null; // all of a below, all of b above
-    point: Triple | null; // in both bodies
+    plane: { normal: Triple; offset: number } | null; // all of a lies below it, all of b above
+    point: Triple | null; // it lies in both bodies
     on_a: Triple | null; // the shortest connection, or the two sides of the depth
     on_b: Triple | null;
-    // Of overlapping bodies, around `on_b`: while that stays inside, b may be moved and they overlap still.
+    // The ball of overlapping bodies is around `on_b`. While that point stays inside, b may be moved and they overlap
+    // still.
     ball: { centre: Triple; radius: number } | null;
   };
   answers: AnswerView[];
 }
 
-// A scene, played. Arrays are base64 of little-endian numbers.
+// A recording is a scene that was played. Its arrays are base64 of little-endian numbers.
 export interface Recording {
   name: string;
   source: string; // the scene's file
@@ -90,27 +91,26 @@ export interface Recording {
   frames: number;
   frames_of_scene: number; // those beyond `frames` were left out
   shapes: ShapeView[];
-  shape_of: number[]; // for each body
-  // Frames of float32 (frames_of_floats): for each body a translation and a quaternion (w, x, y, z).
+  shape_of: number[]; // each body's place in `shapes`
+  // Frames are float32 (frames_of_floats). Each body has a translation, metres, and a quaternion (w, x, y, z).
   poses: string;
-  // Frames of float32: for each body the least and the greatest corner. An absent body has an empty box:
-  // its least corner is above its greatest.
+  // Frames are float32. Each body has the least and the greatest corner of its box. An absent body has an empty
+  // box: its least corner is above its greatest.
   boxes: string;
   algorithms: string[]; // verdicts are in this order; the first is the reference
   pairs: FramePairs[];
   structures: Structure[]; // one for each broad phase that has one to show
 }
 
-// The pairs whose boxes overlap in a frame: two bodies each, a verdict for each algorithm
-// (0 apart, 1 touching, 2 overlapping, 3 unknown), and the signed distance that `certified` proves
-// (NaN: not known).
+// These are the pairs whose boxes overlap in a frame. Each has two bodies, a verdict for each algorithm (0 apart, 1
+// touching, 2 overlapping, 3 unknown), and the signed distance that `certified` proves, metres (NaN: not known).
 export interface FramePairs {
   bodies: string; // uint32
   verdicts: string; // uint8
   distances: string; // float64
 }
 
-// The boxes of a broad phase's structure in each frame: cells, nodes or intervals.
+// A broad phase's structure has boxes in each frame: cells, nodes or intervals.
 export interface Structure {
   broad: string;
   frames: { boxes: string; levels: string }[]; // float32: least and greatest corners; uint8, one a box
@@ -125,8 +125,8 @@ function bytes_of(base64: string): Uint8Array<ArrayBuffer> {
 
 export const floats = (base64: string): Float32Array => new Float32Array(bytes_of(base64).buffer);
 
-// Frames of as many numbers each. From the second on, the bits of each are those of an exclusive or with
-// the frame before, so that what does not move takes no space.
+// All frames have as many numbers. From the second on, the bits of each are those of an exclusive or with the frame
+// before, so that what does not move takes no space.
 export function frames_of_floats(base64: string, in_a_frame: number): Float32Array {
   const words = new Uint32Array(bytes_of(base64).buffer);
   for (let i = in_a_frame; i < words.length; ++i) words[i]! ^= words[i - in_a_frame]!;

@@ -1,4 +1,4 @@
-// Builds the page from the bundle that is in it.
+// The script builds the page from the bundle that is in it.
 import { show_address } from "./base/anchors";
 import { make } from "./base/dom";
 import { read_bundle } from "./bundle";

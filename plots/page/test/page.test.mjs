@@ -177,6 +177,46 @@ test("a scene plays, steps, and shows where two algorithms differ", () =>
     await boxes.locator("canvas").waitFor();
   }));
 
+test("a body is picked by mouse", () =>
+  on_page(async (page) => {
+    for (const name of ["made-up", "boxes-alone"]) {
+      const scene = page.locator(`#${name}-playback`);
+      await scene.getByText("Open the scene").click();
+      await scene.locator("canvas").click();
+      assert.equal(await scene.getByLabel("Body").inputValue(), "1");
+    }
+  }));
+
+test("a scene that plays too slowly is drawn with fewer points, until it stands still", () =>
+  on_page(async (page) => {
+    const scene = page.locator("#made-up-playback");
+    await scene.getByText("Open the scene").click();
+    const points = () => scene.locator("canvas").evaluate((canvas) => canvas.width / canvas.clientWidth);
+    assert.equal(await points(), 1);
+    const picture = () => scene.locator("canvas").screenshot();
+    const still = await picture();
+    await page.evaluate(() => {
+      window.slow = true;
+      const wait = () => {
+        const end = performance.now() + 50;
+        while (performance.now() < end);
+        if (window.slow) requestAnimationFrame(wait);
+      };
+      wait();
+    });
+    await scene.getByText("Play", { exact: true }).click();
+    await page.waitForFunction(() => {
+      const canvas = document.querySelector("canvas");
+      return canvas.width < 0.6 * canvas.clientWidth;
+    });
+    await scene.getByText("Pause", { exact: true }).click();
+    await page.evaluate(() => (window.slow = false));
+    assert.equal(await points(), 1);
+    await scene.getByLabel("frame", { exact: true }).fill("0");
+    await page.waitForTimeout(300);
+    assert.deepEqual(await picture(), still);
+  }));
+
 test("narrow, dark and printed", async () => {
   await on_page(
     async (page) => {

@@ -1,5 +1,5 @@
-// Addresses after "#". What they name may not be drawn yet: a row that a table does not show, a pair
-// that is folded away. Whoever draws such things says here how to show them.
+// An address after "#" may name what is not drawn yet: a row that a table does not show, or a pair that is folded
+// away. Whoever draws such things says here how to show them.
 
 const taken = new Set<string>();
 const shown_by = new Map<string, (rest: string) => Element | null>();
@@ -10,7 +10,7 @@ const plain = (text: string): string =>
     .replace(/[^a-z0-9]+/g, "-")
     .replace(/^-|-$/g, "");
 
-// A name that can stand in an address, and that nobody else has.
+// The name can stand in an address, and nobody else has it.
 export function fresh_anchor(text: string): string {
   const start = plain(text) || "part";
   let anchor = start;
@@ -24,7 +24,7 @@ export function answer_for(prefix: string, show: (rest: string) => Element | nul
   shown_by.set(prefix, show);
 }
 
-// What an address means, drawn if need be.
+// This is the element that an address means. It is drawn if it was not.
 export function element_of(anchor: string): Element | null {
   const present = document.getElementById(anchor);
   if (present) return present;
@@ -36,7 +36,7 @@ export function element_of(anchor: string): Element | null {
   return null;
 }
 
-// Unfolds what holds the element, and moves there.
+// The page unfolds what holds the element, and moves there.
 function reveal(element: Element): void {
   for (const each of document.querySelectorAll(".target")) each.classList.remove("target");
   for (let up: Element | null = element; up; up = up.parentElement) {

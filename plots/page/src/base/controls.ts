@@ -1,4 +1,4 @@
-// Buttons and choosers, each with a label.
+// Buttons and choosers each have a label, which a screen reader reads out.
 import { make } from "./dom";
 
 export function button(label: string, pressed: () => void, name?: string): HTMLButtonElement {
@@ -7,7 +7,7 @@ export function button(label: string, pressed: () => void, name?: string): HTMLB
   return element;
 }
 
-// A button that copies a text.
+// The button copies a text.
 export function copy_button(text: string, label = "copy"): HTMLButtonElement {
   const element = button(label, () => {
     const done = (): void => {
@@ -23,13 +23,13 @@ export function copy_button(text: string, label = "copy"): HTMLButtonElement {
   return element;
 }
 
-// A line of a shell with a button that copies it.
+// A line of a shell has a button that copies it.
 export const command_line = (command: string): HTMLElement =>
   make("p", { class: "command" }, make("code", {}, command), " ", copy_button(command));
 
 const most_at_once = 300;
 
-// A chooser of one of some texts. `changed` gets the place of the chosen one, since texts may be equal.
+// The reader chooses one of some texts. `changed` gets its place, since texts may be equal.
 export function choice(
   label: string,
   options: string[],
@@ -71,7 +71,7 @@ export function checkbox(
 export const controls = (...children: (Node | null)[]): HTMLElement =>
   make("div", { class: "controls" }, ...children);
 
-// Switches for algorithms, with all and none.
+// Each algorithm has a switch. Two buttons switch all of them on, or none.
 export function switches(
   legend: string,
   names: string[],
@@ -103,7 +103,7 @@ export function switches(
   );
 }
 
-// A chooser and the chart of what is chosen, the first to begin with.
+// The chart shows what is chosen, and the first to begin with.
 export function chosen_chart(
   label: string,
   options: string[],

@@ -1,4 +1,5 @@
-// Elements of the page. Text from results only ever becomes a text node.
+// This function makes all elements of the page. Text from results only ever becomes a text node, so that it cannot
+// run.
 
 type Child = Node | string | null | undefined;
 type Attributes = Record<string, string | number | boolean | undefined>;

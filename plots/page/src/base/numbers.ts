@@ -1,4 +1,4 @@
-// Numbers as people read them. Tables show the text of the files instead.
+// Sentences and charts have numbers as people read them. Tables show the text of the files instead.
 
 const time_units: [number, string][] = [
   [1, "s"],
@@ -7,7 +7,7 @@ const time_units: [number, string][] = [
   [1e-9, "ns"],
 ];
 
-// Seconds with three digits and a unit.
+// A time has three digits and a unit.
 export function time_text(seconds: number): string {
   if (!Number.isFinite(seconds)) return "–";
   const [size, unit] = time_units.find(([least]) => seconds >= least) ?? [1e-9, "ns"];
@@ -24,13 +24,13 @@ export function number_text(value: number): string {
 
 export const count_text = (value: number): string => value.toLocaleString("en");
 
-// The ends of an interval in words.
+// The text names both ends of an interval.
 export const interval_text = (low: number, high: number): string =>
   Number.isNaN(low) || Number.isNaN(high)
     ? "no interval"
     : `${number_text(low)} to ${number_text(high)}`;
 
-// That of a row's time.
+// The interval is that of a row's time.
 export function time_interval(row: { number: (column: string) => number }): string {
   const low = row.number("seconds_low"),
     high = row.number("seconds_high");
@@ -39,8 +39,7 @@ export function time_interval(row: { number: (column: string) => number }): stri
     : `${time_text(low)} to ${time_text(high)}`;
 }
 
-// The number that a field of a CSV file has; NaN if there is none. The programs write infinity and NaN
-// as C++ does.
+// A field of a CSV file has a number, or it is NaN. The programs write infinity and NaN as C++ does.
 export function number_of(text: string): number {
   if (text === "") return NaN;
   const value = Number(text);

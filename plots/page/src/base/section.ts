@@ -1,4 +1,4 @@
-// Parts of the page that can be linked to.
+// Sections and parts have anchors, so that they can be linked to.
 import { fresh_anchor } from "./anchors";
 import { make } from "./dom";
 
@@ -17,8 +17,7 @@ function titled(level: "h2" | "h3", id: string, title: string, children: Child[]
   return make("section", { id }, make(level, {}, title, link), ...children);
 }
 
-// A part that is folded away. It is filled when it is first opened, so that long files cost nothing
-// until then.
+// A folded part is filled when it is first opened, so that long files cost nothing until then.
 export function folded(
   title: string,
   fill: () => Node,

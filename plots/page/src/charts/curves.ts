@@ -1,4 +1,4 @@
-// Time against the number of bodies, for sets that differ in that number alone.
+// The chart shows time against the number of bodies, for sets that differ in that number alone.
 import * as Plot from "@observablehq/plot";
 import { choice, controls, switches } from "../base/controls";
 import { make } from "../base/dom";
@@ -38,7 +38,7 @@ const size = {
   marginRight: 170,
 };
 
-// The names of the curves at their ends. They are heights of the chart's logarithmic axis.
+// Curves have their names at their ends. The heights are those of the chart's logarithmic axis.
 function labels(
   curves: Point[][],
   domain: [number, number],

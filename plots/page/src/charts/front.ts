@@ -1,4 +1,4 @@
-// Time against error, a point a configuration.
+// The chart shows time against error. Each configuration is a point.
 import * as Plot from "@observablehq/plot";
 import { number_text, time_interval, time_text } from "../base/numbers";
 import type { Row } from "../tables/table";
@@ -58,6 +58,7 @@ export function front_chart(points: Point[]): Element {
     x: {
       type: "log",
       label: "error",
+      inset: 8,
       grid: true,
       tickFormat: (value: number) => (value <= zero * 1.01 ? "0" : number_text(value)),
     },

@@ -1,4 +1,4 @@
-// What a frame's time is made of: building or updating, and finding pairs.
+// A frame's time is made of building or updating, and of finding pairs.
 import * as Plot from "@observablehq/plot";
 import { chosen_chart } from "../base/controls";
 import { quiet } from "../base/dom";
@@ -9,7 +9,8 @@ import { grouped, set_key, set_text } from "../tables/set";
 import type { Row } from "../tables/table";
 
 const phase_names = ["build", "update", "find_pairs"];
-const phase_colours = ["#b07d2b", "#3f7fbf", "#6aa56a"];
+// White letters on them have a contrast of at least 4.5 to 1.
+const phase_colours = ["#94621a", "#3572ad", "#3d7d45"];
 
 interface Bar {
   algorithm: string;
@@ -39,15 +40,16 @@ function chart_of(rows: Row[]): Element {
     .map(([name]) => name);
   return Plot.plot({
     width: 960,
-    height: 60 + order.length * 24,
+    height: 70 + order.length * 24,
     marginLeft: 180,
+    marginBottom: 40,
     ariaLabel: "phases of a frame",
     x: { label: "time of a frame", tickFormat: time_text, grid: true },
     y: { label: null, domain: order },
-    color: { domain: phase_names.map((name) => name.replace("_", " ")), range: phase_colours },
+    color: { domain: phase_names.map((name) => name.replace("_", " ")), range: phase_colours, legend: true },
     marks: [
       Plot.barX(bars, { x1: "from", x2: "to", y: "algorithm", fill: "phase", inset: 1 }),
-      // The phase in letters, where it is wide enough for a reader to need it.
+      // A bar has its phase in letters where it is wide enough for them.
       Plot.text(
         bars.filter((bar) => bar.to - bar.from > 0.08 * Math.max(...bars.map((each) => each.to))),
         {

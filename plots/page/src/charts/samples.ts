@@ -1,4 +1,4 @@
-// All samples of one algorithm in one set, the disturbed ones marked.
+// The chart shows all samples of one algorithm in one set. The disturbed ones are marked.
 import * as Plot from "@observablehq/plot";
 import { make, quiet } from "../base/dom";
 import { time_text } from "../base/numbers";
@@ -8,7 +8,7 @@ import type { Row } from "../tables/table";
 
 interface Sample {
   place: number;
-  seconds: number; // of a query or a frame
+  seconds: number; // seconds of a query or a frame
   noise: string;
 }
 
@@ -17,7 +17,7 @@ const short = (text: string): string => (text === "" ? "" : Number(text).toPreci
 const comparable = (label: string): string =>
   label.replace(/ (\d[^ ]*)/g, (_, number: string) => ` ${short(number)}`);
 
-// The label that the tables give a row of raw.csv.
+// The tables give a row of raw.csv this label.
 function label_of(raw: Row): string {
   const narrow = raw.text("narrow");
   if (!narrow) return raw.text("broad");
@@ -33,7 +33,7 @@ function label_of(raw: Row): string {
     .join(" ");
 }
 
-// "pairs_of" is in raw.csv the broad phase of a narrow phase's row.
+// In raw.csv "pairs_of" is the broad phase of a narrow phase's row.
 const same_columns = set_columns.filter((column) => column !== "pairs_of");
 
 function is_in_set(raw: Row, cell: Row): boolean {
@@ -44,7 +44,7 @@ function is_in_set(raw: Row, cell: Row): boolean {
     same_columns.every((column) => {
       const x = raw.text(column),
         y = cell.text(column);
-      // What does not apply is 0 in one file and empty in the other.
+      // A column that does not apply is 0 in one file and empty in the other.
       return x === y || (Number(x || 0) === 0 && Number(y || 0) === 0);
     })
   );

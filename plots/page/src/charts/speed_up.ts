@@ -1,4 +1,4 @@
-// Speed-up with threads.
+// The chart shows how much faster more threads are.
 import * as Plot from "@observablehq/plot";
 import { chosen_chart } from "../base/controls";
 import { quiet } from "../base/dom";

@@ -1,16 +1,16 @@
-// The worst outcome of each algorithm at each value of an axis.
+// The map shows the worst outcome of each algorithm at each value of an axis.
 import * as Plot from "@observablehq/plot";
 import { distinct, grouped } from "../tables/set";
 import type { Row } from "../tables/table";
 
-// From the best to the worst, with a sign beside the colour.
+// Outcomes go from the best to the worst. A white sign has a contrast of at least 4.5 to 1 with its colour.
 const outcomes = [
   { name: "right", colour: "#5f9e78", sign: "" },
-  { name: "rounded", colour: "#5b86b3", sign: "~" },
+  { name: "rounded", colour: "#44719f", sign: "~" },
   { name: "honest", colour: "#8a6d00", sign: "?" },
   { name: "silent", colour: "#b3261e", sign: "✗" },
   { name: "crashed", colour: "#7a2d8f", sign: "!" },
-  { name: "hung", colour: "#4a4a4a", sign: "…" },
+  { name: "hung", colour: "#6a6a6a", sign: "…" },
 ];
 
 export const outcome_legend =
@@ -58,7 +58,8 @@ export function stress_map(rows: Row[], axis: string): Element {
   const labels = distinct(cells.map((each) => each.label));
   return Plot.plot({
     width: Math.max(700, 220 + values.length * 44),
-    height: 60 + labels.length * 20,
+    height: 70 + labels.length * 20,
+    marginTop: 44,
     marginLeft: 200,
     ariaLabel: `worst outcomes along ${axis}`,
     x: { domain: values, label: axis, axis: "top" },

@@ -1,4 +1,4 @@
-// A heat map with a cell a set: the fastest algorithm, and by how much it leads.
+// The heat map has a cell for each set. It shows the fastest algorithm, and by how much it leads.
 import * as Plot from "@observablehq/plot";
 import { make, quiet } from "../base/dom";
 import { interval_text, number_text } from "../base/numbers";
@@ -43,7 +43,7 @@ function heat_map(rows: Row[]): Element {
     ariaLabel: "the fastest algorithm of each set",
     x: { domain: across, label: null, axis: "top" },
     y: { domain: down, label: null },
-    // The scale ends at a lead of eight: more is dark all the same.
+    // The scale ends at a lead of eight, since more is dark all the same.
     color: { type: "log", scheme: "blues", domain: [0.7, 8], clamp: true },
     marks: [
       Plot.cell(cells, { x: "across", y: "down", fill: "lead", inset: 1 }),
@@ -52,7 +52,8 @@ function heat_map(rows: Row[]): Element {
         y: "down",
         text: (each: Cell) => `${each.winner}\n× ${number_text(each.lead)}`,
         fontSize: 10,
-        fill: (each: Cell) => (each.lead > 2.2 ? "white" : "black"),
+        // Both letters have a contrast of at least 4.5 to 1 at a lead of four.
+        fill: (each: Cell) => (each.lead > 4 ? "white" : "black"),
       }),
       Plot.tip(cells, Plot.pointer({ x: "across", y: "down", title: "tip" })),
     ],

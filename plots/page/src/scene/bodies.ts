@@ -1,87 +1,29 @@
-// The bodies of a scene: those of one shape are one instanced mesh. Their states colour them, and give
-// them a pattern for readers who do not see the colours.
+// The bodies of a scene are two meshes, the round bodies and the others: each vertex knows its body, and a texture
+// has the bodies' poses. So a frame takes two calls. Instanced meshes would be slow, because a browser without a
+// graphics card takes as long for an instance as for a call.
 import * as THREE from "three";
-import type { BodyView, Recording, ShapeView, Triple } from "../bundle";
+import type { Recording, ShapeView } from "../bundle";
+import { body_material, packed_states } from "./body_material";
+import { geometry_of, is_round, joined } from "./body_shapes";
 import type { Recorded } from "./recorded";
-import { even, surface_of, type Fineness } from "./surfaces";
+import { is_polytope } from "./surfaces";
+import { numbers_of, texels_for } from "./texels";
 
-const vertex_shader = `
-attribute float state;
-varying float state_of_body;
-varying vec3 seen;
-void main() {
-  vec4 at = modelViewMatrix * instanceMatrix * vec4(position, 1.0);
-  state_of_body = state;
-  seen = at.xyz;
-  gl_Position = projectionMatrix * at;
-}`;
+// All curved bodies have so many triangles together while the scene stands still, and where it plays too slowly.
+// A processor draws about five triangles in a microsecond.
+const triangles_of_levels = [60_000, 12_000];
 
-// Red and plain, green and striped, blue and dotted; lit from beside the eye. It does no more than that,
-// since without a graphics card the processor runs it for every point of the picture.
-const fragment_shader = `
-varying float state_of_body;
-varying vec3 seen;
-void main() {
-  vec3 colour = vec3(0.8, 0.28, 0.24);
-  vec2 pixel = gl_FragCoord.xy;
-  if (state_of_body > 1.5) {
-    vec2 off = mod(pixel, 7.0) - 3.5;
-    colour = dot(off, off) < 2.9 ? vec3(0.52, 0.64, 0.96) : vec3(0.26, 0.42, 0.86);
-  } else if (state_of_body > 0.5) {
-    colour = mod(pixel.x + pixel.y, 9.0) < 2.5 ? vec3(0.6, 0.83, 0.62) : vec3(0.24, 0.64, 0.34);
-  }
-  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
-  gl_FragColor = vec4(colour * (0.66 + 0.34 * dot(normal, vec3(0.27, 0.53, 0.8))), 1.0);
-}`;
-
-const material = (): THREE.Material =>
-  new THREE.ShaderMaterial({ vertexShader: vertex_shader, fragmentShader: fragment_shader });
-
-// The more bodies there are, the smaller each is drawn, and the fewer triangles it needs.
-function fineness_for(bodies: number): Fineness {
-  if (bodies <= 500) return even(9, 14);
-  return bodies <= 4000 ? even(5, 8) : even(3, 6);
-}
-
-function geometry_of(shape: ShapeView, reach: number, fineness: Fineness): THREE.BufferGeometry {
-  const body: BodyView = { shape, matrix: [1, 0, 0, 0, 1, 0, 0, 0, 1], translation: [0, 0, 0] };
-  const { points, triangles } = surface_of(body, [0, 0, 1], [0, 0, 0], reach, fineness);
-  const geometry = new THREE.BufferGeometry().setFromPoints(
-    points.map((point) => new THREE.Vector3(...point)),
-  );
-  geometry.setIndex(triangles.flat());
-  return geometry;
-}
-
-// A shape of unit size, and how far it is stretched along its axes. Bodies of different sizes are one
-// mesh, where their shapes allow that: a scene may have as many sizes as bodies.
-export function unit_shape(shape: ShapeView): { shape: ShapeView; size: Triple } {
-  const { type, half_extents, radii, radius = 0, half_length = 0 } = shape;
-  if (type === "box" && half_extents) return { shape: { type, half_extents: [1, 1, 1] }, size: half_extents };
-  if (type === "ellipsoid" && radii) return { shape: { type, radii: [1, 1, 1] }, size: radii };
-  if (type === "sphere") return { shape: { type, radius: 1 }, size: [radius, radius, radius] };
-  if (type === "cylinder" || type === "cone") {
-    return { shape: { type, radius: 1, half_length: 1 }, size: [radius, radius, half_length] };
-  }
-  return { shape, size: [1, 1, 1] };
-}
-
-interface Group {
-  bodies: number[];
-  sizes: Triple[]; // of the bodies
-  meshes: THREE.InstancedMesh[]; // one a view
-  states: THREE.InstancedBufferAttribute[];
+interface Level {
+  group: THREE.Group;
+  of_bodies: THREE.BufferGeometry[];
 }
 
 export class Bodies {
-  private readonly groups: Group[];
-  private readonly matrix = new THREE.Matrix4();
-  private readonly at = new THREE.Vector3();
-  private readonly turn = new THREE.Quaternion();
-  private readonly size = new THREE.Vector3();
-  private readonly nowhere = new THREE.Matrix4().makeScale(0, 0, 0);
+  private readonly texture: THREE.DataTexture;
+  private readonly shapes: ShapeView[]; // each body's
+  private readonly levels: Level[]; // the finest comes first
 
-  // `reach` is how far half-spaces are drawn.
+  // `reach` says how far half-spaces are drawn, metres.
   constructor(
     private readonly recording: Recording,
     private readonly recorded: Recorded,
@@ -89,108 +31,98 @@ export class Bodies {
     reach: number,
   ) {
     const box: ShapeView = { type: "box", half_extents: [1, 1, 1] };
-    const shapes = recording.boxes_only ? [box] : recording.shapes;
-    const units = shapes.map(unit_shape);
-    const of_unit = new Map<string, { shape: ShapeView; bodies: number[]; sizes: Triple[] }>();
-    for (let body = 0; body < recorded.bodies; ++body) {
-      const { shape, size } = units[recording.boxes_only ? 0 : recording.shape_of[body]!]!;
-      const name = JSON.stringify(shape);
-      const group = of_unit.get(name) ?? { shape, bodies: [], sizes: [] };
-      group.bodies.push(body);
-      group.sizes.push(size);
-      of_unit.set(name, group);
-    }
-    this.groups = [...of_unit.values()].map(({ shape, bodies, sizes }) =>
-      this.group(shape, bodies, sizes, reach, scene),
+    this.shapes = Array.from({ length: recorded.bodies }, (_, body) =>
+      recording.boxes_only ? box : recording.shapes[recording.shape_of[body]!]!,
     );
+    this.texture = texels_for(recorded.bodies);
+    const curved = this.shapes.filter((shape) => !is_polytope(shape)).length;
+    const wanted = curved > 0 ? triangles_of_levels : [0];
+    this.levels = wanted.map((triangles) => this.level(reach, triangles / Math.max(1, curved)));
+    for (const { group } of this.levels) scene.add(group);
+    this.hurry(false);
   }
 
-  private group(
-    shape: ShapeView,
-    bodies: number[],
-    sizes: Triple[],
-    reach: number,
-    scene: THREE.Scene,
-  ): Group {
-    const base = geometry_of(shape, reach, fineness_for(this.recorded.bodies));
-    const group: Group = { bodies, sizes, meshes: [], states: [] };
-    for (const view of [0, 1]) {
-      // The views differ in their bodies' states alone, and share all other numbers.
-      const geometry = new THREE.BufferGeometry();
-      for (const [name, attribute] of Object.entries(base.attributes))
-        geometry.setAttribute(name, attribute);
-      geometry.setIndex(base.index);
-      const states = new THREE.InstancedBufferAttribute(new Float32Array(bodies.length), 1);
-      geometry.setAttribute("state", states);
-      const mesh = new THREE.InstancedMesh(geometry, material(), bodies.length);
-      mesh.frustumCulled = false;
-      mesh.layers.set(view + 1);
-      if (view > 0) mesh.instanceMatrix = group.meshes[0]!.instanceMatrix;
-      scene.add(mesh);
-      group.meshes.push(mesh);
-      group.states.push(states);
+  private level(reach: number, triangles_of_a_body: number): Level {
+    const made = new Map<ShapeView, THREE.BufferGeometry>();
+    const of_bodies = this.shapes.map((shape) => {
+      const geometry = made.get(shape) ?? geometry_of(shape, reach, triangles_of_a_body);
+      made.set(shape, geometry);
+      return geometry;
+    });
+    const group = new THREE.Group();
+    for (const round of [true, false]) {
+      const alike = [...of_bodies.keys()].filter((body) => is_round(this.shapes[body]!) === round);
+      if (alike.length === 0) continue;
+      const geometry = joined(alike, of_bodies);
+      for (const view of [0, 1]) {
+        const kind = { round, upright: this.recording.boxes_only };
+        const mesh = new THREE.Mesh(geometry, body_material(this.texture, view, kind));
+        mesh.frustumCulled = false;
+        mesh.layers.set(view + 1);
+        group.add(mesh);
+      }
     }
-    return group;
+    return { group, of_bodies };
   }
 
-  move(frame: number): void {
+  // A scene that plays too slowly is drawn with fewer triangles.
+  hurry(on: boolean): void {
+    this.levels.forEach(({ group }, place) => {
+      group.visible = place === (on ? this.levels.length - 1 : 0);
+    });
+  }
+
+  // Both views show the same frame, each with its own states of the bodies.
+  show(frame: number, left: Float32Array, right: Float32Array): void {
     const poses = this.recorded.poses(frame),
-      boxes = this.recorded.boxes(frame);
-    for (const { bodies, sizes, meshes } of this.groups) {
-      const [mesh] = meshes;
-      bodies.forEach((body, i) =>
-        mesh!.setMatrixAt(i, this.matrix_of(body, sizes[i]!, poses, boxes)),
-      );
-      mesh!.instanceMatrix.needsUpdate = true;
+      boxes = this.recorded.boxes(frame),
+      numbers = numbers_of(this.texture);
+    for (let body = 0; body < this.recorded.bodies; ++body) {
+      const to = 8 * body,
+        box = 6 * body,
+        pose = 7 * body;
+      if (this.recording.boxes_only) {
+        for (let axis = 0; axis < 3; ++axis) {
+          const least = boxes[box + axis]!,
+            most = boxes[box + axis + 3]!;
+          numbers[to + axis] = (least + most) / 2;
+          numbers[to + 4 + axis] = (most - least) / 2;
+        }
+      } else {
+        for (let axis = 0; axis < 3; ++axis) {
+          numbers[to + axis] = poses[pose + axis]!;
+          numbers[to + 4 + axis] = poses[pose + 4 + axis]!;
+        }
+        numbers[to + 7] = poses[pose + 3]!;
+      }
+      const present = boxes[box]! <= boxes[box + 3]!;
+      numbers[to + 3] = present ? packed_states(left[body]!, right[body]!) : -1;
     }
+    this.texture.needsUpdate = true;
   }
 
-  colour(view: number, of_bodies: Float32Array): void {
-    for (const { bodies, states } of this.groups) {
-      const attribute = states[view]!;
-      bodies.forEach((body, i) => (attribute.array[i] = of_bodies[body]!));
-      attribute.needsUpdate = true;
-    }
-  }
-
-  get meshes(): THREE.InstancedMesh[] {
-    return this.groups.map((group) => group.meshes[0]!);
-  }
-
-  // The body that a ray has hit.
-  body_of(hit: THREE.Intersection | undefined): number {
-    const group = this.groups.find((each) => each.meshes[0] === hit?.object);
-    return group && hit?.instanceId !== undefined ? group.bodies[hit.instanceId]! : -1;
-  }
-
-  private matrix_of(
-    body: number,
-    size: Triple,
-    poses: Float32Array,
-    boxes: Float32Array,
-  ): THREE.Matrix4 {
-    const box = 6 * body;
-    if (!(boxes[box]! <= boxes[box + 3]!)) return this.nowhere;
-    if (this.recording.boxes_only) {
-      this.at.set(
-        boxes[box]! + boxes[box + 3]!,
-        boxes[box + 1]! + boxes[box + 4]!,
-        boxes[box + 2]! + boxes[box + 5]!,
-      );
-      this.size.set(
-        boxes[box + 3]! - boxes[box]!,
-        boxes[box + 4]! - boxes[box + 1]!,
-        boxes[box + 5]! - boxes[box + 2]!,
-      );
-      return this.matrix.compose(
-        this.at.multiplyScalar(0.5),
-        this.turn.identity(),
-        this.size.multiplyScalar(0.5),
-      );
-    }
-    const pose = 7 * body;
-    this.at.fromArray(poses, pose);
-    this.turn.set(poses[pose + 4]!, poses[pose + 5]!, poses[pose + 6]!, poses[pose + 3]!);
-    return this.matrix.compose(this.at, this.turn, this.size.set(...size));
+  // It is the first body on a ray, or -1.
+  body_on(ray: THREE.Raycaster): number {
+    const numbers = numbers_of(this.texture);
+    const size = new THREE.Vector3(1, 1, 1),
+      turn = new THREE.Quaternion(),
+      at = new THREE.Vector3();
+    let found = -1,
+      nearest = Infinity;
+    const probe = new THREE.Mesh();
+    this.levels[0]!.of_bodies.forEach((geometry, body) => {
+      const from = 8 * body;
+      if (numbers[from + 3]! < 0) return;
+      if (this.recording.boxes_only) size.fromArray(numbers, from + 4);
+      else turn.fromArray(numbers, from + 4);
+      probe.geometry = geometry;
+      probe.matrixWorld.compose(at.fromArray(numbers, from), turn, size);
+      const hits: THREE.Intersection[] = [];
+      probe.raycast(ray, hits);
+      for (const { distance } of hits) {
+        if (distance < nearest) [nearest, found] = [distance, body];
+      }
+    });
+    return found;
   }
 }

@@ -1,4 +1,4 @@
-// A list of pairs, each drawn when it is opened.
+// The list has all pairs of a folder. Each is drawn when it is opened.
 import { make, quiet } from "../base/dom";
 import type { Folder } from "../tables/folder";
 import { pair_view, type PairView } from "./pair_view";

@@ -1,19 +1,19 @@
-// Draws in single precision what was computed in double: around the place of contact, enlarged, and
-// stretched along the normal, so that a gap of 1e-9 is as wide as is asked. What leaves the picture is
-// cut off in doubles: single precision would bend what is enlarged by 1e9.
+// The magnifier computes in doubles what graphics draws in single precision. It enlarges the place of contact, and
+// stretches it along the normal, so that a gap of 1e-9 is as wide as is asked. It also cuts off what leaves the
+// picture, because single precision would bend what is enlarged by 1e9.
 import * as THREE from "three";
 import type { Triple } from "../bundle";
 import type { Surface } from "./surfaces";
 import { add, dot, subtract, times } from "./vectors";
 
-// Of the picture, whose bodies have a size of about 1. The camera is farther away.
+// The picture ends here, in front of the camera. Bodies have a size of about 1 in it.
 const reach = 2.6;
 
 export class Magnifier {
   constructor(
     private readonly centre: Triple,
     private readonly normal: Triple,
-    private readonly size: number, // that has the length 1 where nothing is enlarged
+    private readonly size: number, // metres; it has the length 1 where nothing is enlarged
     private readonly zoom: number,
     private readonly stretch: number,
   ) {}
@@ -23,7 +23,7 @@ export class Magnifier {
     return add(from, times((this.stretch - 1) * dot(from, this.normal), this.normal));
   }
 
-  // A single point, brought into the picture.
+  // A single point that lies outside is brought into the picture.
   place(point: Triple): THREE.Vector3 {
     return new THREE.Vector3(...this.image(point)).clampLength(0, 2 * reach);
   }
@@ -45,7 +45,7 @@ export class Magnifier {
   segments(surface: Surface): THREE.BufferGeometry {
     const ends: number[] = [];
     for (const [from, to] of surface.edges) {
-      // A segment is a polygon that is folded flat.
+      // A segment is a polygon that is folded flat, so that the same code cuts it.
       const cut = clipped([this.image(surface.points[from]!), this.image(surface.points[to]!)]);
       if (cut.length > 1) ends.push(...cut[0]!, ...cut[1]!);
     }
@@ -55,7 +55,7 @@ export class Magnifier {
   }
 }
 
-// The part of a convex polygon within the picture's cube, by Sutherland and Hodgman.
+// A convex polygon keeps its part within the picture's cube; the algorithm is Sutherland and Hodgman's.
 function clipped(polygon: Triple[]): Triple[] {
   let left = polygon;
   for (let axis = 0; axis < 3; ++axis) {

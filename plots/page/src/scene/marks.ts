@@ -1,4 +1,4 @@
-// Points, lines, arrows and surfaces that stand for a body, an answer or a proof.
+// Points, lines, arrows and surfaces stand for a body, an answer or a proof.
 import * as THREE from "three";
 import type { Magnifier } from "./magnifier";
 import type { Surface } from "./surfaces";
@@ -23,7 +23,7 @@ export function solid(surface: Surface, magnifier: Magnifier, colour: number): T
   ];
 }
 
-// A part of a proof, through which the bodies can be seen. What lies within them is drawn over them.
+// A veil is a part of a proof, through which the bodies can be seen. If it lies within them, it is drawn over them.
 export function veil(surface: Surface, magnifier: Magnifier, within: boolean): THREE.Object3D[] {
   const material = new THREE.MeshBasicMaterial({
     color: colours.proof,
@@ -44,7 +44,7 @@ export function veil(surface: Surface, magnifier: Magnifier, within: boolean): T
   ];
 }
 
-// Marks are seen through the bodies. What is opaque would be drawn before them, and be covered.
+// Marks are seen through the bodies. An opaque mark would be drawn before them, and be covered.
 function on_top<Any extends THREE.Material>(material: Any): Any {
   material.depthTest = false;
   material.transparent = true;

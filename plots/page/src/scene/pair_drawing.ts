@@ -1,4 +1,4 @@
-// A pair of bodies, the proof of what is so, and what an algorithm says, as objects to draw.
+// The drawing shows a pair of bodies, the proof of what is so, and what an algorithm says.
 import type * as THREE from "three";
 import { Vector3 } from "three";
 import type { AnswerView, BodyView, CaseView, Triple } from "../bundle";
@@ -9,7 +9,7 @@ import { add, beside, dot, norm, placed, subtract, times, unit } from "./vectors
 
 const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 
-// Where the bodies are closest or deepest, in which direction, and how large they are.
+// It knows where the bodies are closest or deepest, in which direction, and how large they are.
 export class PairDrawing {
   readonly normal: Triple;
   readonly gap: number; // or the depth, metres
@@ -29,7 +29,7 @@ export class PairDrawing {
     this.size = Math.max(this.extent(a), this.extent(b)) || 1;
   }
 
-  // How far the body reaches from its origin. A half-space has no end: it counts for nothing.
+  // The extent is how far the body reaches from its origin, metres. A half-space has no end: it counts for nothing.
   private extent(body: BodyView): number {
     if (body.shape.type === "halfspace") return 0;
     const origin = placed(body, [0, 0, 0]);
@@ -37,8 +37,8 @@ export class PairDrawing {
     return points.reduce((most, point) => Math.max(most, norm(subtract(point, origin))), 0);
   }
 
-  // The enlargement at which the gap is as wide as a fifth of a body's size. Half of it, by powers of
-  // ten, enlarges all: the bodies are as curved as the gap is wide then. Half stretches along the normal.
+  // With these powers of ten the gap is as wide as a fifth of a body's size. One half of them enlarges all, so that
+  // the bodies are as curved as the gap is wide. The other half stretches along the normal.
   powers_for_gap(): [number, number] {
     if (!(this.gap > 0)) return [0, 0];
     const power = Math.log10((0.2 * this.size) / this.gap);

@@ -1,4 +1,4 @@
-// The pairs of a body, or those about which two algorithms differ, in a frame.
+// The table has the pairs of a body in a frame, or those about which two algorithms differ.
 import { make, quiet } from "../base/dom";
 import { grid } from "../tables/grid";
 import { Table } from "../tables/table";

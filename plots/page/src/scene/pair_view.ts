@@ -1,4 +1,4 @@
-// A pair of bodies that somebody got wrong, in three dimensions and in numbers.
+// This view shows a pair of bodies that somebody got wrong, in three dimensions and in numbers.
 import * as THREE from "three";
 import type { AnswerView, CaseView } from "../bundle";
 import { button, choice, command_line, controls, copy_button } from "../base/controls";
@@ -46,7 +46,7 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
   const drawing = new PairDrawing(pair);
   const group = new THREE.Group();
   stage.scene.add(group);
-  // Nobody is chosen where no answer is wrong.
+  // No answer is chosen where none is wrong.
   const first_wrong = pair.answers.findIndex(is_wrong);
   let chosen = first_wrong < 0 ? [] : pair.answers.slice(first_wrong, first_wrong + 1);
   const zoom = power_slider("Enlarged", 7, () => draw());
@@ -112,7 +112,7 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
   ];
 }
 
-// A slider for a power of ten.
+// The slider sets a power of ten.
 function power_slider(
   label: string,
   most: number,

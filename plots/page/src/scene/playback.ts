@@ -1,4 +1,4 @@
-// The part of the page that plays a scene. Nothing is decoded before it is opened.
+// This section plays a scene. Nothing is decoded before it is opened.
 import type { Recording } from "../bundle";
 import { button } from "../base/controls";
 import { make, quiet } from "../base/dom";

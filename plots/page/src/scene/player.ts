@@ -1,4 +1,4 @@
-// The controls of a scene that plays.
+// The player has the controls of a scene that plays.
 import type { Recording } from "../bundle";
 import { button, checkbox, choice, controls } from "../base/controls";
 import { make, quiet } from "../base/dom";
@@ -13,6 +13,9 @@ export interface Player {
   element: HTMLElement;
   dispose: () => void;
 }
+
+// These are the points drawn for each of the screen's, on each axis, from the finest to the coarsest.
+const sharpnesses = [1, 0.8, 0.65, 0.5];
 
 export function player(recording: Recording): Player {
   const opened = Stage.open(`${recording.name}, played`, false);
@@ -36,7 +39,7 @@ export function player(recording: Recording): Player {
     selected: -1,
   };
 
-  // What changes while it plays is not read out.
+  // These texts change while it plays, and so they are not read out.
   const where = make("span", { class: "frame" });
   const rate = make("span", { class: "rate quiet" });
   const pairs = make("div");
@@ -62,7 +65,11 @@ export function player(recording: Recording): Player {
   function tell(): void {
     if (clock.playing && performance.now() - told_at < 250) return;
     told_at = performance.now();
+    const rows = (): HTMLElement[] => [...pairs.querySelectorAll<HTMLElement>("tr.pickable")];
+    const focused = rows().findIndex((row) => row === document.activeElement);
     pairs.replaceChildren(pair_table(recorded, shown, select));
+    // A reader who is among the rows stays there.
+    if (focused >= 0) rows().slice(0, focused + 1).pop()?.focus();
   }
 
   function update(change: Partial<Shown>): void {
@@ -82,19 +89,27 @@ export function player(recording: Recording): Player {
     update({ selected: is_body ? body : -1 });
   }
 
+  // Where a frame takes too long, it gets fewer points and triangles, until the scene stands still again.
+  let haste = 0;
+  function hurry(more: number): void {
+    haste = Math.min(more, sharpnesses.length - 1);
+    stage.sharpen(sharpnesses[haste]!);
+    view.hurry(haste > 0);
+  }
+
   const clock = new Clock(
     recording.time_step,
     (frames) => go_to(shown.frame + frames),
     (frames_a_second) => {
       rate.textContent = `${frames_a_second.toFixed(0)} frames drawn a second`;
       const pace = Math.min(60, 1 / recording.time_step);
-      if (frames_a_second < 0.9 * pace) stage.sharpen(0.6);
+      if (frames_a_second < 0.95 * pace) hurry(haste + 1);
     },
     () => stage.element.isConnected,
   );
   const play = button("Play", () => {
     clock.toggle();
-    if (!clock.playing) stage.sharpen(1);
+    if (!clock.playing) hurry(0);
     play.textContent = clock.playing ? "Pause" : "Play";
     tell();
   });
@@ -127,7 +142,7 @@ export function player(recording: Recording): Player {
       name_views(shown.side_by_side);
     });
 
-  // The next frame in which the two algorithms differ.
+  // The scene goes to the next frame in which the two algorithms differ.
   function next_difference(): void {
     for (let ahead = 1; ahead <= recording.frames; ++ahead) {
       const frame = (shown.frame + ahead) % recording.frames;

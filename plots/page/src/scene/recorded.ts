@@ -1,4 +1,4 @@
-// A recording's frames, decoded when they are asked for.
+// A recording's frames are decoded when they are asked for, since most pairs are never looked at.
 import { doubles, floats, frames_of_floats, indices, octets, type Recording } from "../bundle";
 
 export const verdict_names = ["apart", "touching", "overlapping", "unknown"];
@@ -55,8 +55,8 @@ export class Recorded {
     return this.pairs(frame).verdicts[pair * this.algorithms.length + algorithm] ?? 3;
   }
 
-  // 0: apart from all others, 1: its box overlaps another, 2: in contact with another body by the verdicts
-  // of an algorithm.
+  // A body's state is 0 if it is apart from all others, 1 if its box overlaps another, and 2 if it is in contact
+  // with another body by the verdicts of an algorithm.
   states(frame: number, algorithm: number): Float32Array {
     const states = new Float32Array(this.bodies);
     const { bodies } = this.pairs(frame);
@@ -69,7 +69,7 @@ export class Recorded {
     return states;
   }
 
-  // The pairs about which two algorithms differ. Touching is contact.
+  // Two algorithms differ about these pairs. Touching is contact.
   disagreements(frame: number, left: number, right: number): number[] {
     const differing: number[] = [];
     if (left === right) return differing;

@@ -1,4 +1,4 @@
-// A recorded scene on a stage: bodies, their boxes, a broad phase's structure, and what is marked.
+// This view puts a recorded scene on a stage: bodies, their boxes, a broad phase's structure, and what is marked.
 import * as THREE from "three";
 import type { Recording } from "../bundle";
 import { Bodies } from "./bodies";
@@ -8,11 +8,11 @@ import type { Stage } from "./stage";
 
 export interface Shown {
   frame: number;
-  left: number; // algorithms, by their places
-  right: number;
+  left: number; // an algorithm's place
+  right: number; // an algorithm's place
   side_by_side: boolean;
   boxes: boolean;
-  structure: number; // -1: none
+  structure: number; // a structure's place, or -1
   selected: number; // a body, or -1
 }
 
@@ -20,8 +20,8 @@ export class SceneView {
   private readonly bodies: Bodies;
   private readonly boxes = new Boxes(0x888888);
   private readonly structure = new Boxes(null);
-  private readonly selected = new Boxes(0xd9a400, 0.06);
-  private readonly differing = new Boxes(0xd020d0, 0.03);
+  private readonly selected = new Boxes(0xffc400, 0.06, true);
+  private readonly differing = new Boxes(0xd020d0, 0.03, true);
 
   constructor(
     private readonly stage: Stage,
@@ -41,9 +41,8 @@ export class SceneView {
   show(now: Shown): void {
     const { frame } = now;
     const boxes = this.recorded.boxes(frame);
-    this.bodies.move(frame);
-    this.bodies.colour(0, this.recorded.states(frame, now.left));
-    if (now.side_by_side) this.bodies.colour(1, this.recorded.states(frame, now.right));
+    const left = this.recorded.states(frame, now.left);
+    this.bodies.show(frame, left, now.side_by_side ? this.recorded.states(frame, now.right) : left);
     this.boxes.set(now.boxes ? boxes : new Float32Array());
     const structure = this.recorded.structure(now.structure, frame);
     this.structure.set(structure.boxes, structure.levels);
@@ -54,10 +53,14 @@ export class SceneView {
     this.stage.draw();
   }
 
+  // A scene that plays too slowly is drawn with less care.
+  hurry(on: boolean): void {
+    this.bodies.hurry(on);
+    this.stage.draw();
+  }
+
   body_at(event: PointerEvent): number {
-    // What it found when it was last asked is of another frame.
-    for (const mesh of this.bodies.meshes) mesh.boundingSphere = null;
-    return this.bodies.body_of(this.stage.pick(event, this.bodies.meshes));
+    return this.bodies.body_on(this.stage.ray(event));
   }
 
   private boxes_of_differing(
@@ -76,7 +79,7 @@ export class SceneView {
   }
 }
 
-// A ball around all boxes that have an end.
+// The ball is around all boxes that have an end.
 function extent(corners: Float32Array): THREE.Sphere {
   const box = new THREE.Box3();
   const end = 1e30;

@@ -1,4 +1,4 @@
-// A canvas with a camera that turns around a point, by mouse, touch or keys.
+// The stage is a canvas with a camera that turns around a point, by mouse, touch or keys.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { make } from "../base/dom";
@@ -10,16 +10,18 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly controls: OrbitControls;
   private readonly resized: ResizeObserver;
+  private readonly dark = matchMedia("(prefers-color-scheme: dark)");
   private asked = false;
+  private part = 0; // points drawn for each of the screen's, on each axis
   private views = 1;
 
-  // Null where the browser draws no 3D. `label` tells a reader who does not see the canvas what it shows.
+  // It is null where the browser draws no 3D. `label` tells a reader who does not see the canvas what it shows.
   // Smooth edges take a multiple of the time, which a still picture has and a scene that plays has not.
   static open(label: string, smooth: boolean): Stage | null {
     const canvas = make("canvas", { tabindex: 0, role: "img", "aria-label": label });
     const context = canvas.getContext("webgl2", {
       antialias: smooth,
-      alpha: true,
+      alpha: false, // a browser without a graphics card takes long to mix the canvas with the page
       preserveDrawingBuffer: smooth,
     });
     return context ? new Stage(canvas, context, smooth ? 2 : 1) : null;
@@ -36,30 +38,35 @@ export class Stage {
     this.camera.up.set(0, 0, 1);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x777777, 2.2));
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
-    sun.position.set(3, -4, 6);
-    this.scene.add(sun);
+    // The sun goes with the camera, so that what a reader looks at is never dark.
+    sun.position.set(0.5, 1, 2);
+    this.camera.add(sun, sun.target);
+    this.scene.add(this.camera);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
     canvas.addEventListener("keydown", (event) => this.key(event));
     this.resized = new ResizeObserver(() => this.resize());
+    this.dark.addEventListener("change", this.paint_ground);
     this.resized.observe(this.element);
   }
 
-  // Draws with so many times the points of the screen on each axis, at most 1. A scene that plays without
-  // a graphics card is drawn more often where it has fewer.
+  // `part` is the number of points drawn for each of the screen's, on each axis. A scene that plays without a
+  // graphics card is drawn more often where it has fewer.
   sharpen(part: number): void {
+    if (part === this.part) return;
+    this.part = part;
     this.renderer.setPixelRatio(part * Math.min(devicePixelRatio, this.most_pixels));
     this.draw();
   }
 
-  // Two views stand side by side and share the camera. What is on layer 1 is in the left one alone,
-  // what is on layer 2 in the right one.
+  // Two views stand side by side and share the camera. The left one alone shows layer 1, the right one alone
+  // layer 2.
   show_views(views: 1 | 2): void {
     this.views = views;
     this.resize();
   }
 
-  // Looks at a ball from a direction.
+  // The camera looks at a ball from a direction.
   look_at(centre: THREE.Vector3, radius: number, from: THREE.Vector3): void {
     this.controls.target.copy(centre);
     this.camera.near = radius / 200;
@@ -76,7 +83,7 @@ export class Stage {
     this.draw();
   }
 
-  // Draws once before the next frame of the screen, however often it is asked.
+  // It draws once before the next frame of the screen, however often it is asked.
   draw(): void {
     if (this.asked) return;
     this.asked = true;
@@ -86,8 +93,8 @@ export class Stage {
     });
   }
 
-  // The first object under a place on the canvas.
-  pick(event: PointerEvent, objects: THREE.Object3D[]): THREE.Intersection | undefined {
+  // The ray is the line of sight through a place on the canvas.
+  ray(event: PointerEvent): THREE.Raycaster {
     const box = this.canvas.getBoundingClientRect();
     const width = box.width / this.views;
     const place = new THREE.Vector2(
@@ -95,13 +102,13 @@ export class Stage {
       1 - (2 * (event.clientY - box.top)) / box.height,
     );
     const ray = new THREE.Raycaster();
-    ray.layers.enableAll();
     ray.setFromCamera(place, this.camera);
-    return ray.intersectObjects(objects, false)[0];
+    return ray;
   }
 
   dispose(): void {
     this.resized.disconnect();
+    this.dark.removeEventListener("change", this.paint_ground);
     this.controls.dispose();
     this.scene.traverse((object) => {
       if (object instanceof THREE.Mesh || object instanceof THREE.Line) object.geometry.dispose();
@@ -137,7 +144,7 @@ export class Stage {
       offset.applyAxisAngle(this.camera.up, turned[0]);
       const side = new THREE.Vector3().crossVectors(this.camera.up, offset).normalize();
       const tilted = offset.clone().applyAxisAngle(side, turned[1]);
-      // Not over the poles.
+      // The camera stops short of the poles, because beyond them up would be down.
       if (Math.abs(tilted.clone().normalize().dot(this.camera.up)) < 0.99) offset.copy(tilted);
     } else if (event.key === "+" || event.key === "=") {
       offset.multiplyScalar(1 / 1.15);
@@ -152,9 +159,16 @@ export class Stage {
     this.draw();
   }
 
+  // The canvas has no transparent points, and so it takes the ground from the style of the page.
+  private readonly paint_ground = (): void => {
+    this.renderer.setClearColor(getComputedStyle(this.element).backgroundColor);
+    this.draw();
+  };
+
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (width === 0 || height === 0) return;
+    this.paint_ground();
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / this.views / height;
     this.camera.updateProjectionMatrix();

@@ -1,4 +1,4 @@
-// Surfaces of bodies as triangles, in doubles.
+// Surfaces of bodies are triangles whose corners are doubles, since a pair may be enlarged by 1e9.
 import type { BodyView, ShapeView, Triple } from "../bundle";
 import { polygonHull } from "d3-polygon";
 import { add, beside, cross, dot, norm, placed, subtract, support, times, unit } from "./vectors";
@@ -6,7 +6,7 @@ import { add, beside, cross, dot, norm, placed, subtract, support, times, unit }
 export interface Surface {
   points: Triple[];
   triangles: [number, number, number][];
-  edges: [number, number][]; // those of a polytope
+  edges: [number, number][]; // a curved body has none
 }
 
 const box_faces = [
@@ -32,9 +32,9 @@ function polytope(vertices: Triple[], faces: number[][]): Surface {
   return { points: vertices, triangles, edges };
 }
 
-const is_polytope = (shape: ShapeView): boolean => shape.type === "box" || shape.type === "hull";
+export const is_polytope = (shape: ShapeView): boolean => shape.type === "box" || shape.type === "hull";
 
-// How finely a curved body is drawn: circles around its pole, by their angles, and points on each.
+// A curved body is drawn by circles around its pole. The angles are between the pole and each circle, radians.
 export interface Fineness {
   angles: number[];
   sides: number;
@@ -45,15 +45,15 @@ export const even = (rings: number, sides: number): Fineness => ({
   sides,
 });
 
-// Finest around the pole, so that a contact there is smooth however much it is magnified.
+// The circles are closest around the pole, so that a contact there is smooth however much it is magnified.
 export function magnified(): Fineness {
   const { angles } = even(47, 48);
   for (let power = -8; power < -1.2; power += 0.1) angles.push(10 ** power);
   return { angles: angles.sort((a, b) => a - b), sides: 48 };
 }
 
-// The surface of a body in the world; a curved one has the unit vector `pole` as its pole. A half-space
-// is a square of `reach` metres around the point of it nearest to `near`.
+// The surface lies in the world. A curved body has the unit vector `pole` as its pole. A half-space is a square of
+// `reach` metres around the point of it nearest to `near`.
 export function surface_of(
   body: BodyView,
   pole: Triple,
@@ -77,8 +77,7 @@ export function surface_of(
   return around(body, pole, fineness);
 }
 
-// The outline of a set without faces: of a flat one, seen from above it, a polygon; of a segment or a
-// point, its ends.
+// A set of points without faces has an outline: a flat one has a polygon, a segment or a point its ends.
 function outline(points: Triple[]): number[] {
   const furthest = (height: (point: Triple) => number): Triple =>
     points.reduce((best, point) => (height(point) > height(best) ? point : best), points[0]!);
@@ -94,7 +93,7 @@ function outline(points: Triple[]): number[] {
   return polygon.map(([x, y]) => flat.findIndex((each) => each[0] === x && each[1] === y));
 }
 
-// Support points in directions on circles around the pole.
+// The surface has the support points in directions on circles around the pole.
 function around(body: BodyView, pole: Triple, { angles, sides }: Fineness): Surface {
   const [u, v] = beside(pole);
   const points = [support(body, pole)];

@@ -1,4 +1,4 @@
-// Vectors in doubles. Graphics has single precision alone, which a gap of 1e-9 does not survive.
+// These vectors have doubles, because graphics has single precision alone, which a gap of 1e-9 does not survive.
 import type { BodyView, ShapeView, Triple } from "../bundle";
 
 export const add = (u: Triple, v: Triple): Triple => [u[0] + v[0], u[1] + v[1], u[2] + v[2]];
@@ -16,7 +16,7 @@ export function unit(v: Triple): Triple {
   return length > 0 ? times(1 / length, v) : [0, 0, 1];
 }
 
-// Two unit vectors that are square to a third.
+// The two unit vectors are square to each other and to a third.
 export function beside(n: Triple): [Triple, Triple] {
   const axis: Triple = Math.abs(n[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0];
   const u = unit(cross(n, axis));
@@ -37,8 +37,8 @@ export const turn_back = (m: Matrix, v: Triple): Triple => [
 
 const sign = (x: number): number => (x < 0 ? -1 : 1);
 
-// The point of a shape's core that is furthest in a direction of the body, any length, and the radius
-// of the ball around it.
+// This is the point of a shape's core that is furthest in a direction of the body, which may have any length. The
+// radius is that of the ball around it, metres.
 export function core_support(shape: ShapeView, g: Triple): { point: Triple; radius: number } {
   const radius = shape.radius ?? 0,
     half = shape.half_length ?? 0;
@@ -87,7 +87,7 @@ export function core_support(shape: ShapeView, g: Triple): { point: Triple; radi
   }
 }
 
-// The point of a body that is furthest along a unit vector of the world.
+// This is the point of a body that is furthest along a unit vector of the world.
 export function support(body: BodyView, d: Triple): Triple {
   const { point, radius } = core_support(body.shape, turn_back(body.matrix, d));
   return add(add(turn(body.matrix, point), body.translation), times(radius, d));

@@ -1,4 +1,4 @@
-// What came out of a results folder, in a few sentences.
+// A few sentences say what came out of a results folder.
 import { count_text, interval_text, number_text, time_interval, time_text } from "../base/numbers";
 import type { Folder } from "../tables/folder";
 import { distinct, set_key, set_text } from "../tables/set";
@@ -69,7 +69,7 @@ function agreed(folder: Folder): string[] {
   });
 }
 
-// The three algorithms with the most silent errors.
+// The sentence names the three algorithms with the most silent errors.
 function most_silent(rows: Row[]): string {
   const counts = distinct(rows.map((row) => row.text("algorithm")))
     .map((algorithm): [string, number] => [

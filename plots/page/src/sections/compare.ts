@@ -1,5 +1,5 @@
-// Several results side by side: each algorithm's time over that of the baseline of the same folder.
-// Times of two machines are never divided by each other.
+// This section shows several results side by side: each algorithm's time over that of the baseline of the same
+// folder. Times of two machines are never divided by each other.
 import { chosen_chart } from "../base/controls";
 import { make, quiet } from "../base/dom";
 import { part, section } from "../base/section";
@@ -45,7 +45,7 @@ export function compare(folders: Folder[]): HTMLElement | null {
   );
 }
 
-// The facts of machine.csv that are not the same everywhere, and always those that name the results.
+// The table shows the facts of machine.csv that are not the same everywhere, and always those that name the results.
 function differences(folders: Folder[]): HTMLElement {
   const always = ["processor", "commit"];
   const names = distinct([
@@ -83,7 +83,7 @@ function ratios(shared: Measured[][], folders: string[]): HTMLElement {
   );
 }
 
-// Whether two intervals have no number in common. Unknown where one is missing.
+// Two intervals are apart if they have no number in common. Nobody knows where one is missing.
 function are_apart(rows: Row[]): string {
   if (rows.length < 2) return "";
   const low = Math.max(...rows.map((row) => row.number("ratio_low")));

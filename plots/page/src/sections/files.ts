@@ -1,4 +1,5 @@
-// The files of a folder that no other part shows, as tables that are filled when they are opened.
+// This section shows the files that no other part shows. Their tables are filled when they are opened, since some
+// are long.
 import { answer_for, element_of } from "../base/anchors";
 import { quiet } from "../base/dom";
 import { folded, section } from "../base/section";

@@ -1,4 +1,5 @@
-// Times: curves against count, the winner of each set, phases, speed-up, and the samples of a cell.
+// This section shows times: curves against count, the winner of each set, phases, speed-up, and the samples of a
+// cell.
 import { quiet, make } from "../base/dom";
 import { part, section } from "../base/section";
 import { time_against_count } from "../charts/curves";

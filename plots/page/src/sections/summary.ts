@@ -1,4 +1,4 @@
-// What was measured, where, and what came out.
+// The summary says what was measured, where, and what came out.
 import type { Bundle } from "../bundle";
 import { make, quiet } from "../base/dom";
 import { part, section } from "../base/section";

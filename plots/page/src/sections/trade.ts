@@ -1,4 +1,4 @@
-// Fronts of time against error.
+// This section shows which configurations no other beats in both time and error.
 import { checkbox, command_line, controls } from "../base/controls";
 import { make, quiet } from "../base/dom";
 import { part, section } from "../base/section";
@@ -8,7 +8,7 @@ import type { Folder } from "../tables/folder";
 import { grid } from "../tables/grid";
 import { Table, type Row } from "../tables/table";
 
-// A configuration in full: what it is, what it costs, and where it errs.
+// A reader who picks a configuration sees what it is, what it costs, and where it errs.
 function configuration(folder: Folder, row: Row): HTMLElement {
   const point = row.text("point");
   const columns = folder.table("points.csv").columns.filter((column) => row.text(column) !== "");

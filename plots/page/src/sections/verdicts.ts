@@ -1,4 +1,4 @@
-// Who is right and who is wrong: agreement of a campaign, grades of a check, maps of a sweep, a soak.
+// This section shows who is right and who is wrong, in a campaign, a check, a sweep and a soak.
 import { choice, chosen_chart, controls } from "../base/controls";
 import { make, quiet } from "../base/dom";
 import { part, section } from "../base/section";
@@ -24,10 +24,10 @@ export function verdicts(folder: Folder): HTMLElement | null {
   return shown.length > 0 ? section(`${folder.name}: right and wrong`, ...shown) : null;
 }
 
-// Sizes of errors that a reader may look for.
+// A reader may look for errors of at least these sizes.
 const error_sizes = ["", "1e-15", "1e-12", "1e-9", "1e-6", "1e-3", "1e-1"];
 
-// Choosers above a file's table: one for each column of names, and one for the greatest error.
+// Above a file's table stand choosers: one for each column of names, and one for the greatest error.
 function filtered(
   folder: Folder,
   file: string,

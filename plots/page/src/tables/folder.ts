@@ -1,4 +1,5 @@
-// A results folder, parsed when something is first asked of it.
+// A folder holds the results of one run. Its files are parsed when somebody first asks for them, since most are
+// never looked at.
 import { fresh_anchor } from "../base/anchors";
 import type { CaseView, Results } from "../bundle";
 import { file_grid, type GridOptions } from "./grid";
@@ -11,7 +12,7 @@ export class Folder {
   private readonly parsed = new Map<string, Table>();
   private readonly shown = new Set<string>();
 
-  readonly name: string; // which the program makes different from all others of the page
+  readonly name: string; // the program makes it different from all others of the page
 
   constructor(readonly results: Results) {
     this.name = results.name;
@@ -37,7 +38,7 @@ export class Folder {
     return this.table(file).rows;
   }
 
-  // The file's table on the page; each file has one. Its anchor is the folder's and the file's name.
+  // This is the file's table on the page; each file has one. Its anchor is the folder's and the file's name.
   grid(file: string, options: GridOptions = {}): HTMLElement {
     this.shown.add(file);
     return file_grid(this.table(file), {
@@ -52,12 +53,12 @@ export class Folder {
     return `${this.anchor}-${file.replace(/\.csv$/, "").replaceAll("_", "-")}`;
   }
 
-  // The files that no part of the page has shown yet.
+  // These files have been shown by no part of the page yet.
   rest(): string[] {
     return this.files.filter((file) => !this.shown.has(file));
   }
 
-  // An entry of machine.csv.
+  // A fact is an entry of machine.csv.
   fact(name: string): string {
     return (
       this.rows("machine.csv")
@@ -66,7 +67,7 @@ export class Folder {
     );
   }
 
-  // The hash of each scene, by its name.
+  // Each scene has a name and a hash.
   scenes(): [string, string][] {
     const listed = this.rows("machine.csv")
       .filter((row) => row.text("name").startsWith("scene "))
@@ -83,7 +84,7 @@ export class Folder {
     return `${this.anchor}-pair-${place}`;
   }
 
-  // The address of the first pair of a case file; the path may start anywhere above the folder.
+  // This is the address of the first pair of a case file. The path may start anywhere above the folder.
   case_of_file(path: string): string | undefined {
     if (!path) return undefined;
     const place = this.cases.findIndex(
@@ -92,7 +93,7 @@ export class Folder {
     return place < 0 ? undefined : this.case_anchor(place);
   }
 
-  // The address of the first pair that a check or a sweep keeps of an algorithm.
+  // This is the address of the first pair that a check or a sweep keeps of an algorithm.
   case_of_algorithm(algorithm: string, scalar: string, task = ""): string | undefined {
     const name = `failures/${[algorithm, scalar, task].filter(Boolean).join("-")}`;
     const place = this.cases.findIndex(

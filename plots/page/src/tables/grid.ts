@@ -1,18 +1,19 @@
-// A table that sorts by its headings and filters by a text. It shows a part of long tables at a time,
+// A grid is a table that sorts by its headings and filters by a text. It shows a part of a long table at a time,
 // so that a hundred thousand rows do no harm; the filter looks at all of them.
 import { answer_for } from "../base/anchors";
 import { button } from "../base/controls";
 import { make } from "../base/dom";
 import { count_text } from "../base/numbers";
+import { pickable_rows } from "./picking";
 import { numeric_columns, selected_rows, type Order } from "./selection";
 import type { Row, Table } from "./table";
 
 export interface GridOptions {
   lead?: string[]; // columns that come first, where the file has them
-  link?: (row: Row) => string | undefined; // the address of what a row is about
+  link?: (row: Row) => string | undefined; // the address of the pair that a row is about
   link_text?: string;
-  picked?: (row: Row) => void; // called when a row is clicked, or Enter is pressed on it
-  keep?: (row: Row) => boolean; // a filter of the part that shows the table
+  picked?: (row: Row) => void; // called when a row is picked, by mouse or by keyboard
+  keep?: (row: Row) => boolean; // a filter that the reader sets beside the table
 }
 
 interface Placed extends GridOptions {
@@ -42,10 +43,22 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
   let rows: Row[] = [];
 
   const body = make("tbody");
+  const heads = make("tr", {}, make("td", {}));
+  const listing = make(
+    "table",
+    { "data-file": options.file, "data-folder": options.folder },
+    make("thead", {}, heads),
+    body,
+  );
+  const { picked } = options;
+  const picking = picked
+    ? pickable_rows(listing, body, (row) => picked(rows[row.sectionRowIndex]!))
+    : null;
   const count = make("p", { class: "count", "aria-live": "polite" });
   const more = button("Show more", () => extend(shown + rows_at_a_time));
   const all = button("Show all", () => extend(rows.length));
   const headings = columns.map((column) => heading(column));
+  heads.append(...headings);
 
   function heading(column: number): HTMLElement {
     const name = table.columns[column]!;
@@ -71,7 +84,11 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
 
   function extend(to: number): void {
     shown = Math.max(to, rows_at_a_time);
-    for (const row of rows.slice(body.rows.length, shown)) body.append(row_element(row));
+    for (const row of rows.slice(body.rows.length, shown)) {
+      const element = row_element(row);
+      body.append(element);
+      picking?.join(element);
+    }
     count.textContent =
       `${count_text(body.rows.length)} of ${count_text(rows.length)} rows` +
       (rows.length < table.rows.length ? ` that match, of ${count_text(table.rows.length)}` : "");
@@ -92,21 +109,10 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
       ),
     );
     const element = make("tr", { id: anchor }, head, ...cells);
-    const { picked } = options;
-    if (picked) {
-      element.tabIndex = 0;
-      element.classList.add("pickable");
-      element.addEventListener("click", (event) => {
-        if (!(event.target instanceof HTMLAnchorElement)) picked(row);
-      });
-      element.addEventListener("keydown", (event) => {
-        if (event.key === "Enter" && event.target === element) picked(row);
-      });
-    }
     return element;
   }
 
-  // Shows a row that is named in an address, whatever hides it.
+  // An address may name a row that is hidden. It is shown, whatever hides it.
   function show_row(rest: string): Element | null {
     const named = /^row-(\d+)(?:-(.+))?$/.exec(rest);
     const row = named ? table.rows[Number(named[1])] : undefined;
@@ -143,12 +149,7 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
     make(
       "div",
       { class: "scroll", tabindex: 0, role: "region", "aria-label": options.file ?? "table" },
-      make(
-        "table",
-        { "data-file": options.file, "data-folder": options.folder },
-        make("thead", {}, make("tr", {}, make("td", {}), ...headings)),
-        body,
-      ),
+      listing,
     ),
     more,
     " ",

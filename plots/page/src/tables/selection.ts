@@ -1,13 +1,13 @@
-// Which rows of a table are shown, and in which order.
+// The filter and the order say which rows of a table are shown, and where.
 import { is_number_text, number_of } from "../base/numbers";
 import type { Row, Table } from "./table";
 
 export interface Order {
-  column: number; // -1: that of the file
+  column: number; // -1 keeps the order of the file
   down: boolean;
 }
 
-// Columns of numbers, by a look at some rows all over the table.
+// A column has numbers if some rows all over the table have them: to look at all rows would take too long.
 export function numeric_columns(table: Table): Set<number> {
   const looked_at = 100;
   const step = Math.max(1, Math.floor(table.rows.length / looked_at));
@@ -51,7 +51,7 @@ function sorted(table: Table, rows: Row[], { column, down }: Order): Row[] {
     places.sort((a, b) => {
       const x = numbers[a]!,
         y = numbers[b]!;
-      // What has no number comes last either way.
+      // A field without a number comes last either way.
       if (Number.isNaN(x) || Number.isNaN(y))
         return Number(Number.isNaN(x)) - Number(Number.isNaN(y));
       return x === y ? 0 : sign * (x < y ? -1 : 1);

@@ -1,4 +1,4 @@
-// What may be compared: the set of a campaign that a row belongs to, and its name in words.
+// Rows may be compared if they belong to the same set of a campaign. A set has a key, and a name in words.
 import type { Row } from "./table";
 
 export const set_columns = [
@@ -15,7 +15,7 @@ export const set_columns = [
   "isa_limit",
 ];
 
-// The set without some columns: rows with the same key differ in these alone.
+// A key may leave out some columns: rows with the same key differ in these alone.
 export const set_key = (row: Row, without: string[] = []): string =>
   set_columns.map((column) => (without.includes(column) ? "" : row.text(column))).join("\n");
 

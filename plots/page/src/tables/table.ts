@@ -1,4 +1,4 @@
-// A CSV file by rows and columns. The text stays as it is: a table knows where each field starts, so
+// A table is a CSV file by rows and columns. The text stays as it is: a table knows where each field starts, so
 // that a hundred thousand rows cost four bytes a field and no strings.
 import { number_of } from "../base/numbers";
 
@@ -10,7 +10,7 @@ const quote = 34,
 export class Table {
   readonly columns: string[];
   readonly rows: Row[];
-  // Of a killed run: the last line has no end, and its last number may be cut.
+  // The last line of a killed run has no end, and its last number may be cut.
   readonly cut: boolean;
   private readonly place = new Map<string, number>();
   private readonly starts: Uint32Array;
@@ -39,7 +39,7 @@ export class Table {
     this.rows = Array.from({ length: count }, (_, index) => new Row(this, index));
   }
 
-  // A table of texts that are not in a file.
+  // Some tables have texts that are not in a file.
   static of(columns: string[], rows: string[][]): Table {
     const field = (text: string): string => `"${text.replaceAll('"', '""')}"`;
     return new Table([columns, ...rows].map((row) => `${row.map(field).join(",")}\n`).join(""));
@@ -59,14 +59,14 @@ export class Table {
     return place === undefined ? "" : this.field(row, place);
   }
 
-  // The whole line of a row, to search in.
+  // A filter searches in the whole line of a row.
   line(row: number): string {
     const at = row * (this.columns.length + 1);
     return this.source.slice(this.starts[at]!, this.starts[at + this.columns.length]!);
   }
 
   private field_at(start: number, end: number): string {
-    let last = end - 1; // without the separator
+    let last = end - 1; // the separator is no part of the field
     if (
       this.source.charCodeAt(last) === newline &&
       this.source.charCodeAt(last - 1) === carriage_return
@@ -89,13 +89,13 @@ export class Row {
     return this.table.named(this.index, column);
   }
 
-  // NaN where there is no number.
+  // It is NaN where there is no number.
   number(column: string): number {
     return number_of(this.text(column));
   }
 }
 
-// For each line the places where its fields start, and where the next line does. `widths` are the
+// `starts` are for each line the places where its fields start, and where the next line does. `widths` are the
 // numbers of fields of the lines. A last line without an end is left out.
 function fields_of(source: string): { starts: Uint32Array; widths: number[]; cut: boolean } {
   let starts = new Uint32Array(1 << 12);

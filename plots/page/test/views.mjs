@@ -1,0 +1,101 @@
+// Takes a small picture of each view of a page: node test/views.mjs REPORT.html FOLDER
+import { mkdir, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { launch, open } from "./pages.mjs";
+import { small_png } from "./small_png.mjs";
+
+const [report, folder] = process.argv.slice(2);
+if (!folder) throw new Error("usage: node test/views.mjs REPORT.html FOLDER");
+const most_bytes = 60_000; // of a picture
+const most_bytes_of_all = 500_000;
+
+async function open_pair(page) {
+  const pair = page.locator("details.pair").first();
+  await pair.locator("summary").first().click();
+  await pair.getByText("show the gap").click();
+}
+
+const choose_axis = (page, axis) => page.locator("#stress-breaks select").first().selectOption({ label: axis });
+
+async function play(page, name, frame) {
+  const scene = page.locator(`#${name}-playback`);
+  await scene.getByText("Open the scene").click();
+  await scene.getByLabel("frame", { exact: true }).fill(String(frame));
+  return scene;
+}
+
+async function play_two(page) {
+  const scene = await play(page, "rock-pile", 8);
+  await scene.getByLabel("side by side").check();
+  await scene.getByLabel("Structure of").selectOption("uniform-grid");
+}
+
+// A view is an element of the page, or its upper part, after what a reader does to see it.
+const views = [
+  { name: "summary", element: "#summary", height: 395 },
+  { name: "curves", element: "#reference-curves figure" },
+  { name: "winners", element: "#reference-fastest figure", height: 420 },
+  { name: "phases", element: "#reference-phases figure" },
+  { name: "trade", element: "#grid-chart figure" },
+  { name: "accuracy", element: "#reference-answers", height: 420 },
+  { name: "stress_map", element: "#stress-breaks figure", height: 460, act: (page) => choose_axis(page, "aspect") },
+  { name: "pair", element: "details.pair[open]", height: 560, act: open_pair },
+  { name: "playback", element: "#rock-pile-playback .player", height: 540, act: (page) => play(page, "rock-pile", 8) },
+  { name: "comparison", element: "#comparison-ratios figure", height: 460 },
+  { name: "curves_dark", element: "#reference-curves figure", dark: true },
+  { name: "playback_dark", element: "#rock-pile-playback .player", height: 540, dark: true, act: play_two },
+];
+
+await mkdir(folder, { recursive: true });
+const browser = await launch();
+const reader = await browser.newPage(); // a page that decodes screenshots
+
+async function smaller(screenshot) {
+  const { width, height, pixels } = await reader.evaluate(async (base64) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${base64}`;
+    await image.decode();
+    const { width, height } = image;
+    const canvas = new OffscreenCanvas(width, height).getContext("2d");
+    canvas.drawImage(image, 0, 0);
+    const bytes = canvas.getImageData(0, 0, width, height).data;
+    let text = "";
+    for (let i = 0; i < bytes.length; i += 8192)
+      text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+    return { width, height, pixels: btoa(text) };
+  }, screenshot.toString("base64"));
+  return small_png(width, height, Buffer.from(pixels, "base64"));
+}
+
+let bytes_of_all = 0;
+for (const { name, element, height = Infinity, dark = false, act } of views) {
+  const { page, complaints } = await open(browser, report, "", {
+    viewport: { width: 1040, height: 900 },
+    colorScheme: dark ? "dark" : "light",
+  });
+  await act?.(page);
+  const shown = page.locator(element).first();
+  await shown.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(500);
+  const box = await shown.evaluate((each) => {
+    const { left, top, width, height } = each.getBoundingClientRect();
+    return { x: left + scrollX, y: top + scrollY, width, height };
+  });
+  const clip = {
+    x: box.x - 12,
+    y: box.y - 4,
+    width: box.width + 24,
+    height: Math.min(box.height, height) + 8,
+  };
+  const screenshot = await page.screenshot({ fullPage: true, clip });
+  const png = await smaller(screenshot);
+  const path = join(folder, `${name}.png`);
+  await writeFile(path, png);
+  bytes_of_all += png.length;
+  console.log(`${path}: ${png.length} bytes`);
+  if (png.length > most_bytes) throw new Error(`${path} is larger than ${most_bytes} bytes`);
+  if (complaints.length > 0) throw new Error(`${name}: ${complaints}`);
+  await page.close();
+}
+await browser.close();
+if (bytes_of_all > most_bytes_of_all) throw new Error(`all pictures have ${bytes_of_all} bytes`);
