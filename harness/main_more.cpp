@@ -15,5 +15,8 @@ int main(int argc, char** argv) {
                                 {"advise", commands::add_advise},
                                 {"represent", commands::add_represent},
                                 {"report", commands::add_report},
-                                {"run", commands::add_run_trade}});
+                                {"plan", commands::add_plan},
+                                {"merge", commands::add_merge},
+                                {"status", commands::add_status},
+                                {"run", commands::add_run_file}});
 }

@@ -4,7 +4,9 @@ The program computes every number (`touchstone tables`), so that a figure and a 
 """
 
 import argparse
+import contextlib
 import csv
+import io
 import math
 import os
 import subprocess
@@ -54,6 +56,30 @@ class BadRequest(Exception):
     """Told to the user; exit status 2."""
 
 
+def has_rows(path):
+    """Whether a file of rows is there, plain or packed by zstd."""
+    return os.path.exists(path) or os.path.exists(path + ".zst")
+
+
+@contextlib.contextmanager
+def open_rows(path):
+    """The text of a file of rows; where it is not there but packed by zstd, that program unpacks it."""
+    packed = path + ".zst"
+    if os.path.exists(path) or not os.path.exists(packed):
+        with open(path, newline="", encoding="utf-8") as file:
+            yield file
+        return
+    try:
+        unpacking = subprocess.Popen(["zstd", "-dcq", "--", packed], stdout=subprocess.PIPE)
+    except FileNotFoundError:
+        raise BadRequest(f"{packed} is packed, and the program that unpacks it is not here (Debian: zstd)") from None
+    with unpacking:
+        with io.TextIOWrapper(unpacking.stdout, newline="", encoding="utf-8") as file:
+            yield file
+    if unpacking.returncode != 0:
+        raise BadRequest(f"{packed}: cannot be unpacked")
+
+
 def read_table(folder, name):
     """The rows of NAME.csv, numbers as floats, empty fields as None."""
     path = os.path.join(folder, name + ".csv")
@@ -61,7 +87,7 @@ def read_table(folder, name):
              "baseline", "origin", "unit", "failure", "winner", "runner_up", "counts"}
     rows = []
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open_rows(path) as file:
             for row in csv.DictReader(file):
                 for column, text in row.items():
                     if column not in texts:
@@ -225,7 +251,7 @@ def run(figures, description, of_file=None):
         if not os.path.exists(folder):
             raise BadRequest(f"{folder}: no such folder; expected results of `touchstone run`")
         for name, draw in (of_file or {}).items():
-            if os.path.exists(os.path.join(folder, name)):
+            if has_rows(os.path.join(folder, name)):
                 return draw(folder, out)
         os.makedirs(out, exist_ok=True)
         if options.program:

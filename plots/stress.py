@@ -28,7 +28,7 @@ def read(folder):
     maps, values, ours = {}, {}, set()
     path = os.path.join(folder, "stress.csv")
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with common.open_rows(path) as file:
             for row in csv.DictReader(file):
                 axis = maps.setdefault((row["algorithm"], row["scalar"]), {}).setdefault(row["axis"], {})
                 counts = axis.setdefault(row["value"], dict.fromkeys(OUTCOMES, 0))
@@ -37,7 +37,7 @@ def read(folder):
                 known = values.setdefault(row["axis"], [])
                 if row["value"] not in known:
                     known.append(row["value"])
-        with open(os.path.join(folder, "envelope.csv"), newline="", encoding="utf-8") as file:
+        with common.open_rows(os.path.join(folder, "envelope.csv")) as file:
             ours = {row["algorithm"] for row in csv.DictReader(file) if row["origin"] == "ours"}
     except FileNotFoundError as error:
         raise common.BadRequest(f"{error.filename} is missing; `touchstone stress` writes it") from None

@@ -21,7 +21,7 @@ PARTS = ("representation", "boxes", "broad", "narrow", "scalar", "tolerance", "m
 def read(folder):
     """The points that have a time and an error, and the facts of the run."""
     try:
-        with open(os.path.join(folder, "points.csv"), newline="", encoding="utf-8") as file:
+        with common.open_rows(os.path.join(folder, "points.csv")) as file:
             rows = list(csv.DictReader(file))
         with open(os.path.join(folder, "machine.csv"), newline="", encoding="utf-8") as file:
             facts = {row["name"]: row["value"] for row in csv.DictReader(file)}

@@ -47,9 +47,16 @@ void expect_frames(const Block& block, const scene::Scene& scene) {
 
 }  // namespace
 
-CampaignBlocks::CampaignBlocks(const Campaign& campaign)
+CampaignBlocks::CampaignBlocks(const Campaign& campaign, std::optional<base::UnitRange> range)
     : campaign_(campaign), blocks_(blocks_of(campaign)) {
-  for (const Block& block : blocks_) {
+  range_ = range.value_or(base::UnitRange{0, size()});
+  if (range_.first < 0 || range_.end > size() || range_.empty()) {
+    throw base::InputError(
+        fmt::format("the campaign has the blocks 0-{}; expected a part of them, not {}", size(),
+                    to_string(range_)));
+  }
+  for (std::int64_t number = range_.first; number < range_.end; ++number) {
+    const Block& block = this->block(number);
     auto at = scenes_.find(key(block));
     if (at == scenes_.end()) {
       scene::Scene scene = scene::load_scene(block.scene_file, block.overrides);
@@ -65,27 +72,27 @@ CampaignBlocks::Key CampaignBlocks::key(const Block& block) {
   return {block.scene_file, overrides.count, overrides.seed, overrides.frames, overrides.gap};
 }
 
-RunContext CampaignBlocks::context(std::size_t number, record::Findings* findings) const {
-  const Block& block = blocks_[number];
+RunContext CampaignBlocks::context(std::int64_t number, record::Findings* findings) const {
+  const Block& block = this->block(number);
   const Loaded& loaded = scene_of(block);
-  return {campaign_.name,
-          campaign_.seed,
-          static_cast<std::int64_t>(number),
-          &block,
-          &loaded.scene,
-          loaded.hash,
-          {},
-          findings,
-          blocks_};
+  return {campaign_.name, campaign_.seed, number, &block, &loaded.scene, loaded.hash, {},
+          findings,       blocks_};
 }
 
-std::string CampaignBlocks::label(std::size_t number) const {
-  const Block& block = blocks_[number];
+std::string CampaignBlocks::label(std::int64_t number) const {
+  const Block& block = this->block(number);
   const scene::Scene& scene = scene_of(block).scene;
   return fmt::format("{}, {} bodies, {} frames{}, {} boxes, {} thread{}{}", scene.name,
                      scene.size(), scene.frames, block.group->rebuild ? " rebuilt" : "",
                      to_string(block.boxes), block.threads, block.threads == 1 ? "" : "s",
                      block.isa ? fmt::format(", {} instructions", to_string(*block.isa)) : "");
+}
+
+bool CampaignBlocks::belongs_to_previous(std::int64_t number) const {
+  if (number == 0) return false;
+  const Block& before = block(number - 1);
+  const Block& here = block(number);
+  return before.group == here.group && key(before) == key(here) && before.boxes == here.boxes;
 }
 
 std::map<std::string, std::string> CampaignBlocks::scene_hashes() const {

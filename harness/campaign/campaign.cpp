@@ -102,7 +102,7 @@ std::string description(const Campaign& campaign) {
   return text;
 }
 
-std::vector<std::pair<std::string, std::string>> campaign_facts(
+std::vector<std::pair<std::string, std::string>> campaign_identity(
     const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes) {
   std::uint64_t hash = 0;
   for (const char c : description(campaign)) hash = base::mix(hash ^ static_cast<unsigned char>(c));
@@ -111,6 +111,12 @@ std::vector<std::pair<std::string, std::string>> campaign_facts(
                                                             {"campaign_hash", base::to_hex(hash)}};
   facts.emplace_back("program", record::hash_of_program());
   for (const auto& [name, value] : scene_hashes) facts.emplace_back("scene " + name, value);
+  return facts;
+}
+
+std::vector<std::pair<std::string, std::string>> campaign_facts(
+    const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes) {
+  auto facts = campaign_identity(campaign, scene_hashes);
   for (auto& fact : record::machine_facts()) facts.push_back(std::move(fact));
   return facts;
 }

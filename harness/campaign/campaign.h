@@ -91,12 +91,15 @@ struct Campaign {
 };
 
 // Reads a campaign file: datasets/README.md documents the keys. Keys at the top level are defaults
-// of each [[group]]; scenes are relative to the file. Throws InputError with file, line and what
-// was expected.
-Campaign read_campaign(const std::filesystem::path& file);
+// of each [[group]]; scenes are relative to the folder `home`, without one to that of the file.
+// Throws InputError with file, line and what was expected.
+Campaign read_campaign(const std::filesystem::path& file, const std::filesystem::path& home = {});
 
-// Returns the facts that decide a campaign's measurements: its name, seed and content, the hashes
-// of its scenes and of the program, and the machine.
+// Returns the facts that decide a campaign's rows: its name, seed and content, and the hashes of its
+// scenes and of the program.
+std::vector<std::pair<std::string, std::string>> campaign_identity(
+    const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes);
+// Returns these facts and those of the machine, which decide the times.
 std::vector<std::pair<std::string, std::string>> campaign_facts(
     const Campaign& campaign, const std::map<std::string, std::string>& scene_hashes);
 

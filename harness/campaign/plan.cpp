@@ -22,7 +22,7 @@ constexpr int planned_frames = 2;
 std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
   const CampaignBlocks blocks(campaign);
   std::vector<PlannedBlock> plan;
-  for (std::size_t number = 0; number < blocks.size(); ++number) {
+  for (std::int64_t number = 0; number < blocks.size(); ++number) {
     const RunContext context = blocks.context(number, nullptr);
     const CampaignGroup& group = *context.block->group;
     const IsaGuard guard(*context.block);

@@ -33,42 +33,13 @@ class Settings {
     file_->has(key);  // marks the file's key as known, even if the group's value replaces it
     return own ? *group_ : *file_;
   }
-  // Returns the elements of an array; a single value is an array of one. The result is empty if the
-  // key is missing.
-  std::vector<const toml::node*> elements(std::string_view key) {
-    files::TomlTable& table = of(key);
-    const toml::node* node = table.node(key);
-    std::vector<const toml::node*> list;
-    if (node == nullptr) return list;
-    if (const toml::array* array = node->as_array()) {
-      for (const toml::node& element : *array) list.push_back(&element);
-      if (list.empty()) table.fail(key, "found an empty array; expected at least one value");
-    } else {
-      list.push_back(node);
-    }
-    return list;
-  }
+  std::vector<const toml::node*> elements(std::string_view key) { return of(key).elements(key); }
   std::vector<std::string> texts(std::string_view key, std::vector<std::string> fallback) {
-    std::vector<std::string> values;
-    for (const toml::node* node : elements(key)) {
-      const auto* value = node->as_string();
-      if (value == nullptr) of(key).fail(key, "expected texts");
-      values.push_back(value->get());
-    }
-    return values.empty() ? fallback : values;
+    return of(key).texts(key, std::move(fallback));
   }
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t low, std::int64_t high,
                                      std::int64_t fallback) {
-    std::vector<std::int64_t> values;
-    for (const toml::node* node : elements(key)) {
-      const auto* value = node->as_integer();
-      if (value == nullptr || value->get() < low || value->get() > high) {
-        of(key).fail(key, fmt::format("expected whole numbers from {} to {}", low, high));
-      }
-      values.push_back(value->get());
-    }
-    if (values.empty()) values.push_back(fallback);
-    return values;
+    return of(key).integers(key, low, high, fallback);
   }
   // Returns numbers from -`greatest` to `greatest`.
   std::vector<double> numbers(std::string_view key, double greatest) {
@@ -271,7 +242,7 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
 
 }  // namespace
 
-Campaign read_campaign(const std::filesystem::path& file) {
+Campaign read_campaign(const std::filesystem::path& file, const std::filesystem::path& home) {
   const toml::table root = files::parse_toml(file);
   files::TomlTable table(root, file.string(), "");
   Campaign campaign;
@@ -279,7 +250,7 @@ Campaign read_campaign(const std::filesystem::path& file) {
   campaign.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
   campaign.published = stats::read_published(table);
-  const std::filesystem::path folder = file.parent_path();
+  const std::filesystem::path folder = home.empty() ? file.parent_path() : home;
   const toml::table nothing;
   files::TomlTable empty(nothing, file.string(), "");
   if (table.has("group")) {

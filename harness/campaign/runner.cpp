@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <csignal>
 
 #include "harness/base/clock.h"
 #include "harness/base/progress.h"
@@ -15,29 +14,10 @@
 #include "harness/campaign/lower_bound_entry.h"
 #include "harness/campaign/run_folder.h"
 #include "harness/process/child_process.h"
+#include "harness/process/interrupt.h"
 
 namespace touchstone::campaign {
 namespace {
-
-volatile std::sig_atomic_t interrupt = 0;
-
-// SIGINT ends the run after the current round; a second one ends the program as usual.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupt = 0;
-    previous_ = std::signal(SIGINT, [](int) {
-      interrupt = 1;
-      std::signal(SIGINT, SIG_DFL);
-    });
-  }
-  ~InterruptGuard() { std::signal(SIGINT, previous_); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  void (*previous_)(int);
-};
 
 // The sets of true pairs, and the sets of the broad phases' pairs.
 struct NarrowInput {
@@ -91,33 +71,37 @@ void run_block(RunContext context, bool checked, base::Progress& progress, RunFo
   run.run([&] {
     files.commit(*context.findings);
     progress.part(std::min(watch.seconds() / budget, 1.0));
-    return interrupt == 0;
+    return !process::InterruptGuard::raised();
   });
 }
 
 }  // namespace
 
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                       record::FolderStart start) {
+                       record::FolderStart start, const std::optional<record::Part>& part) {
   process::expect_one_thread();
-  const CampaignBlocks blocks(campaign);
+  const CampaignBlocks blocks(campaign, part ? std::optional(part->units) : std::nullopt);
+  record::Facts facts = campaign_facts(campaign, blocks.scene_hashes());
+  if (part) append_facts(*part, facts);
   RunResult result;
-  RunFolder files(folder, campaign_facts(campaign, blocks.scene_hashes()), start, result.findings);
+  RunFolder files(folder, std::move(facts), start, result.findings);
   if (files.was_finished()) return result;
   const auto& rows = result.findings.rows();
   // The block at which the run stopped.
   const std::int64_t at = rows.empty() ? -1 : rows.back().block;
   {
-    const InterruptGuard guard;
-    base::Progress progress(blocks.size());
-    for (std::size_t number = 0; number < blocks.size() && interrupt == 0; ++number) {
+    const process::InterruptGuard guard;
+    const base::UnitRange range = blocks.range();
+    base::Progress progress(static_cast<std::size_t>(range.size()));
+    for (std::int64_t number = range.first; number < range.end; ++number) {
+      if (process::InterruptGuard::raised()) break;
       progress.start(blocks.label(number));
-      if (static_cast<std::int64_t>(number) < at) continue;
+      if (number < at) continue;
       RunContext context = blocks.context(number, &result.findings);
       context.reproductions = folder / "reproductions" / fmt::format("block-{}", number);
       run_block(context, context.number == at, progress, files);
     }
-    result.interrupted = interrupt != 0;
+    result.interrupted = process::InterruptGuard::raised();
   }
   if (!result.interrupted) files.finish();
   return result;
@@ -127,7 +111,7 @@ record::Findings check_campaign(const Campaign& campaign) {
   process::expect_one_thread();
   const CampaignBlocks blocks(campaign);
   record::Findings findings;
-  for (std::size_t number = 0; number < blocks.size(); ++number) {
+  for (std::int64_t number = 0; number < blocks.size(); ++number) {
     RunContext context = blocks.context(number, &findings);
     const IsaGuard guard(*context.block);
     const measure::BlockInput input(*context.scene, context.block->boxes, context.has_narrow());

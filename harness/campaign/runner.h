@@ -1,13 +1,12 @@
 // Runs a campaign.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <string>
-#include <vector>
+#include <optional>
 
 #include "harness/campaign/campaign.h"
 #include "harness/record/findings.h"
+#include "harness/record/part.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::campaign {
@@ -20,12 +19,14 @@ struct RunResult {
 // Loads every scene first, so that a faulty one is reported before anything is written
 // (InputError). Then it takes block after block: the check pass, then samples, written to
 // DIR/raw.csv as they are measured, with DIR/departures.csv, DIR/machine.csv, and a file into
-// DIR/reproductions for each departure. An interrupt (SIGINT) ends the run after the current round;
-// its results are kept and can be resumed. The caller is the only thread of its process
+// DIR/reproductions for each departure. An interrupt (SIGINT, SIGTERM) ends the run after the
+// current round; its results are kept and can be resumed. With `part` only these blocks are run, and
+// only their scenes are loaded. The caller is the only thread of its process
 // (std::logic_error): workers are forked from it, so no Executor of more than one thread may have
 // been used in it.
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                       record::FolderStart start = record::FolderStart::fresh);
+                       record::FolderStart start = record::FolderStart::fresh,
+                       const std::optional<record::Part>& part = {});
 
 // Runs the check pass of every block alone: the campaign's answers, without samples and files.
 record::Findings check_campaign(const Campaign& campaign);

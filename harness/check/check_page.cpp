@@ -13,8 +13,6 @@
 namespace touchstone::check {
 namespace {
 
-std::string count(std::int64_t n) { return std::to_string(n); }
-
 std::string introduction(const CheckReport& report, const std::string& command) {
   const CheckRequest& request = *report.request;
   std::string text = "# Who is wrong where\n\n";

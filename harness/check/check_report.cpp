@@ -13,8 +13,6 @@
 namespace touchstone::check {
 namespace {
 
-std::string count(std::int64_t n) { return std::to_string(n); }
-
 base::Table summary_table(const GroupedCounts& grouped) {
   base::Table table({"", "answers", "silent", "margin", "near", "width", "honest", "unsaid", "lost",
                      "gap", "deep", "shallow", "stuck", "bounds", "flips", "beyond"});

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "algorithms/registry.h"
 #include "harness/check/regimes/regimes.h"
+#include "harness/record/part.h"
 
 namespace touchstone::check {
 
@@ -40,13 +42,19 @@ struct CheckRequest {
   std::vector<const Regime*> regimes;
   std::uint64_t seed = 1;
   int cases = 200;         // number of cases of each regime in a round
-  double seconds = 0;      // rounds go on for so long; 0: one round
+  int rounds = 1;          // number of rounds
+  double seconds = 0;      // rounds go on for so long instead; 0: `rounds` of them
   int workers = 2;         // number of processes
   double time_limit = 10;  // seconds for one query
   std::filesystem::path out;
-  bool resume = false;  // resumes the work in the folder
+  bool resume = false;               // resumes the work in the folder
+  std::optional<record::Part> part;  // some jobs instead of all
 
   CheckSubjects subjects() const { return {narrow, regimes}; }
+  // Returns the jobs of the part, or else all `count`.
+  base::UnitRange jobs(std::int64_t count) const {
+    return part ? part->units : base::UnitRange{0, count};
+  }
   // Returns the narrow phases in those of the scalars that they offer.
   std::vector<CheckedAlgorithm> algorithms() const {
     std::vector<CheckedAlgorithm> all;

@@ -18,40 +18,30 @@ constexpr double broad_seconds = 20;  // time limit of a broad phase for a scene
 
 enum : std::size_t { grades_file, variants_file, jobs_file };
 
-record::ResultFolderPlan plan_of(const CheckRequest& request) {
-  const CheckSubjects subjects = request.subjects();
-  return job_folder(request, "check", regimes_fact(request),
-                    {{"grades.csv", record::header_of<grade::GradedAnswer>(subjects)},
-                     {"variants.csv", record::header_of<VariantCount>(subjects)},
-                     {"jobs.csv", record::header_of<JobSummary>(subjects)}});
-}
-
 // Counts the rows of an interrupted check.
 void take_up(const record::ResultFolder& folder, const CheckSubjects& subjects, Tally& tally) {
-  const auto add = [&]<class Row>(std::size_t file) {
-    for (const Row& row : folder.rows<Row>(file, subjects)) tally.add(row);
-  };
-  add.operator()<grade::GradedAnswer>(grades_file);
-  add.operator()<VariantCount>(variants_file);
-  add.operator()<JobSummary>(jobs_file);
+  const auto add = [&](const auto& row) { tally.add(row); };
+  folder.each_row<grade::GradedAnswer>(grades_file, add, subjects);
+  folder.each_row<VariantCount>(variants_file, add, subjects);
+  folder.each_row<JobSummary>(jobs_file, add, subjects);
 }
 
 void grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally& tally) {
   const std::size_t regimes = request.regimes.size();
   const bool endless = request.seconds > 0;
-  const std::size_t end = endless ? std::numeric_limits<std::size_t>::max() : regimes;
-  const auto first = static_cast<std::size_t>(folder.units());
-  if (first >= end) return;
+  const base::UnitRange jobs =
+      request.jobs(endless ? std::numeric_limits<std::int64_t>::max() : jobs_of(request));
+  if (folder.units() >= jobs.size()) return;
   const CheckSubjects subjects = request.subjects();
   const base::Stopwatch watch;
-  base::Progress progress(endless ? 1 : end - first);
+  base::Progress progress(endless ? 1 : static_cast<std::size_t>(jobs.size() - folder.units()));
   if (endless) progress.start(fmt::format("checking for {:g} s", request.seconds));
   const auto keep = [&](std::size_t file, const auto& row) {
     folder.write(file, row, subjects);
     tally.add(row);
   };
   do_jobs<JobResult>(
-      folder, request, end,
+      folder, request, jobs,
       [&](std::size_t job, oracle::Oracle& oracle) { return do_job(request, job, oracle); },
       [&](std::size_t job, const JobResult& result) {
         for (const grade::GradedAnswer& answer : result.answers) keep(grades_file, answer);
@@ -68,14 +58,31 @@ void grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally&
 
 }  // namespace
 
+record::ResultFolderPlan check_folder(const CheckRequest& request) {
+  const CheckSubjects subjects = request.subjects();
+  return job_folder(request, "check", regimes_fact(request),
+                    {{"grades.csv", record::header_of<grade::GradedAnswer>(subjects)},
+                     {"variants.csv", record::header_of<VariantCount>(subjects)},
+                     {"jobs.csv", record::header_of<JobSummary>(subjects)}});
+}
+
+std::int64_t jobs_of(const CheckRequest& request) {
+  return static_cast<std::int64_t>(request.regimes.size()) * request.rounds;
+}
+
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   auto result = std::make_unique<CheckResult>();
   result->report.request = &request;
   result->report.tally = &result->tally;
-  record::ResultFolder folder(plan_of(request));
+  record::ResultFolder folder(check_folder(request));
   if (request.resume) take_up(folder, request.subjects(), result->tally);
   if (!request.narrow.empty()) grade_all(request, folder, result->tally);
+  if (request.part && folder.units() < request.part->units.size()) {
+    result->interrupted = true;
+    return result;
+  }
   folder.finish();
+  if (request.part) return result;
   if (!request.broad.empty()) result->scenes = box_scenes(request.seed);
   result->report.failures = write_failures(request, result->tally.failures(request));
   result->report.variant_failures = write_variant_failures(request, result->tally);

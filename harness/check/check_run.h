@@ -6,6 +6,7 @@
 
 #include "harness/check/check_report.h"
 #include "harness/check/tally.h"
+#include "harness/record/result_folder.h"
 
 namespace touchstone::check {
 
@@ -14,11 +15,17 @@ struct CheckResult {
   Tally tally;
   std::vector<BoxScene> scenes;
   CheckReport report;
+  bool interrupted = false;  // a part that is not done
 };
+
+// Returns the folder that run_check fills, and the number of jobs without `seconds`.
+record::ResultFolderPlan check_folder(const CheckRequest& request);
+std::int64_t jobs_of(const CheckRequest& request);
 
 // Grades everything and writes grades.csv, variants.csv, jobs.csv, progress.csv, summary.csv,
 // machine.csv and failures/ into the request's folder, which it creates. Progress goes to standard
-// error. Throws InputError if the folder cannot be written or resumed.
+// error. A part has the rows and machine.csv alone, and its result no report; an interrupt ends it
+// after the current job. Throws InputError if the folder cannot be written or resumed.
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request);
 
 }  // namespace touchstone::check

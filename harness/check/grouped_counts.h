@@ -33,6 +33,9 @@ class GroupedCounts {
   std::vector<std::string> groups_;
 };
 
+// Returns a number of things.
+inline std::string count(std::int64_t n) { return std::to_string(n); }
+
 // Returns the first digit and the exponent of an error, or "-" for NaN.
 std::string digits(double x);
 

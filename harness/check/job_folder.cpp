@@ -24,15 +24,20 @@ record::ResultFolderPlan job_folder(const CheckRequest& request, std::string wor
   for (const Precision scalar : request.scalars) scalars.push_back(to_string(scalar));
   record::Facts notes = {{std::string(work), request.resume ? "resumed" : "whole"}};
   for (auto& fact : record::machine_facts()) notes.push_back(std::move(fact));
+  record::Facts identity = {{"seed", std::to_string(request.seed)},
+                            {"cases", std::to_string(request.cases)},
+                            {"narrow", fmt::format("{}", fmt::join(narrow, " "))},
+                            {"scalars", fmt::format("{}", fmt::join(scalars, " "))},
+                            std::move(subject),
+                            {"time_limit", fmt::format("{}", request.time_limit)},
+                            {"program", record::hash_of_program()}};
+  if (request.part) {
+    append_facts(*request.part, identity);
+    notes.insert(notes.end(), request.part->notes.begin(), request.part->notes.end());
+  }
   return {.folder = request.out,
           .files = std::move(files),
-          .identity = {{"seed", std::to_string(request.seed)},
-                       {"cases", std::to_string(request.cases)},
-                       {"narrow", fmt::format("{}", fmt::join(narrow, " "))},
-                       {"scalars", fmt::format("{}", fmt::join(scalars, " "))},
-                       std::move(subject),
-                       {"time_limit", fmt::format("{}", request.time_limit)},
-                       {"program", record::hash_of_program()}},
+          .identity = std::move(identity),
           .notes = std::move(notes),
           .start = record::resume_or_overwrite(request.resume),
           .work = std::move(work)};

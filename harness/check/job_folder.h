@@ -9,6 +9,7 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/check_request.h"
+#include "harness/process/interrupt.h"
 #include "harness/process/worker_pool.h"
 #include "harness/record/result_folder.h"
 
@@ -24,14 +25,15 @@ record::ResultFolderPlan job_folder(const CheckRequest& request, std::string wor
                                     std::pair<std::string, std::string> subject,
                                     std::vector<record::RowFile> files);
 
-// Does the jobs below `end` that the folder does not hold yet: work(job, oracle) in a worker, then
+// Does the jobs of the range that the folder does not hold yet: work(job, oracle) in a worker, then
 // take(job, result) here, in order. If `take` returns false the run ends. Each job is a unit of the
 // folder.
 template <class Result, class Work, class Take>
-void do_jobs(record::ResultFolder& folder, const CheckRequest& request, std::size_t end,
+void do_jobs(record::ResultFolder& folder, const CheckRequest& request, base::UnitRange jobs,
              const Work& work, const Take& take) {
   process::run_jobs<Result>(
-      static_cast<std::size_t>(folder.units()), end, request.workers,
+      static_cast<std::size_t>(jobs.first + folder.units()), static_cast<std::size_t>(jobs.end),
+      request.workers,
       [&] {
         // Each process has one oracle, which keeps its memory from query to query.
         const auto oracle = std::make_shared<oracle::Oracle>();
@@ -40,7 +42,7 @@ void do_jobs(record::ResultFolder& folder, const CheckRequest& request, std::siz
       [&](std::size_t job, const Result& result) {
         const bool goes_on = take(job, result);
         folder.commit();
-        return goes_on;
+        return goes_on && !process::InterruptGuard::raised();
       });
 }
 

@@ -10,6 +10,7 @@
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
 #include "harness/check/regimes/select_regimes.h"
+#include "harness/check/requests/select_narrow.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -34,7 +35,7 @@ int verify(const std::string& file) {
 int check(CheckOptions& options, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
   check::CheckRequest& request = options.request;
-  request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
+  request.narrow = check::narrow_phases_to_grade(options.narrow, request.scalars);
   request.broad =
       campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
   request.regimes = check::select_regimes(options.regimes, options.groups);

@@ -32,6 +32,9 @@ void add_trade(Arguments command);
 void add_advise(Arguments command);
 void add_represent(Arguments command);
 void add_report(Arguments command);
-void add_run_trade(Arguments command);  // `run` for a file with a table [trade]
+void add_plan(Arguments command);
+void add_merge(Arguments command);
+void add_status(Arguments command);
+void add_run_file(Arguments command);  // `run` for all but a campaign
 
 }  // namespace touchstone::commands

@@ -11,6 +11,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/row_file.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/record/machine.h"
@@ -100,7 +101,9 @@ int compare_files(const CompareOptions& options) {
 stats::Results run(const std::string& program, const std::string& campaign,
                    const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  std::filesystem::remove(folder / "raw.csv");  // it is left from an earlier comparison
+  // These are left from an earlier comparison.
+  std::filesystem::remove(folder / "raw.csv");
+  std::filesystem::remove(files::packed_name(folder / "raw.csv"));
   const std::filesystem::path log = folder / "output.txt";
   const int status =
       process::run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);

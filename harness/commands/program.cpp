@@ -47,6 +47,9 @@ constexpr std::array all_commands = std::to_array<CommandName>({
     {"record", "Write a scene's boxes as a recording"},
     {"trade", "Speed against accuracy on a scene: every configuration, and the Pareto front"},
     {"advise", "The cheapest configuration for a scene that is right enough, by measuring"},
+    {"plan", "Cut a campaign, a check or a soak into shards for many machines"},
+    {"status", "How far the shards of a plan are, and which failed"},
+    {"merge", "Join the shards of a plan"},
     {"represent", "What stands for a scene's bodies, from ball to mesh, and how far off it is"},
 });
 

@@ -1,6 +1,8 @@
 // touchstone run: measures a campaign.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "harness/base/error.h"
@@ -12,12 +14,10 @@
 #include "harness/commands/pictures/page.h"
 #include "harness/commands/program.h"
 #include "harness/commands/shared_options.h"
-#include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
-#include "harness/stats/published_check.h"
-#include "harness/stats/summary.h"
+#include "harness/stats/run_report.h"
 
 namespace touchstone::commands {
 namespace {
@@ -39,6 +39,10 @@ struct RunOptions {
   // These options decide how the campaign is measured.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
   bool tables = false, with_page = false;
+  bool threads_given = false;
+  // These options do a shard of a plan instead.
+  std::string plan;
+  std::int64_t shard = -1;
   double depth_error = stats::usual_depth_error;
 };
 
@@ -107,36 +111,45 @@ record::FolderStart start_of(const RunOptions& options) {
   return options.overwrite ? record::FolderStart::overwrite : record::FolderStart::fresh;
 }
 
-// Runs the file of a trade instead of a campaign; it has no options but --out and --report.
-int run_trade_file(const RunOptions& options) {
-  if (options.resume || options.overwrite || options.strict || options.noisy || options.dry_run) {
+// Runs another file than a campaign, which the other executable does.
+int run_other_file(const RunOptions& options) {
+  if (options.overwrite || options.strict || options.noisy || options.dry_run || options.tables) {
     throw base::InputError(
         options.campaign +
-        " has a table [trade]; expected no options but --out and --report with such a file");
+        " is no campaign of [[group]]; expected no options but --out, --resume, --threads and "
+        "--report with such a file");
   }
   hand_over();
+}
+
+bool is_other_file(const std::string& file) {
+  return std::ranges::any_of(std::array{"trade", "check", "stress", "soak"},
+                             [&](const char* key) { return files::has_key(file, key); });
 }
 
 // Writes tables.md and prints the summary, or all tables on request.
 void report(const campaign::Campaign& campaign, const campaign::RunResult& result,
             const std::filesystem::path& folder, const RunOptions& options) {
-  const stats::Noise noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out;
-  const stats::Results results = stats::read_results(folder);
-  const stats::Tables tables = stats::make_tables(results, noise, options.depth_error);
-  const std::string text = stats::tables_markdown(tables);
-  files::write_text(folder / "tables.md", text);
-  if (options.tables) fmt::print("{}\n{}\n", text, record::departures_text(result.findings));
-  if (!campaign.published.source.empty() && !result.interrupted) {
-    const auto rows = stats::check_published(campaign.published, results, noise);
-    stats::write_published(campaign.published, rows, folder);
-    if (options.tables) fmt::print("{}\n", stats::published_text(campaign.published, rows));
+  const stats::RunReport report =
+      stats::write_report(stats::read_results(folder), result.findings.departures(),
+                          result.interrupted ? nullptr : &campaign.published,
+                          {.noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out,
+                           .depth_error = options.depth_error},
+                          folder);
+  if (options.tables) {
+    fmt::print("{}\n{}\n", report.tables, record::departures_text(result.findings));
+    if (!report.published.empty()) fmt::print("{}\n", report.published);
   }
-  fmt::print("{}", stats::summary(results, tables, result.findings.departures(), folder));
+  fmt::print("{}", report.summary);
 }
 
 int run(const RunOptions& options) {
-  if (!options.campaign.empty() && files::has_key(options.campaign, "trade"))
-    return run_trade_file(options);
+  if (!options.plan.empty()) hand_over();
+  if (!options.campaign.empty() && is_other_file(options.campaign)) return run_other_file(options);
+  if (options.threads_given && options.scenes.empty()) {
+    throw base::InputError(
+        "--threads belongs to --scene or --plan; expected it in the campaign's file");
+  }
   const campaign::Campaign campaign = campaign_of(options);
   const std::filesystem::path folder = results_folder(options.out, campaign.name);
   if (options.dry_run) {
@@ -182,6 +195,7 @@ void add_run(Arguments command) {
   command.flag("--report", options->with_page,
                "Make a page of the results, report.html in the folder");
   add_depth_error(command, options->depth_error);
+  add_shard(command, options->plan, options->shard).excludes(campaign);
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";
@@ -200,9 +214,11 @@ void add_run(Arguments command) {
                       "What is calculated in (default: both)"));
   add(command.some_of("--boxes", options->boxes, box_choices(),
                       "Tight boxes, or loose ones that hold any attitude"));
-  add(command.numbers("--threads", options->threads, "Numbers of threads")
-          .within(1, 1024)
-          .show_default());
+  // A shard of a plan has this option too.
+  const Option threads = command.numbers("--threads", options->threads, "Numbers of threads")
+                             .within(1, 1024)
+                             .show_default()
+                             .group(one);
   add(command.numbers("--count", options->counts, "Bodies of a generated scene").positive());
   add(command.numbers("--seed", options->seeds, "Seeds of a generated scene").not_negative());
   add(command.number("--frames", options->frames, "Frames").positive());
@@ -217,7 +233,10 @@ void add_run(Arguments command) {
   add(command.flag("--rebuild", options->rebuild, "Build every frame anew instead of updating"));
   add(command.flag("--warm", options->warm,
                    "Narrow phases that know it once more, starting from the frame before"));
-  command.job([options] { return run(*options); });
+  command.job([options, threads] {
+    options->threads_given = threads.given();
+    return run(*options);
+  });
 }
 
 }  // namespace touchstone::commands

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "harness/base/error.h"
-#include "harness/campaign/selection.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::commands {
@@ -52,30 +50,16 @@ Option add_threads(Arguments& command, int& threads, const std::string& help) {
   return command.number("--threads", threads, help).within(1, 1024).show_default();
 }
 
+Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard) {
+  Option folder = command.text("--plan", plan, "Folder of a plan, of which one shard is done");
+  const Option number =
+      command.number("--shard", shard, "Number of the shard, from 0").not_negative().needs(folder);
+  return folder.needs(number);
+}
+
 std::filesystem::path results_folder(const std::string& out, const std::string& name) {
   if (!out.empty()) return out;
   return std::filesystem::path(record::source_folder) / "results/local" / name;
-}
-
-std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
-                                                            std::span<const Precision> scalars) {
-  const std::vector<std::string> list = campaign::split_names(names);
-  const auto is_named = [&](const NarrowPhaseEntry* entry) {
-    return std::ranges::find(list, entry->info.name) != list.end();
-  };
-  auto chosen = campaign::select(narrow_phases(), list, "narrow phase");
-  std::erase_if(chosen, [&](const NarrowPhaseEntry* entry) {
-    return entry->info.origin == Origin::oracle && !is_named(entry);
-  });
-  for (const NarrowPhaseEntry* entry : chosen) {
-    // An algorithm of a group may lack the scalar: it is left out.
-    const bool offered =
-        std::ranges::any_of(scalars, [&](Precision scalar) { return offers(*entry, scalar); });
-    if (!is_named(entry) || offered) continue;
-    throw base::InputError(fmt::format("'{}' does not compute in {}; expected another --scalar",
-                                       entry->info.name, to_string(scalars.front())));
-  }
-  return chosen;
 }
 
 void print_failures(std::string_view algorithm, std::span<const process::IsolationFailure> failures,

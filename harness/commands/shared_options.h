@@ -51,11 +51,8 @@ void add_case_options(Arguments& command, Request& request, std::string& narrow,
 // Returns the folder `out`; if that is empty, results/local/NAME in the project.
 std::filesystem::path results_folder(const std::string& out, const std::string& name);
 
-// Returns the narrow phases of these names and groups. The oracle belongs to no group: it does not
-// grade itself, unless it is named. Throws InputError for a name that is unknown, or that has none
-// of the scalars.
-std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
-                                                            std::span<const Precision> scalars);
+// Adds --plan and --shard.
+Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard);
 
 // Prints a line for each of the first failures of an algorithm, and the number of the others;
 // `name_of` names an item.

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 
 #include "harness/base/table.h"
 #include "harness/campaign/selection.h"
 #include "harness/check/regimes/select_regimes.h"
+#include "harness/check/soak/soak_text.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -21,26 +21,6 @@ struct SoakOptions {
   check::SoakRequest request;
 };
 
-void print(const check::SoakRequest& request, const check::SoakResult& result) {
-  std::map<std::pair<std::size_t, Precision>, check::SoakCount> totals;
-  for (const auto& [key, count] : result.counts) {
-    totals[{std::get<0>(key), std::get<1>(key)}].add(count);
-  }
-  base::Table table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
-                     "silent errors", "honest failures", "lost"});
-  for (const auto& [key, count] : totals) {
-    std::vector<std::string> row = {
-        fmt::format("{} {}", request.narrow[key.first]->info.name, to_string(key.second))};
-    for (const std::int64_t value :
-         {count.pairs, count.separated, count.touching, count.overlapping, count.unresolved,
-          count.silent, count.honest, count.lost}) {
-      row.push_back(std::to_string(value));
-    }
-    table.add(row);
-  }
-  fmt::print("{}", table.text(base::page_width()));
-}
-
 int soak(SoakOptions& options) {
   check::SoakRequest& request = options.request;
   request.narrow =
@@ -48,7 +28,7 @@ int soak(SoakOptions& options) {
   request.out = results_folder(options.out, "soak");
   request.regimes = check::select_regimes(options.regimes, options.groups);
   const check::SoakResult result = check::run_soak(request);
-  print(request, result);
+  fmt::print("{}", check::soak_text(request, result, base::page_width()));
   fmt::print("\nBy regime: {}\n", (request.out / "soak.csv").string());
   return result.ours_are_wrong(request) ? exit_measured_wrong : exit_done;
 }

@@ -1,14 +1,12 @@
 // touchstone stress: finds the limits of each algorithm's reliability, axis by axis.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
-#include "harness/campaign/selection.h"
 #include "harness/check/axes/stress_run.h"
+#include "harness/check/requests/select_narrow.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures/figures.h"
@@ -26,25 +24,6 @@ struct StressOptions {
 
 constexpr int quick_cases = 4;
 
-std::vector<const check::StressAxis*> chosen_axes(const std::string& names) {
-  std::vector<const check::StressAxis*> chosen;
-  if (names.empty()) {
-    for (const check::StressAxis& axis : check::axes()) chosen.push_back(&axis);
-    return chosen;
-  }
-  for (const std::string& name : campaign::split_names(names)) {
-    const auto at = std::ranges::find(check::axes(), name, &check::StressAxis::name);
-    if (at == check::axes().end()) {
-      std::vector<std::string_view> known;
-      for (const check::StressAxis& axis : check::axes()) known.push_back(axis.name);
-      throw base::InputError(
-          fmt::format("no axis is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
-    }
-    if (std::ranges::find(chosen, &*at) == chosen.end()) chosen.push_back(&*at);
-  }
-  return chosen;
-}
-
 void write_page(const StressOptions& options, const check::StressResult& result,
                 const std::string& command, bool drawn) {
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
@@ -57,11 +36,11 @@ void write_page(const StressOptions& options, const check::StressResult& result,
 
 int stress(StressOptions& options, const std::string& command) {
   check::StressRequest& request = options.request;
-  request.narrow = narrow_phases_to_grade(options.narrow, request.scalars);
+  request.narrow = check::narrow_phases_to_grade(options.narrow, request.scalars);
   if (request.narrow.empty()) {
     throw base::InputError("--narrow names no algorithm; expected at least one");
   }
-  request.cells = check::cells_of(chosen_axes(options.axes));
+  request.cells = check::cells_of(check::select_axes(options.axes));
   if (options.quick) request.cases = quick_cases;
   request.out = results_folder(options.out, "stress");
   if (!options.page.empty()) {

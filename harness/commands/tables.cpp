@@ -15,8 +15,10 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/row_file.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
+#include "harness/stats/machines/machine_tables.h"
 #include "harness/stats/table_check.h"
 #include "harness/stats/tables/tables.h"
 
@@ -48,10 +50,22 @@ std::optional<record::RowOrigin> origin_of(bool narrow, const std::string& name)
   return narrow ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
 }
 
-int write(const stats::Results& results, const std::filesystem::path& folder,
-          const TablesOptions& options) {
-  const stats::Tables tables = stats::make_tables(
-      results, options.noisy ? stats::Noise::kept : stats::Noise::left_out, options.depth_error);
+int write(const TablesOptions& options) {
+  const bool is_folder = std::filesystem::is_directory(options.results);
+  const std::filesystem::path of(options.results);
+  const std::filesystem::path folder = !options.out.empty() ? std::filesystem::path(options.out)
+                                       : is_folder          ? of
+                                                            : of.parent_path();
+  const stats::ReportSetting setting = {
+      .noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out,
+      .depth_error = options.depth_error};
+  const auto of_machines = stats::read_machines(options.results, origin_of);
+  if (of_machines.size() > 1) {
+    fmt::print("{}", stats::write_machine_tables(of_machines, setting, options.band, folder));
+    return exit_done;
+  }
+  const stats::Tables tables =
+      stats::make_tables(of_machines.begin()->second, setting.noise, setting.depth_error);
   std::filesystem::create_directories(folder);
   stats::write_tables(tables, options.band, folder);
   fmt::print("{} times, {} ratios, {} winners, {} exponents in {}\n", tables.times.size(),
@@ -75,7 +89,9 @@ std::filesystem::path run_again(const std::filesystem::path& reference,
   }
   const std::filesystem::path out = results_folder(options.out, "tables");
   std::filesystem::create_directories(out);
-  std::filesystem::remove(out / "raw.csv");  // it is left from an earlier check
+  // These are left from an earlier check.
+  std::filesystem::remove(out / "raw.csv");
+  std::filesystem::remove(files::packed_name(out / "raw.csv"));
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
              (out / "output.txt").string());
   const int status = process::run_and_wait(
@@ -129,12 +145,7 @@ int check(const std::filesystem::path& reference, const std::filesystem::path& r
 
 int tables(const TablesOptions& options) {
   if (!options.check && options.reference.empty() && !options.results.empty()) {
-    return write(stats::read_results(options.results, origin_of),
-                 options.out.empty() ? std::filesystem::is_directory(options.results)
-                                           ? std::filesystem::path(options.results)
-                                           : std::filesystem::path(options.results).parent_path()
-                                     : std::filesystem::path(options.out),
-                 options);
+    return write(options);
   }
   const std::filesystem::path reference =
       options.reference.empty() ? std::filesystem::path(record::source_folder) / "results/reference"

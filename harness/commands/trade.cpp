@@ -12,7 +12,6 @@
 #include "harness/base/error.h"
 #include "harness/base/table.h"
 #include "harness/commands/commands.h"
-#include "harness/commands/pictures/page.h"
 #include "harness/trade/trade_files.h"
 
 namespace touchstone::commands {
@@ -21,7 +20,7 @@ namespace {
 struct TradeOptions {
   trade::TradeRequest request;
   std::string scene, out, error;
-  bool plain = false, with_page = false;
+  bool plain = false;
 };
 
 void draw(const std::filesystem::path& folder) {
@@ -93,21 +92,6 @@ void add_trade(Arguments command) {
     request.name = request.scene.stem().string();
     take_measure(options->error, request);
     return run_trade(request, trade_folder(options->out, request.name), !options->plain);
-  });
-}
-
-void add_run_trade(Arguments command) {
-  auto options = std::make_shared<TradeOptions>();
-  command.text("campaign", options->scene, "A file with a table [trade]").required();
-  command.text("--out", options->out, "Folder (default: results/local/trade-NAME in the project)");
-  command.flag("--report", options->with_page,
-               "Make a page of the results, report.html in the folder");
-  command.job([options] {
-    const trade::TradeRequest request = trade::read_trade(options->scene);
-    const std::filesystem::path folder = trade_folder(options->out, request.name);
-    const int status = run_trade(request, folder, true);
-    if (options->with_page) make_page(folder);
-    return status;
   });
 }
 

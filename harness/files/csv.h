@@ -1,20 +1,20 @@
 // CSV: rows read by column name with exact numbers, and files that are either whole or absent.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "harness/files/output_file.h"
+
 namespace touchstone::files {
 
-// Reads a CSV file (RFC 4180) with a header line, through libcsv. Throws InputError with file and
-// line.
+// Reads a CSV file (RFC 4180) with a header line, through libcsv; a file whose name ends in ".zst"
+// is unpacked on the way, in constant memory. Throws InputError with file and line, and without a
+// line where the file cannot be read or unpacked to its end.
 class CsvReader {
  public:
   // One row, valid during the callback.
@@ -59,26 +59,16 @@ class CsvReader {
 // Appends one field, quoted if necessary; for CSV that goes to a terminal or a pipe.
 void append_csv_field(std::string& line, std::string_view text);
 
-// Throws if CsvWriter's constructor would, and leaves nothing behind. Call it before long work.
-void check_output(const std::filesystem::path& file);
-
-// Writes a CSV file under a temporary name beside it and renames it in `close`, so that readers see
-// a whole file or none. Without `close` (after an exception) nothing is left. Every failure to
-// write, such as a full disk, is an InputError with the file's name. A device or a pipe is written
-// directly.
+// Writes a CSV file as an OutputFile is written, with the same errors: it is whole or absent.
 class CsvWriter {
  public:
-  // The content that remains if the work does not finish: nothing, or every row that was flushed.
-  enum class Keep : std::uint8_t { whole_file, flushed_rows, appended_rows };
+  using Keep = OutputFile::Keep;
+  using Durable = OutputFile::Durable;
 
-  // Keep::flushed_rows writes the file itself, whose old content is lost; a failure truncates it to
-  // the last flush. Keep::appended_rows does this after the file's content, which must begin with
-  // this header; an empty file gets the header.
+  // The content to which Keep::appended_rows appends must begin with this header; an empty file
+  // gets the header.
   CsvWriter(std::filesystem::path file, const std::vector<std::string>& header,
             Keep keep = Keep::whole_file);
-  ~CsvWriter();
-  CsvWriter(const CsvWriter&) = delete;
-  CsvWriter& operator=(const CsvWriter&) = delete;
 
   // Appends one field of a row. Numbers are in shortest round-trip form, NaN as an empty field.
   CsvWriter& field(std::string_view text);  // quoted if necessary
@@ -88,22 +78,17 @@ class CsvWriter {
   CsvWriter& field(std::size_t value) { return field(static_cast<std::int64_t>(value)); }
   // Throws std::logic_error if the number of fields differs from the header's.
   void end_row();
-  void flush();  // the rows written so far survive this process
+  // Appends whole rows, as another CsvWriter wrote them, or the next piece of them.
+  void lines(std::string_view text) { file_.write(text); }
+  void flush() { file_.flush(); }  // the rows written so far survive this process
   // Size in bytes of a file of flushed or appended rows at the last flush.
-  std::int64_t size() const { return flushed_; }
-  // The event that the renamed file survives: the end of this process, or of the machine too.
-  enum class Durable : std::uint8_t { against_kills, against_power_cuts };
-  void close(Durable durable = Durable::against_power_cuts);
+  std::int64_t size() const { return file_.size(); }
+  void close(Durable durable = Durable::against_power_cuts) { file_.close(durable); }
 
  private:
-  void discard();
-  [[noreturn]] void fail();  // throws for errno
-
-  std::filesystem::path file_, temporary_;  // without a temporary name `file_` itself is written
-  std::FILE* stream_ = nullptr;
+  OutputFile file_;
   std::string line_;
   std::size_t columns_ = 0, fields_ = 0;
-  off_t flushed_ = -1;  // bytes that a failure leaves; -1: no file
 };
 
 }  // namespace touchstone::files

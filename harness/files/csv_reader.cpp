@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdlib>
-#include <cstring>
-#include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <system_error>
 #include <utility>
 
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
+#include "harness/files/line_reader.h"
 
 namespace touchstone::files {
 namespace {
@@ -51,17 +49,6 @@ struct Fields {
   static void on_row(int, void* self) noexcept { ++static_cast<Fields*>(self)->rows; }
 };
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-// The buffer of getline.
-struct Line {
-  char* data = nullptr;
-  std::size_t capacity = 0;
-  ~Line() { std::free(data); }  // NOLINT: allocated by getline
-};
-
 struct Parser {
   csv_parser state;
   Parser() {
@@ -76,11 +63,9 @@ struct Parser {
 // are parsed one by one, so that the callbacks of libcsv, a C library, never throw.
 void for_each_row(const std::string& file,
                   const std::function<void(std::int64_t, std::span<const std::string>)>& row) {
-  const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rbe"));
-  if (!stream) throw base::InputError(file, 0, std::strerror(errno));
+  LineReader lines(file);
   Parser parser;
   Fields fields;
-  Line line;
   std::int64_t number = 0;
   std::int64_t start = 0;  // first line of the open row; 0: no row is open
   const auto end_of_row = [&] {
@@ -93,10 +78,9 @@ void for_each_row(const std::string& file,
     fields.rows = 0;
     start = 0;
   };
-  errno = 0;
-  for (ssize_t got; (got = getline(&line.data, &line.capacity, stream.get())) >= 0;) {
+  while (const std::optional<std::string_view> line = lines.next()) {
     ++number;
-    std::string_view text(line.data, static_cast<std::size_t>(got));
+    std::string_view text = *line;
     if (number == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(3);
     if (text.find('\0') != std::string_view::npos) {
       throw base::InputError(file, number, "a NUL byte; expected text");
@@ -114,7 +98,6 @@ void for_each_row(const std::string& file,
     }
     if (fields.rows > 0) end_of_row();
   }
-  if (std::ferror(stream.get()) != 0) throw base::InputError(file, 0, std::strerror(errno));
   if (start != 0) {
     if (csv_fini(&parser.state, &Fields::on_field, &Fields::on_row, &fields) != 0) {
       throw base::InputError(file, start, "a quoted field that does not end");

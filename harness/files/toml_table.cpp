@@ -225,6 +225,41 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   return tables;
 }
 
+std::vector<const toml::node*> TomlTable::elements(std::string_view key) {
+  const toml::node* const found = node(key);
+  if (found == nullptr) return {};
+  const toml::array* const array = found->as_array();
+  if (array == nullptr) return {found};
+  if (array->empty()) fail(key, "found an empty array; expected at least one value");
+  std::vector<const toml::node*> list;
+  for (const toml::node& element : *array) list.push_back(&element);
+  return list;
+}
+
+std::vector<std::string> TomlTable::texts(std::string_view key, std::vector<std::string> fallback) {
+  std::vector<std::string> values;
+  for (const toml::node* element : elements(key)) {
+    const auto* value = element->as_string();
+    if (value == nullptr) fail(key, "expected texts");
+    values.push_back(value->get());
+  }
+  return values.empty() ? fallback : values;
+}
+
+std::vector<std::int64_t> TomlTable::integers(std::string_view key, std::int64_t low,
+                                              std::int64_t high, std::int64_t fallback) {
+  std::vector<std::int64_t> values;
+  for (const toml::node* element : elements(key)) {
+    const auto* value = element->as_integer();
+    if (value == nullptr || value->get() < low || value->get() > high) {
+      fail(key, fmt::format("expected whole numbers from {} to {}", low, high));
+    }
+    values.push_back(value->get());
+  }
+  if (values.empty()) values.push_back(fallback);
+  return values;
+}
+
 std::vector<std::string> TomlTable::keys() {
   std::vector<std::string> keys;
   for (const auto& [key, value] : *table_) keys.emplace_back(key.str());

@@ -72,6 +72,13 @@ class TomlTable {
   // The table's own keys in alphabetical order; all become known.
   std::vector<std::string> keys();
 
+  // The elements of an array, of which there is at least one; a single value is an array of one.
+  // Empty if there is no such key.
+  std::vector<const toml::node*> elements(std::string_view key);
+  std::vector<std::string> texts(std::string_view key, std::vector<std::string> fallback);
+  std::vector<std::int64_t> integers(std::string_view key, std::int64_t low, std::int64_t high,
+                                     std::int64_t fallback);
+
   // Null if there is no such key.
   const toml::node* node(std::string_view key);
   TomlTable from(const toml::node& element, std::string name) const;

@@ -54,7 +54,7 @@ void become_child(pid_t parent, int output) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP}) {
     std::signal(signal, SIG_DFL);
   }
-  std::signal(SIGINT, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
 }

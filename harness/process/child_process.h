@@ -36,7 +36,7 @@ class ChildProcess {
   };
 
   // Forks. The child runs `work` and leaves with status 0; an exception ends it, and its text is
-  // kept. The child dies with this process, dumps no core, leaves interrupts to its parent, and
+  // kept. The child dies with this process, dumps no core, leaves SIGINT and SIGTERM to its parent, and
   // prints nothing on the terminal. Throws std::system_error.
   ChildProcess(const Settings& settings, const std::function<void()>& work);
   ~ChildProcess();  // kills the child if it is alive

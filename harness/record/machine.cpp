@@ -26,6 +26,7 @@
 
 #include "algorithms/core/isa.h"
 #include "harness/base/hash.h"
+#include "harness/base/shell_word.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::record {
@@ -147,15 +148,7 @@ std::string group_limits(const std::string& controller, const std::string& first
 
 std::string command_line() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!text.empty() && text.back() == '\0') text.pop_back();
-  // The program appears by its name alone, because its folder has no influence on the results.
-  const std::size_t end = std::min(text.find('\0'), text.size());
-  text.erase(0, text.rfind('/', end) + 1);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
-  return text;
+  return shell_line({std::istreambuf_iterator<char>(stream), {}});
 }
 
 std::string preloaded() {
@@ -174,6 +167,22 @@ std::string git(const std::string& arguments) {
 }
 
 }  // namespace
+
+std::string shell_line(const std::string& words) {
+  std::string line;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find('\0', at), words.size());
+    std::string word = words.substr(at, end - at);
+    // The program appears by its name alone, because its folder has no influence on the results.
+    if (at == 0) word.erase(0, word.rfind('/') + 1);
+    for (char& c : word) {
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    }
+    line += (at == 0 ? "" : " ") + base::shell_word(word);
+    at = end + 1;
+  }
+  return line;
+}
 
 std::vector<std::pair<std::string, std::string>> machine_facts() {
   std::vector<std::pair<std::string, std::string>> facts;

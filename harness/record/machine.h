@@ -20,6 +20,10 @@ inline constexpr std::string_view command_line_fact = "command_line";
 // Returns the machine's facts of these names as a list in Markdown.
 std::string facts_as_list(std::initializer_list<std::string_view> names);
 
+// Returns the words of a command, each ended by a NUL, as one line that a shell reads as the same
+// words. The folder of the program is left out; line ends are blanks.
+std::string shell_line(const std::string& words);
+
 // Returns date and time in UTC: "2026-01-31 13:05:00 UTC".
 std::string date_now();
 

@@ -21,6 +21,7 @@
 
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
+#include "harness/files/row_file.h"
 #include "harness/record/machine.h"
 
 namespace touchstone::record {
@@ -120,9 +121,10 @@ void ResultFolder::begin_anew() {
     const bool finished =
         std::filesystem::exists(machine(), error) && read_facts(machine())[finished_key] == "yes";
     for (const RowFile& file : plan_.files) {
-      if (finished || !std::filesystem::exists(path(file.name), error)) continue;
+      const std::filesystem::path rows = files::row_file(path(file.name));
+      if (finished || !std::filesystem::exists(rows, error)) continue;
       throw base::InputError(
-          path(file.name).string(), 0,
+          rows.string(), 0,
           fmt::format("is of a {} that was not finished; expected --resume to go on "
                       "with it, --overwrite to lose it, or another --out",
                       plan_.work));
@@ -131,7 +133,10 @@ void ResultFolder::begin_anew() {
   // machine.csv is removed first and written first, so rows never stand beside the facts of other
   // work.
   std::vector<std::filesystem::path> old = {machine(), progress()};
-  for (const RowFile& file : plan_.files) old.push_back(path(file.name));
+  for (const RowFile& file : plan_.files) {
+    old.push_back(path(file.name));
+    old.push_back(files::packed_name(path(file.name)));
+  }
   for (const auto& file : old) {
     std::filesystem::remove(file, error);
     if (error) throw base::InputError(file.string(), 0, "cannot be replaced: " + error.message());
@@ -150,7 +155,7 @@ void ResultFolder::compare_identity() {
   begun_ = old[begun_key];
   old.erase(begun_key);
   const auto fail = [&](const std::string& message) {
-    throw base::InputError(machine().string(), 0, message + "; expected the same to resume");
+    throw OtherWork(machine().string(), 0, message + "; expected the same to resume");
   };
   for (auto& [name, value] : plan_.identity) {
     const auto at = old.find(name);
@@ -198,6 +203,13 @@ void ResultFolder::cut_to_progress() {
   for (const RowFile& file : plan_.files) {
     // If progress.csv is missing, the work was stopped before its first unit.
     const std::filesystem::path name = path(file.name);
+    const std::filesystem::path rows = files::row_file(name);
+    if (rows != name) {
+      throw base::InputError(rows.string(), 0,
+                             fmt::format("is packed; expected {} to resume, which `unzstd` makes "
+                                         "of it",
+                                         file.name));
+    }
     std::uintmax_t there = std::filesystem::file_size(name, error);
     if (error) there = 0;
     if (!any && there > header_size(file)) {
@@ -233,6 +245,30 @@ void ResultFolder::commit(std::int64_t units) {
   for (const auto& writer : writers_) writer->flush();
   units_ += units;
   write_progress();
+}
+
+std::int64_t ResultFolder::append(std::size_t file, const std::filesystem::path& other,
+                                  std::uintmax_t size) {
+  expect_header(other, plan_.files[file]);
+  std::error_code error;
+  const std::uintmax_t there = std::filesystem::file_size(other, error);
+  if (error || there != size) {
+    throw base::InputError(
+        other.string(), 0,
+        fmt::format("{} bytes; expected {}, as progress.csv says", error ? 0 : there, size));
+  }
+  std::ifstream stream(other, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(header_size(plan_.files[file])));
+  std::vector<char> buffer(std::size_t{1} << 20);
+  std::int64_t rows = 0;
+  while (stream) {
+    stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    const std::string_view lines(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+    rows += std::ranges::count(lines, '\n');
+    writer(file).lines(lines);
+  }
+  if (stream.bad()) throw base::InputError(other.string(), 0, "cannot be read");
+  return rows;
 }
 
 void ResultFolder::write_progress() const {

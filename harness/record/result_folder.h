@@ -16,12 +16,18 @@
 #include <utility>
 #include <vector>
 
+#include "harness/base/error.h"
 #include "harness/files/csv.h"
 #include "harness/record/row.h"
 
 namespace touchstone::record {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
+
+// The folder holds other work than the one to resume, or that of another machine.
+class OtherWork : public base::InputError {
+  using InputError::InputError;
+};
 
 enum class FolderStart : std::uint8_t {
   fresh,      // refuses a folder that holds unfinished work
@@ -56,7 +62,8 @@ class ResultFolder {
  public:
   // Makes the folder if the work begins anew. To resume, cuts the row files back to the last whole
   // unit; `rows` reads them afterwards. Throws InputError if the folder cannot be written, is in
-  // use by another process, holds work that must not be lost, or cannot be resumed.
+  // use by another process, or holds work that must not be lost; OtherWork if what it holds cannot be
+  // resumed.
   explicit ResultFolder(ResultFolderPlan plan);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -71,11 +78,21 @@ class ResultFolder {
   std::vector<Row> rows(std::size_t file, const Context&... context) const {
     return read_rows<Row>(path(plan_.files[file].name), context...);
   }
+  // Calls `take` for each of these rows, which need not fit into memory together.
+  template <class Row, class Take, class... Context>
+  void each_row(std::size_t file, const Take& take, const Context&... context) const {
+    reader_of<Row>(path(plan_.files[file].name), context...)
+        .read(
+            [&](const files::CsvReader::Row& fields) { take(read_row<Row>(fields, context...)); });
+  }
   // Appends a row; it counts from the next `commit` on.
   template <class Row, class... Context>
   void write(std::size_t file, const Row& row, const Context&... context) {
     write_row(writer(file), row, context...);
   }
+  // Appends the rows of another file with the same header, which end after `size` bytes of it, and
+  // returns their number. Throws InputError if the header differs or the size is another.
+  std::int64_t append(std::size_t file, const std::filesystem::path& other, std::uintmax_t size);
   files::CsvWriter& writer(std::size_t file) { return *writers_[file]; }
   // Ends `units` units: everything written since the last call is permanent from now on.
   void commit(std::int64_t units = 1);

@@ -7,15 +7,18 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "harness/base/error.h"
+#include "harness/files/byte_reader.h"
+#include "harness/files/row_file.h"
 #include "harness/report/case_view.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/tables/tables.h"
@@ -31,13 +34,24 @@ constexpr std::uintmax_t most_bytes = 256u << 20;
 // These files say how a job went on, and nothing about results.
 constexpr std::array<std::string_view, 2> of_the_job = {"progress.csv", "jobs.csv"};
 
+// The folder of tables of each machine, where several measured times.
+constexpr const char* machines = "machines";
+
 // These folders hold pairs and frames that somebody got wrong.
 constexpr std::array<std::string_view, 2> of_cases = {"reproductions", "failures"};
 
-std::string read_all(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw base::InputError(file.string() + ": cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
+// Returns the content of a file, unpacked, or nothing if it has more than `most_bytes`.
+std::optional<std::string> content_of(const fs::path& file) {
+  if (fs::file_size(file) > most_bytes) return std::nullopt;
+  files::ByteReader bytes(file);
+  std::string content;
+  for (std::size_t size = 0;;) {
+    content.resize(size + (std::size_t{1} << 20));
+    const std::size_t got = bytes.read(std::span(content).subspan(size));
+    content.resize(size += got);
+    if (size > most_bytes) return std::nullopt;
+    if (got == 0) return content;
+  }
 }
 
 // Returns the files in a folder whose names end so, in the order of their names.
@@ -52,15 +66,36 @@ std::vector<fs::path> files_ending(const fs::path& folder, std::string_view end)
   return files;
 }
 
+// Returns the tables of a folder by name, times.csv for one; each is a plain file, or a packed one
+// where there is no plain one.
+std::map<std::string, fs::path> tables_in(const fs::path& folder) {
+  std::map<std::string, fs::path> tables;
+  for (const fs::path& file : files_ending(folder, ".csv")) {
+    tables.emplace(file.filename().string(), file);
+  }
+  for (const fs::path& file : files_ending(folder, files::packed_name(".csv").string())) {
+    tables.emplace(file.stem().string(), file);
+  }
+  return tables;
+}
+
+// A file that is read for two ends is named once.
+void add_note(files::OrderedJson& notes, const std::string& note) {
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
 files::OrderedJson csv_files(const fs::path& folder, files::OrderedJson& notes) {
   files::OrderedJson shown = files::OrderedJson::object();
-  for (const fs::path& file : files_ending(folder, ".csv")) {
-    const std::string name = file.filename().string();
+  for (const auto& [name, file] : tables_in(folder)) {
     if (std::ranges::find(of_the_job, name) != of_the_job.end()) continue;
-    if (fs::file_size(file) > most_bytes) {
-      notes.push_back(fmt::format("{} is left out: it has more than 256 MB.", name));
-    } else {
-      shown[name] = read_all(file);
+    try {
+      if (std::optional<std::string> content = content_of(file)) {
+        shown[name] = std::move(*content);
+      } else {
+        notes.push_back(fmt::format("{} is left out: it has more than 256 MB.", name));
+      }
+    } catch (const base::InputError& error) {
+      add_note(notes, error.what());
     }
   }
   for (const fs::path& file : files_ending(folder, ".csv.xz")) {
@@ -70,9 +105,12 @@ files::OrderedJson csv_files(const fs::path& folder, files::OrderedJson& notes) 
   return shown;
 }
 
+// True for results of several machines, each of which has tables of its own.
+bool has_machines(const fs::path& folder) { return fs::exists(folder / "across.csv"); }
+
 // A run leaves its rows alone; its tables are those that `tables` would write into the folder.
 void add_tables(const fs::path& folder, files::OrderedJson& shown, files::OrderedJson& notes) {
-  if (!shown.contains("raw.csv") || shown.contains("times.csv")) return;
+  if (shown.contains("times.csv") || !fs::exists(files::row_file(folder / "raw.csv"))) return;
   std::string name = (fs::temp_directory_path() / "touchstone-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw base::InputError(name + ": cannot be made");
   const std::shared_ptr<void> removed(nullptr, [&](void*) {
@@ -84,7 +122,7 @@ void add_tables(const fs::path& folder, files::OrderedJson& shown, files::Ordere
                         name);
     shown.update(csv_files(name, notes));
   } catch (const base::InputError& error) {
-    notes.push_back(error.what());  // a run that was stopped has half a row, or none
+    add_note(notes, error.what());  // a run that was stopped has half a row, or none
   }
 }
 
@@ -133,13 +171,20 @@ std::vector<fs::path> folders_with_tables(const fs::path& folder) {
     throw base::InputError(folder.string() + ": expected a folder of results");
   }
   std::vector<fs::path> folders;
-  if (!files_ending(folder, ".csv").empty()) return {folder};
+  if (!tables_in(folder).empty()) {
+    folders = {folder};
+    if (has_machines(folder)) {
+      for (const fs::path& machine : folders_with_tables(folder / machines))
+        folders.push_back(machine);
+    }
+    return folders;
+  }
   for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
     if (!at->is_directory()) continue;
     const std::string name = at->path().filename().string();
     if (std::ranges::find(of_cases, name) != of_cases.end()) {
       at.disable_recursion_pending();
-    } else if (!files_ending(at->path(), ".csv").empty()) {
+    } else if (!tables_in(at->path()).empty()) {
       folders.push_back(at->path());
     }
   }
@@ -155,6 +200,10 @@ std::vector<fs::path> folders_with_tables(const fs::path& folder) {
 files::OrderedJson results_view(const ResultsRequest& request) {
   files::OrderedJson notes = files::OrderedJson::array();
   files::OrderedJson shown = csv_files(request.folder, notes);
+  if (has_machines(request.folder)) {
+    shown.erase("raw.csv");
+    notes.push_back("raw.csv has the rows of several machines; the tables of each are apart.");
+  }
   add_tables(request.folder, shown, notes);
   const std::vector<ListedCase> cases = cases_of(request, notes);
   return {{"name", request.name},

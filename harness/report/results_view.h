@@ -9,8 +9,8 @@
 
 namespace touchstone::report {
 
-// Returns the folder if it has tables (CSV files), else those below it that have, in the order of
-// their names. Throws InputError if there is none.
+// Returns the folder if it has tables (CSV files, plain or packed by zstd), else those below it that
+// have, in the order of their names. Throws InputError if there is none.
 std::vector<std::filesystem::path> folders_with_tables(const std::filesystem::path& folder);
 
 struct ResultsRequest {
@@ -20,8 +20,8 @@ struct ResultsRequest {
   double time_limit = 5;         // seconds a query about them
 };
 
-// The folder's CSV files as they stand, and the pairs that its departures and failures list. What
-// cannot be read is named in "notes".
+// The folder's CSV files as they stand, or stood before they were packed, and the pairs that its
+// departures and failures list. What cannot be read is named in "notes".
 files::OrderedJson results_view(const ResultsRequest& request);
 
 }  // namespace touchstone::report

@@ -133,9 +133,14 @@ struct Results {
 using OriginOf =
     std::function<std::optional<record::RowOrigin>(bool narrow, const std::string& name)>;
 
-// Reads a raw.csv, or the one of a folder, and the machine.csv beside it. Throws InputError with
-// file and line.
+// Reads a raw.csv, or the one of a folder, and the machine.csv beside it. raw.csv.zst is read where
+// raw.csv is not there. Throws InputError with file and line, or if the rows are of several machines.
 Results read_results(const std::filesystem::path& folder_or_file, const OriginOf& origin_of = {});
+
+// Reads the results of each machine in a folder of several, by their names. If there is one, its
+// name is empty.
+std::map<std::string, Results> read_machines(const std::filesystem::path& folder_or_file,
+                                             const OriginOf& origin_of = {});
 
 // Adds a phase's seconds to its sample; the phases of one sample are consecutive. `sample`
 // identifies it, without its parts.

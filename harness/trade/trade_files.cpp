@@ -18,14 +18,16 @@ constexpr Spread no_spread = {Outcome::none, Outcome::none, Outcome::none};
 
 record::Facts facts_of(const TradeRequest& request, const TradeScene& scene,
                        const std::string& hash) {
-  return {{"campaign", request.name},
-          {"scene", scene.scene.name},
-          {"scene_hash", hash},
-          {"bodies", std::to_string(scene.scene.size())},
-          {"frames", std::to_string(scene.frames.frames.size())},
-          {"task", std::string(to_string(request.task))},
-          {"threads", std::to_string(request.threads)},
-          {"error", std::string(to_string(request.measure))}};
+  record::Facts facts = {{"campaign", request.name},
+                         {"scene", scene.scene.name},
+                         {"scene_hash", hash},
+                         {"bodies", std::to_string(scene.scene.size())},
+                         {"frames", std::to_string(scene.frames.frames.size())},
+                         {"task", std::string(to_string(request.task))},
+                         {"threads", std::to_string(request.threads)},
+                         {"error", std::string(to_string(request.measure))}};
+  facts.insert(facts.end(), request.facts.begin(), request.facts.end());
+  return facts;
 }
 
 TradePointRow row_of_point(const TradeOutcome& point) {

@@ -15,23 +15,11 @@ namespace {
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
 constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
 
-// Returns the elements of an array; a single value is an array of one.
-std::vector<const toml::node*> elements(files::TomlTable& table, std::string_view key) {
-  const toml::node* node = table.node(key);
-  std::vector<const toml::node*> list;
-  if (node == nullptr) return list;
-  const toml::array* array = node->as_array();
-  if (array == nullptr) return {node};
-  for (const toml::node& element : *array) list.push_back(&element);
-  if (list.empty()) table.fail(key, "found an empty array; expected at least one value");
-  return list;
-}
-
 // Converts each element with `make`; an error that it throws is reported with the element's place.
 template <class Value, class Make>
 void read_axis(files::TomlTable& table, std::string_view key, std::vector<Value>& values,
                const Make& make) {
-  const auto nodes = elements(table, key);
+  const auto nodes = table.elements(key);
   if (nodes.empty()) return;
   values.clear();
   for (const toml::node* node : nodes) {
@@ -179,7 +167,8 @@ std::string describe(const TradeGrid& grid) {
 
 }  // namespace
 
-TradeRequest read_trade(const std::filesystem::path& file) {
+std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
+                                      const std::filesystem::path& home) {
   const toml::table root = files::parse_toml(file);
   files::TomlTable top(root, file.string(), "");
   TradeRequest request;
@@ -187,9 +176,10 @@ TradeRequest read_trade(const std::filesystem::path& file) {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(top.integer("seed", 0, most, 1));
   files::TomlTable table = top.inside("trade", "trade");
-  request.scene = (file.parent_path() / table.text("scene")).lexically_normal();
-  request.overrides.count = table.integer("count", 1, 100'000'000, -1);
-  request.overrides.seed = table.integer("seed", 0, most, -1);
+  const std::vector<std::string> scenes = table.texts("scene", {});
+  if (scenes.empty()) table.fail("scene", "missing; expected a scene file, or several");
+  const std::vector<std::int64_t> counts = table.integers("count", 1, 100'000'000, -1);
+  const std::vector<std::int64_t> seeds = table.integers("seed", 0, most, -1);
   request.overrides.frames = static_cast<int>(table.integer("frames", 1, 1'000'000, -1));
   request.task = static_cast<Task>(table.choice("task", task_names, 0));
   request.threads = static_cast<int>(table.integer("threads", 1, 1024, 2));
@@ -201,7 +191,21 @@ TradeRequest read_trade(const std::filesystem::path& file) {
   }
   table.finish();
   top.finish();
-  return request;
+  const std::filesystem::path folder = home.empty() ? file.parent_path() : home;
+  std::vector<TradeRequest> requests;
+  for (const std::string& scene : scenes) {
+    for (const std::int64_t count : counts) {
+      for (const std::int64_t seed : seeds) {
+        TradeRequest& one = requests.emplace_back(request);
+        one.scene = (folder / scene).lexically_normal();
+        one.overrides.count = count;
+        one.overrides.seed = seed;
+      }
+    }
+  }
+  for (std::size_t i = 0; requests.size() > 1 && i < requests.size(); ++i)
+    requests[i].name += fmt::format("-{}", i);
+  return requests;
 }
 
 std::string trade_toml(const TradeRequest& request, const std::filesystem::path& folder,

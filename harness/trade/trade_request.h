@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/record/result_folder.h"
 #include "harness/scene/scene.h"
 #include "harness/trade/front.h"
 #include "harness/trade/grid.h"
@@ -25,12 +26,16 @@ struct TradeRequest {
   std::uint64_t seed = 1;  // the seed of the order in which configurations run
   // The first combination is the baseline. If empty: default_grids with the fastest broad phase.
   std::vector<TradeGrid> grids;
+  record::Facts facts = {};  // further facts of machine.csv
 };
 
-// The keys are documented in datasets/README.md. Throws InputError with file, line and what was
+// Returns a request for each scene, count and seed of the file; if there are several, their names end
+// in the number of each. The keys are documented in datasets/README.md. Scenes are relative to the
+// folder `home`, without one to that of the file. Throws InputError with file, line and what was
 // expected.
-TradeRequest read_trade(const std::filesystem::path& file);
-// Returns the text of a file from which read_trade makes an equal request; the scene's path is
+std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
+                                      const std::filesystem::path& home = {});
+// Returns the text of a file from which read_trades makes an equal request; the scene's path is
 // relative to `folder`, which is to hold the file. `comment` holds lines for its head.
 std::string trade_toml(const TradeRequest& request, const std::filesystem::path& folder,
                        const std::string& comment);

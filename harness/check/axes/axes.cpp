@@ -2,11 +2,14 @@
 #include "harness/check/axes/axes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "harness/base/error.h"
+#include "harness/campaign/selection.h"
 #include "harness/check/axes/axis_draws.h"
 
 namespace touchstone::check {
@@ -94,6 +97,25 @@ std::uint64_t StressAxis::most_cases(double value) const {
 std::span<const StressAxis> axes() {
   static const std::vector<StressAxis> list = all_axes();
   return list;
+}
+
+std::vector<const StressAxis*> select_axes(const std::string& names) {
+  std::vector<const StressAxis*> chosen;
+  if (names.empty()) {
+    for (const StressAxis& axis : axes()) chosen.push_back(&axis);
+    return chosen;
+  }
+  for (const std::string& name : campaign::split_names(names)) {
+    const auto at = std::ranges::find(axes(), name, &StressAxis::name);
+    if (at == axes().end()) {
+      std::vector<std::string_view> known;
+      for (const StressAxis& axis : axes()) known.push_back(axis.name);
+      throw base::InputError(
+          fmt::format("no axis is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
+    }
+    if (std::ranges::find(chosen, &*at) == chosen.end()) chosen.push_back(&*at);
+  }
+  return chosen;
 }
 
 std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes) {

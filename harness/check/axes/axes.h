@@ -46,6 +46,9 @@ struct StressCell {
 };
 
 std::span<const StressAxis> axes();
+// Returns the axes of these names, joined by commas, in the order named; all if `names` is empty.
+// Throws base::InputError for a name that there is not.
+std::vector<const StressAxis*> select_axes(const std::string& names);
 // Returns the cells of these axes, in order. The axes must outlive the result.
 std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes);
 

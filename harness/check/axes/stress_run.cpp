@@ -12,23 +12,12 @@ namespace {
 
 enum : std::size_t { rows_file, cells_file };
 
-record::ResultFolderPlan plan_of(const StressRequest& request) {
-  std::string axes;
-  for (const StressCell& cell : request.cells) {
-    if (cell.place == 0) axes += (axes.empty() ? "" : " ") + cell.axis->name;
-  }
-  return job_folder(request, "sweep", {"axes", axes},
-                    {{"stress.csv", record::header_of<StressRow>(request)},
-                     {"cells.csv", record::header_of<CellSummary>(request)}});
-}
-
 void do_cells(const StressRequest& request, record::ResultFolder& folder) {
-  const std::size_t end = request.cells.size();
-  const auto first = static_cast<std::size_t>(folder.units());
-  if (first >= end) return;
-  base::Progress progress(end - first);
+  const base::UnitRange jobs = request.jobs(static_cast<std::int64_t>(request.cells.size()));
+  if (folder.units() >= jobs.size()) return;
+  base::Progress progress(static_cast<std::size_t>(jobs.size() - folder.units()));
   do_jobs<CellResult>(
-      folder, request, end,
+      folder, request, jobs,
       [&](std::size_t cell, oracle::Oracle& oracle) { return do_cell(request, cell, oracle); },
       [&](std::size_t cell, const CellResult& result) {
         for (const StressRow& row : result.rows) folder.write(rows_file, row, request);
@@ -41,11 +30,26 @@ void do_cells(const StressRequest& request, record::ResultFolder& folder) {
 
 }  // namespace
 
+record::ResultFolderPlan stress_folder(const StressRequest& request) {
+  std::string axes;
+  for (const StressCell& cell : request.cells) {
+    if (cell.place == 0) axes += (axes.empty() ? "" : " ") + cell.axis->name;
+  }
+  return job_folder(request, "sweep", {"axes", axes},
+                    {{"stress.csv", record::header_of<StressRow>(request)},
+                     {"cells.csv", record::header_of<CellSummary>(request)}});
+}
+
 StressResult run_stress(const StressRequest& request) {
-  record::ResultFolder folder(plan_of(request));
+  record::ResultFolder folder(stress_folder(request));
   do_cells(request, folder);
-  folder.finish();
   StressResult result;
+  if (request.part && folder.units() < request.part->units.size()) {
+    result.interrupted = true;
+    return result;
+  }
+  folder.finish();
+  if (request.part) return result;
   // Rows come from the files, so that a resumed sweep has the same result as a whole one.
   result.rows = folder.rows<StressRow>(rows_file, request);
   result.cells = folder.rows<CellSummary>(cells_file, request);

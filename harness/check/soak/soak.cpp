@@ -19,44 +19,43 @@ namespace {
 constexpr double seconds_between_writes = 1;
 constexpr const char* summary_file = "soak.csv";
 
-record::ResultFolderPlan plan_of(const SoakRequest& request) {
-  auto plan = job_folder(request, "soak", regimes_fact(request),
-                         {{"jobs.csv", record::header_of<SoakJobRow>(request.subjects())}});
-  plan.removed = {summary_file};
-  return plan;
-}
-
 class Soak {
  public:
   explicit Soak(const SoakRequest& request)
-      : request_(request), algorithms_(request.algorithms()), folder_(plan_of(request)) {
-    for (const auto& row : folder_.rows<SoakJobRow>(0, request_.subjects())) add(row);
+      : request_(request), algorithms_(request.algorithms()), folder_(soak_folder(request)) {
+    folder_.each_row<SoakJobRow>(
+        0, [&](const SoakJobRow& row) { add(row); }, request_.subjects());
   }
 
   SoakResult run() {
-    const auto first = static_cast<std::size_t>(folder_.units());
-    const auto end =
-        static_cast<std::size_t>((request_.pairs + cases_a_soak_job - 1) / cases_a_soak_job);
+    const base::UnitRange jobs = request_.jobs(jobs_of(request_));
     result_.drawn = folder_.units() * cases_a_soak_job;
-    if (first < end) do_all(end);
-    write_summary();
-    write_cases();
+    if (folder_.units() < jobs.size()) do_all(jobs);
+    if (request_.part && folder_.units() < jobs.size()) {
+      result_.interrupted = true;
+      return result_;
+    }
+    if (!request_.part) {
+      write_summary();
+      write_cases();
+    }
     folder_.finish();
     return result_;
   }
 
  private:
-  void do_all(std::size_t end) {
+  void do_all(base::UnitRange jobs) {
+    const std::int64_t verdicts = std::min(jobs.size() * cases_a_soak_job, request_.pairs);
     base::Progress progress(1);
-    progress.start(fmt::format("{} verdicts", request_.pairs));
+    progress.start(fmt::format("{} verdicts", verdicts));
     base::Stopwatch since_written;
     do_jobs<std::vector<SoakCount>>(
-        folder_, request_, end,
+        folder_, request_, jobs,
         [&](std::size_t job, oracle::Oracle& oracle) { return do_soak_job(request_, job, oracle); },
         [&](std::size_t job, const std::vector<SoakCount>& counts) {
           take(job, counts);
-          progress.part(static_cast<double>(result_.drawn) / static_cast<double>(request_.pairs));
-          if (since_written.seconds() > seconds_between_writes) {
+          progress.part(static_cast<double>(result_.drawn) / static_cast<double>(verdicts));
+          if (!request_.part && since_written.seconds() > seconds_between_writes) {
             write_summary();
             since_written.restart();
           }
@@ -119,6 +118,13 @@ class Soak {
 };
 
 }  // namespace
+
+record::ResultFolderPlan soak_folder(const SoakRequest& request) {
+  auto plan = job_folder(request, "soak", regimes_fact(request),
+                         {{"jobs.csv", record::header_of<SoakJobRow>(request.subjects())}});
+  plan.removed = {summary_file};
+  return plan;
+}
 
 void SoakCount::add(const SoakCount& other) {
   pairs += other.pairs;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "harness/check/check_request.h"
+#include "harness/record/result_folder.h"
 
 namespace touchstone::check {
 
@@ -27,18 +28,29 @@ struct SoakCount {
   void add(const SoakCount& other);
 };
 
+// The pairs of a job.
+inline constexpr std::int64_t cases_a_soak_job = 1000;
+
+// Returns the folder that run_soak fills, and the number of its jobs.
+record::ResultFolderPlan soak_folder(const SoakRequest& request);
+inline std::int64_t jobs_of(const SoakRequest& request) {
+  return (request.pairs + cases_a_soak_job - 1) / cases_a_soak_job;
+}
+
 struct SoakResult {
   // The key has places in the request's narrow phases and regimes.
   using Key = std::tuple<std::size_t, Precision, std::size_t>;
   std::map<Key, SoakCount> counts;
-  std::int64_t drawn = 0;  // pairs of all kinds, whether an algorithm takes them or not
+  std::int64_t drawn = 0;    // pairs of all kinds, whether an algorithm takes them or not
+  bool interrupted = false;  // a part that is not done
 
   bool ours_are_wrong(const SoakRequest& request) const;
 };
 
 // Counts verdicts and writes jobs.csv, soak.csv, progress.csv and machine.csv into the request's
 // folder, which it creates, and a case file of the first wrong answer of each count. soak.csv, the
-// sum of jobs.csv, is rewritten about once a second. Progress goes to standard error. Throws
+// sum of jobs.csv, is rewritten about once a second. Progress goes to standard error. A part has
+// jobs.csv, progress.csv and machine.csv alone; an interrupt ends it after the current job. Throws
 // InputError if the folder cannot be written or resumed.
 SoakResult run_soak(const SoakRequest& request);
 

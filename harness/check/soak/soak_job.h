@@ -8,8 +8,6 @@
 
 namespace touchstone::check {
 
-inline constexpr std::int64_t cases_a_soak_job = 1000;
-
 // Does a job and returns a count for each of request.algorithms(). The job's number gives regime
 // and round, as in do_job.
 std::vector<SoakCount> do_soak_job(const SoakRequest& request, std::size_t job,

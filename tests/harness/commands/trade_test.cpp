@@ -45,7 +45,9 @@ TEST(TradeCommand, BadRequestsAreRefused) {
   expect_refusal("trade " + at + "scene.toml --error luck", "--error", folder);
   expect_refusal("trade " + at + "scene.toml --threads 0", "--threads", folder);
   expect_refusal("run " + file + " --resume --out " + at + "out",
-                 "no options but --out and --report", folder);
+                 "a trade begins anew; expected no --resume", folder);
+  expect_refusal("run " + file + " --strict --out " + at + "out",
+                 "expected no options but --out, --resume, --threads and --report", folder);
   folder.write("bad.toml", grid + "tolerances = 2\n");
   expect_refusal("run " + at + "bad.toml --out " + at + "out", "bad.toml:9: grid 1: tolerances",
                  folder);

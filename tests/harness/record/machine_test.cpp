@@ -71,6 +71,8 @@ TEST(Machine, TellsWhatAReaderOfTheTimesNeeds) {
   }
   EXPECT_THAT(all.at("flags"), testing::HasSubstr("-ffp-contract=off"));
   EXPECT_THAT(all.at("command_line"), testing::HasSubstr("test_harness_record"));
+  EXPECT_EQ(record::shell_line(std::string("/a b/touchstone\0run\0my scene.toml\0it's\0", 39)),
+            "touchstone run 'my scene.toml' 'it'\\''s'");
 }
 
 TEST(Machine, AffinityIsThatOfTheProcess) {

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "tests/harness/input_fault.h"
+#include "tests/harness/packed.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -128,6 +129,21 @@ TEST_F(ResultFolderTest, UnfinishedWorkIsNotOverwrittenUnasked) {
   EXPECT_EQ(folder_.read("out/other"), "kept");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/reproductions"));
   EXPECT_EQ(fault(plan(record::FolderStart::fresh)), "");  // the earlier work is finished
+}
+
+TEST_F(ResultFolderTest, PackedRowsAreRowsOfTheWork) {
+  {
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
+    write_unit(folder);
+  }
+  pack(folder_.path() / "out/a.csv");
+  std::filesystem::remove(folder_.path() / "out/b.csv");
+  EXPECT_THAT(fault(plan(record::FolderStart::fresh)),
+              HasSubstr("out/a.csv.zst: is of a run that was not finished"));
+  EXPECT_EQ(fault(plan(record::FolderStart::resume)),
+            "out/a.csv.zst: is packed; expected a.csv to resume, which `unzstd` makes of it");
+  record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/a.csv.zst"));
 }
 
 TEST_F(ResultFolderTest, OtherWorkIsNotResumed) {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "harness/base/error.h"
+#include "tests/harness/packed.h"
+#include "tests/harness/stats/sample_file.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone::report {
@@ -56,6 +58,32 @@ TEST_F(Results, KeepTheirFilesAsTheyStand) {
   EXPECT_EQ(whole["name"], "mine");
   ASSERT_EQ(whole["notes"].size(), 1U);
   EXPECT_THAT(std::string(whole["notes"][0]), HasSubstr("raw.csv.xz is packed"));
+}
+
+TEST_F(Results, ArePackedOrPlain) {
+  fake_run().write(folder.path() / "r");
+  const auto r = [&] {
+    ResultsRequest request;
+    request.folder = folder.path() / "r";
+    return results_view(request);
+  };
+  const OrderedJson plain = r();
+  pack(folder.path() / "r/raw.csv");
+  EXPECT_EQ(r(), plain);
+  EXPECT_TRUE(plain["files"].contains("raw.csv"));
+  EXPECT_TRUE(plain["files"].contains("times.csv"));
+  EXPECT_TRUE(plain["notes"].empty());
+  // Of two, the plain one is shown.
+  folder.write("r/raw.csv", "scene\n");
+  EXPECT_EQ(r()["files"]["raw.csv"], "scene\n");
+  fs::remove(folder.path() / "r/raw.csv");
+  folder.write("r/raw.csv.zst", folder.read("r/raw.csv.zst").substr(0, 1000));
+  const OrderedJson cut = r();
+  EXPECT_FALSE(cut["files"].contains("raw.csv"));
+  ASSERT_EQ(cut["notes"].size(), 1U) << cut["notes"];
+  EXPECT_THAT(std::string(cut["notes"][0]), HasSubstr("raw.csv.zst: ends in the middle"));
+  fs::remove(folder.path() / "r/machine.csv");
+  EXPECT_EQ(folders_with_tables(folder.path()), std::vector<fs::path>{folder.path() / "r"});
 }
 
 TEST_F(Results, AreInTheFolderOrBelowIt) {

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "harness/stats/statistics.h"
+#include "harness/stats/tables/tables.h"
 #include "tests/harness/input_fault.h"
+#include "tests/harness/packed.h"
 #include "tests/harness/stats/sample_file.h"
 #include "tests/harness/temporary_folder.h"
 
@@ -83,6 +85,30 @@ TEST_F(Samples, NoisyRoundsAreLeftOutUnlessAskedFor) {
   EXPECT_EQ(stats::by_square(contestant, stats::Noise::left_out).size(), 9u);
   EXPECT_EQ(stats::by_square(contestant, stats::Noise::kept).size(), 12u);
   EXPECT_GT(stats::by_square(contestant, stats::Noise::kept).at({0, 0}), 5e-3);
+}
+
+TEST_F(Samples, APackedFileIsReadWhereThereIsNoPlainOne) {
+  const std::filesystem::path results = fake_run().write(folder_.path() / "r");
+  const auto tables = [&](const std::filesystem::path& file, const std::string& out) {
+    std::filesystem::create_directory(folder_.path() / out);
+    stats::write_tables(stats::make_tables(stats::read_results(file), stats::Noise::left_out), 1.5,
+                        folder_.path() / out);
+  };
+  tables(results, "plain");
+  pack(results / "raw.csv");
+  tables(results, "packed");
+  tables(results / "raw.csv.zst", "named");
+  std::size_t written = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "plain")) {
+    const std::string name = entry.path().filename().string();
+    const std::string plain = folder_.read("plain/" + name);
+    EXPECT_EQ(folder_.read("packed/" + name), plain);
+    EXPECT_EQ(folder_.read("named/" + name), plain);
+    ++written;
+  }
+  EXPECT_GT(written, 5u);
+  EXPECT_EQ(stats::read_results(results).file, results / "raw.csv.zst");
+  EXPECT_FALSE(stats::read_results(results).machine.empty());
 }
 
 TEST_F(Samples, FailuresAreRemembered) {

@@ -68,7 +68,7 @@ TEST(TradeJob, LeavesRowsAndAFrontThatNothingBeats) {
   EXPECT_EQ(stages.size(), trade::stage_names.size());
   EXPECT_EQ(samples % trade::stage_names.size(), 0u);
   // The request that is written can be read again.
-  const trade::TradeRequest again = trade::read_trade(folder.path() / "trade.toml");
+  const trade::TradeRequest again = trade::read_trades(folder.path() / "trade.toml").at(0);
   EXPECT_EQ(again.name, "small");
   EXPECT_TRUE(std::filesystem::equivalent(again.scene, request.scene));
 }

@@ -50,7 +50,7 @@ tolerances = [1e-3, 1e-9]
 max_iterations = [1, 8]
 )");
   EXPECT_TRUE(files::has_key(file, "trade"));
-  const trade::TradeRequest request = trade::read_trade(file);
+  const trade::TradeRequest request = trade::read_trades(file).at(0);
   EXPECT_EQ(request.seed, 7u);
   EXPECT_EQ(request.task, Task::penetration);
   EXPECT_EQ(request.measure, trade::ErrorMeasure::p99);
@@ -61,7 +61,7 @@ max_iterations = [1, 8]
   std::filesystem::create_directory(folder.path() / "out");
   const std::string text =
       trade::trade_toml(request, folder.path() / "out", "A comment\nof two lines");
-  const trade::TradeRequest again = trade::read_trade(folder.write("out/b.toml", text));
+  const trade::TradeRequest again = trade::read_trades(folder.write("out/b.toml", text)).at(0);
   EXPECT_EQ(trade::trade_toml(again, folder.path() / "out", "A comment\nof two lines"), text);
   EXPECT_EQ(again.name, request.name);
   EXPECT_EQ(again.seconds, request.seconds);
@@ -78,8 +78,10 @@ max_iterations = [1, 8]
   for (const trade::TradePoint& point : before.points) {
     trade::TradeRequest one = request;
     one.grids = {trade::grid_of(point.configuration)};
-    const trade::TradeRequest read = trade::read_trade(
-        folder.write("out/one.toml", trade::trade_toml(one, folder.path() / "out", "")));
+    const trade::TradeRequest read =
+        trade::read_trades(
+            folder.write("out/one.toml", trade::trade_toml(one, folder.path() / "out", "")))
+            .at(0);
     const trade::GridPoints only = trade::expand(read.grids, frames, library, read.task);
     ASSERT_EQ(only.points.size(), 1u);
     EXPECT_EQ(only.points[0].configuration.name(), point.configuration.name());
@@ -90,7 +92,7 @@ TEST(TradeRequest, BadInputIsToldWithItsPlace) {
   const TemporaryFolder folder;
   const auto fault = [&](const std::string& text) {
     const auto file = folder.write("bad.toml", text);
-    return folder.without_path(input_fault([&] { trade::read_trade(file); }));
+    return folder.without_path(input_fault([&] { trade::read_trades(file); }));
   };
   const std::string head = "[trade]\nscene = \"s.toml\"\n";
   EXPECT_THAT(fault("[trade]\n"), HasSubstr("bad.toml:1: trade: scene: missing"));

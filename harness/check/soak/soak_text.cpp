@@ -1,0 +1,35 @@
+// Sums the counts of a soak over the regimes.
+#include "harness/check/soak/soak_text.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "harness/base/table.h"
+
+namespace touchstone::check {
+
+std::string soak_text(const SoakRequest& request, const SoakResult& result,
+                      std::size_t page_width) {
+  std::map<std::pair<std::size_t, Precision>, SoakCount> totals;
+  for (const auto& [key, count] : result.counts) {
+    totals[{std::get<0>(key), std::get<1>(key)}].add(count);
+  }
+  base::Table table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
+                     "silent errors", "honest failures", "lost"});
+  for (const auto& [key, count] : totals) {
+    std::vector<std::string> row = {
+        fmt::format("{} {}", request.narrow[key.first]->info.name, to_string(key.second))};
+    for (const std::int64_t value :
+         {count.pairs, count.separated, count.touching, count.overlapping, count.unresolved,
+          count.silent, count.honest, count.lost}) {
+      row.push_back(std::to_string(value));
+    }
+    table.add(row);
+  }
+  return table.text(page_width);
+}
+
+}  // namespace touchstone::check

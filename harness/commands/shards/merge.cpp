@@ -1,0 +1,66 @@
+// touchstone merge: joins the shards of a plan. touchstone status: how far they are.
+#include "harness/shards/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/shards/status.h"
+
+namespace touchstone::commands {
+namespace {
+
+struct MergeOptions {
+  std::string plan, out;
+  shards::MergeSetting setting;
+};
+
+int merge(const MergeOptions& options) {
+  constexpr std::size_t most_lines = 20;
+  const std::filesystem::path plan = options.plan;
+  const std::filesystem::path out =
+      options.out.empty() ? plan / "results" : std::filesystem::path(options.out);
+  const shards::MergeResult result = shards::merge_plan(plan, out, options.setting);
+  if (!result.missing.empty()) {
+    for (std::size_t i = 0; i < std::min(most_lines, result.missing.size()); ++i)
+      fmt::print(stderr, "touchstone: {}\n", result.missing[i]);
+    if (result.missing.size() > most_lines)
+      fmt::print(stderr, "touchstone: and {} more\n", result.missing.size() - most_lines);
+    fmt::print(stderr,
+               "touchstone: {} shards are missing, and nothing was written; to run them: {} {}\n",
+               result.missing.size(), (plan / "slurm.sh").string(), result.missing_list);
+    return exit_bad_request;
+  }
+  fmt::print("{}\nResults in {}\n", result.merged.text, out.string());
+  return result.merged.ours_wrong ? exit_measured_wrong : exit_done;
+}
+
+int status(const std::string& folder) {
+  const shards::ShardPlan plan = shards::read_plan(folder);
+  fmt::print("{}", shards::status_text(plan, shards::status_of(plan)));
+  return exit_done;
+}
+
+}  // namespace
+
+void add_merge(Arguments command) {
+  const auto options = std::make_shared<MergeOptions>();
+  command.text("plan", options->plan, "Folder of the plan").required();
+  command.text("--out", options->out, "Folder for the results (default: results in the plan's)");
+  command.flag("--zstd", options->setting.zstd,
+               "Pack the files of rows, as NAME.csv.zst, which the other commands read too");
+  command.flag("--overwrite", options->setting.overwrite,
+               "Replace what the folder holds, even if it is not of this plan");
+  command.job([options] { return merge(*options); });
+}
+
+void add_status(Arguments command) {
+  const auto plan = std::make_shared<std::string>();
+  command.text("plan", *plan, "Folder of the plan").required();
+  command.job([plan] { return status(*plan); });
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,65 @@
+// touchstone plan: cuts a campaign, a trade, a check, a sweep or a soak into shards.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/shards/shard_plan.h"
+
+namespace touchstone::commands {
+namespace {
+
+struct PlanOptions {
+  std::string campaign, out, earlier;
+  shards::ShardSetting setting;
+};
+
+int plan(PlanOptions& options) {
+  options.setting.earlier = options.earlier;
+  const shards::ShardPlan plan = shards::make_plan(options.campaign, options.setting, options.out);
+  double total = 0, longest = 0;
+  for (const shards::PlannedShard& shard : plan.shards) {
+    total += shard.seconds;
+    longest = std::max(longest, shard.seconds);
+  }
+  fmt::print("{} ({}): {} units in {} shards; about {:.3g} h in all, {:.3g} h the longest shard\n",
+             plan.name, plan.kind, plan.shards.back().units.end, plan.shards.size(), total / 3600,
+             longest / 3600);
+  const std::string folder = plan.folder.string();
+  fmt::print(
+      "on a cluster:       {0}/slurm.sh\n"
+      "on some machines:   {0}/parallel.sh\n"
+      "one shard:          touchstone run --plan {0} --shard 0\n"
+      "how far it is:      touchstone status {0}\n"
+      "all results in one: touchstone merge {0} --out RESULTS\n",
+      folder);
+  return exit_done;
+}
+
+}  // namespace
+
+void add_plan(Arguments command) {
+  const auto options = std::make_shared<PlanOptions>();
+  command
+      .text("campaign", options->campaign,
+            "A campaign, or a file with a table [trade], [check], [stress] or [soak]")
+      .required();
+  command.number("--shards", options->setting.shards, "Number of shards")
+      .within(1, 10'000'000)
+      .required();
+  command.text("--out", options->out, "Folder for the plan and its shards, which all machines see")
+      .required();
+  command.text(
+      "--from", options->earlier,
+      "Results of an earlier run of the campaign, whose times the estimate takes instead of "
+      "trials");
+  command
+      .number("--cpus", options->setting.cpus,
+              "Processors of a shard's task (default: a node of its own)")
+      .within(1, 4096);
+  command.job([options] { return plan(*options); });
+}
+
+}  // namespace touchstone::commands

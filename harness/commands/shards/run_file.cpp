@@ -1,0 +1,100 @@
+// touchstone run: a shard of a plan, or a file with a table [trade], [check], [stress] or [soak].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "harness/base/error.h"
+#include "harness/check/requests/case_run.h"
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/pictures/page.h"
+#include "harness/commands/shared_options.h"
+#include "harness/commands/trade.h"
+#include "harness/shards/shard_run.h"
+
+namespace touchstone::commands {
+namespace {
+
+struct RunFileOptions {
+  std::string file, out, plan;
+  std::int64_t shard = -1;
+  int threads = static_cast<int>(std::thread::hardware_concurrency());
+  bool with_page = false, resume = false;
+};
+
+int run_shard(const RunFileOptions& options) {
+  switch (shards::run_shard(options.plan, options.shard, options.threads)) {
+    case shards::ShardEnd::was_done:
+      fmt::print("shard {} was done before\n", options.shard);
+      return exit_done;
+    case shards::ShardEnd::interrupted:
+      fmt::print(
+          stderr,
+          "touchstone: interrupted; what was done is kept, and the same command goes on with "
+          "it\n");
+      return exit_bad_request;
+    case shards::ShardEnd::done: break;
+  }
+  fmt::print("shard {} is done\n", options.shard);
+  return exit_done;
+}
+
+int run_trades(const RunFileOptions& options) {
+  if (options.resume) {
+    throw base::InputError(options.file +
+                           " has a table [trade], and a trade begins anew; expected no --resume");
+  }
+  int status = exit_done;
+  const std::vector<trade::TradeRequest> requests = trade::read_trades(options.file);
+  for (const trade::TradeRequest& request : requests) {
+    const bool several = requests.size() > 1;
+    const std::filesystem::path folder = !options.out.empty() && several
+                                             ? std::filesystem::path(options.out) / request.name
+                                             : trade_folder(options.out, request.name);
+    status = std::max(status, run_trade(request, folder, true));
+    if (options.with_page) make_page(folder);
+  }
+  return status;
+}
+
+int run_cases(const RunFileOptions& options) {
+  check::CaseFile file = check::read_case_file(options.file);
+  const std::filesystem::path folder = results_folder(options.out, file.name);
+  file.common().out = folder;
+  file.common().resume = options.resume;
+  file.common().workers = options.threads;
+  const check::CaseEnd end = check::run_case_file(file);
+  fmt::print("{}\nRows in {}\n", end.text, folder.string());
+  if (options.with_page) make_page(folder);
+  return end.ours_wrong ? exit_measured_wrong : exit_done;
+}
+
+int run_file(const RunFileOptions& options) {
+  if (!options.plan.empty()) return run_shard(options);
+  return check::has_case_work(options.file) ? run_cases(options) : run_trades(options);
+}
+
+}  // namespace
+
+void add_run_file(Arguments command) {
+  const auto options = std::make_shared<RunFileOptions>();
+  const Option file = command.text("campaign", options->file,
+                                   "A file with a table [trade], [check], [stress] or [soak]");
+  command.text("--out", options->out, "Folder (default: results/local/NAME in the project)")
+      .needs(file);
+  command
+      .flag("--report", options->with_page, "Make a page of the results, report.html in the folder")
+      .needs(file);
+  command
+      .flag("--resume", options->resume,
+            "Go on with the work that was stopped in the folder of --out; not for trades")
+      .needs(file);
+  add_shard(command, options->plan, options->shard).excludes(file);
+  add_threads(command, options->threads,
+              "Processes that share a check, a sweep or a soak (default: one a processor)");
+  command.job([options] { return run_file(*options); });
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,117 @@
+// Writes files that are whole or absent.
+#include "harness/files/output_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio_ext.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "harness/base/error.h"
+
+namespace touchstone::files {
+namespace {
+
+[[noreturn]] void write_failed(const std::filesystem::path& file, int error) {
+  throw base::InputError(file.string(), 0,
+                         fmt::format("cannot be written: {}", std::strerror(error)));
+}
+
+bool is_device(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+}  // namespace
+
+void check_output(const std::filesystem::path& file) {
+  if (!is_device(file)) OutputFile{file};
+}
+
+OutputFile::OutputFile(std::filesystem::path file, Keep keep) : file_(std::move(file)) {
+  if (file_.empty()) throw base::InputError("the output's name is empty; expected a file");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file_, ignored)) write_failed(file_, EISDIR);
+  int descriptor = -1;
+  if (is_device(file_)) {
+    // A device or a pipe is written directly, since renaming a file over it would replace it.
+    descriptor = open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+  } else if (keep != Keep::whole_file) {
+    const int before = keep == Keep::flushed_rows ? O_TRUNC : 0;
+    descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | before, 0666);
+    flushed_ = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
+  } else {
+    // The target of a symbolic link is replaced instead of the link.
+    if (std::filesystem::is_symlink(file_, ignored)) {
+      const std::filesystem::path target = std::filesystem::canonical(file_, ignored);
+      if (!ignored) file_ = target;
+    }
+    for (int attempt = 0; descriptor < 0; ++attempt) {
+      temporary_ = file_;
+      temporary_ += fmt::format(".{}-{}.tmp", getpid(), attempt);
+      descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor < 0 && errno != EEXIST) break;
+    }
+  }
+  const int error = errno;
+  if (descriptor < 0) {
+    temporary_.clear();
+    write_failed(file_, error);
+  }
+  stream_ = fdopen(descriptor, "wb");
+  if (stream_ == nullptr) {
+    const int reason = errno;
+    ::close(descriptor);
+    discard();
+    write_failed(file_, reason);
+  }
+  // The buffer lets rows leave the process only when they are flushed, and not in the middle of a
+  // row.
+  if (flushed_ >= 0) std::setvbuf(stream_, nullptr, _IOFBF, std::size_t{1} << 20);
+}
+
+OutputFile::~OutputFile() { discard(); }
+
+void OutputFile::discard() {
+  if (stream_ != nullptr && flushed_ >= 0) {
+    __fpurge(stream_);  // discards the buffer
+    if (ftruncate(fileno(stream_), flushed_) != 0) std::perror(file_.c_str());
+  }
+  if (stream_ != nullptr) std::fclose(stream_);
+  stream_ = nullptr;
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  temporary_.clear();
+}
+
+void OutputFile::fail() {
+  const int error = errno;
+  discard();
+  write_failed(file_, error);
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) fail();
+}
+
+void OutputFile::flush() {
+  if (std::fflush(stream_) != 0) fail();
+  if (flushed_ >= 0) flushed_ = ftello(stream_);
+}
+
+void OutputFile::close(Durable durable) {
+  flush();
+  const bool named = !temporary_.empty();
+  if (named && durable == Durable::against_power_cuts && fsync(fileno(stream_)) != 0) fail();
+  std::FILE* const stream = std::exchange(stream_, nullptr);
+  if (std::fclose(stream) != 0) fail();
+  if (named && std::rename(temporary_.c_str(), file_.c_str()) != 0) fail();
+  temporary_.clear();
+}
+
+}  // namespace touchstone::files

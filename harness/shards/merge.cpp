@@ -1,0 +1,227 @@
+// Collects the parts of all shards and puts the joined results in their place.
+#include "harness/shards/merge.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+#include <utility>
+
+#include "harness/base/error.h"
+#include "harness/files/byte_reader.h"
+#include "harness/files/row_file.h"
+#include "harness/files/zstd_writer.h"
+#include "harness/record/machine.h"
+#include "harness/shards/machines.h"
+#include "harness/shards/shard_run.h"
+#include "harness/shards/status.h"
+
+namespace touchstone::shards {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Merge {
+ public:
+  Merge(const fs::path& plan, const fs::path& out, const MergeSetting& setting)
+      : plan_(read_plan(plan)),
+        place_(out),
+        out_(fs::absolute(out).lexically_normal()),
+        setting_(setting) {
+    if (!out_.has_filename()) out_ = out_.parent_path();
+    temporary_ = out_;
+    temporary_ += fmt::format("{}{}-{}", temporary_mark, host_name(), getpid());
+  }
+  ~Merge() {
+    std::error_code ignored;
+    fs::remove_all(temporary_, ignored);
+  }
+  Merge(const Merge&) = delete;
+  Merge& operator=(const Merge&) = delete;
+
+  MergeResult run() {
+    expect_replaceable();
+    MergeResult result = find_missing();
+    if (!result.missing.empty()) return result;
+    const std::unique_ptr<Work> work = read_work(plan_.campaign(), plan_.home);
+    expect_facts(plan_.identity, {{"program", record::hash_of_program()}});
+    collect(*work);
+    remove_leftovers();
+    const record::Facts facts = merged_facts();
+    machines_.write(temporary_);
+    result.merged = work->merge(parts_, {.path = temporary_, .place = place_, .facts = facts});
+    record::write_rows(temporary_ / "shards.csv", rows_);
+    write_facts(facts);
+    if (setting_.zstd) {
+      for (const std::string& name : work->row_files()) pack(temporary_ / name);
+    }
+    put_in_place();
+    replace_all(result.merged.text, temporary_.string(), place_.string());
+    return result;
+  }
+
+ private:
+  static constexpr const char* temporary_mark = ".merging-";
+
+  void expect_replaceable() const {
+    std::error_code error;
+    if (!fs::exists(out_, error) || setting_.overwrite) return;
+    if (fs::is_directory(out_, error) && fs::is_empty(out_, error)) return;
+    if (value_of(read_facts(out_), "plan") == plan_.id) return;
+    throw base::InputError(
+        out_.string(), 0,
+        "holds something else than results of this plan; expected another --out, "
+        "or --overwrite to lose it");
+  }
+
+  MergeResult find_missing() {
+    MergeResult result;
+    std::vector<std::int64_t> missing;
+    for (const PlannedShard& shard : plan_.shards) {
+      ShardStatus status = status_of(plan_, shard.shard);
+      if (status.state != ShardState::done) {
+        missing.push_back(shard.shard);
+        result.missing.push_back(fmt::format("shard {} is {}{}", shard.shard,
+                                             to_string(status.state),
+                                             status.words.empty() ? "" : ": " + status.words));
+      }
+      statuses_.push_back(std::move(status));
+    }
+    result.missing_list = list_of(missing);
+    return result;
+  }
+
+  void collect(const Work& work) {
+    for (const PlannedShard& shard : plan_.shards) {
+      std::string machine;
+      for (const base::UnitRange& units : parts_of(work, shard.units)) {
+        DonePart& part = parts_.emplace_back();
+        part.shard = shard.shard;
+        part.units = units;
+        part.folder = part_path(shard_path(plan_.folder, shard.shard), units);
+        const record::Facts facts = read_facts(part.folder);
+        expect_of_plan(part, facts);
+        part.machine = machine = machines_.name_of(facts);
+        const std::string begun = value_of(facts, "begun");
+        if (begun_.empty() || begun < begun_) begun_ = begun;
+      }
+      const ShardStatus& status = statuses_[static_cast<std::size_t>(shard.shard)];
+      rows_.push_back({shard.shard, shard.units, machine,
+                       status.begun ? status.begun->attempt + 1 : 0,
+                       status.begun ? status.begun->time : "", status.ended});
+    }
+  }
+
+  // A part that was copied from elsewhere, or removed, is no part of this plan.
+  void expect_of_plan(const DonePart& part, const record::Facts& facts) const {
+    record::Facts expected = part_facts(plan_.id, part.shard);
+    expected.emplace_back(record::part_fact, to_string(part.units));
+    expected.emplace_back(finished_fact, "yes");
+    for (const auto& [name, value] : expected) {
+      const std::string found = value_of(facts, name);
+      if (found == value) continue;
+      throw base::InputError(
+          (part.folder / "machine.csv").string(), 0,
+          fmt::format("{} is '{}'; expected '{}', as shard {} is said to be done", name, found,
+                      value, part.shard));
+    }
+  }
+
+  record::Facts merged_facts() const {
+    record::Facts facts = plan_.identity;
+    facts.emplace_back("plan", plan_.id);
+    facts.emplace_back("shards", std::to_string(plan_.shards.size()));
+    facts.emplace_back("machines", std::to_string(machines_.size()));
+    for (auto& [name, value] : machines_.shared()) {
+      if (value_of(facts, name).empty()) facts.emplace_back(name, value);
+    }
+    return facts;
+  }
+
+  // The work wrote its own machine.csv, with the facts of this machine.
+  void write_facts(const record::Facts& facts) const {
+    files::CsvWriter csv(temporary_ / "machine.csv", {"name", "value"});
+    for (const auto& [name, value] : facts) csv.field(name).field(value).end_row();
+    csv.field("begun").field(begun_).end_row();
+    csv.field(finished_fact).field("yes").end_row();
+    csv.close();
+  }
+
+  // Removes what merges into the same folder left on this machine when they were killed.
+  void remove_leftovers() const {
+    const std::string mark =
+        fmt::format("{}{}{}-", out_.filename().string(), temporary_mark, host_name());
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(out_.parent_path(), error)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(mark)) continue;
+      pid_t process = 0;
+      std::from_chars(name.data() + mark.size(), name.data() + name.size(), process);
+      if (process > 0 && (process == getpid() || kill(process, 0) != 0))
+        fs::remove_all(entry.path(), error);
+    }
+  }
+
+  static void pack(const fs::path& file) {
+    files::ZstdWriter packed(files::packed_name(file));
+    files::ByteReader bytes(file);
+    std::vector<char> buffer(std::size_t{1} << 20);
+    for (std::size_t got = 0; (got = bytes.read(buffer)) > 0;)
+      packed.write(std::string_view(buffer.data(), got));
+    packed.close();
+    fs::remove(file);
+  }
+
+  // Exchanges the two folders, so that at every moment one of them is whole in its place.
+  void put_in_place() const {
+    std::error_code error;
+    const auto fail = [&](const std::error_code& code) {
+      throw base::InputError(out_.string(), 0, "cannot be put in place: " + code.message());
+    };
+    if (!fs::exists(out_, error)) {
+      fs::rename(temporary_, out_, error);
+      if (error) fail(error);
+      return;
+    }
+    if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, out_.c_str(), RENAME_EXCHANGE) == 0)
+      return;
+    // A file system that cannot exchange: the old results keep another name for a moment.
+    fs::path old = temporary_;
+    old += "-old";
+    fs::rename(out_, old, error);
+    if (error) fail(error);
+    fs::rename(temporary_, out_, error);
+    if (error) fail(error);
+    fs::remove_all(old, error);
+  }
+
+  static void replace_all(std::string& text, const std::string& from, const std::string& to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+      text.replace(at, from.size(), to);
+      at += to.size();
+    }
+  }
+
+  ShardPlan plan_;
+  fs::path place_;  // as the user names it
+  fs::path out_, temporary_;
+  MergeSetting setting_;
+  std::vector<ShardStatus> statuses_;  // by shard
+  std::vector<DonePart> parts_;
+  std::vector<JoinedShard> rows_;
+  Machines machines_;
+  std::string begun_;  // of the first part
+};
+
+}  // namespace
+
+MergeResult merge_plan(const fs::path& plan, const fs::path& out, const MergeSetting& setting) {
+  return Merge(plan, out, setting).run();
+}
+
+}  // namespace touchstone::shards

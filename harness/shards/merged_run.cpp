@@ -1,0 +1,127 @@
+// Joins blocks and makes their tables.
+#include "harness/shards/merged_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "harness/base/error.h"
+#include "harness/files/text_file.h"
+#include "harness/record/findings.h"
+#include "harness/stats/machines/blocks.h"
+#include "harness/stats/machines/machine_tables.h"
+#include "harness/stats/run_report.h"
+
+namespace touchstone::shards {
+namespace {
+
+enum : std::size_t { raw_file, departures_file };
+
+constexpr const char* reproductions = "reproductions";
+
+class RunMerge {
+ public:
+  explicit RunMerge(const MergeFolder& folder)
+      : into_(folder.path),
+        place_(folder.place),
+        folder_({.folder = folder.path,
+                 .files = {{"raw.csv", record::header_of<record::RawRow>()},
+                           {"departures.csv", record::header_of<record::Departure>()}},
+                 .identity = folder.facts,
+                 .start = record::FolderStart::overwrite,
+                 .work = "merge"}) {}
+
+  void add(const DonePart& part) {
+    const std::int64_t rows =
+        folder_.append(raw_file, part.folder / "raw.csv", size_of_rows(part.folder, "raw.csv"));
+    for (record::Departure& one :
+         record::read_rows<record::Departure>(part.folder / "departures.csv")) {
+      if (one.row >= 0) one.row += rows_;
+      if (!one.reproduction.empty()) one.reproduction = take_reproduction(part, one.reproduction);
+      folder_.write(departures_file, one);
+      departures_.push_back({part.machine, std::move(one)});
+    }
+    blocks_.push_back({part.units.first, part.shard, part.machine, rows});
+    rows_ += rows;
+  }
+
+  Merged finish(const stats::Published& published) {
+    folder_.commit();
+    folder_.finish();
+    record::write_rows(into_ / "blocks.csv", blocks_);
+    Merged merged;
+    for (const auto& [machine, one] : departures_)
+      merged.ours_wrong = merged.ours_wrong || (one.ours && !one.known);
+    if (rows_ > most_rows_of_tables) {
+      merged.text = fmt::format(
+          "{} rows: their tables have to fit into memory, and are not made here; `touchstone "
+          "tables` "
+          "on the folder makes them\n",
+          rows_);
+    } else {
+      merged.text = make_tables(published);
+    }
+    return merged;
+  }
+
+ private:
+  // Copies the file into the merged folder and returns its name there.
+  std::string take_reproduction(const DonePart& part, const std::string& file) {
+    const std::size_t at = file.rfind(reproductions);
+    if (at == std::string::npos) return file;
+    const std::filesystem::path name = file.substr(at);
+    std::error_code error;
+    std::filesystem::create_directories((into_ / name).parent_path(), error);
+    std::filesystem::copy_file(part.folder / name, into_ / name,
+                               std::filesystem::copy_options::skip_existing, error);
+    if (error) {
+      throw base::InputError((part.folder / name).string(), 0,
+                             "cannot be copied: " + error.message());
+    }
+    return (place_ / name).string();
+  }
+
+  std::string make_tables(const stats::Published& published) const {
+    const std::map<std::string, stats::Results> of_machines = stats::read_machines(into_);
+    if (of_machines.size() == 1) {
+      std::vector<record::Departure> departures;
+      for (const auto& [machine, one] : departures_) departures.push_back(one);
+      const stats::Results& results = of_machines.begin()->second;
+      return stats::write_report(results, departures, &published, {}, into_).summary;
+    }
+    return stats::write_machine_tables(of_machines, {}, 1, into_);
+  }
+
+  std::filesystem::path into_, place_;
+  record::ResultFolder folder_;
+  std::int64_t rows_ = 0;
+  std::vector<stats::BlockRow> blocks_;
+  std::vector<std::pair<std::string, record::Departure>> departures_;  // with the machine
+};
+
+}  // namespace
+
+std::uintmax_t size_of_rows(const std::filesystem::path& folder, const std::string& file) {
+  std::int64_t size = -1;
+  files::CsvReader(folder / "progress.csv", {"name", "value"})
+      .read([&](const files::CsvReader::Row& row) {
+        if (row.text(0) == file) size = row.integer(1);
+      });
+  if (size < 0) {
+    throw base::InputError((folder / "progress.csv").string(), 0,
+                           fmt::format("does not have the size of {}", file));
+  }
+  return static_cast<std::uintmax_t>(size);
+}
+
+Merged merge_runs(std::span<const DonePart> parts, const stats::Published& published,
+                  const MergeFolder& folder) {
+  RunMerge merge(folder);
+  for (const DonePart& part : parts) merge.add(part);
+  return merge.finish(published);
+}
+
+}  // namespace touchstone::shards

@@ -1,0 +1,153 @@
+// Locks shards and keeps their attempts.
+#include "harness/shards/shard_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <thread>
+
+#include "harness/base/clock.h"
+#include "harness/base/enumerators.h"
+#include "harness/base/error.h"
+#include "harness/record/machine.h"
+
+namespace touchstone::shards {
+namespace {
+
+// A process that was killed leaves its lock when its last worker has ended, a moment later.
+constexpr double seconds_for_others = 2;
+
+constexpr const char* lock_file = "lock";
+constexpr const char* attempts_file = "attempts.csv";
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+// Returns "1234_7" for task 7 of job array 1234.
+std::string job_name() {
+  const std::string array = environment("SLURM_ARRAY_JOB_ID");
+  return array.empty() ? environment("SLURM_JOB_ID")
+                       : array + "_" + environment("SLURM_ARRAY_TASK_ID");
+}
+
+// Removes what a kill left of a line, so that the next row begins a line of its own.
+void cut_last_line(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t end = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
+  std::error_code ignored;
+  if (end < text.size()) std::filesystem::resize_file(file, end, ignored);
+}
+
+// Opens the lock for writing, without which some network file systems give no exclusive lock.
+int open_lock(const std::filesystem::path& shard, int more) {
+  return ::open((shard / lock_file).c_str(), O_RDWR | O_CLOEXEC | more, 0666);
+}
+
+}  // namespace
+
+std::string_view to_string(Event event) {
+  constexpr std::array<std::string_view, 4> names = {"begun", "done", "interrupted", "failed"};
+  return names[static_cast<std::size_t>(event)];
+}
+
+std::filesystem::path shard_path(const std::filesystem::path& plan, std::int64_t shard) {
+  return plan / "shards" / std::to_string(shard / 1000) / std::to_string(shard);
+}
+
+std::filesystem::path part_path(const std::filesystem::path& shard, base::UnitRange part) {
+  return shard / ("part-" + to_string(part));
+}
+
+std::vector<Attempt> read_attempts(const std::filesystem::path& shard) {
+  const std::filesystem::path file = shard / attempts_file;
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return {};
+  // Another machine may be writing its row, which is read when it is whole.
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (text.empty()) return {};
+  return record::read_rows<Attempt>(file);
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0' ? name.data()
+                                                                           : "unknown";
+}
+
+ShardLock::ShardLock(std::filesystem::path shard, std::int64_t number) : folder_(std::move(shard)) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw base::InputError(folder_.string(), 0, "cannot be made: " + error.message());
+  descriptor_ = open_lock(folder_, O_CREAT);
+  const auto fail = [&](const std::string& message) {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    throw base::InputError((folder_ / lock_file).string(), 0, message);
+  };
+  if (descriptor_ < 0) fail(fmt::format("cannot be used: {}", std::strerror(errno)));
+  const base::Stopwatch watch;
+  while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK && errno != EINTR) {
+      fail(fmt::format(
+          "the file system has no locks ({}), and two processes could mix the rows of a "
+          "shard; expected a plan in a folder with locks",
+          std::strerror(errno)));
+    }
+    if (watch.seconds() > seconds_for_others) {
+      const std::vector<Attempt> attempts = read_attempts(folder_);
+      fail(attempts.empty()
+               ? fmt::format("shard {} is being done by another process", number)
+               : fmt::format("shard {} is being done on {} by process {} since {}", number,
+                             attempts.back().host, attempts.back().process, attempts.back().time));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  cut_last_line(folder_ / attempts_file);
+  const std::vector<Attempt> attempts = read_attempts(folder_);
+  attempt_ = attempts.empty() ? 0 : attempts.back().attempt + 1;
+}
+
+ShardLock::~ShardLock() { ::close(descriptor_); }
+
+void ShardLock::append(Event event, const std::string& words) {
+  const Attempt row = {.attempt = attempt_,
+                       .event = event,
+                       .time = record::date_now(),
+                       .host = host_name(),
+                       .process = getpid(),
+                       .job = job_name(),
+                       .log = environment("TOUCHSTONE_LOG"),
+                       .words = record::one_line(words)};
+  files::CsvWriter file(folder_ / attempts_file, record::header_of<Attempt>(),
+                        files::CsvWriter::Keep::appended_rows);
+  record::write_row(file, row);
+  file.close();
+}
+
+void ShardLock::begin() { append(Event::begun, ""); }
+
+void ShardLock::end(Event event, const std::string& words) { append(event, words); }
+
+bool is_locked(const std::filesystem::path& shard) {
+  const int descriptor = open_lock(shard, 0);
+  if (descriptor < 0) return false;
+  const bool locked = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return locked;
+}
+
+}  // namespace touchstone::shards

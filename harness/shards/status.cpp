@@ -1,0 +1,162 @@
+// Looks at the shards of a plan.
+#include "harness/shards/status.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace touchstone::shards {
+namespace {
+
+constexpr std::array<std::string_view, 4> state_names = {"done", "running", "failed", "to come"};
+
+// Returns the last line of a log that says something.
+std::string last_line(const std::string& log) {
+  constexpr std::streamoff looked_at = 4096;
+  std::ifstream stream(log, std::ios::binary | std::ios::ate);
+  if (!stream) return "";
+  const std::streamoff size = stream.tellg();
+  stream.seekg(std::max<std::streamoff>(0, size - looked_at));
+  std::string last;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  }
+  return record::one_line(last);
+}
+
+// Seconds since 1970 of a text by date_now(); NaN if it is none.
+double seconds_of(const std::string& time) {
+  std::tm parts{};
+  std::istringstream stream(time);
+  stream >> std::get_time(&parts, "%Y-%m-%d %H:%M:%S");
+  return stream ? static_cast<double>(timegm(&parts)) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string duration(double seconds) {
+  const auto minutes = static_cast<std::int64_t>(seconds / 60 + 0.5);
+  if (minutes < 1) return fmt::format("{:.0f} s", seconds);
+  if (minutes < 120) return fmt::format("{} min", minutes);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+std::string_view to_string(ShardState state) {
+  return state_names[static_cast<std::size_t>(state)];
+}
+
+ShardStatus status_of(const ShardPlan& plan, std::int64_t shard) {
+  ShardStatus status{.shard = shard, .begun = {}, .ended = {}, .words = {}};
+  const std::filesystem::path folder = shard_path(plan.folder, shard);
+  const std::vector<Attempt> attempts = read_attempts(folder);
+  if (attempts.empty()) return status;
+  const Attempt& last = attempts.back();
+  const auto begun =
+      std::ranges::find(attempts.rbegin(), attempts.rend(), Event::begun, &Attempt::event);
+  if (begun != attempts.rend()) status.begun = *begun;
+  if (last.event == Event::done) {
+    status.state = ShardState::done;
+    status.ended = last.time;
+    return status;
+  }
+  if (is_locked(folder)) {
+    status.state = ShardState::running;
+    return status;
+  }
+  status.state = ShardState::failed;
+  if (last.event == Event::begun) {
+    status.words = "killed, or its machine went down";
+  } else {
+    status.ended = last.time;
+    status.words =
+        fmt::format("{}{}{}", to_string(last.event), last.words.empty() ? "" : ": ", last.words);
+  }
+  const std::string said = last.log.empty() ? "" : last_line(last.log);
+  if (!said.empty() && said.find(last.words) == std::string::npos)
+    status.words += fmt::format("; its last words: {}", said);
+  return status;
+}
+
+PlanStatus status_of(const ShardPlan& plan) {
+  PlanStatus status;
+  double taken = 0;
+  double running_since = 0;
+  const auto now = static_cast<double>(std::time(nullptr));
+  for (const PlannedShard& planned : plan.shards) {
+    ShardStatus shard = status_of(plan, planned.shard);
+    ++status.counts[static_cast<std::size_t>(shard.state)];
+    status.seconds += planned.seconds;
+    const double begun = seconds_of(shard.begun ? shard.begun->time : "");
+    if (shard.state == ShardState::done) {
+      status.done_seconds += planned.seconds;
+      const double seconds = seconds_of(shard.ended) - begun;
+      if (seconds > 0) taken += seconds;
+    }
+    if (shard.state == ShardState::running) {
+      if (now > begun) running_since += now - begun;
+      status.running.push_back(std::move(shard));
+    } else if (shard.state == ShardState::failed) {
+      status.failed.push_back(std::move(shard));
+    }
+  }
+  if (status.done_seconds > 0 && !status.running.empty()) {
+    const double to_do =
+        (status.seconds - status.done_seconds) * (taken / status.done_seconds) - running_since;
+    status.left = std::max(0.0, to_do) / static_cast<double>(status.running.size());
+  }
+  return status;
+}
+
+std::string status_text(const ShardPlan& plan, const PlanStatus& status) {
+  constexpr std::size_t most_lines = 20;
+  std::string text = fmt::format("{} ({}), {} shards:", plan.name, plan.kind, plan.shards.size());
+  for (std::size_t i = 0; i < state_names.size(); ++i)
+    text += fmt::format("{} {} {}", i == 0 ? "" : ",", status.counts[i], state_names[i]);
+  text += "\n";
+  const auto add = [&](const std::vector<ShardStatus>& shards, const auto& line) {
+    for (std::size_t i = 0; i < std::min(most_lines, shards.size()); ++i)
+      text += fmt::format("  {:>6}  {}\n", shards[i].shard, line(shards[i]));
+    if (shards.size() > most_lines)
+      text += fmt::format("          and {} more\n", shards.size() - most_lines);
+  };
+  if (!status.running.empty()) text += "running\n";
+  add(status.running, [](const ShardStatus& shard) {
+    return !shard.begun ? std::string("begins")
+                        : fmt::format("on {}, process {}, since {}{}", shard.begun->host,
+                                      shard.begun->process, shard.begun->time,
+                                      shard.begun->job.empty() ? "" : ", job " + shard.begun->job);
+  });
+  if (!status.failed.empty()) text += "failed\n";
+  add(status.failed, [](const ShardStatus& shard) {
+    return fmt::format("on {}, begun {}: {}", shard.begun ? shard.begun->host : "?",
+                       shard.begun ? shard.begun->time : "?", shard.words);
+  });
+  if (!status.failed.empty()) {
+    std::vector<std::int64_t> numbers;
+    for (const ShardStatus& shard : status.failed) numbers.push_back(shard.shard);
+    text += fmt::format("to run these again: {} {}\n", (plan.folder / "slurm.sh").string(),
+                        list_of(numbers));
+  }
+  if (status.left) text += fmt::format("about {} left\n", duration(*status.left));
+  return text;
+}
+
+std::string list_of(const std::vector<std::int64_t>& numbers) {
+  std::string list;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    list += fmt::format("{}{}", list.empty() ? "" : ",", numbers[i]);
+    if (last > i) list += fmt::format("-{}", numbers[last]);
+    i = last + 1;
+  }
+  return list;
+}
+
+}  // namespace touchstone::shards

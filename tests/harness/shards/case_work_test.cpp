@@ -1,0 +1,187 @@
+// Tests that checks, sweeps and soaks in shards leave what they leave in one piece.
+#include <gmock/gmock.h>
+
+#include "harness/check/requests/case_run.h"
+#include "tests/harness/input_fault.h"
+#include "tests/harness/shards/planned.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* small_soak = R"(
+name = "small"
+[soak]
+narrow = ["certified", "gjk"]
+scalars = "double"
+pairs = 14_000
+regimes = ["gap-1e-3", "depth-1e-3", "touching-grid"]
+)";
+constexpr const char* small_check = R"(
+[check]
+narrow = ["certified", "mpr"]
+broad = "naive"
+cases = 5
+rounds = 3
+regimes = ["gap-1e-3", "touching-grid"]
+)";
+constexpr const char* small_sweep = R"(
+[stress]
+narrow = "gjk"
+axes = ["gap", "depth"]
+cases = 2
+)";
+
+class CaseShards : public Planned {
+ protected:
+  // Does the work in one piece.
+  void run_whole() {
+    check::CaseFile file = check::read_case_file(folder_.path() / "work.toml");
+    file.common().out = folder_.path() / "whole";
+    whole_text_ = check::run_case_file(file).text;
+  }
+  void expect_same(const std::string& name) const {
+    EXPECT_EQ(folder_.read("out/" + name), folder_.read("whole/" + name)) << name;
+    EXPECT_GT(folder_.read("out/" + name).size(), 100u) << name;
+  }
+
+  std::string whole_text_;
+};
+
+TEST_F(CaseShards, ASoakInAnyOrder) {
+  make(small_soak, 4);
+  for (const std::int64_t shard : {2, 0, 3, 1}) run(shard);
+  const shards::MergeResult result = merge();
+  ASSERT_THAT(result.missing, IsEmpty());
+  EXPECT_FALSE(result.merged.ours_wrong);
+  run_whole();
+  EXPECT_EQ(result.merged.text, whole_text_);
+  for (const char* name : {"jobs.csv", "soak.csv"}) expect_same(name);
+}
+
+TEST_F(CaseShards, ACheckOfSeveralRounds) {
+  make(small_check, 5);
+  for (std::int64_t shard = 0; shard < 5; ++shard) run(shard);
+  const shards::MergeResult result = merge();
+  ASSERT_THAT(result.missing, IsEmpty());
+  run_whole();
+  for (const char* name : {"grades.csv", "variants.csv", "jobs.csv", "summary.csv"})
+    expect_same(name);
+}
+
+TEST_F(CaseShards, ASweep) {
+  make(small_sweep, 3);
+  for (std::int64_t shard = 0; shard < 3; ++shard) run(shard);
+  ASSERT_THAT(merge().missing, IsEmpty());
+  run_whole();
+  for (const char* name : {"stress.csv", "cells.csv", "envelope.csv"}) expect_same(name);
+}
+
+TEST_F(CaseShards, RowsMayBePacked) {
+  make(small_soak, 2);
+  run(0);
+  run(1);
+  ASSERT_THAT(merge().missing, IsEmpty());
+  const auto rows = [&](const char* name) {
+    std::vector<std::string> lines;
+    files::CsvReader(out() / name, {"algorithm", "pairs"}).read([&](const auto& row) {
+      lines.push_back(std::string(row.text(0)) + std::string(row.text(1)));
+    });
+    return lines;
+  };
+  const std::vector<std::string> plain = rows("jobs.csv");
+  ASSERT_THAT(shards::merge_plan(plan(), out(), {.zstd = true}).missing, IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(out() / "jobs.csv"));
+  EXPECT_EQ(rows("jobs.csv.zst"), plain);
+  EXPECT_TRUE(std::filesystem::exists(out() / "soak.csv"));
+}
+
+TEST_F(CaseShards, AShardThatIsDoneIsNotDoneAgain) {
+  make(small_soak, 2);
+  run(1);
+  EXPECT_EQ(shards::run_shard(plan(), 1, 1), shards::ShardEnd::was_done);
+  EXPECT_EQ(shards::read_attempts(shards::shard_path(plan(), 1)).size(), 2u);
+}
+
+TEST_F(CaseShards, WhatIsMissingIsToldAndNothingIsWritten) {
+  make(small_soak, 5);
+  run(1);
+  const shards::MergeResult result = merge();
+  EXPECT_EQ(result.missing.size(), 4u);
+  EXPECT_EQ(result.missing_list, "0,2-4");
+  EXPECT_THAT(result.missing.front(), HasSubstr("shard 0 is to come"));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(CaseShards, APartThatWasStoppedGoesOn) {
+  make(small_soak, 2);
+  run(0);
+  run(1);
+  const std::string done = folder_.read("plan/shards/0/0/part-0-7/jobs.csv");
+  // As a kill leaves it: half a row more than progress.csv knows, and no end of the attempt.
+  const std::string name = "plan/shards/0/0/part-0-7/";
+  edit(plan() / "shards/0/0/part-0-7/machine.csv", "finished,yes", "finished,no");
+  std::size_t end = 0;
+  for (int line = 0; line < 5; ++line) end = done.find('\n', end) + 1;
+  folder_.write(name + "progress.csv",
+                "name,value\nunits,2\njobs.csv," + std::to_string(end) + "\n");
+  folder_.write(name + "jobs.csv", done.substr(0, end + 20));
+  std::string attempts = folder_.read("plan/shards/0/0/attempts.csv");
+  attempts.resize(attempts.find("\n", attempts.find("begun")) + 1);
+  folder_.write("plan/shards/0/0/attempts.csv", attempts + "1,beg");
+  const shards::ShardPlan read = shards::read_plan(plan());
+  run(0);
+  EXPECT_EQ(folder_.read(name + "jobs.csv"), done);
+  EXPECT_EQ(status_of(read, 0).state, shards::ShardState::done);
+}
+
+TEST_F(CaseShards, RowsThatAreNotThoseOfThePlanAreRefused) {
+  make(small_soak, 2);
+  run(0);
+  run(1);
+  const std::string machine = folder_.read("plan/shards/0/0/part-0-7/machine.csv");
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    edit(part(0, 0, 7) / "machine.csv", from, to);
+    const std::string fault = input_fault([&] { merge(); });
+    EXPECT_FALSE(std::filesystem::exists(out()));
+    folder_.write("plan/shards/0/0/part-0-7/machine.csv", machine);
+    return fault;
+  };
+  EXPECT_THAT(refused("finished,yes", "finished,no"), HasSubstr("finished is 'no'"));
+  EXPECT_THAT(refused("plan,", "plan,f"), HasSubstr("plan is 'f"));
+  EXPECT_THAT(refused("part,0-7", "part,7-14"), HasSubstr("part is '7-14'; expected '0-7'"));
+  EXPECT_THAT(refused("shard,0", "shard,1"), HasSubstr("shard is '1'"));
+  // A file that was cut, or that has more rows than were written.
+  const std::string jobs = folder_.read("plan/shards/0/0/part-0-7/jobs.csv");
+  for (const std::string& other : {jobs.substr(0, jobs.size() - 1), jobs + jobs.substr(100, 50)}) {
+    folder_.write("plan/shards/0/0/part-0-7/jobs.csv", other);
+    EXPECT_THAT(input_fault([&] { merge(); }), HasSubstr("jobs.csv: "));
+  }
+  folder_.write("plan/shards/0/0/part-0-7/jobs.csv", jobs);
+  EXPECT_THAT(merge().missing, IsEmpty());
+}
+
+TEST_F(CaseShards, AnotherProgramIsRefused) {
+  make(small_soak, 2);
+  edit(plan() / "plan.csv", "work,program,", "work,program,0");
+  EXPECT_THAT(input_fault([&] { shards::run_shard(plan(), 0, 1); }),
+              HasSubstr("is of another plan than the files beside it"));
+}
+
+TEST_F(CaseShards, ResultsOfOtherWorkAreNotReplaced) {
+  make(small_soak, 1);
+  run(0);
+  std::filesystem::create_directory(out());
+  folder_.write("out/mine.txt", "mine");
+  EXPECT_THAT(input_fault([&] { merge(); }), HasSubstr("expected another --out, or --overwrite"));
+  EXPECT_EQ(folder_.read("out/mine.txt"), "mine");
+  shards::merge_plan(plan(), out(), {.overwrite = true});
+  EXPECT_FALSE(std::filesystem::exists(out() / "mine.txt"));
+  EXPECT_THAT(merge().missing, IsEmpty());  // those of the plan are replaced without a word
+  EXPECT_THAT(folder_.names(), ::testing::ElementsAre("out", "plan", "work.toml"));
+}
+
+}  // namespace
+}  // namespace touchstone
