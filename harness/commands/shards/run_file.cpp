@@ -1,9 +1,9 @@
 // touchstone run: a shard of a plan, or a file with a table [trade], [check], [stress] or [soak].
 #include <fmt/format.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "harness/base/error.h"
 #include "harness/check/requests/case_run.h"
@@ -17,10 +17,16 @@
 namespace touchstone::commands {
 namespace {
 
+// Returns the number of processors that this process may use, which a scheduler may have limited.
+int processors() {
+  cpu_set_t mask;
+  return sched_getaffinity(0, sizeof mask, &mask) == 0 ? std::max(1, CPU_COUNT(&mask)) : 1;
+}
+
 struct RunFileOptions {
   std::string file, out, plan;
   std::int64_t shard = -1;
-  int threads = static_cast<int>(std::thread::hardware_concurrency());
+  int threads = processors();
   bool with_page = false, resume = false;
 };
 
