@@ -15,7 +15,6 @@ struct UnitRange {
 
   std::int64_t size() const { return end - first; }
   bool empty() const { return end <= first; }
-  bool contains(std::int64_t unit) const { return unit >= first && unit < end; }
   bool operator==(const UnitRange&) const = default;
 };
 

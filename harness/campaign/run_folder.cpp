@@ -10,11 +10,15 @@ constexpr std::size_t raw = 0, departures = 1;
 
 }  // namespace
 
+std::vector<record::RowFile> run_files() {
+  return {{"raw.csv", record::header_of<record::RawRow>()},
+          {"departures.csv", record::header_of<record::Departure>()}};
+}
+
 RunFolder::RunFolder(std::filesystem::path folder, record::Facts facts, record::FolderStart start,
                      record::Findings& findings)
     : folder_({.folder = std::move(folder),
-               .files = {{"raw.csv", record::header_of<record::RawRow>()},
-                         {"departures.csv", record::header_of<record::Departure>()}},
+               .files = run_files(),
                .identity = std::move(facts),
                .start = start,
                .work = "run",

@@ -1,14 +1,17 @@
-// The folder of a run: writes its findings to raw.csv and departures.csv, unit by unit. Used by
-// runner.cpp.
+// The folder of a run: writes its findings to raw.csv and departures.csv, unit by unit.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <vector>
 
 #include "harness/record/findings.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::campaign {
+
+// Returns the files of rows of a run: raw.csv and departures.csv, in this order.
+std::vector<record::RowFile> run_files();
 
 // A unit of a run is a block's check pass, the start of a worker, or a round.
 class RunFolder {

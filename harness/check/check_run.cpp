@@ -77,7 +77,7 @@ std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   record::ResultFolder folder(check_folder(request));
   if (request.resume) take_up(folder, request.subjects(), result->tally);
   if (!request.narrow.empty()) grade_all(request, folder, result->tally);
-  if (request.part && folder.units() < request.part->units.size()) {
+  if (is_interrupted(folder, request)) {
     result->interrupted = true;
     return result;
   }

@@ -25,6 +25,11 @@ record::ResultFolderPlan job_folder(const CheckRequest& request, std::string wor
                                     std::pair<std::string, std::string> subject,
                                     std::vector<record::RowFile> files);
 
+// Returns whether an interrupt ended the request's part before its last job.
+inline bool is_interrupted(const record::ResultFolder& folder, const CheckRequest& request) {
+  return request.part && folder.units() < request.part->units.size();
+}
+
 // Does the jobs of the range that the folder does not hold yet: work(job, oracle) in a worker, then
 // take(job, result) here, in order. If `take` returns false the run ends. Each job is a unit of the
 // folder.

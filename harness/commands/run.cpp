@@ -122,6 +122,7 @@ int run_other_file(const RunOptions& options) {
   hand_over();
 }
 
+// Names the tables itself, because this executable lacks what reads them.
 bool is_other_file(const std::string& file) {
   return std::ranges::any_of(std::array{"trade", "check", "stress", "soak"},
                              [&](const char* key) { return files::has_key(file, key); });

@@ -1,4 +1,4 @@
-// Writes text files.
+// Reads and writes text files.
 #include "harness/files/text_file.h"
 
 #include <fmt/format.h>
@@ -6,11 +6,19 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "harness/base/error.h"
 
 namespace touchstone::files {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw base::InputError(file.string(), 0, "cannot be read");
+  return text;
+}
 
 void write_text(const std::filesystem::path& file, const std::string& content) {
   std::ofstream stream(file, std::ios::binary);

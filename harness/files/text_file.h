@@ -1,10 +1,13 @@
-// Writes text files.
+// Reads and writes text files.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 namespace touchstone::files {
+
+// Returns the content of a file. Throws InputError if it cannot be read.
+std::string read_text(const std::filesystem::path& file);
 
 // Throws InputError if the file cannot be written whole; what was written of it is removed.
 void write_text(const std::filesystem::path& file, const std::string& content);

@@ -20,8 +20,8 @@ void Findings::add(Departure departure) {
   if (!told) departures_.push_back(std::move(departure));
 }
 
-bool Findings::ours_are_wrong() const {
-  return std::ranges::any_of(departures_, [](const Departure& d) { return d.ours && !d.known; });
+bool ours_are_wrong(std::span<const Departure> departures) {
+  return std::ranges::any_of(departures, [](const Departure& d) { return d.ours && !d.known; });
 }
 
 std::string departures_text(const Findings& findings) {

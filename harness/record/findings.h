@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,9 @@ struct Departure {
   std::string reproduction;  // the file that reproduces it; empty if there is none
 };
 
+// Returns true if one of them is of an algorithm of ours, and not known and accepted.
+bool ours_are_wrong(std::span<const Departure> departures);
+
 class Findings {
  public:
   void add(RawRow row) { rows_.push_back(std::move(row)); }
@@ -33,8 +37,7 @@ class Findings {
   const std::vector<RawRow>& rows() const { return rows_; }
   const std::vector<Departure>& departures() const { return departures_; }
 
-  // Returns true if an algorithm of ours has a departure that is not known and accepted.
-  bool ours_are_wrong() const;
+  bool ours_are_wrong() const { return record::ours_are_wrong(departures_); }
 
  private:
   std::vector<RawRow> rows_;

@@ -41,7 +41,7 @@ std::string first_line(const std::filesystem::path& file) {
 }
 
 // Returns the value behind "key : value" in a file such as /proc/cpuinfo.
-std::string value_of(const std::string& file, std::string_view key) {
+std::string value_behind(const std::string& file, std::string_view key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     const std::size_t colon = line.find(':');
@@ -190,8 +190,8 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
     facts.emplace_back(name, value.empty() ? unknown : value);
   };
   const std::string cpu = "/sys/devices/system/cpu/";
-  add("processor", value_of("/proc/cpuinfo", "model name"));
-  add("microcode", value_of("/proc/cpuinfo", "microcode"));
+  add("processor", value_behind("/proc/cpuinfo", "model name"));
+  add("microcode", value_behind("/proc/cpuinfo", "microcode"));
   add("cores_online", std::to_string(std::thread::hardware_concurrency()));
   add("cores_physical", physical_cores(cpu));
   add("affinity", affinity());
@@ -209,7 +209,7 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
   add("boost", boost(cpu));
   add("clock_source",
       first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource"));
-  add("memory", value_of("/proc/meminfo", "MemTotal"));
+  add("memory", value_behind("/proc/meminfo", "MemTotal"));
   utsname name{};
   uname(&name);
   add("kernel", fmt::format("{} {} {}", name.sysname, name.release, name.machine));

@@ -27,20 +27,24 @@
 namespace touchstone::record {
 namespace {
 
-constexpr const char* finished_key = "finished";
-constexpr const char* begun_key = "begun";
 constexpr const char* units_key = "units";
 constexpr double seconds_for_others = 2;
 
 // The source folder may change while the program stays equal.
 constexpr std::array<std::string_view, 2> source_facts = {"commit", "tree"};
 
-std::map<std::string, std::string> read_facts(const std::filesystem::path& file) {
-  std::map<std::string, std::string> facts;
-  files::CsvReader(file, {"name", "value"}).read([&](const files::CsvReader::Row& row) {
-    facts.emplace(row.text(0), row.text(1));
-  });
-  return facts;
+// Returns a number of a progress.csv.
+std::int64_t number_of(const std::filesystem::path& progress, const Facts& found,
+                       std::string_view name) {
+  const std::string text = value_of(found, name);
+  std::int64_t value = -1;
+  const char* const end = text.data() + text.size();
+  const auto [stop, fault] = std::from_chars(text.data(), end, value);
+  if (fault != std::errc{} || stop != end || value < 0) {
+    throw base::InputError(progress.string(), 0,
+                           fmt::format("{}: found '{}'; expected a number", name, text));
+  }
+  return value;
 }
 
 // Returns the length of the header's line, bytes.
@@ -118,8 +122,8 @@ void ResultFolder::remove_leftovers() const {
 void ResultFolder::begin_anew() {
   std::error_code error;
   if (plan_.start == FolderStart::fresh) {
-    const bool finished =
-        std::filesystem::exists(machine(), error) && read_facts(machine())[finished_key] == "yes";
+    const bool finished = std::filesystem::exists(machine(), error) &&
+                          value_of(read_facts(machine()), finished_fact) == "yes";
     for (const RowFile& file : plan_.files) {
       const std::filesystem::path rows = files::row_file(path(file.name));
       if (finished || !std::filesystem::exists(rows, error)) continue;
@@ -149,11 +153,12 @@ void ResultFolder::begin_anew() {
 }
 
 void ResultFolder::compare_identity() {
-  std::map<std::string, std::string> old = read_facts(machine());
-  was_finished_ = old[finished_key] == "yes";
-  old.erase(finished_key);
-  begun_ = old[begun_key];
-  old.erase(begun_key);
+  const Facts facts = read_facts(machine());
+  std::map<std::string, std::string> old(facts.begin(), facts.end());
+  was_finished_ = old[finished_fact] == "yes";
+  old.erase(finished_fact);
+  begun_ = old[begun_fact];
+  old.erase(begun_fact);
   const auto fail = [&](const std::string& message) {
     throw OtherWork(machine().string(), 0, message + "; expected the same to resume");
   };
@@ -185,21 +190,9 @@ void ResultFolder::take_up() {
 
 void ResultFolder::cut_to_progress() {
   std::error_code error;
-  std::map<std::string, std::string> found;
   const bool any = std::filesystem::exists(progress(), error);
-  if (any) found = read_facts(progress());
-  const auto number = [&](const std::string& name) {
-    const std::string& text = found[name];
-    std::int64_t value = -1;
-    const char* const end = text.data() + text.size();
-    const auto [stop, fault] = std::from_chars(text.data(), end, value);
-    if (fault != std::errc{} || stop != end || value < 0) {
-      throw base::InputError(progress().string(), 0,
-                             fmt::format("{}: found '{}'; expected a number", name, text));
-    }
-    return value;
-  };
-  if (any) units_ = number(units_key);
+  const Facts found = any ? read_facts(progress()) : Facts{};
+  if (any) units_ = number_of(progress(), found, units_key);
   for (const RowFile& file : plan_.files) {
     // If progress.csv is missing, the work was stopped before its first unit.
     const std::filesystem::path name = path(file.name);
@@ -219,7 +212,8 @@ void ResultFolder::cut_to_progress() {
                       "of this program to resume",
                       file.name, plan_.work));
     }
-    const std::uintmax_t size = any ? static_cast<std::uintmax_t>(number(file.name)) : 0;
+    const auto size =
+        any ? static_cast<std::uintmax_t>(number_of(progress(), found, file.name)) : 0;
     if (size > 0 && there > 0) expect_header(name, file);
     if (there < size) {
       throw base::InputError(
@@ -247,17 +241,20 @@ void ResultFolder::commit(std::int64_t units) {
   write_progress();
 }
 
-std::int64_t ResultFolder::append(std::size_t file, const std::filesystem::path& other,
-                                  std::uintmax_t size) {
-  expect_header(other, plan_.files[file]);
+std::int64_t ResultFolder::append(std::size_t file, const std::filesystem::path& other) {
+  const std::filesystem::path rows_there = other / plan_.files[file].name;
+  expect_header(rows_there, plan_.files[file]);
+  const std::filesystem::path progress_there = other / progress().filename();
+  const auto size = static_cast<std::uintmax_t>(
+      number_of(progress_there, read_facts(progress_there), plan_.files[file].name));
   std::error_code error;
-  const std::uintmax_t there = std::filesystem::file_size(other, error);
+  const std::uintmax_t there = std::filesystem::file_size(rows_there, error);
   if (error || there != size) {
     throw base::InputError(
-        other.string(), 0,
+        rows_there.string(), 0,
         fmt::format("{} bytes; expected {}, as progress.csv says", error ? 0 : there, size));
   }
-  std::ifstream stream(other, std::ios::binary);
+  std::ifstream stream(rows_there, std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(header_size(plan_.files[file])));
   std::vector<char> buffer(std::size_t{1} << 20);
   std::int64_t rows = 0;
@@ -267,17 +264,16 @@ std::int64_t ResultFolder::append(std::size_t file, const std::filesystem::path&
     rows += std::ranges::count(lines, '\n');
     writer(file).lines(lines);
   }
-  if (stream.bad()) throw base::InputError(other.string(), 0, "cannot be read");
+  if (stream.bad()) throw base::InputError(rows_there.string(), 0, "cannot be read");
   return rows;
 }
 
 void ResultFolder::write_progress() const {
-  files::CsvWriter csv(progress(), {"name", "value"});
-  csv.field(units_key).field(units_).end_row();
+  Facts facts = {{units_key, std::to_string(units_)}};
   for (std::size_t i = 0; i < plan_.files.size(); ++i) {
-    csv.field(plan_.files[i].name).field(writers_[i]->size()).end_row();
+    facts.emplace_back(plan_.files[i].name, std::to_string(writers_[i]->size()));
   }
-  csv.close(files::CsvWriter::Durable::against_kills);
+  record::write_facts(progress(), facts, files::CsvWriter::Durable::against_kills);
 }
 
 void ResultFolder::finish(const Facts& more) {
@@ -286,13 +282,12 @@ void ResultFolder::finish(const Facts& more) {
 }
 
 void ResultFolder::write_facts(bool finished, const Facts& more) const {
-  files::CsvWriter csv(machine(), {"name", "value"});
-  for (const Facts* facts : {&plan_.identity, &plan_.notes, &more}) {
-    for (const auto& [name, value] : *facts) csv.field(name).field(value).end_row();
-  }
-  csv.field(begun_key).field(begun_).end_row();
-  csv.field(finished_key).field(finished ? "yes" : "no").end_row();
-  csv.close();
+  Facts facts = plan_.identity;
+  for (const Facts* further : {&plan_.notes, &more})
+    facts.insert(facts.end(), further->begin(), further->end());
+  facts.emplace_back(begun_fact, begun_);
+  facts.emplace_back(finished_fact, finished ? "yes" : "no");
+  record::write_facts(machine(), facts);
 }
 
 }  // namespace touchstone::record

@@ -18,11 +18,10 @@
 
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
+#include "harness/record/facts.h"
 #include "harness/record/row.h"
 
 namespace touchstone::record {
-
-using Facts = std::vector<std::pair<std::string, std::string>>;
 
 // The folder holds other work than the one to resume, or that of another machine.
 class OtherWork : public base::InputError {
@@ -90,9 +89,10 @@ class ResultFolder {
   void write(std::size_t file, const Row& row, const Context&... context) {
     write_row(writer(file), row, context...);
   }
-  // Appends the rows of another file with the same header, which end after `size` bytes of it, and
-  // returns their number. Throws InputError if the header differs or the size is another.
-  std::int64_t append(std::size_t file, const std::filesystem::path& other, std::uintmax_t size);
+  // Appends the rows of this file in another folder, whose work is finished, and returns their
+  // number. Throws InputError if its columns differ, or if it does not have the size that its
+  // progress.csv says.
+  std::int64_t append(std::size_t file, const std::filesystem::path& other);
   files::CsvWriter& writer(std::size_t file) { return *writers_[file]; }
   // Ends `units` units: everything written since the last call is permanent from now on.
   void commit(std::int64_t units = 1);

@@ -1,9 +1,9 @@
 // A campaign as work in shards: its units are blocks.
 #include <fmt/format.h>
 
-#include <fstream>
+#include <algorithm>
+#include <memory>
 #include <set>
-#include <system_error>
 
 #include "harness/base/error.h"
 #include "harness/campaign/blocks.h"
@@ -78,8 +78,8 @@ class CampaignWork final : public Work {
   // A block takes about twice the time in its rows: what it is warmed up with is not timed.
   std::vector<double> estimate_from(const std::filesystem::path& earlier) const {
     constexpr double untimed = 2;
-    const std::string hash = value_of(read_facts(earlier), "campaign_hash");
-    if (hash != value_of(campaign::campaign_identity(campaign_, {}), "campaign_hash")) {
+    const std::string hash = record::value_of(facts_of(earlier), "campaign_hash");
+    if (hash != record::value_of(campaign::campaign_identity(campaign_, {}), "campaign_hash")) {
       throw base::InputError(earlier.string(), 0,
                              "is not of this campaign; expected results of an earlier run of it");
     }

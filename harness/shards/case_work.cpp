@@ -13,7 +13,6 @@
 #include "harness/check/requests/case_run.h"
 #include "harness/check/soak/soak_job.h"
 #include "harness/process/worker_pool.h"
-#include "harness/shards/merged_run.h"
 #include "harness/shards/work.h"
 
 namespace touchstone::shards {
@@ -132,12 +131,10 @@ class CaseWork final : public Work {
     {
       record::ResultFolderPlan plan =
           std::visit([](const auto& request) { return folder_of(request); }, file_.request);
-      const std::vector<record::RowFile> files = plan.files;
+      const std::size_t files = plan.files.size();
       record::ResultFolder joined(std::move(plan));
       for (const DonePart& part : parts) {
-        for (std::size_t i = 0; i < files.size(); ++i) {
-          joined.append(i, part.folder / files[i].name, size_of_rows(part.folder, files[i].name));
-        }
+        for (std::size_t file = 0; file < files; ++file) joined.append(file, part.folder);
       }
       joined.commit(units());
     }

@@ -38,7 +38,7 @@ std::string Machines::name_of(const record::Facts& part) {
     const bool is_cache = fact.first.starts_with("cache_");  // another machine may have more
     if (is_cache || names_of_machine_facts().contains(fact.first)) facts.push_back(fact);
   }
-  const std::string host = value_of(part, host_fact);
+  const std::string host = record::value_of(part, host_fact);
   std::string name = host;
   for (int number = 2;; ++number) {
     const auto [at, is_new] = facts_.try_emplace(name, facts);
@@ -51,8 +51,9 @@ record::Facts Machines::shared() const {
   if (facts_.empty()) return {};
   record::Facts shared;
   for (const auto& [name, value] : facts_.begin()->second) {
-    const bool is_equal = std::ranges::all_of(
-        facts_, [&](const auto& machine) { return value_of(machine.second, name) == value; });
+    const bool is_equal = std::ranges::all_of(facts_, [&](const auto& machine) {
+      return record::value_of(machine.second, name) == value;
+    });
     shared.emplace_back(name, is_equal ? value : "differs: see machines/");
   }
   return shared;
@@ -64,9 +65,7 @@ void Machines::write(const std::filesystem::path& folder) const {
     std::error_code error;
     std::filesystem::create_directories(own, error);
     if (error) throw base::InputError(own.string(), 0, "cannot be made: " + error.message());
-    files::CsvWriter csv(own / "machine.csv", {"name", "value"});
-    for (const auto& [key, value] : facts) csv.field(key).field(value).end_row();
-    csv.close(files::CsvWriter::Durable::against_kills);
+    record::write_facts(own / "machine.csv", facts, files::CsvWriter::Durable::against_kills);
   }
 }
 

@@ -72,7 +72,7 @@ class Merge {
     std::error_code error;
     if (!fs::exists(out_, error) || setting_.overwrite) return;
     if (fs::is_directory(out_, error) && fs::is_empty(out_, error)) return;
-    if (value_of(read_facts(out_), "plan") == plan_.id) return;
+    if (record::value_of(facts_of(out_), "plan") == plan_.id) return;
     throw base::InputError(
         out_.string(), 0,
         "holds something else than results of this plan; expected another --out, "
@@ -104,10 +104,10 @@ class Merge {
         part.shard = shard.shard;
         part.units = units;
         part.folder = part_path(shard_path(plan_.folder, shard.shard), units);
-        const record::Facts facts = read_facts(part.folder);
+        const record::Facts facts = facts_of(part.folder);
         expect_of_plan(part, facts);
         part.machine = machine = machines_.name_of(facts);
-        const std::string begun = value_of(facts, "begun");
+        const std::string begun = record::value_of(facts, record::begun_fact);
         if (begun_.empty() || begun < begun_) begun_ = begun;
       }
       const ShardStatus& status = statuses_[static_cast<std::size_t>(shard.shard)];
@@ -121,9 +121,9 @@ class Merge {
   void expect_of_plan(const DonePart& part, const record::Facts& facts) const {
     record::Facts expected = part_facts(plan_.id, part.shard);
     expected.emplace_back(record::part_fact, to_string(part.units));
-    expected.emplace_back(finished_fact, "yes");
+    expected.emplace_back(record::finished_fact, "yes");
     for (const auto& [name, value] : expected) {
-      const std::string found = value_of(facts, name);
+      const std::string found = record::value_of(facts, name);
       if (found == value) continue;
       throw base::InputError(
           (part.folder / "machine.csv").string(), 0,
@@ -138,18 +138,16 @@ class Merge {
     facts.emplace_back("shards", std::to_string(plan_.shards.size()));
     facts.emplace_back("machines", std::to_string(machines_.size()));
     for (auto& [name, value] : machines_.shared()) {
-      if (value_of(facts, name).empty()) facts.emplace_back(name, value);
+      if (record::value_of(facts, name).empty()) facts.emplace_back(name, value);
     }
     return facts;
   }
 
   // The work wrote its own machine.csv, with the facts of this machine.
-  void write_facts(const record::Facts& facts) const {
-    files::CsvWriter csv(temporary_ / "machine.csv", {"name", "value"});
-    for (const auto& [name, value] : facts) csv.field(name).field(value).end_row();
-    csv.field("begun").field(begun_).end_row();
-    csv.field(finished_fact).field("yes").end_row();
-    csv.close();
+  void write_facts(record::Facts facts) const {
+    facts.emplace_back(record::begun_fact, begun_);
+    facts.emplace_back(record::finished_fact, "yes");
+    record::write_facts(temporary_ / "machine.csv", facts);
   }
 
   // Removes what merges into the same folder left on this machine when they were killed.

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <system_error>
 
 #include "harness/base/error.h"
-#include "harness/files/text_file.h"
+#include "harness/campaign/run_folder.h"
 #include "harness/record/findings.h"
 #include "harness/stats/machines/blocks.h"
 #include "harness/stats/machines/machine_tables.h"
@@ -28,21 +27,19 @@ class RunMerge {
       : into_(folder.path),
         place_(folder.place),
         folder_({.folder = folder.path,
-                 .files = {{"raw.csv", record::header_of<record::RawRow>()},
-                           {"departures.csv", record::header_of<record::Departure>()}},
+                 .files = campaign::run_files(),
                  .identity = folder.facts,
                  .start = record::FolderStart::overwrite,
                  .work = "merge"}) {}
 
   void add(const DonePart& part) {
-    const std::int64_t rows =
-        folder_.append(raw_file, part.folder / "raw.csv", size_of_rows(part.folder, "raw.csv"));
+    const std::int64_t rows = folder_.append(raw_file, part.folder);
     for (record::Departure& one :
          record::read_rows<record::Departure>(part.folder / "departures.csv")) {
       if (one.row >= 0) one.row += rows_;
       if (!one.reproduction.empty()) one.reproduction = take_reproduction(part, one.reproduction);
       folder_.write(departures_file, one);
-      departures_.push_back({part.machine, std::move(one)});
+      departures_.push_back(std::move(one));
     }
     blocks_.push_back({part.units.first, part.shard, part.machine, rows});
     rows_ += rows;
@@ -53,8 +50,7 @@ class RunMerge {
     folder_.finish();
     record::write_rows(into_ / "blocks.csv", blocks_);
     Merged merged;
-    for (const auto& [machine, one] : departures_)
-      merged.ours_wrong = merged.ours_wrong || (one.ours && !one.known);
+    merged.ours_wrong = record::ours_are_wrong(departures_);
     if (rows_ > most_rows_of_tables) {
       merged.text = fmt::format(
           "{} rows: their tables have to fit into memory, and are not made here; `touchstone "
@@ -87,10 +83,8 @@ class RunMerge {
   std::string make_tables(const stats::Published& published) const {
     const std::map<std::string, stats::Results> of_machines = stats::read_machines(into_);
     if (of_machines.size() == 1) {
-      std::vector<record::Departure> departures;
-      for (const auto& [machine, one] : departures_) departures.push_back(one);
       const stats::Results& results = of_machines.begin()->second;
-      return stats::write_report(results, departures, &published, {}, into_).summary;
+      return stats::write_report(results, departures_, &published, {}, into_).summary;
     }
     return stats::write_machine_tables(of_machines, {}, 1, into_);
   }
@@ -99,23 +93,10 @@ class RunMerge {
   record::ResultFolder folder_;
   std::int64_t rows_ = 0;
   std::vector<stats::BlockRow> blocks_;
-  std::vector<std::pair<std::string, record::Departure>> departures_;  // with the machine
+  std::vector<record::Departure> departures_;
 };
 
 }  // namespace
-
-std::uintmax_t size_of_rows(const std::filesystem::path& folder, const std::string& file) {
-  std::int64_t size = -1;
-  files::CsvReader(folder / "progress.csv", {"name", "value"})
-      .read([&](const files::CsvReader::Row& row) {
-        if (row.text(0) == file) size = row.integer(1);
-      });
-  if (size < 0) {
-    throw base::InputError((folder / "progress.csv").string(), 0,
-                           fmt::format("does not have the size of {}", file));
-  }
-  return static_cast<std::uintmax_t>(size);
-}
 
 Merged merge_runs(std::span<const DonePart> parts, const stats::Published& published,
                   const MergeFolder& folder) {

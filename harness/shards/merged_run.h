@@ -17,7 +17,4 @@ Merged merge_runs(std::span<const DonePart> parts, const stats::Published& publi
                   const MergeFolder& folder);
 inline constexpr std::int64_t most_rows_of_tables = 1'000'000;
 
-// Returns the size of a row file in bytes, as progress.csv of its folder says. Throws InputError.
-std::uintmax_t size_of_rows(const std::filesystem::path& folder, const std::string& file);
-
 }  // namespace touchstone::shards

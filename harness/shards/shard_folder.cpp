@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -12,14 +11,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <thread>
 
 #include "harness/base/clock.h"
-#include "harness/base/enumerators.h"
 #include "harness/base/error.h"
+#include "harness/files/text_file.h"
 #include "harness/record/machine.h"
 
 namespace touchstone::shards {
@@ -45,10 +42,10 @@ std::string job_name() {
 
 // Removes what a kill left of a line, so that the next row begins a line of its own.
 void cut_last_line(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const std::size_t end = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
   std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return;
+  const std::string text = files::read_text(file);
+  const std::size_t end = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
   if (end < text.size()) std::filesystem::resize_file(file, end, ignored);
 }
 
@@ -74,13 +71,20 @@ std::filesystem::path part_path(const std::filesystem::path& shard, base::UnitRa
 
 std::vector<Attempt> read_attempts(const std::filesystem::path& shard) {
   const std::filesystem::path file = shard / attempts_file;
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return {};
-  // Another machine may be writing its row, which is read when it is whole.
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (text.empty()) return {};
-  return record::read_rows<Attempt>(file);
+  std::vector<Attempt> attempts;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return attempts;
+  const std::string text = files::read_text(file);
+  if (text.empty()) return attempts;
+  try {
+    record::reader_of<Attempt>(file).read([&](const files::CsvReader::Row& fields) {
+      attempts.push_back(record::read_row<Attempt>(fields));
+    });
+  } catch (const base::InputError&) {
+    // A kill cut the last line, or another machine is writing it.
+    if (text.ends_with('\n')) throw;
+  }
+  return attempts;
 }
 
 std::string host_name() {

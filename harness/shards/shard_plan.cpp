@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <thread>
 
@@ -36,12 +34,6 @@ void columns(Row& row, Visit visit) {
 
 constexpr const char* plan_file = "plan.csv";
 constexpr const char* shards_file = "shards.csv";
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw base::InputError(file.string(), 0, "cannot be read");
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // Units that belong together are cut as one.
 std::vector<base::UnitRange> atoms_of(const Work& work, const std::vector<double>& seconds) {
@@ -140,7 +132,7 @@ void write_scripts(const ShardPlan& plan, const Work& work, int cpus) {
   const std::filesystem::path scripts =
       std::filesystem::path(record::source_folder) / "harness/shards";
   for (const char* name : {"slurm.sh", "parallel.sh"}) {
-    files::write_text(plan.folder / name, text_of(scripts / name));
+    files::write_text(plan.folder / name, files::read_text(scripts / name));
     std::filesystem::permissions(plan.folder / name,
                                  std::filesystem::perms::owner_exec |
                                      std::filesystem::perms::group_exec |
@@ -168,7 +160,7 @@ ShardPlan make_plan(const std::filesystem::path& file, const ShardSetting& setti
                            "is the plan of other work; expected another --out");
   }
   const std::unique_ptr<Work> work = read_work(file);
-  const std::string campaign = text_of(file);
+  const std::string campaign = files::read_text(file);
   ShardPlan plan{.folder = folder,
                  .id = {},
                  .kind = std::string(work->kind()),
@@ -219,7 +211,7 @@ ShardPlan read_plan(const std::filesystem::path& folder) {
     }
   }
   plan.shards = record::read_rows<PlannedShard>(folder / shards_file);
-  const std::string id = id_of(plan, text_of(plan.campaign()));
+  const std::string id = id_of(plan, files::read_text(plan.campaign()));
   if (plan.shards.empty() || id != plan.id) {
     throw base::InputError((folder / plan_file).string(), 0,
                            fmt::format("is of another plan than the files beside it ({}, and they "

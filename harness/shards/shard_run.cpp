@@ -20,14 +20,14 @@ namespace {
 // ratios of a block hold within a machine only.
 record::FolderStart start_of(const Work& work, const record::Facts& there) {
   if (there.empty()) return record::FolderStart::overwrite;
-  const bool moved = work.is_timed() && value_of(there, host_fact) != host_name();
+  const bool moved = work.is_timed() && record::value_of(there, host_fact) != host_name();
   return moved ? record::FolderStart::overwrite : record::FolderStart::resume;
 }
 
 PartEnd run_part(Work& work, const record::Part& part, const std::filesystem::path& folder,
                  int workers) {
-  const record::Facts there = read_facts(folder);
-  if (value_of(there, finished_fact) == "yes") return PartEnd::done;
+  const record::Facts there = facts_of(folder);
+  if (record::value_of(there, record::finished_fact) == "yes") return PartEnd::done;
   record::FolderStart start = start_of(work, there);
   if (start == record::FolderStart::resume) {
     try {
@@ -69,20 +69,10 @@ record::Facts part_facts(const std::string& plan, std::int64_t shard) {
   return {{"plan", plan}, {"shard", std::to_string(shard)}};
 }
 
-record::Facts read_facts(const std::filesystem::path& folder) {
+record::Facts facts_of(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "machine.csv";
   std::error_code error;
-  record::Facts facts;
-  if (!std::filesystem::exists(file, error)) return facts;
-  files::CsvReader(file, {"name", "value"}).read([&](const files::CsvReader::Row& row) {
-    facts.emplace_back(row.text(0), row.text(1));
-  });
-  return facts;
-}
-
-std::string value_of(const record::Facts& facts, std::string_view name) {
-  const auto at = std::ranges::find(facts, name, &record::Facts::value_type::first);
-  return at == facts.end() ? "" : at->second;
+  return std::filesystem::exists(file, error) ? record::read_facts(file) : record::Facts{};
 }
 
 ShardEnd run_shard(const std::filesystem::path& folder, std::int64_t number, int workers) {

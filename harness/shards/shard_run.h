@@ -22,10 +22,7 @@ std::vector<base::UnitRange> parts_of(const Work& work, base::UnitRange units);
 // The facts that the folder of each part of a shard has.
 record::Facts part_facts(const std::string& plan, std::int64_t shard);
 inline constexpr const char* host_fact = "host";
-inline constexpr const char* finished_fact = "finished";
 // Returns the facts of a folder of results; none if it has no machine.csv.
-record::Facts read_facts(const std::filesystem::path& folder);
-// Returns the fact's value; empty if there is none.
-std::string value_of(const record::Facts& facts, std::string_view name);
+record::Facts facts_of(const std::filesystem::path& folder);
 
 }  // namespace touchstone::shards

@@ -3,7 +3,7 @@
 #
 #   ./slurm.sh [LIST] [options of sbatch...]
 #
-# LIST, such as 3,17-19, names shards; without one, all are submitted. A shard that is done costs a second, and one that
+# LIST, such as 3,17-19, names shards; without one, all are submitted. A shard that is done is left as it is, and one that
 # was stopped goes on where it was. Options such as --partition, --account and --constraint are handed to sbatch for every
 # job; its variables SBATCH_... count as usual. Every node must see the plan's folder and the program by the same path.
 

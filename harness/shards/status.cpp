@@ -1,7 +1,6 @@
 // Looks at the shards of a plan.
 #include "harness/shards/status.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
 #include "harness/files/row_file.h"
+#include "harness/record/facts.h"
 #include "harness/stats/machines/blocks.h"
 #include "harness/stats/statistics.h"
 
@@ -203,10 +204,8 @@ std::map<std::string, Results> read_machines(const std::filesystem::path& folder
     const std::filesystem::path of =
         of_machines.size() == 1 ? file.parent_path() : file.parent_path() / "machines" / name;
     if (!std::filesystem::exists(of / "machine.csv")) continue;
-    files::CsvReader(of / "machine.csv", {"name", "value"})
-        .read([&](const files::CsvReader::Row& row) {
-          results.machine.emplace(row.text(0), row.text(1));
-        });
+    const record::Facts facts = record::read_facts(of / "machine.csv");
+    results.machine.insert(facts.begin(), facts.end());
   }
   return of_machines;
 }

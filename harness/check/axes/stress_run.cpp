@@ -44,7 +44,7 @@ StressResult run_stress(const StressRequest& request) {
   record::ResultFolder folder(stress_folder(request));
   do_cells(request, folder);
   StressResult result;
-  if (request.part && folder.units() < request.part->units.size()) {
+  if (is_interrupted(folder, request)) {
     result.interrupted = true;
     return result;
   }

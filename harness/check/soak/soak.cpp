@@ -31,7 +31,7 @@ class Soak {
     const base::UnitRange jobs = request_.jobs(jobs_of(request_));
     result_.drawn = folder_.units() * cases_a_soak_job;
     if (folder_.units() < jobs.size()) do_all(jobs);
-    if (request_.part && folder_.units() < jobs.size()) {
+    if (is_interrupted(folder_, request_)) {
       result_.interrupted = true;
       return result_;
     }

@@ -132,6 +132,7 @@ TEST_F(CaseShards, APartThatWasStoppedGoesOn) {
   attempts.resize(attempts.find("\n", attempts.find("begun")) + 1);
   folder_.write("plan/shards/0/0/attempts.csv", attempts + "1,beg");
   const shards::ShardPlan read = shards::read_plan(plan());
+  EXPECT_EQ(status_of(read, 0).state, shards::ShardState::failed);
   run(0);
   EXPECT_EQ(folder_.read(name + "jobs.csv"), done);
   EXPECT_EQ(status_of(read, 0).state, shards::ShardState::done);
@@ -163,11 +164,25 @@ TEST_F(CaseShards, RowsThatAreNotThoseOfThePlanAreRefused) {
   EXPECT_THAT(merge().missing, IsEmpty());
 }
 
-TEST_F(CaseShards, AnotherProgramIsRefused) {
+TEST_F(CaseShards, AFactOfThePlanThatWasChangedIsRefused) {
   make(small_soak, 2);
   edit(plan() / "plan.csv", "work,program,", "work,program,0");
   EXPECT_THAT(input_fault([&] { shards::run_shard(plan(), 0, 1); }),
               HasSubstr("is of another plan than the files beside it"));
+}
+
+TEST_F(CaseShards, AnotherProgramIsRefused) {
+  make(small_soak, 2);
+  record::Facts planned = shards::read_plan(plan()).identity;
+  const std::unique_ptr<shards::Work> work = shards::read_work(folder_.path() / "work.toml");
+  EXPECT_EQ(input_fault([&] { work->expect_planned(planned, {0, 7}); }), "");
+  for (auto& [name, value] : planned) {
+    if (name == "program") value = "another";
+  }
+  EXPECT_THAT(input_fault([&] {
+                work->expect_planned(planned, {0, 7});
+              }),
+              HasSubstr("was 'another' when the plan was made; expected the same build"));
 }
 
 TEST_F(CaseShards, ResultsOfOtherWorkAreNotReplaced) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How `plan`, `status` and `merge` grow with the number of shards, and `merge` with the number of rows: plans a
 soak, lets a pretended array do its shards by writing what a shard leaves, and merges them. Writes a row for
-each size: seconds, and the most memory of the process in megabytes."""
+each size: seconds, and the most memory of the process in megabytes, which has that of this script as its least."""
 
 import argparse
 import csv
@@ -34,73 +34,66 @@ def write_soak(file, jobs):
     file.write_text(f'[soak]\npairs = {jobs * PAIRS_A_JOB}\nnarrow = "certified"\nscalars = "double"\n')
 
 
-class Array:
-    """Writes the folders of shards as one that was done left its own, with other numbers."""
+def path_of(plan, shard, first, end):
+    """The folder of a shard's only part."""
+    return plan / "shards" / str(shard // 1000) / str(shard) / f"part-{first}-{end}"
 
-    def __init__(self, plan):
-        self.plan = plan
-        with open(plan / "shards.csv", newline="") as file:
-            self.shards = [(int(row["shard"]), int(row["first"]), int(row["end"])) for row in csv.DictReader(file)]
-        folder = self.folder(0)
-        part = self.part(folder, *self.shards[0][1:])
+
+def id_of(plan):
+    with open(plan / "plan.csv", newline="") as file:
+        return next(row["value"] for row in csv.DictReader(file) if row["name"] == "id")
+
+
+class Model:
+    """What a shard that was done leaves, as texts with holes."""
+
+    def __init__(self, program, folder):
+        """Does the only shard of a plan that is as small as can be."""
+        write_soak(folder / "model.toml", 1)
+        plan = folder / "model"
+        measured(program, "plan", folder / "model.toml", "--shards", 1, "--out", plan)
+        measured(program, "run", "--plan", plan, "--shard", 0)
+        part = path_of(plan, 0, 0, 1)
         self.machine = (part / "machine.csv").read_text()
-        self.attempts = (folder / "attempts.csv").read_text()
-        lines = (part / "jobs.csv").read_text().splitlines(keepends=True)
-        self.header, self.row = lines[0], lines[1]
+        self.id = id_of(plan)
+        self.attempts = (part.parent / "attempts.csv").read_text()
+        self.header, self.row = (part / "jobs.csv").read_text().splitlines(keepends=True)[:2]
+        shutil.rmtree(plan)
 
-    def folder(self, shard):
-        return self.plan / "shards" / str(shard // 1000) / str(shard)
+    def do_all(self, plan, rows):
+        """Writes what all shards of the plan would leave, with so many rows each."""
+        machine = self.machine.replace(self.id, id_of(plan))
+        with open(plan / "shards.csv", newline="") as file:
+            for row in csv.DictReader(file):
+                self.do(plan, machine, int(row["shard"]), int(row["first"]), int(row["end"]), rows)
 
-    @staticmethod
-    def part(folder, first, end):
-        return folder / f"part-{first}-{end}"
-
-    def do(self, shard, first, end, rows):
-        folder = self.folder(shard)
-        part = self.part(folder, first, end)
-        part.mkdir(parents=True, exist_ok=True)
-        (folder / "lock").touch()
-        (folder / "attempts.csv").write_text(self.attempts)
-        machine = self.machine.replace(f"part,{self.shards[0][1]}-{self.shards[0][2]}\n", f"part,{first}-{end}\n")
-        (part / "machine.csv").write_text(machine.replace("shard,0\n", f"shard,{shard}\n"))
+    def do(self, plan, machine, shard, first, end, rows):
+        part = path_of(plan, shard, first, end)
+        part.mkdir(parents=True)
+        (part.parent / "lock").touch()
+        (part.parent / "attempts.csv").write_text(self.attempts)
+        facts = machine.replace("part,0-1\n", f"part,{first}-{end}\n").replace("shard,0\n", f"shard,{shard}\n")
+        (part / "machine.csv").write_text(facts)
         size = len(self.header)
         with open(part / "jobs.csv", "w") as file:
             file.write(self.header)
-            block = self.row * 1000
             for _ in range(rows // 1000):
-                size += file.write(block)
+                size += file.write(self.row * 1000)
         (part / "progress.csv").write_text(f"name,value\nunits,{end - first}\njobs.csv,{size}\n")
 
-    def do_all(self, rows):
-        for shard, first, end in self.shards:
-            self.do(shard, first, end, rows)
 
-
-def simulate(program, shards, rows, folder):
+def simulate(program, model, shards, rows, folder):
     soak, plan, out = folder / "soak.toml", folder / "plan", folder / "out"
     write_soak(soak, max(1, rows // 1000) * shards)
     found = {"shards": shards, "rows": shards * rows}
     found["plan_seconds"], found["plan_mb"] = measured(program, "plan", soak, "--shards", shards, "--out", plan)
-    # One real shard, of a plan that is as small as can be, is the model of the others.
-    small = folder / "small"
-    write_soak(soak, 1)
-    measured(program, "plan", soak, "--shards", 1, "--out", small)
-    measured(program, "run", "--plan", small, "--shard", 0)
-    model = Array(small)
-    array = Array.__new__(Array)
-    array.__dict__.update(model.__dict__)
-    array.plan = plan
-    with open(plan / "shards.csv", newline="") as file:
-        array.shards = [(int(row["shard"]), int(row["first"]), int(row["end"])) for row in csv.DictReader(file)]
-    ids = [dict(line.split(",")[1:3] for line in (p / "plan.csv").read_text().splitlines())["id"] for p in (small, plan)]
-    array.machine = model.machine.replace(ids[0], ids[1]).replace("part,0-1\n", "part,%s-%s\n" % array.shards[0][1:])
     begin = time.monotonic()
-    array.do_all(rows)
+    model.do_all(plan, rows)
     found["array_seconds"] = time.monotonic() - begin
     found["files"] = sum(len(files) for _, _, files in os.walk(plan))
     found["status_seconds"], found["status_mb"] = measured(program, "status", plan)
     found["merge_seconds"], found["merge_mb"] = measured(program, "merge", plan, "--out", out)
-    for made in (plan, small, out):
+    for made in (plan, out):
         shutil.rmtree(made)
     return found
 
@@ -116,8 +109,10 @@ def main():
     with tempfile.TemporaryDirectory(prefix="touchstone-") as name, open(options.out, "w", newline="") as file:
         table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         table.writeheader()
+        folder = pathlib.Path(name)
+        model = Model(options.program, folder)
         for shards, rows in sizes:
-            found = simulate(options.program, shards, rows, pathlib.Path(name))
+            found = simulate(options.program, model, shards, rows, folder)
             table.writerow({key: f"{value:.3g}" if isinstance(value, float) else value for key, value in found.items()})
             file.flush()
 
