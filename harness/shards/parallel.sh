@@ -82,6 +82,8 @@ for option in "$@"; do
   esac
 done
 
+# Otherwise parallel takes the shell that SHELL names on each machine, which a service may not have set.
+export PARALLEL_SHELL=$BASH
 # The last number of jobs counts. A shard that is told to stop has a minute for that.
 printf -v command '%q ' bash "$PLAN/parallel.sh" --shard "$PLAN"
 status=0

@@ -59,6 +59,8 @@ class Script:
     def stop(self):
         for process in self._members():
             os.kill(process, signal.SIGKILL)
+        if not self.process.stdout.closed:
+            print(self.process.communicate()[0], end="")
 
     def _members(self):
         found = []
@@ -116,7 +118,8 @@ class Test:
         hosts = self.folder / "hosts"
         hosts.write_text("one\ngone\ntwo\n")
         options = ["--ssh", ssh, "--sshloginfile", hosts]
-        script = self.start(plan, *options)
+        # A service has no SHELL.
+        script = self.start(plan, *options, env={name: value for name, value in os.environ.items() if name != "SHELL"})
         killed = plan.catch()
         killed.signal(signal.SIGKILL)
         script.expect_end(2, f"slurm.sh {killed.shard}\n")
