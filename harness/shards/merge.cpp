@@ -47,20 +47,21 @@ class Merge {
   MergeResult run() {
     expect_replaceable();
     MergeResult result = find_missing();
-    if (!result.missing.empty()) return result;
+    if (!result.missing.empty() && !(setting_.partial && anything_done())) return result;
     const std::unique_ptr<Work> work = read_work(plan_.campaign(), plan_.home);
     expect_facts(plan_.identity, {{"program", record::hash_of_program()}});
     collect(*work);
     remove_leftovers();
-    const record::Facts facts = merged_facts();
+    const record::Facts facts = merged_facts(result.missing_list);
     machines_.write(temporary_);
     result.merged = work->merge(parts_, {.path = temporary_, .place = place_, .facts = facts});
     record::write_rows(temporary_ / "shards.csv", rows_);
-    write_facts(facts);
+    write_facts(facts, result.missing.empty());
     if (setting_.zstd) {
       for (const std::string& name : work->row_files()) pack(temporary_ / name);
     }
     put_in_place();
+    result.written = true;
     replace_all(result.merged.text, temporary_.string(), place_.string());
     return result;
   }
@@ -96,8 +97,15 @@ class Merge {
     return result;
   }
 
+  bool anything_done() const {
+    return std::ranges::any_of(
+        statuses_, [](const ShardStatus& status) { return status.state == ShardState::done; });
+  }
+
   void collect(const Work& work) {
     for (const PlannedShard& shard : plan_.shards) {
+      const ShardStatus& status = statuses_[static_cast<std::size_t>(shard.shard)];
+      if (status.state != ShardState::done) continue;
       std::string machine;
       for (const base::UnitRange& units : parts_of(work, shard.units)) {
         DonePart& part = parts_.emplace_back();
@@ -110,7 +118,6 @@ class Merge {
         const std::string begun = record::value_of(facts, record::begun_fact);
         if (begun_.empty() || begun < begun_) begun_ = begun;
       }
-      const ShardStatus& status = statuses_[static_cast<std::size_t>(shard.shard)];
       rows_.push_back({shard.shard, shard.units, machine,
                        status.begun ? status.begun->attempt + 1 : 0,
                        status.begun ? status.begun->time : "", status.ended});
@@ -132,10 +139,11 @@ class Merge {
     }
   }
 
-  record::Facts merged_facts() const {
+  record::Facts merged_facts(const std::string& missing) const {
     record::Facts facts = plan_.identity;
     facts.emplace_back("plan", plan_.id);
     facts.emplace_back("shards", std::to_string(plan_.shards.size()));
+    if (!missing.empty()) facts.emplace_back("missing", missing);
     facts.emplace_back("machines", std::to_string(machines_.size()));
     for (auto& [name, value] : machines_.shared()) {
       if (record::value_of(facts, name).empty()) facts.emplace_back(name, value);
@@ -144,9 +152,9 @@ class Merge {
   }
 
   // The work wrote its own machine.csv, with the facts of this machine.
-  void write_facts(record::Facts facts) const {
+  void write_facts(record::Facts facts, bool finished) const {
     facts.emplace_back(record::begun_fact, begun_);
-    facts.emplace_back(record::finished_fact, "yes");
+    facts.emplace_back(record::finished_fact, finished ? "yes" : "no");
     record::write_facts(temporary_ / "machine.csv", facts);
   }
 

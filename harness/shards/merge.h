@@ -34,18 +34,20 @@ void columns(Row& row, Visit visit) {
 struct MergeSetting {
   bool zstd = false;       // files of rows are packed, as NAME.csv.zst
   bool overwrite = false;  // replaces results that are not of this plan
+  bool partial = false;    // joins the shards that are done, if there is one
 };
 
 struct MergeResult {
-  // A line for each shard that is not done: why, and its last words. If there is one, nothing was
-  // written.
+  // A line for each shard that is not done: why, and its last words.
   std::vector<std::string> missing;
   std::string missing_list;  // such as "3,17-19"
+  bool written = false;      // false if a shard is missing, unless the setting allows it
   Merged merged;
 };
 
 // Joins all shards into the folder `out`, which is there as a whole or not at all; results of the
-// same plan are replaced. Rows are streamed and come in the order of one undisturbed run. Beside
+// same plan are replaced. Partial results say in machine.csv that they are not finished, and which
+// shards are `missing`. Rows are streamed and come in the order of one undisturbed run. Beside
 // them are machine.csv, with the facts that all machines share, machines/NAME/machine.csv with all
 // facts of each, and shards.csv: who did what, and how long. Throws InputError if a shard is of
 // another plan, program or scene, if rows are missing or double, or if `out` holds other results.

@@ -72,8 +72,8 @@ class Work {
 
   // Returns the names of the files with rows, which grow with the work.
   virtual std::vector<std::string> row_files() const = 0;
-  // Joins the parts, which are all units in their order, into the folder, with everything that is
-  // made of all rows.
+  // Joins the parts, which are in the order of their units and may have gaps, into the folder, with
+  // everything that is made of all rows.
   virtual Merged merge(std::span<const DonePart> parts, const MergeFolder& folder) = 0;
 };
 

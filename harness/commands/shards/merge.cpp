@@ -29,12 +29,13 @@ int merge(const MergeOptions& options) {
       fmt::print(stderr, "touchstone: {}\n", result.missing[i]);
     if (result.missing.size() > most_lines)
       fmt::print(stderr, "touchstone: and {} more\n", result.missing.size() - most_lines);
-    fmt::print(stderr,
-               "touchstone: {} shards are missing, and nothing was written; to run them: {} {}\n",
-               result.missing.size(), (plan / "slurm.sh").string(), result.missing_list);
-    return exit_bad_request;
+    fmt::print(stderr, "touchstone: {} shards are missing{}; to run them: {} {}\n",
+               result.missing.size(), result.written ? "" : ", and nothing was written",
+               (plan / "slurm.sh").string(), result.missing_list);
+    if (!result.written) return exit_bad_request;
   }
-  fmt::print("{}\nResults in {}\n", result.merged.text, out.string());
+  fmt::print("{}\n{} in {}\n", result.merged.text,
+             result.missing.empty() ? "Results" : "Partial results", out.string());
   return result.merged.ours_wrong ? exit_measured_wrong : exit_done;
 }
 
@@ -54,6 +55,8 @@ void add_merge(Arguments command) {
                "Pack the files of rows, as NAME.csv.zst, which the other commands read too");
   command.flag("--overwrite", options->setting.overwrite,
                "Replace what the folder holds, even if it is not of this plan");
+  command.flag("--partial", options->setting.partial,
+               "Join the shards that are done; machine.csv tells which are missing");
   command.job([options] { return merge(*options); });
 }
 

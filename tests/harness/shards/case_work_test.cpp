@@ -1,7 +1,10 @@
 // Tests that checks, sweeps and soaks in shards leave what they leave in one piece.
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "harness/check/requests/case_run.h"
+#include "harness/record/facts.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/shards/planned.h"
 
@@ -45,6 +48,13 @@ class CaseShards : public Planned {
   void expect_same(const std::string& name) const {
     EXPECT_EQ(folder_.read("out/" + name), folder_.read("whole/" + name)) << name;
     EXPECT_GT(folder_.read("out/" + name).size(), 100u) << name;
+  }
+
+  static std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
   }
 
   std::string whole_text_;
@@ -112,7 +122,41 @@ TEST_F(CaseShards, WhatIsMissingIsToldAndNothingIsWritten) {
   EXPECT_EQ(result.missing.size(), 4u);
   EXPECT_EQ(result.missing_list, "0,2-4");
   EXPECT_THAT(result.missing.front(), HasSubstr("shard 0 is to come"));
+  EXPECT_FALSE(result.written);
   EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(CaseShards, WhatIsDoneIsJoinedWhereThatIsAsked) {
+  make(small_soak, 7);
+  shards::MergeResult result = shards::merge_plan(plan(), out(), {.partial = true});
+  EXPECT_FALSE(result.written);  // no shard is done
+  EXPECT_FALSE(std::filesystem::exists(out()));
+  run(5);
+  run(1);
+  result = shards::merge_plan(plan(), out(), {.partial = true});
+  EXPECT_TRUE(result.written);
+  EXPECT_EQ(result.missing_list, "0,2-4,6");
+  record::Facts facts = record::read_facts(out() / "machine.csv");
+  EXPECT_EQ(record::value_of(facts, "missing"), "0,2-4,6");
+  EXPECT_EQ(record::value_of(facts, record::finished_fact), "no");
+  // The rows of both shards, each of two jobs of a thousand pairs for two algorithms.
+  run_whole();
+  const std::vector<std::string> rows = lines_of(folder_.read("out/jobs.csv"));
+  const std::vector<std::string> whole = lines_of(folder_.read("whole/jobs.csv"));
+  const std::size_t of_shard = (whole.size() - 1) / 7;
+  ASSERT_EQ(rows.size(), 1 + 2 * of_shard);
+  for (std::size_t i = 0; i < of_shard; ++i) {
+    EXPECT_EQ(rows[1 + i], whole[1 + of_shard + i]);
+    EXPECT_EQ(rows[1 + of_shard + i], whole[1 + 5 * of_shard + i]);
+  }
+  EXPECT_NE(result.merged.text, whole_text_);
+  for (const std::int64_t shard : {0, 2, 3, 4, 6}) run(shard);
+  result = merge();
+  EXPECT_TRUE(result.written);
+  EXPECT_EQ(result.merged.text, whole_text_);
+  facts = record::read_facts(out() / "machine.csv");
+  EXPECT_EQ(record::value_of(facts, "missing"), "");
+  EXPECT_EQ(record::value_of(facts, record::finished_fact), "yes");
 }
 
 TEST_F(CaseShards, APartThatWasStoppedGoesOn) {
