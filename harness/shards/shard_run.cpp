@@ -41,6 +41,14 @@ PartEnd run_part(Work& work, const record::Part& part, const std::filesystem::pa
   return work.run(part, folder, start, workers);
 }
 
+// A disk that is full takes no row either, and what failed first is what is told.
+void note_failure(ShardLock& lock, const std::string& words) {
+  try {
+    lock.end(Event::failed, words);
+  } catch (const base::InputError&) {
+  }
+}
+
 PartEnd run_parts(Work& work, const ShardPlan& plan, const PlannedShard& shard, int workers) {
   const process::InterruptGuard guard;
   record::Part part{.units = {}, .facts = part_facts(plan.id, shard.shard)};
@@ -93,7 +101,7 @@ ShardEnd run_shard(const std::filesystem::path& folder, std::int64_t number, int
     lock.end(Event::interrupted, signal == 0 ? "" : strsignal(signal));
     return ShardEnd::interrupted;
   } catch (const std::exception& error) {
-    lock.end(Event::failed, error.what());
+    note_failure(lock, error.what());
     throw;
   }
 }

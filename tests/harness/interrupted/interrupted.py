@@ -35,12 +35,17 @@ def command(program, folder, *flags):
     return [program, "run", str(CAMPAIGN), "--out", str(folder), *flags]
 
 
-def run(program, folder, *flags):
-    """A run that is left alone: its exit status and what it printed."""
+def run_command(*words):
+    """A command that is left alone: its exit status and what it printed."""
     ran = subprocess.run(
-        command(program, folder, *flags), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
+        [str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
     )
     return ran.returncode, ran.stdout
+
+
+def run(program, folder, *flags):
+    """A run that is left alone: its exit status and what it printed."""
+    return run_command(*command(program, folder, *flags))
 
 
 def members(group):

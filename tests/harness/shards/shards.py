@@ -15,12 +15,23 @@ sys.path.insert(0, str(HERE.parent / "interrupted"))
 
 from interrupted import Fault, expect, expect_same  # noqa: E402
 
-__all__ = ["HERE", "Fault", "Plan", "SHARDS", "SKIPPED", "Task", "campaign", "expect", "soak"]
+__all__ = ["HERE", "Fault", "Plan", "SHARDS", "SKIPPED", "Task", "campaign", "expect", "measured", "soak"]
 
 SHARDS = 20
 SKIPPED = 77
 # What a soak's rows tell does not depend on the machine, so every column counts.
 NOT_OF_A_SOAK = ()
+
+
+def measured(*words, wrong_is_fine=False):
+    """Seconds and megabytes of a command. Its status may tell that something measured is wrong."""
+    begin = time.monotonic()
+    with subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL) as process:
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode not in ((0, 1) if wrong_is_fine else (0,)):
+        sys.exit(f"{' '.join(map(str, words))} ended with status {process.returncode}")
+    return time.monotonic() - begin, usage.ru_maxrss / 1024
 
 
 class Task:

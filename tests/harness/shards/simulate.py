@@ -8,26 +8,15 @@ import csv
 import os
 import pathlib
 import shutil
-import subprocess
-import sys
 import tempfile
 import time
+
+from shards import measured
 
 COLUMNS = (
     "shards rows files plan_seconds plan_mb array_seconds status_seconds status_mb merge_seconds merge_mb".split()
 )
 PAIRS_A_JOB = 1000
-
-
-def measured(*words):
-    """Seconds and megabytes of a command."""
-    begin = time.monotonic()
-    with subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL) as process:
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode != 0:
-        sys.exit(f"simulate: {' '.join(map(str, words))} ended with status {process.returncode}")
-    return time.monotonic() - begin, usage.ru_maxrss / 1024
 
 
 def write_soak(file, jobs):
