@@ -33,6 +33,16 @@ namespace touchstone {
 
 namespace {
 
+// These two end a scope, also when an exception leaves it.
+struct JoinAfter {
+  void* join;
+  ~JoinAfter() { TOUCHSTONE_HAPPENS_AFTER(join); }
+};
+struct JoinBefore {
+  void* join;
+  ~JoinBefore() { TOUCHSTONE_HAPPENS_BEFORE(join); }
+};
+
 // The processors that this process may use; empty if the system does not report them. The list is
 // read before the first pin, because a pinned thread, and those that it starts, have one left.
 const std::vector<int>& allowed_processors() {
@@ -102,19 +112,19 @@ void Executor::run(std::size_t tasks,
   char fork = 0;
   char join = 0;
   TOUCHSTONE_HAPPENS_BEFORE(&fork);
+  const JoinAfter joined{&join};
   arena_->arena.execute([&] {
     using Range = oneapi::tbb::blocked_range<std::size_t>;
     oneapi::tbb::parallel_for(
         Range(0, tasks, 1),
         [&](const Range& range) {
           TOUCHSTONE_HAPPENS_AFTER(&fork);
+          const JoinBefore joins{&join};
           const int worker = oneapi::tbb::this_task_arena::current_thread_index();
           for (std::size_t task = range.begin(); task != range.end(); ++task) body(task, worker);
-          TOUCHSTONE_HAPPENS_BEFORE(&join);
         },
         oneapi::tbb::simple_partitioner());
   });
-  TOUCHSTONE_HAPPENS_AFTER(&join);
 }
 
 }  // namespace touchstone
