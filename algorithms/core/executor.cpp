@@ -33,7 +33,7 @@ namespace touchstone {
 
 namespace {
 
-// These two end a scope, also when an exception leaves it.
+// They announce the join where a scope ends, also when an exception leaves it.
 struct JoinAfter {
   void* join;
   ~JoinAfter() { TOUCHSTONE_HAPPENS_AFTER(join); }

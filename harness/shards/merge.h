@@ -45,7 +45,7 @@ struct MergeResult {
   Merged merged;
 };
 
-// Joins all shards into the folder `out`, which is there as a whole or not at all; results of the
+// Joins the shards into the folder `out`, which is there as a whole or not at all; results of the
 // same plan are replaced. Partial results say in machine.csv that they are not finished, and which
 // shards are `missing`. Rows are streamed and come in the order of one undisturbed run. Beside
 // them are machine.csv, with the facts that all machines share, machines/NAME/machine.csv with all
