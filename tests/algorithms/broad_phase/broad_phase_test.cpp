@@ -10,17 +10,13 @@
 #include "algorithms/registry.h"
 #include "harness/base/hash.h"
 #include "tests/algorithms/broad_phase/box_sets.h"
+#include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t stack_size = 2'000;
-constexpr std::size_t crowd_size = 4'000;
-#else
-constexpr std::size_t stack_size = 10'000;
-constexpr std::size_t crowd_size = 12'000;
-#endif
+constexpr std::size_t stack_size = drawn(10'000, 2'000);
+constexpr std::size_t crowd_size = drawn(12'000, 4'000);
 
 struct Sample {
   BoxSet set;
@@ -163,8 +159,7 @@ TEST_P(OurBroadPhases, FindTheSameWithEveryInstructionSet) {
   Executor executor(2);
   const auto algorithm = entry().make(executor);
   PairSink sink;
-  for (const Isa level : {Isa::baseline, Isa::avx2, Isa::avx512}) {
-    if (level > isa_of_machine()) continue;
+  for (const Isa level : isa_levels()) {
     SCOPED_TRACE(to_string(level));
     limit_isa(level);
     for (const Sample* sample : tried) {

@@ -9,15 +9,10 @@
 
 #include "algorithms/registry.h"
 #include "tests/algorithms/broad_phase/box_sets.h"
+#include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int share = 4;  // of the frames
-#else
-constexpr int share = 1;
-#endif
 
 struct Sequence {
   std::string name;
@@ -199,7 +194,7 @@ TEST_P(LongSequences, AreFollowed) {
   for (Follower& follower : all) follower.algorithm->build(bodies.boxes());
   std::vector<IndexPair> before;
   std::size_t came = 0, went = 0, stayed = 0;
-  const int frames = sequence.frames / share;
+  const int frames = drawn(sequence.frames, 20);
   for (int frame = 0; frame < frames; ++frame) {
     if (frame > 0) {
       const FrameChange change = bodies.next(frame);
@@ -233,7 +228,7 @@ TEST_P(LongSequences, AreFollowed) {
 // What is kept from frame to frame is not let grow.
 TEST(LongSequencesOfChurn, DoNotGrowTheMemory) {
   const Sequence sequence{.name = "churn",
-                          .frames = 400,
+                          .frames = drawn(400, 80),
                           .moved = 0.03f,
                           .reach = 0.01f,
                           .teleported = 0.01f,

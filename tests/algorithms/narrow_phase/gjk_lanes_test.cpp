@@ -13,6 +13,7 @@
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/hard_pairs.h"
+#include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
@@ -45,7 +46,7 @@ TEST(GjkLanes, AnswerBatchesOfEveryLengthAlike) {
   for (const Kinds kinds :
        {Kinds{ShapeKind::capsule, ShapeKind::box}, Kinds{ShapeKind::hull, ShapeKind::hull},
         Kinds{ShapeKind::hull, ShapeKind::hull, 60}}) {
-    const Pairs pairs = hard_pairs(11, kinds, Sort::plain, 1000);
+    const Pairs pairs = hard_pairs(11, kinds, Sort::plain, drawn(1000, 200));
     for (const Precision scalar : scalars) {
       for (const Task task : all_tasks) {
         const std::vector<Outcome> whole = solve(entry(), scalar, task, pairs, pairs.size());
@@ -68,7 +69,7 @@ TEST(GjkLanes, TakeAnEmptyBatch) {
 TEST(GjkLanes, HaveTheSameBitsAtEveryLevel) {
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
-      const Pairs pairs = hard_pairs(13, kinds, sort, 100);
+      const Pairs pairs = hard_pairs(13, kinds, sort, drawn(100, 20));
       for (const Precision scalar : scalars) {
         // Below AVX2, doubles are not for the lanes.
         const Isa lowest = scalar == Precision::float32 ? Isa::baseline : Isa::avx2;
@@ -122,7 +123,7 @@ TEST(GjkLanes, HoldNoSilentErrorAgainstTheOracle) {
   oracle::Oracle oracle;
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
-      const Pairs pairs = hard_pairs(14, kinds, sort, 150);
+      const Pairs pairs = hard_pairs(14, kinds, sort, drawn(150, 40));
       std::vector<oracle::Measure> truths;
       std::size_t common = 0;
       for (std::size_t i = 0; i < pairs.size(); ++i) {

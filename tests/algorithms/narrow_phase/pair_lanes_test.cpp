@@ -15,6 +15,7 @@
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/hard_pairs.h"
+#include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
@@ -48,13 +49,13 @@ TEST(PairLanes, HaveTheSameBitsAtEveryLevel) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
-      const Pairs pairs = hard_pairs(2, kinds, sort, 200);
+      const Pairs pairs = hard_pairs(2, kinds, sort, drawn(200, 40));
       for (const Precision scalar : scalars) {
         for (const Task task : entry.tasks) {
           if (!offers(entry, kinds.a, kinds.b, task)) continue;
           limit_isa(Isa::baseline);
           const std::vector<Outcome> baseline = solve(entry, scalar, task, pairs, pairs.size());
-          for (const Isa level : {Isa::avx2, Isa::avx512}) {
+          for (const Isa level : isa_levels()) {
             limit_isa(level);
             expect_same(baseline, solve(entry, scalar, task, pairs, pairs.size()),
                         std::string(to_string(level)));
@@ -118,7 +119,7 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
   oracle::Oracle oracle;
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
-      const Pairs pairs = hard_pairs(3, kinds, sort, 400);
+      const Pairs pairs = hard_pairs(3, kinds, sort, drawn(400, 80));
       std::vector<oracle::Solid> solids;
       for (const Shape& shape : pairs.shapes) solids.emplace_back(shape);
       std::vector<oracle::Measure> truths;

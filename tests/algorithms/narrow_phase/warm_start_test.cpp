@@ -13,6 +13,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
+#include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
 
@@ -152,7 +153,7 @@ Tally play(const NarrowPhaseEntry& entry, Precision scalar, Task task,
     cold->bind(pair.shapes);
     warm->bind(pair.shapes);
     const oracle::Solid a(pair.shapes[0]), b(pair.shapes[1]);
-    for (int frame = 0; frame < 60; ++frame) {
+    for (int frame = 0; frame < drawn(60, 15); ++frame) {
       move(random, frame, pair);
       disturb(random, pair.memory);
       const std::string what = pair.name + ", frame " + std::to_string(frame);
@@ -187,8 +188,8 @@ void expect_right(const std::function<void(Random&, PairMemory&)>& disturb) {
         SCOPED_TRACE(entry->info.name + " " + std::string(to_string(scalar)) + " " +
                      std::string(to_string(task)));
         const Tally tally = play(*entry, scalar, task, disturb);
-        EXPECT_GT(tally.separated, 100);
-        EXPECT_GT(tally.overlapping, 100);
+        EXPECT_GT(tally.separated, 100 / one_in);
+        EXPECT_GT(tally.overlapping, 100 / one_in);
         EXPECT_LE(tally.failed_warm, tally.failed_cold + 3);
       }
     }

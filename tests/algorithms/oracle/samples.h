@@ -9,6 +9,7 @@
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 #include "algorithms/oracle/solid.h"
+#include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 
 namespace touchstone::oracle {
@@ -27,13 +28,6 @@ struct Sample {
 };
 
 using touchstone::reference::Random;
-
-// Sanitizers slow exact arithmetic by ten: they see one pair in so many.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr int one_in = 10;
-#else
-inline constexpr int one_in = 1;
-#endif
 
 // A kind of pair. The numbers are the least that must come of each answer, in percent, and how many
 // pairs are compared with which reference.
