@@ -194,7 +194,7 @@ TEST_P(LongSequences, AreFollowed) {
   for (Follower& follower : all) follower.algorithm->build(bodies.boxes());
   std::vector<IndexPair> before;
   std::size_t came = 0, went = 0, stayed = 0;
-  const int frames = drawn(sequence.frames, 20);
+  const int frames = drawn(sequence.frames, 5);
   for (int frame = 0; frame < frames; ++frame) {
     if (frame > 0) {
       const FrameChange change = bodies.next(frame);

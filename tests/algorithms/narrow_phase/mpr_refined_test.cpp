@@ -9,7 +9,6 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/algorithms/narrow_phase/brute_force.h"
-#include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
@@ -218,7 +217,7 @@ TEST_P(MprRefined, IsNeverWorseWarm) {
   Random random(15);
   int common = 0, apart = 0, better = 0;
   long calls_warm = 0, calls_cold = 0;
-  for (int scene = 0; scene < drawn(40, 8) && !HasFailure(); ++scene) {
+  for (int scene = 0; scene < 40 && !HasFailure(); ++scene) {
     const std::vector<Shape> shapes{any_hull(random), any_hull(random)};
     const std::array<std::uint32_t, 2> shape_of{0, 1};
     const std::array<std::uint32_t, 1> first{0}, second{1}, memory_of{0};
@@ -269,8 +268,8 @@ TEST_P(MprRefined, IsNeverWorseWarm) {
       }
     }
   }
-  EXPECT_GT(common, 500 / one_in);
-  EXPECT_GT(apart, 500 / one_in);
+  EXPECT_GT(common, 500);
+  EXPECT_GT(apart, 500);
   EXPECT_GT(better, 0);
   EXPECT_LT(calls_warm, calls_cold);
   std::printf("%ld support calls warm, %ld cold; better %d times\n", calls_warm, calls_cold,
