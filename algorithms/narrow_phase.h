@@ -55,6 +55,14 @@ struct PairBatch {
   std::span<const std::uint32_t> memory_of = {};
 
   std::size_t size() const { return pairs.first.size(); }
+  // Returns the pairs [begin, begin + count).
+  PairBatch part(std::size_t begin, std::size_t count) const {
+    PairBatch part = *this;
+    part.pairs.first = pairs.first.subspan(begin, count);
+    part.pairs.second = pairs.second.subspan(begin, count);
+    if (!memory_of.empty()) part.memory_of = memory_of.subspan(begin, count);
+    return part;
+  }
 };
 
 // One instance for each worker, never shared between threads.
@@ -71,6 +79,12 @@ class NarrowPhase {
   // are converted to the algorithm's own scalar and types here, so the conversion is timed with the
   // query. Never throws on finite input: a failure is a status.
   virtual void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) = 0;
+
+  // Writes the outcome of pair i alone, for callers that have one pair at a time. It is as right as
+  // that of the batch, and may differ from it in rounding.
+  virtual void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) {
+    solve(task, batch.part(i, 1), {&outcome, 1});
+  }
 };
 
 // The properties of an algorithm that a harness must know to call it and to judge its answers.

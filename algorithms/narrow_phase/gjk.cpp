@@ -4,7 +4,8 @@
 //          Montanari, Petrinic, Barbieri, ACM TOG 36(3), 2017; depth: van den Bergen, GDC 2001.
 // Steps:   1. A half-space takes one support point (kernels/minkowski/halfspace).
 //          2. Pairs whose bounding balls are apart are separated (not for distance).
-//          3. With a memory, try the last tetrahedron, separating plane or simplex
+//          3. With a memory, try the last separating plane before anything else, as both bodies
+//             carry it (kernels/gjk/carried_plane); then the last tetrahedron, plane or simplex
 //             (kernels/gjk/warm_start).
 //          4. Iterate fast with plain products (kernels/gjk/gjk_iteration); between polytopes its
 //             verdict is enough.
@@ -60,20 +61,33 @@ class Gjk final : public NarrowPhase {
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     for_each_bounded_pair(task, batch, shapes_, ahead_, task == Task::distance, outcomes,
                           [&](std::size_t i, const auto&... bodies) {
-                            if (!warm_ || batch.memory.empty()) {
-                              return query_.solve(bodies..., task, nullptr, outcomes[i]);
-                            }
-                            PairMemory& memory = batch.memory[batch.memory_of[i]];
-                            static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
-                                          std::is_trivially_copyable_v<WarmStart>);
-                            WarmStart start;
-                            std::memcpy(&start, memory.bytes.data(), sizeof start);
-                            query_.solve(bodies..., task, &start, outcomes[i]);
-                            std::memcpy(memory.bytes.data(), &start, sizeof start);
+                            solve_pair(task, batch, i, bodies..., outcomes[i]);
                           });
   }
 
+  void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
+      solve_pair(task, batch, i, bodies..., outcome);
+    });
+  }
+
  private:
+  void solve_pair(Task task, const PairBatch& batch, std::size_t i, const SupportShape<Scalar>& a,
+                  const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,
+                  Outcome& outcome) {
+    if (!warm_ || batch.memory.empty()) {
+      query_.solve(a, pose_a, b, pose_b, task, nullptr, outcome);
+      return;
+    }
+    PairMemory& memory = batch.memory[batch.memory_of[i]];
+    static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
+                  std::is_trivially_copyable_v<WarmStart>);
+    WarmStart start;
+    std::memcpy(&start, memory.bytes.data(), sizeof start);
+    query_.solve(a, pose_a, b, pose_b, task, &start, outcome);
+    std::memcpy(memory.bytes.data(), &start, sizeof start);
+  }
+
   bool warm_;
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;

@@ -29,6 +29,7 @@ bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
          (!rule.scalar || rule.scalar == cell.scalar) && (!rule.task || rule.task == cell.task) &&
          names(rule.pair_kind, cell.pair_kind) && names(rule.boxes, cell.boxes) &&
          names(rule.threads, cell.threads) && (!rule.warm || rule.warm == cell.warm) &&
+         (!rule.batch || rule.batch == cell.batch) &&
          (!rule.counts_above || cell.bodies > *rule.counts_above) &&
          (!rule.counts_below || cell.bodies < *rule.counts_below);
 }
@@ -50,6 +51,7 @@ std::string describe(const CampaignRule& rule) {
   named("boxes", rule.boxes);
   add("threads", rule.threads);
   add("warm", rule.warm);
+  add("batch", rule.batch);
   add("counts_above", rule.counts_above);
   add("counts_below", rule.counts_below);
   return text + " }";
@@ -87,6 +89,7 @@ std::string description(const Campaign& campaign) {
                           choice.settings.duality_gap.value_or(0),
                           choice.settings.max_iterations.value_or(0));
       if (choice.warm) text += " warm";
+      if (choice.batch != measure::usual_batch) text += fmt::format(" by {}", choice.batch);
     }
     for (const Task task : group.tasks) text += fmt::format(" task {}", to_string(task));
     for (const CampaignRule& rule : group.include) text += " include " + describe(rule);

@@ -33,6 +33,7 @@ struct CampaignRule {
   std::optional<scene::BoxKind> boxes;
   std::optional<int> threads;
   std::optional<bool> warm;
+  std::optional<int> batch;
   std::optional<std::int64_t> counts_above, counts_below;  // limits of the number of bodies
 };
 
@@ -48,6 +49,7 @@ struct CampaignCell {
   std::optional<Task> task;
   std::string pair_kind;
   std::optional<bool> warm = {};
+  std::optional<int> batch = {};
 };
 
 // A grid: every scene x count x seed x gap x boxes x threads x isa is a block, in which every

@@ -93,7 +93,24 @@ std::vector<bool> warm_starts(Settings& settings) {
   return starts;
 }
 
-// Returns each algorithm with each of its scalars, each tolerance and each start that it offers.
+// Returns the numbers of pairs of a call.
+std::vector<int> batches(Settings& settings) {
+  std::vector<int> sizes;
+  for (const toml::node* node : settings.elements("batch")) {
+    const std::optional<std::int64_t> value =
+        node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+    if (!value || *value < 1 || *value > measure::usual_batch) {
+      settings.of("batch").fail(
+          "batch", fmt::format("expected whole numbers from 1 to {}", measure::usual_batch));
+    }
+    sizes.push_back(static_cast<int>(*value));
+  }
+  if (sizes.empty()) sizes.push_back(measure::usual_batch);
+  return sizes;
+}
+
+// Returns each algorithm with each of its scalars, each tolerance, each start that it offers and
+// each batch.
 std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
   const auto scalars = settings.choices<Precision>("scalars", scalar_names,
                                                    {Precision::float32, Precision::float64});
@@ -116,6 +133,7 @@ std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
   if (gap_holder.has("duality_gap"))
     duality_gap = gap_holder.number("duality_gap", files::positive);
   const std::vector<bool> starts = warm_starts(settings);
+  const std::vector<int> sizes = batches(settings);
   std::vector<measure::NarrowChoice> choices;
   for (const NarrowPhaseEntry* entry : algorithms(settings, "narrow", narrow_phases())) {
     if (duality_gap && !entry->traits.stops_by_duality_gap) {
@@ -131,10 +149,11 @@ std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
                                       .tolerance = tolerance,
                                       .max_iterations = max_iterations,
                                       .duality_gap = duality_gap};
-        // An algorithm without warm starts is measured once, cold.
-        if (!entry->traits.starts_warm) choices.push_back({entry, own});
         for (const bool warm : starts) {
-          if (entry->traits.starts_warm) choices.push_back({entry, own, warm});
+          // An algorithm without warm starts is measured once, cold.
+          if (!entry->traits.starts_warm && warm != starts.front()) continue;
+          for (const int batch : sizes)
+            choices.push_back({entry, own, warm && entry->traits.starts_warm, batch});
         }
       }
     }
@@ -164,6 +183,8 @@ std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
     choice("boxes", box_names, rule.boxes);
     if (table.has("threads")) rule.threads = static_cast<int>(table.integer("threads", 1, 1024));
     if (table.has("warm")) rule.warm = table.boolean("warm", false);
+    if (table.has("batch"))
+      rule.batch = static_cast<int>(table.integer("batch", 1, measure::usual_batch));
     if (table.has("counts_above")) {
       rule.counts_above = table.integer("counts_above", 0, greatest_count);
     }

@@ -44,6 +44,7 @@ record::RawRow RunContext::row(std::size_t frame, const measure::NarrowChoice& c
   result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
   result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
   if (choice.warm) result.warm = true;
+  if (choice.batch != measure::usual_batch) result.batch = choice.batch;
   if (choice.entry->traits.depth_is_bound) result.depth_bound = true;
   result.phase = record::Phase::narrow;
   return result;
@@ -83,7 +84,8 @@ bool RunContext::admits(const measure::NarrowChoice& choice, const std::string& 
                                .scalar = choice.settings.scalar,
                                .task = task,
                                .pair_kind = pair_kind,
-                               .warm = choice.warm});
+                               .warm = choice.warm,
+                               .batch = choice.batch});
 }
 
 bool RunContext::has_narrow() const {

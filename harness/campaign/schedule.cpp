@@ -29,8 +29,8 @@ std::size_t baseline(std::span<const Candidate> candidates) {
   const auto is_ours = [](const Candidate& c) { return c.info().origin == Origin::ours; };
   const auto is_usual = [](const Candidate& c) {
     return c.info().name == (c.broad != nullptr ? "sweep-and-prune" : "gjk") &&
-           (c.narrow == nullptr ||
-            (c.narrow->settings.scalar == Precision::float64 && !c.narrow->warm));
+           (c.narrow == nullptr || (c.narrow->settings.scalar == Precision::float64 &&
+                                    !c.narrow->warm && c.narrow->batch == measure::usual_batch));
   };
   auto at = std::ranges::find_if(candidates, is_usual);
   if (at == candidates.end()) at = std::ranges::find_if(candidates, is_ours);

@@ -36,6 +36,7 @@ struct RunOptions {
   int frames = -1;
   double tolerance = 0, time_limit = 10;
   bool product = false, rebuild = false, warm = false;
+  int batch = measure::usual_batch;
   // These options decide how the campaign is measured.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
   bool tables = false, with_page = false;
@@ -71,9 +72,9 @@ campaign::Campaign campaign_of(const RunOptions& options) {
       if (!offers(*entry, scalar)) continue;
       NarrowPhaseSettings settings{.scalar = scalar};
       if (options.tolerance > 0) settings.tolerance = options.tolerance;
-      group.narrow.push_back({entry, settings});
+      group.narrow.push_back({entry, settings, false, options.batch});
       if (options.warm && entry->traits.starts_warm)
-        group.narrow.push_back({entry, settings, true});
+        group.narrow.push_back({entry, settings, true, options.batch});
     }
   }
   group.tasks = options.tasks;
@@ -234,6 +235,11 @@ void add_run(Arguments command) {
   add(command.flag("--rebuild", options->rebuild, "Build every frame anew instead of updating"));
   add(command.flag("--warm", options->warm,
                    "Narrow phases that know it once more, starting from the frame before"));
+  add(command
+          .number("--batch", options->batch,
+                  "Pairs of a narrow phase's call; 1: one pair at a time")
+          .within(1, measure::usual_batch)
+          .show_default());
   command.job([options, threads] {
     options->threads_given = threads.given();
     return run(*options);

@@ -41,18 +41,19 @@ void RawRow::take(const BroadPhaseWork& work) {
 }
 
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
-                         double duality_gap, bool warm) {
+                         double duality_gap, bool warm, std::int64_t batch) {
   std::string label = fmt::format("{} {}", name, scalar);
   if (!std::isnan(tolerance)) label += fmt::format(" {:g}", tolerance);
   if (!std::isnan(duality_gap)) label += fmt::format(" gap {:g}", duality_gap);
   if (warm) label += " warm";
+  if (batch > 0) label += fmt::format(" by {}", batch);
   return label;
 }
 
 std::string label_of(const RawRow& row) {
   if (!row.is_narrow()) return row.broad;
   return narrow_label(row.narrow, row.scalar ? to_string(*row.scalar) : "", row.tolerance,
-                      row.duality_gap, row.is_warm());
+                      row.duality_gap, row.is_warm(), row.batch);
 }
 
 }  // namespace touchstone::record

@@ -92,6 +92,7 @@ struct RawRow {
   std::string noise, words, stop;
   // True if the narrow phase started from the memory that the frames before left.
   std::optional<bool> warm;
+  std::int64_t batch = -1;  // pairs of a call, if that is not the usual number
   // True if the narrow phase's depth is that of some translation that separates, by design.
   std::optional<bool> depth_bound;
 
@@ -231,15 +232,20 @@ void columns(Row& row, Visit visit) {
   visit("warm", newer(row.warm),
         "1 for a narrow phase that starts from what it kept of each pair; its label ends in "
         "` warm`.");
+  visit(
+      "batch", newer(row.batch),
+      "The greatest number of pairs of one call of the narrow phase, if the campaign sets one; its "
+      "label ends in ` by 1`. Empty: 256.");
   visit("depth_bound", newer(row.depth_bound),
         "1 for a narrow phase whose depth is an upper bound by design: that of some translation "
         "that separates the bodies, in general not the least.");
 }
 
 // Returns a narrow phase with its settings, as the tables name it: "gjk double", "gjk double
-// 1e-06", "gjk double gap 1e-08", "gjk double warm". NaN for both is the algorithm's own tolerance.
+// 1e-06", "gjk double gap 1e-08", "gjk double warm", "gjk double by 1". NaN for both is the algorithm's own
+// tolerance, -1 the usual batch.
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
-                         double duality_gap, bool warm);
+                         double duality_gap, bool warm, std::int64_t batch);
 // Returns the label of the row's algorithm: a broad phase's name, or a narrow phase's label.
 std::string label_of(const RawRow& row);
 

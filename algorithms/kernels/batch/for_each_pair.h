@@ -46,4 +46,22 @@ void for_each_bounded_pair(Task task, const Batch& batch,
                 [&](std::size_t i, const auto&... bodies) { solve(bodies..., task, outcomes[i]); });
 }
 
+// Does the same for pair i alone, and prefetches nothing.
+template <class Scalar, class Batch, class SolvePair>
+void for_bounded_pair(Task task, const Batch& batch, std::size_t i,
+                      const std::vector<SupportShape<Scalar>>& shapes, Outcome& outcome,
+                      const SolvePair& solve_pair) {
+  const BodyPairs& pairs = batch.pairs;
+  const std::uint32_t a = pairs.first[i], b = pairs.second[i];
+  const SupportShape<Scalar>&shape_a = shapes[pairs.shape_of[a]],
+        &shape_b = shapes[pairs.shape_of[b]];
+  if (batch.kind_b != ShapeKind::halfspace) {
+    solve_pair(i, shape_a, pairs.poses[a], shape_b, pairs.poses[b]);
+    return;
+  }
+  const auto solve =
+      batch.kind_a == batch.kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
+  solve(shape_a, pairs.poses[a], shape_b, pairs.poses[b], task, outcome);
+}
+
 }  // namespace touchstone

@@ -24,13 +24,14 @@ struct GenericCores {
 template <class Scalar>
 GjkDistanceResult<Scalar> gjk_distance(SupportPair<Scalar>& pair,
                                        const GjkDistanceGoal<Scalar>& goal,
-                                       const WarmStart* start) {
-  return gjk_distance_by<GenericCores>(pair, goal, start);
+                                       const LastFrame<Scalar>* last) {
+  return gjk_distance_by<GenericCores>(pair, goal, last);
 }
 
 template GjkDistanceResult<float> gjk_distance(SupportPair<float>&, const GjkDistanceGoal<float>&,
-                                               const WarmStart*);
+                                               const LastFrame<float>*);
 template GjkDistanceResult<double> gjk_distance(SupportPair<double>&,
-                                                const GjkDistanceGoal<double>&, const WarmStart*);
+                                                const GjkDistanceGoal<double>&,
+                                                const LastFrame<double>*);
 
 }  // namespace touchstone

@@ -67,28 +67,28 @@ struct GjkDistanceResult {
   NearestPoint<Scalar> nearest;
   Scalar lower = 0;
   Scalar upper = std::numeric_limits<Scalar>::infinity();
-  Vec3<Scalar> direction = Vec3<Scalar>::Zero();  // unit normal of the last plane; zero: none
+  Vec3<Scalar> direction = Vec3<Scalar>::Zero();  // unit normal of that lower bound; zero: none
   bool warm_hit = false;                          // the previous frame's result sufficed
   int iterations = 0;
 };
 
-// `start`: result of the previous frame, or null.
+// `last`: what the previous frame left, or null.
 template <class Scalar>
 GjkDistanceResult<Scalar> gjk_distance(SupportPair<Scalar>& pair,
                                        const GjkDistanceGoal<Scalar>& goal,
-                                       const WarmStart* start = nullptr);
+                                       const LastFrame<Scalar>* last = nullptr);
 
 template <class Scalar>
 using GjkDistanceFunction = GjkDistanceResult<Scalar> (*)(SupportPair<Scalar>&,
                                                           const GjkDistanceGoal<Scalar>&,
-                                                          const WarmStart*);
+                                                          const LastFrame<Scalar>*);
 
 extern template GjkDistanceResult<float> gjk_distance(SupportPair<float>&,
                                                       const GjkDistanceGoal<float>&,
-                                                      const WarmStart*);
+                                                      const LastFrame<float>*);
 extern template GjkDistanceResult<double> gjk_distance(SupportPair<double>&,
                                                        const GjkDistanceGoal<double>&,
-                                                       const WarmStart*);
+                                                       const LastFrame<double>*);
 
 // The functions that iterate between two cores; by default those for any cores.
 template <class Scalar>

@@ -52,23 +52,21 @@ bool plane_decides(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goa
 // Returns true if the result of the previous frame suffices; otherwise sets `begin`, the start of
 // the iteration.
 template <class Scalar>
-bool resume(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal, const WarmStart& start,
-            FastGjkStart<Scalar>& begin, GjkDistanceResult<Scalar>& found) {
+bool resume(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal,
+            const LastFrame<Scalar>& last, FastGjkStart<Scalar>& begin,
+            GjkDistanceResult<Scalar>& found) {
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const bool only_apart = goal.task != Task::distance;
-  Vec3<Scalar> direction = Vec3<Scalar>::Zero();
-  if (start.size == 0 || (only_apart && start.size < 4)) {
-    direction = start.unit_direction<Scalar>();
-  }
-  const bool known = !direction.isZero(0);
-  if (known && only_apart && plane_decides(pair, goal, direction, found)) return true;
-  start.place(pair, found.simplex);
+  const bool round = last.kept.size == 0;
+  const bool known = (round || (only_apart && last.kept.size < 4)) && !last.direction.isZero(0);
+  if (known && only_apart && plane_decides(pair, goal, last.direction, found)) return true;
+  last.kept.place(pair, found.simplex);
   if (found.simplex.size == 4 && is_surely_inside(found.simplex)) {
     take_inside(found);
     return true;
   }
   if (found.simplex.size == 0) {
-    if (known) begin.direction = -direction;
+    if (known) begin.direction = -last.direction;
     return false;
   }
   found.nearest = reduce_to_nearest(found.simplex);
@@ -116,7 +114,7 @@ bool run_fast_gjk(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal
     return false;
   }
   found.lower = quick.lower;
-  found.direction = -found.nearest.direction;
+  found.direction = -quick.direction.normalized();
   found.end = End::decided;
   return true;
 }
@@ -124,7 +122,7 @@ bool run_fast_gjk(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal
 template <class Cores, class Scalar>
 GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
                                           const GjkDistanceGoal<Scalar>& goal,
-                                          const WarmStart* start) {
+                                          const LastFrame<Scalar>* last) {
   using End = typename GjkDistanceResult<Scalar>::End;
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const Task task = goal.task;
@@ -137,14 +135,14 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
 
   FastGjkStart<Scalar> begin(-pair.centre_b());
   if constexpr (Cores::start_warm) {
-    if (start != nullptr && resume(pair, goal, *start, begin, found)) {
+    if (last != nullptr && resume(pair, goal, *last, begin, found)) {
       found.warm_hit = true;
       return found;
     }
   }
   const bool may_switch = goal.momentum == Momentum::where_it_pays && pair.is_smooth();
   if (goal.momentum != Momentum::nesterov && !may_switch && !goal.duality_gap &&
-      run_fast_gjk<Cores>(pair, goal, begin, start != nullptr, found)) {
+      run_fast_gjk<Cores>(pair, goal, begin, last != nullptr, found)) {
     return found;
   }
   const Scalar length = begin.direction.norm();
@@ -163,10 +161,12 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
       nesterov = {false, found.nearest.distance * found.nearest.direction};
     }
     const DifferencePoint<Scalar> point = Cores::support(pair, direction);
-    found.direction = direction;
     const Scalar lower = -direction.dot(point.difference);
     const bool of_normal = task == Task::penetration && !accelerated;
-    found.lower = of_normal ? lower : std::max(found.lower, lower);
+    if (of_normal || lower > found.lower) {
+      found.lower = lower;
+      found.direction = direction;
+    }
     const bool apart = found.lower - radius > rounding;
     // The comparisons end the loop for NaN.
     const bool open = goal.is_open(pair, found.nearest.distance, found.lower) || simplex.size == 0;

@@ -54,13 +54,20 @@ bool is_at_a_face(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex, Out
   return write_if_touching(pair, std::min(-height, Scalar{0}), upper, outcome);
 }
 
+// Greatest distance of a point of the body from its origin, in metres.
+template <class Scalar>
+double radius_of(const SupportShape<Scalar>& shape) {
+  return shape.centre.norm() + shape.size + shape.radius;
+}
+
 }  // namespace
 
 template <class Scalar>
 void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
                              const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
                              WarmStart* start, Outcome& outcome) {
-  if (task != Task::distance && balls_are_apart(a, pose_a, b, pose_b)) {
+  if (task != Task::distance && ((start != nullptr && start->plane.parts(pose_a, pose_b)) ||
+                                 balls_are_apart(a, pose_a, b, pose_b))) {
     outcome.answer = Answer::separated;
     outcome.status = Status::ok;
     outcome.iterations = outcome.support_calls = 0;
@@ -68,8 +75,19 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
   }
   SupportPair<Scalar> pair(a, pose_a, b, pose_b);
   outcome.iterations = 0;
-  if (task == Task::intersect && start == nullptr && fast_gjk_decides(pair, outcome)) return;
-  solve_pair(pair, task, start, outcome);
+  if (start == nullptr) {
+    if (task == Task::intersect && fast_gjk_decides(pair, outcome)) return;
+    solve_pair(pair, task, nullptr, outcome);
+    return;
+  }
+  const LastFrame<Scalar> last{*start, start->plane.normal(pose_a, pose_b).template cast<Scalar>()};
+  const GjkDistanceResult<Scalar> found = solve_pair(pair, task, &last, outcome);
+  if (!found.warm_hit) start->keep(found.simplex);
+  // The normal's length is off by rounding as well as the bound.
+  const double gap = pair.unit() * static_cast<double>(found.lower - pair.radius() - 2 * rounding);
+  if (gap > 0 ? task == Task::distance && found.warm_hit : found.warm_hit) return;
+  start->plane = CarriedPlane::make(found.direction.template cast<double>(), gap, radius_of(a),
+                                    pose_a, radius_of(b), pose_b);
 }
 
 // Finds the verdict for cores with corners and no radius, mostly by the fast iteration. If that
@@ -91,18 +109,9 @@ bool GjkQuery<Scalar>::fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outc
 }
 
 template <class Scalar>
-GjkDistanceResult<Scalar> GjkQuery<Scalar>::gjk_distance_from(SupportPair<Scalar>& pair,
-                                                              const GjkDistanceGoal<Scalar>& goal,
-                                                              WarmStart* start) {
-  const GjkDistanceResult<Scalar> found = functions_.gjk_distance(pair, goal, start);
-  if (start == nullptr) return found;
-  if (!found.warm_hit) start->keep(found.simplex, found.direction);
-  return found;
-}
-
-template <class Scalar>
-void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start,
-                                  Outcome& outcome) {
+GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task,
+                                                       const LastFrame<Scalar>* last,
+                                                       Outcome& outcome) {
   using End = typename GjkDistanceResult<Scalar>::End;
   const GjkDistanceGoal<Scalar> goal{
       .task = task,
@@ -110,7 +119,7 @@ void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStar
       .duality_gap = settings_.duality_gap,
       .most_iterations = std::max(1, settings_.gjk_cap - outcome.iterations),
       .momentum = settings_.momentum};
-  const GjkDistanceResult<Scalar> found = gjk_distance_from(pair, goal, start);
+  const GjkDistanceResult<Scalar> found = functions_.gjk_distance(pair, goal, last);
   outcome.iterations += found.iterations;
   if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
@@ -137,6 +146,7 @@ void GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair, Task task, WarmStar
     }
   }
   outcome.support_calls = pair.support_calls();
+  return found;
 }
 
 // Solves a pair whose cores share a point, up to rounding.

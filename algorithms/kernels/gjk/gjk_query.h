@@ -26,8 +26,9 @@ class GjkQuery {
       : settings_(settings), polytope_(settings.epa_cap) {}
 
   // Solves a pair of bounded bodies. A verdict is `ok` only if a bound proves it beyond rounding.
-  // If the bounding balls are apart, no iteration is made except for a distance. Starts from
-  // `start` unless it is null, and stores the result there.
+  // If the plane of `start` still parts the bodies, or if their bounding balls are apart, no
+  // iteration is made except for a distance. Starts from `start` unless it is null, and stores the
+  // result there.
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
              const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
 
@@ -46,10 +47,8 @@ class GjkQuery {
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
   bool fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const;
-  void solve_pair(SupportPair<Scalar>& pair, Task task, WarmStart* start, Outcome& outcome);
-  GjkDistanceResult<Scalar> gjk_distance_from(SupportPair<Scalar>& pair,
-                                              const GjkDistanceGoal<Scalar>& goal,
-                                              WarmStart* start);
+  GjkDistanceResult<Scalar> solve_pair(SupportPair<Scalar>& pair, Task task,
+                                       const LastFrame<Scalar>* last, Outcome& outcome);
   void solve_contact(SupportPair<Scalar>& pair, const GjkDistanceResult<Scalar>& found, Task task,
                      Outcome& outcome);
 

@@ -2,8 +2,7 @@
 //
 // Corners are stored by their indices, so that their points follow the bodies. Whatever the
 // indices, these are points of the difference, and a result from them is as right as from any other
-// start. The same holds for a direction: any plane with the difference on its far side proves that
-// the bodies are apart.
+// start. The plane that parted the bodies is carried by both (carried_plane.h).
 // Paper:   van den Bergen, "A fast and robust GJK implementation for collision detection of convex
 //          objects", J. Graphics Tools 4(2), 1999 (the next frame begins at the last separating
 //          axis or simplex).
@@ -12,34 +11,41 @@
 #include <array>
 #include <cstdint>
 
+#include "algorithms/kernels/gjk/carried_plane.h"
 #include "algorithms/kernels/minkowski/simplex.h"
 
 namespace touchstone {
 
 // One layout serves both scalars. All zeros mean that nothing is known.
 struct WarmStart {
+  struct Corners {
+    std::uint16_t a, b;
+  };
+  CarriedPlane plane;
   std::uint32_t size = 0;  // corners of the last simplex; 0: unknown, or round cores
   // Four corners if the origin was inside.
-  std::array<CornerPair, 4> corners;
-  std::array<float, 3> direction{};  // from a to b, world axes, unit length; zero: unknown
+  std::array<Corners, 4> corners{};
 
+  // Keeps the corners, unless one has no index or one of more than 16 bits.
   template <class Scalar>
-  void keep(const Simplex<Scalar>& simplex, const Vec3<Scalar>& unit_direction);
+  void keep(const Simplex<Scalar>& simplex);
 
   // Places the simplex at its corners' current positions. Its size is 0 if there is none or if the
   // indices do not belong to these cores.
   template <class Scalar>
   void place(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex) const;
-  // Unit length, or zero.
-  template <class Scalar>
-  Vec3<Scalar> unit_direction() const;
 };
 
-extern template void WarmStart::keep(const Simplex<float>&, const Vec3<float>&);
-extern template void WarmStart::keep(const Simplex<double>&, const Vec3<double>&);
+// What the frame before left for a query.
+template <class Scalar>
+struct LastFrame {
+  const WarmStart& kept;
+  Vec3<Scalar> direction;  // the carried plane's normal in the world: unit length, or zero
+};
+
+extern template void WarmStart::keep(const Simplex<float>&);
+extern template void WarmStart::keep(const Simplex<double>&);
 extern template void WarmStart::place(SupportPair<float>&, Simplex<float>&) const;
 extern template void WarmStart::place(SupportPair<double>&, Simplex<double>&) const;
-extern template Vec3<float> WarmStart::unit_direction() const;
-extern template Vec3<double> WarmStart::unit_direction() const;
 
 }  // namespace touchstone

@@ -13,6 +13,10 @@
 //             leaves through the nearest face.
 //          6. Subtract the radii from the signed gap of the cores, and compare it with its rounding
 //             error.
+//          A pair that is asked for alone skips the lanes: spheres and capsules with each other or
+//          with a box take the nearest points of their cores and a plane between them, in double
+//          whatever the scalar (closed_form/plain_pair), and the verdict of boxes takes the fifteen
+//          axes in one vector each (closed_form/plain_boxes). What these leave open goes to step 2.
 // Departs: if two cores meet, or nearly so, the normal is made orthogonal to the segments in whose
 //          interior they meet, so that the depth stays exact. A box keeps its matrix as given: the
 //          inverse takes a point into its frame.
@@ -26,119 +30,21 @@
 //          more than 1e-10 of the size.
 // Cost:    O(1); one support call for a hull over a half-space.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "algorithms/kernels/batch/box_pair_lanes.h"
 #include "algorithms/kernels/minkowski/halfspace.h"
 #include "algorithms/kernels/minkowski/resolution.h"
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/kernels/sat/box_box.h"
-#include "algorithms/kernels/sat/segment.h"
 #include "algorithms/kernels/sat/separating_axis.h"
 #include "algorithms/narrow_phase.h"
+#include "algorithms/narrow_phase/closed_form/core_gap.h"
+#include "algorithms/narrow_phase/closed_form/plain_boxes.h"
+#include "algorithms/narrow_phase/closed_form/plain_pair.h"
 #include "algorithms/narrow_phase/closed_form/round_pair_lanes.h"
 
 namespace touchstone {
 namespace {
-
-// The relation of two cores (the bodies without their radii), relative to the centre of body a in
-// the pair's unit. The gap is signed; on_b - on_a is gap * normal. It lies between the bounds,
-// which differ by more than rounding only if a box's matrix is not a rotation.
-template <class Scalar>
-struct CoreGap {
-  Scalar gap, lower, upper;
-  Vec3<Scalar> normal;  // unit vector from a to b
-  Vec3<Scalar> on_a, on_b;
-};
-
-template <class Scalar>
-constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
-
-template <class Scalar>
-Vec3<Scalar> part_across(const Vec3<Scalar>& v, const Vec3<Scalar>& along) {
-  return v - v.dot(along) / along.squaredNorm() * along;
-}
-
-// Returns true if the directions of two segments differ by more than rounding.
-template <class Scalar>
-bool are_crossed(const Vec3<Scalar>& p, const Vec3<Scalar>& q) {
-  return p.cross(q).norm() > rounding<Scalar> * p.norm() * q.norm();
-}
-
-// Returns a unit vector orthogonal to both segments, or to those that have a direction.
-template <class Scalar>
-Vec3<Scalar> across(const Vec3<Scalar>& p, const Vec3<Scalar>& q) {
-  // The cross product of almost parallel vectors has an error along them.
-  if (are_crossed(p, q)) return part_across<Scalar>(p.cross(q), p).normalized();
-  const Vec3<Scalar>& longer = p.squaredNorm() < q.squaredNorm() ? q : p;
-  return longer.squaredNorm() > 0 ? longer.unitOrthogonal() : Vec3<Scalar>::UnitX();
-}
-
-template <class Scalar>
-CoreGap<Scalar> segment_gap(const Segment<Scalar>& a, const Segment<Scalar>& b) {
-  const SegmentPoints<Scalar> closest = closest_points(a, b);
-  const Vec3<Scalar> between = closest.second - closest.first;
-  // The normal must be orthogonal to segments whose interior the points are in; rounding may tilt
-  // it.
-  const auto inside = [](Scalar s, const Segment<Scalar>& segment) {
-    return s > 0 && s < 1 && segment.along.squaredNorm() > 0;
-  };
-  const bool inside_a = inside(closest.s, a), inside_b = inside(closest.t, b);
-  Vec3<Scalar> normal = between;
-  if (inside_a && inside_b && are_crossed(a.along, b.along)) {
-    const Vec3<Scalar> direction = across(a.along, b.along);
-    normal = between.dot(direction) * direction;
-  } else if (inside_a) {
-    normal = part_across(between, a.along);
-  } else if (inside_b) {
-    normal = part_across(between, b.along);
-  }
-  const Scalar length = normal.norm();
-  normal = length > rounding<Scalar> ? Vec3<Scalar>(normal / length) : across(a.along, b.along);
-  // If the points coincide, the direction's sign is arbitrary.
-  if (normal.dot(between) < 0) normal = -normal;
-  const Scalar gap = normal.dot(between);
-  return {gap, gap, gap, normal, closest.first, closest.second};
-}
-
-// The gap between a point, body a's centre, and a box with these half extents around `centre`.
-template <class Scalar>
-CoreGap<Scalar> point_box_gap(const Vec3<Scalar>& centre, const Mat3<Scalar>& matrix,
-                              const Vec3<Scalar>& half) {
-  Mat3<Scalar> normals;  // cofactors: outward normals of the faces, up to their length
-  for (int k = 0; k < 3; ++k) {
-    normals.col(k) = matrix.col((k + 1) % 3).cross(matrix.col((k + 2) % 3));
-  }
-  const Scalar determinant = matrix.col(0).dot(normals.col(0));
-  const Vec3<Scalar> point = -(normals.transpose() * centre) / determinant;
-  const Vec3<Scalar> closest = point.cwiseMax(-half).cwiseMin(half);
-  const Vec3<Scalar> outward = matrix * (point - closest);
-  const Scalar distance = outward.norm();
-  if (distance > 0) {
-    const Vec3<Scalar> normal = -outward / distance;
-    // If the matrix skews the box, `closest` is not the closest point, but it is in the box: its
-    // distance bounds from above, the plane through it from below.
-    const Scalar upper = std::max(distance, (centre + matrix * closest).norm());
-    const Scalar lower = normal.dot(centre) - (matrix.transpose() * normal).cwiseAbs().dot(half);
-    return {distance, std::min(distance, lower), upper,
-            normal,   Vec3<Scalar>::Zero(),      distance * normal};
-  }
-  // The point is inside: the shortest way out is through the nearest face.
-  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-  const Vec3<Scalar> none = Vec3<Scalar>::Zero();
-  CoreGap<Scalar> best{-infinity, -infinity, -infinity, none, none, none};
-  for (int k = 0; k < 3; ++k) {
-    const Scalar length = normals.col(k).norm();
-    const Scalar gap = (std::abs(point[k]) - half[k]) * std::abs(determinant) / length;
-    if (!(gap > best.gap)) continue;
-    const Scalar sign = (point[k] < 0) == (determinant < 0) ? Scalar{-1} : Scalar{1};
-    best.gap = best.lower = best.upper = gap;
-    best.normal = sign * normals.col(k) / length;
-  }
-  best.on_b = best.gap * best.normal;
-  return best;
-}
 
 template <class Scalar>
 class ClosedForm final : public NarrowPhase {
@@ -168,6 +74,26 @@ class ClosedForm final : public NarrowPhase {
         boxes ? box_lanes_.solve(pairs, task, outcomes, left_.data())
               : round_lanes_.solve(batch.kind_a, batch.kind_b, pairs, task, outcomes, left_.data());
     for (std::size_t k = 0; k < left; ++k) solve_one(task, batch, left_[k], outcomes[left_[k]]);
+  }
+
+  void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+    const Shape& a = shapes_[batch.pairs.shape_of[first]];
+    const Shape& b = shapes_[batch.pairs.shape_of[second]];
+    const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
+    if (batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box) {
+      const Answer answer = plain_boxes_(a, pose_a, b, pose_b);
+      if (answer == Answer::separated ||
+          (answer == Answer::overlapping && task == Task::intersect)) {
+        outcome.answer = answer;
+        outcome.status = Status::ok;
+        outcome.iterations = 0;
+        return;
+      }
+    } else if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome)) {
+      return;
+    }
+    solve_one(task, batch, i, outcome);
   }
 
  private:
@@ -263,6 +189,7 @@ class ClosedForm final : public NarrowPhase {
   std::vector<SupportShape<Scalar>> support_shapes_;
   BoxPairLanes<Scalar> box_lanes_;
   RoundPairLanes<Scalar> round_lanes_;
+  PlainBoxes plain_boxes_ = plain_boxes();
   std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
 };
 

@@ -8,9 +8,9 @@
 namespace touchstone::measure {
 
 std::string NarrowChoice::label() const {
-  return record::narrow_label(entry->info.name, to_string(settings.scalar),
-                              settings.tolerance.value_or(Outcome::none),
-                              settings.duality_gap.value_or(Outcome::none), warm);
+  return record::narrow_label(
+      entry->info.name, to_string(settings.scalar), settings.tolerance.value_or(Outcome::none),
+      settings.duality_gap.value_or(Outcome::none), warm, batch == usual_batch ? -1 : batch);
 }
 
 }  // namespace touchstone::measure

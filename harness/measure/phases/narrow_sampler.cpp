@@ -11,9 +11,7 @@
 namespace touchstone::measure {
 namespace {
 
-// The number of pairs that one task of the executor solves: enough to hide the cost of its
-// dispatch, few enough to share a small group between two threads.
-constexpr std::size_t pairs_a_task = 256;
+constexpr std::size_t pairs_a_task = usual_batch;
 
 void count(std::int64_t& sum, std::int32_t value) {
   if (value >= 0) sum = std::max<std::int64_t>(sum, 0) + value;
@@ -27,6 +25,7 @@ NarrowSampler::NarrowSampler(const NarrowChoice& choice, const BlockInput& input
       sets_(sets),
       executor_(&executor),
       starts_warm_(choice.warm),
+      batch_(static_cast<std::size_t>(choice.batch)),
       warm_(sets.size()) {
   for (int worker = 0; worker < executor.width(); ++worker) {
     instances_.push_back(choice.entry->make(choice.settings));
@@ -74,7 +73,19 @@ std::vector<std::size_t> NarrowSampler::tasks_of(std::span<const Chunk> chunks) 
 
 void NarrowSampler::solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes,
                           int worker) {
-  instances_[static_cast<std::size_t>(worker)]->solve(task, batch, outcomes);
+  NarrowPhase& narrow = *instances_[static_cast<std::size_t>(worker)];
+  if (batch_ == 1) {
+    for (std::size_t i = 0; i < batch.size(); ++i) narrow.solve_alone(task, batch, i, outcomes[i]);
+    return;
+  }
+  if (batch.size() <= batch_) {
+    narrow.solve(task, batch, outcomes);
+    return;
+  }
+  for (std::size_t begin = 0; begin < batch.size(); begin += batch_) {
+    const std::size_t count = std::min(batch_, batch.size() - begin);
+    narrow.solve(task, batch.part(begin, count), outcomes.subspan(begin, count));
+  }
 }
 
 double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size_t> frames) {

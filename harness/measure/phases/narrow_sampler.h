@@ -66,6 +66,7 @@ class NarrowSampler final : public Sampler {
   std::span<const NarrowSet> sets_;
   Executor* executor_;
   bool starts_warm_;
+  std::size_t batch_;                                    // the greatest number of pairs of one call
   std::vector<std::unique_ptr<NarrowPhase>> instances_;  // one for each worker
   std::vector<Outcome> outcomes_;
   std::vector<std::optional<Warm>> warm_;  // one for each set, made at its first request

@@ -192,10 +192,13 @@ inline NarrowPhaseSettings settings_of(Precision scalar) {
   return settings;
 }
 
+enum class Call : std::uint8_t { batch, alone };
+
 // The algorithm's answer for one pair in the given order. If the kinds are in the other order than
 // in a batch, the pair is swapped, and the outcome swapped back.
 inline Outcome ask(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings, Task task,
-                   const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+                   const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                   Call call = Call::batch) {
   const bool swap = a.kind > b.kind;
   const std::vector<Shape> shapes = swap ? std::vector{b, a} : std::vector{a, b};
   const std::vector<Pose> poses = swap ? std::vector{pose_b, pose_a} : std::vector{pose_a, pose_b};
@@ -204,12 +207,15 @@ inline Outcome ask(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& set
   std::array<Outcome, 1> outcomes;
   const auto algorithm = entry.make(settings);
   algorithm->bind(shapes);
-  algorithm->solve(
-      task,
-      {.kind_a = shapes[0].kind,
-       .kind_b = shapes[1].kind,
-       .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = poses}},
-      outcomes);
+  const PairBatch batch{
+      .kind_a = shapes[0].kind,
+      .kind_b = shapes[1].kind,
+      .pairs = {.first = first, .second = second, .shape_of = shape_of, .poses = poses}};
+  if (call == Call::alone) {
+    algorithm->solve_alone(task, batch, 0, outcomes[0]);
+  } else {
+    algorithm->solve(task, batch, outcomes);
+  }
   Outcome outcome = outcomes[0];
   if (swap) {
     outcome.normal = -outcome.normal;

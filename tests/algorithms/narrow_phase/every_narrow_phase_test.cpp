@@ -24,9 +24,9 @@ struct Subject {
   // Ours promise what they say; of a peer it is only asked that it lives and is mostly right.
   bool ours() const { return entry->info.origin != Origin::peer; }
   bool is_double() const { return scalar == Precision::float64; }
-  Outcome ask(Task task, const Shape& a, const Pose& pose_a, const Shape& b,
-              const Pose& pose_b) const {
-    return test::ask(*entry, settings_of(scalar), task, a, pose_a, b, pose_b);
+  Outcome ask(Task task, const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+              Call call = Call::batch) const {
+    return test::ask(*entry, settings_of(scalar), task, a, pose_a, b, pose_b, call);
   }
 };
 
@@ -189,6 +189,45 @@ TEST_P(EveryNarrowPhase, AnswersEasyPairs) {
     EXPECT_GE(right, asked * 9 / 10);
   }
   if (right < asked) std::printf("%d of %d answers right\n", right, asked);
+}
+
+void expect_same(const Outcome& outcome, const Outcome& other, double tolerance) {
+  EXPECT_EQ(outcome.answer, other.answer);
+  EXPECT_EQ(outcome.status, other.status);
+  EXPECT_EQ(std::isnan(outcome.distance), std::isnan(other.distance));
+  EXPECT_EQ(std::isnan(outcome.normal.x()), std::isnan(other.normal.x()));
+  EXPECT_EQ(std::isnan(outcome.witness_a.x()), std::isnan(other.witness_a.x()));
+  if (std::isnan(outcome.distance) || std::isnan(other.distance)) return;
+  EXPECT_NEAR(outcome.distance, other.distance, tolerance);
+}
+
+TEST_P(EveryNarrowPhase, AnswersOnePairAloneAsInABatch) {
+  const Subject& subject = GetParam();
+  const double tolerance = subject.is_double() ? 1e-6 : 1e-3;
+  int separated = 0, overlapping = 0;
+  for (const ShapeKind kind_a : all_shape_kinds) {
+    for (const ShapeKind kind_b : all_shape_kinds) {
+      if (kind_b < kind_a) continue;
+      for (const Task task : all_tasks) {
+        if (!offers(*subject.entry, kind_a, kind_b, task)) continue;
+        Random random(static_cast<std::uint64_t>(kind_a) * 8 + static_cast<std::uint64_t>(kind_b));
+        const Shape a = samples(kind_a).front(), b = samples(kind_b).back();
+        for (int k = 0; k < 12; ++k) {
+          SCOPED_TRACE(std::string(to_string(kind_a)) + "-" + std::string(to_string(kind_b)) + " " +
+                       std::string(to_string(task)) + " " + std::to_string(k));
+          const Pose pose_a{random_rotation(random), random_direction(random)};
+          const Pose pose_b{random_rotation(random),
+                            pose_a.translation + k * 0.25 * random_direction(random)};
+          const Outcome outcome = subject.ask(task, a, pose_a, b, pose_b);
+          separated += outcome.answer == Answer::separated;
+          overlapping += outcome.answer == Answer::overlapping;
+          expect_same(subject.ask(task, a, pose_a, b, pose_b, Call::alone), outcome, tolerance);
+        }
+      }
+    }
+  }
+  EXPECT_GT(separated, 4);
+  EXPECT_GT(overlapping, 4);
 }
 
 // Same centre and orientation, and one far inside of the other.

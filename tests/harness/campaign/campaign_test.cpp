@@ -71,6 +71,43 @@ TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
   EXPECT_TRUE(ruled.groups[0].admits(cell));
 }
 
+TEST_F(CampaignFile, OnePairACallStandsBesideBatches) {
+  const auto labels = [&](const std::string& batch) {
+    const campaign::Campaign campaign =
+        read("scenes = 'a.toml'\nnarrow = ['gjk', 'mpr']\nscalars = 'double'\n" + batch);
+    std::vector<std::string> all;
+    for (const measure::NarrowChoice& choice : campaign.groups[0].narrow)
+      all.push_back(choice.label());
+    return all;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(labels("batch = 256"), ElementsAre("gjk double", "mpr double"));
+  EXPECT_THAT(labels("batch = 1"), ElementsAre("gjk double by 1", "mpr double by 1"));
+  EXPECT_THAT(labels("batch = [1, 256]"),
+              ElementsAre("gjk double by 1", "gjk double", "mpr double by 1", "mpr double"));
+  EXPECT_THAT(labels("batch = 1\nwarm = true"),
+              ElementsAre("gjk double warm by 1", "mpr double by 1"));
+  for (const std::string wrong : {"0", "257", "1.5", "'all'", "[1, 0]"}) {
+    EXPECT_THAT(fault("scenes = 'a.toml'\nbatch = " + wrong), testing::HasSubstr("c.toml:2: batch"))
+        << wrong;
+  }
+  EXPECT_NE(campaign::description(read("scenes = 'a.toml'\nbatch = 1")),
+            campaign::description(read("scenes = 'a.toml'")));
+
+  const campaign::Campaign ruled =
+      read("scenes = 'a.toml'\nbatch = [1, 256]\ninclude = [{batch = 1}, {narrow = 'gjk'}]");
+  campaign::CampaignCell cell;
+  cell.narrow = "mpr";
+  cell.batch = 256;
+  EXPECT_FALSE(ruled.groups[0].admits(cell));
+  cell.batch = 1;
+  EXPECT_TRUE(ruled.groups[0].admits(cell));
+  cell = {};
+  cell.narrow = "gjk";
+  cell.batch = 256;
+  EXPECT_TRUE(ruled.groups[0].admits(cell));
+}
+
 TEST_F(CampaignFile, RulesNameAPlacedSceneWithOrWithoutItsGap) {
   const auto admits = [&](const std::string& named, const std::string& scene) {
     const campaign::Campaign ruled =

@@ -98,6 +98,33 @@ class Warm : public testing::Test {
   TemporaryFolder folder_;
 };
 
+// One pair a call, seven, and all: cold and warm the same answers to the digit.
+TEST_F(Warm, AnswersDoNotDependOnTheBatch) {
+  const scene::Scene scene = scene::load_scene(folder_.path() / "pairs.toml");
+  const measure::BlockInput input(scene, scene::BoxKind::tight, true);
+  const std::vector<std::vector<IndexPair>> pairs(frames, scene.pairs);
+  constexpr std::array tasks = {Task::distance, Task::intersect};
+  const std::vector<measure::NarrowSet> sets = measure::narrow_sets(input, "", pairs, tasks);
+  Executor two(2);
+  for (const bool warm : {false, true}) {
+    const auto sampler = [&](int batch) {
+      const measure::NarrowChoice choice{
+          .entry = find_narrow_phase("gjk"), .settings = {}, .warm = warm, .batch = batch};
+      return measure::NarrowSampler(choice, input, sets, two);
+    };
+    measure::NarrowSampler whole = sampler(measure::usual_batch), sevens = sampler(7),
+                           alone = sampler(1);
+    for (std::uint32_t set = 0; set < sets.size(); ++set) {
+      for (std::uint32_t frame = 0; frame < frames; ++frame) {
+        const measure::SampleRequest request{.set = set, .frame = frame};
+        const std::uint64_t expected = whole.sample(request).outcome_hash;
+        EXPECT_EQ(sevens.sample(request).outcome_hash, expected);
+        EXPECT_EQ(alone.sample(request).outcome_hash, expected);
+      }
+    }
+  }
+}
+
 // The answers to a frame are equal for all windows and numbers of workers.
 TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
   const scene::Scene scene = scene::load_scene(folder_.path() / "pairs.toml");

@@ -1,0 +1,48 @@
+// What a separating plane that both bodies carry keeps, with its rounding.
+#include "algorithms/kernels/gjk/carried_plane.h"
+
+#include <cmath>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+Vec3d read(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+CarriedPlane CarriedPlane::make(const Vec3d& normal, double gap, double radius_a,
+                                const Pose& pose_a, double radius_b, const Pose& pose_b) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const auto above = [](double x) { return std::nextafter(static_cast<float>(x), infinity); };
+  CarriedPlane plane;
+  const Vec3d in_a = pose_a.rotation.transpose() * normal;
+  const Vec3d in_b = pose_b.rotation.transpose() * normal;
+  for (int k = 0; k < 3; ++k) {
+    plane.in_a_[k] = static_cast<float>(in_a[k]);
+    plane.in_b_[k] = static_cast<float>(in_b[k]);
+  }
+  // Along `normal` the bodies are apart by `gap`; the normals that are kept are off by rounding.
+  const Vec3d offset = pose_b.translation - pose_a.translation;
+  const double reach = normal.dot(offset) - gap + radius_a * (in_a - read(plane.in_a_)).norm() +
+                       radius_b * (in_b - read(plane.in_b_)).norm() +
+                       rounding * (2 * offset.lpNorm<1>() + 8 * (radius_a + radius_b));
+  plane.reach_ = gap > 0 ? above(reach) : infinity;
+  plane.radius_a_ = above(radius_a);
+  plane.radius_b_ = above(radius_b);
+  const bool is_finite = read(plane.in_a_).allFinite() && read(plane.in_b_).allFinite() &&
+                         plane.radius_a_ < infinity && plane.radius_b_ < infinity &&
+                         plane.reach_ > -infinity && !std::isnan(plane.reach_);
+  if (!is_finite) return {};
+  plane.sum_ = plane.sum();
+  return plane;
+}
+
+Vec3d CarriedPlane::normal(const Pose& pose_a, const Pose& pose_b) const {
+  const Vec3d between = pose_a.rotation * read(in_a_) + pose_b.rotation * read(in_b_);
+  const double squared = between.squaredNorm();
+  const bool usable = squared > 0.5 && squared < 5;
+  return usable ? Vec3d(between / std::sqrt(squared)) : Vec3d::Zero();
+}
+
+}  // namespace touchstone
