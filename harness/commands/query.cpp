@@ -23,7 +23,7 @@ namespace touchstone::commands {
 namespace {
 
 struct QueryOptions {
-  std::string cases, narrow, out;
+  std::string cases, narrow, out, id;
   Task task = Task::intersect;
   NarrowPhaseSettings settings;
   double time_limit = 5;  // seconds a query
@@ -98,6 +98,18 @@ void print_summary(const std::vector<Answers>& all) {
   }
 }
 
+// Returns the cases of the file, or those with the identifier that was asked for.
+std::vector<files::Case> asked_cases(const QueryOptions& options) {
+  std::vector<files::Case> cases = files::read_cases(options.cases);
+  if (options.id.empty()) return cases;
+  std::erase_if(cases, [&](const files::Case& c) { return c.id != options.id; });
+  if (cases.empty()) {
+    throw base::InputError(fmt::format("{}: has no case '{}'; expected the id of one for --id",
+                                       options.cases, options.id));
+  }
+  return cases;
+}
+
 void query(const QueryOptions& options) {
   const auto entries =
       campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
@@ -108,7 +120,7 @@ void query(const QueryOptions& options) {
                     "expected only {}",
                     entry->info.name, campaign::names_stopping_by_duality_gap()));
   }
-  const std::vector<files::Case> cases = files::read_cases(options.cases);
+  const std::vector<files::Case> cases = asked_cases(options);
   files::check_output(options.out);
   std::vector<Answers> all;
   all.reserve(entries.size());
@@ -136,6 +148,7 @@ void add_query(Arguments command) {
   command.text("--narrow", options->narrow, "Narrow phases: names joined by commas, or all")
       .required();
   command.one_of("--task", options->task, task_choices(), "What is asked").required();
+  command.text("--id", options->id, "Asks the cases with this id alone");
   command.one_of("--scalar", settings.scalar, scalar_choices(), "What is calculated in")
       .show_default("double");
   command

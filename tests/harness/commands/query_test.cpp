@@ -170,6 +170,19 @@ TEST_F(QueryCommand, NamesAreTakenInTheirOrderAndOnce) {
   EXPECT_EQ(rows[1][0], names[0]);
 }
 
+TEST_F(QueryCommand, OneOfTheCases) {
+  const auto names = built_names();
+  if (names.empty()) GTEST_SKIP() << "no narrow phase is built";
+  folder.write("in.jsonl", two_balls("x", 3) + two_balls("y y", 3) + two_balls("z", 1));
+  const std::string command = path("in.jsonl") + " --narrow " + names[0] + " --task intersect";
+  const Ran ran = run_program("query " + command + " --id 'y y' --out " + path("out.csv"));
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  const auto rows = read_rows(folder.path() / "out.csv", {"id"});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0][0], "y y");
+  expect_refusal(command + " --id w --out " + path("other.csv"), "has no case 'w'");
+}
+
 TEST_F(QueryCommand, BadCases) {
   if (built_names().empty()) GTEST_SKIP() << "no narrow phase is built";
   const auto refuse = [&](const std::string& line, const std::string& text) {
