@@ -13,15 +13,20 @@
 //             leaves through the nearest face.
 //          6. Subtract the radii from the signed gap of the cores, and compare it with its rounding
 //             error.
+//          7. Capsule and box: the zero of the slope of the distance along the segment, which is
+//             linear between eight places; where the segment meets the box, the least depth along
+//             six axes (closed_form/plain_capsule_box). What that leaves open goes to GJK and EPA
+//             (kernels/gjk/gjk_query).
 //          A pair that is asked for alone skips the lanes: spheres and capsules with each other or
 //          with a box take the nearest points of their cores and a plane between them, in double
 //          whatever the scalar (closed_form/plain_pair), and the verdict of boxes takes the fifteen
-//          axes in one vector each (closed_form/plain_boxes). What these leave open goes to step 2.
+//          axes in one vector each (closed_form/plain_boxes), their depth the same axes
+//          (closed_form/plain_box_depth). What these leave open goes to step 2.
 // Departs: if two cores meet, or nearly so, the normal is made orthogonal to the segments in whose
 //          interior they meet, so that the depth stays exact. A box keeps its matrix as given: the
 //          inverse takes a point into its frame.
-// Answers: sphere or capsule with sphere or capsule, sphere with box, any bounded shape with a
-//          half-space: all tasks. Box with box: intersect and penetration, since 15 axes give no
+// Answers: sphere or capsule with sphere, capsule or box, any bounded shape with a half-space: all
+//          tasks. Box with box: intersect and penetration, since 15 axes give no
 //          distance. Within rounding of contact the answer is `touching` with bounds on the signed
 //          distance, at most 2.9e-14 (double) or 1.6e-5 (float) of the pair's unit apart
 //          (kernels/minkowski/resolution).
@@ -32,6 +37,7 @@
 #include <algorithm>
 
 #include "algorithms/kernels/batch/box_pair_lanes.h"
+#include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/kernels/minkowski/halfspace.h"
 #include "algorithms/kernels/minkowski/resolution.h"
 #include "algorithms/kernels/minkowski/support.h"
@@ -39,7 +45,9 @@
 #include "algorithms/kernels/sat/separating_axis.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/closed_form/core_gap.h"
+#include "algorithms/narrow_phase/closed_form/plain_box_depth.h"
 #include "algorithms/narrow_phase/closed_form/plain_boxes.h"
+#include "algorithms/narrow_phase/closed_form/plain_capsule_box.h"
 #include "algorithms/narrow_phase/closed_form/plain_pair.h"
 #include "algorithms/narrow_phase/closed_form/round_pair_lanes.h"
 
@@ -90,6 +98,7 @@ class ClosedForm final : public NarrowPhase {
         outcome.iterations = 0;
         return;
       }
+      if (task == Task::penetration && solve_plain_box_depth(a, pose_a, b, pose_b, outcome)) return;
     } else if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome)) {
       return;
     }
@@ -97,7 +106,7 @@ class ClosedForm final : public NarrowPhase {
   }
 
  private:
-  void solve_one(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) const {
+  void solve_one(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) {
     const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
     const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
     const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
@@ -105,6 +114,9 @@ class ClosedForm final : public NarrowPhase {
       solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, outcome);
     } else if (batch.kind_a == ShapeKind::box) {
       solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, task, outcome);
+    } else if (batch.kind_a == ShapeKind::capsule && batch.kind_b == ShapeKind::box) {
+      if (plain_capsule_box_(task, shapes_[a], pose_a, shapes_[b], pose_b, outcome)) return;
+      gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
     } else {
       solve_round(shapes_[a], pose_a, shapes_[b], pose_b, task, outcome);
     }
@@ -190,14 +202,15 @@ class ClosedForm final : public NarrowPhase {
   BoxPairLanes<Scalar> box_lanes_;
   RoundPairLanes<Scalar> round_lanes_;
   PlainBoxes plain_boxes_ = plain_boxes();
+  PlainCapsuleBox plain_capsule_box_ = plain_capsule_box();
+  GjkQuery<Scalar> gjk_{GjkQuerySettings{}};
   std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
 };
 
 bool takes(ShapeKind a, ShapeKind b, Task task) {
   if (b == ShapeKind::halfspace) return a != ShapeKind::halfspace;
   if (a == ShapeKind::box && b == ShapeKind::box) return task != Task::distance;
-  if (a == ShapeKind::sphere && b == ShapeKind::box) return true;
-  return a <= ShapeKind::capsule && b <= ShapeKind::capsule;
+  return a <= ShapeKind::capsule && b <= ShapeKind::box;
 }
 
 }  // namespace

@@ -1,53 +1,19 @@
-// Finds the nearest points of two cores (a point, a segment or a box), and proves the answer by a
-// plane. The vector w between them bounds the distance of the cores from above, whatever its
-// rounding error, since both points are in the cores. The plane across w bounds it from below: the
-// distance is at least (w . c - e_a(w) - e_b(w)) / |w|, where c joins the centres and e(w) is how
-// far a core extends along w. The two differ by rounding only if w is right. Nothing is assumed of
-// the rotations.
+// The nearest points of points, segments and boxes. plain_core.h proves the answers.
 #include "algorithms/narrow_phase/closed_form/plain_pair.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/narrow_phase/closed_form/plain_core.h"
+
 namespace touchstone {
 namespace {
 
-// All rounding errors of a gap together, as a part of the sum of all lengths: each of the fewer than
-// 40 operations behind it has an error of at most 2^-53 of a number that is not greater than that
-// sum.
-constexpr double rounding = 40 * 0x1p-53;
+using namespace plain;
 
-// Squares below this may have lost digits to underflow, squares above to overflow.
-constexpr double least_square = 1e-280, greatest_square = 1e280;
-
-struct Vec {
-  double x, y, z;
-};
-Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec read(const Vec3d& v) { return {v.x(), v.y(), v.z()}; }
-Vec column(const Mat3d& m, int k) { return {m(0, k), m(1, k), m(2, k)}; }
-Vec3d written(const Vec& v) { return {v.x, v.y, v.z}; }
-
-// The nearest points of two cores, relative to the centre of core a.
-struct Nearest {
-  Vec on_a, on_b;
-  Vec between;          // on_b - on_a
-  double along_centre;  // between . (centre of b - centre of a)
-  double extent;        // how far both cores extend along `between`, times its length
-  double size;          // the sum of all lengths that the points were calculated from
-};
-
-// `centre` is that of core b.
+// `centre` is that of core b, here and below.
 Nearest of_points(const Vec& centre, double size) {
   return {{0, 0, 0}, centre, centre, dot(centre, centre), 0, size};
-}
-
-// Each of these is one instruction; std::clamp may be a jump.
-double clamp(double x, double least, double greatest) {
-  return std::min(std::max(x, least), greatest);
 }
 
 // A point and the segment around `centre` with this half.
@@ -112,52 +78,6 @@ Answer ball_meets_box(double radius, const Vec& centre, const Mat3d& matrix, con
   if (in_range && square > outer * outer) return Answer::separated;
   if (in_range && inner > 0 && square < inner * inner) return Answer::overlapping;
   return Answer::unknown;
-}
-
-double length(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
-void write(Answer answer, Outcome& outcome) {
-  outcome.answer = answer;
-  outcome.status = Status::ok;
-  outcome.iterations = 0;
-}
-
-bool answer(Task task, const Nearest& cores, double radius_a, double radius_b, const Pose& pose_a,
-            Outcome& outcome) {
-  const double square = dot(cores.between, cores.between);
-  const double radii = radius_a + radius_b;
-  const double size = cores.size + radii;
-  if (!(std::max(square, radii * radii) > least_square && size * size < greatest_square))
-    return false;
-  const double error = rounding * size;
-  // Squares are compared, since a root takes longer than all the rest.
-  const double inner = radii - error, outer = radii + error;
-  const bool common = inner > 0 && square < inner * inner;
-  const double along = cores.along_centre - cores.extent;
-  const bool apart = along > 0 && along * along > square * (outer * outer);
-  if (!apart && !common) return false;
-  if (task == Task::intersect || (task == Task::distance ? common : apart)) {
-    write(apart ? Answer::separated : Answer::overlapping, outcome);
-    return true;
-  }
-  // A normal of nearly coincident points would have lost its digits.
-  const double distance = std::sqrt(square), inverse = 1 / distance;
-  const double lower = along * inverse - outer, upper = distance - inner;
-  if (!(distance > 1e-3 * size && upper - lower < 4 * error)) return false;
-  write(apart ? Answer::separated : Answer::overlapping, outcome);
-  const Vec normal = inverse * cores.between;
-  const Vec origin = read(pose_a.translation);
-  outcome.distance = distance - radii;
-  outcome.lower = lower;
-  outcome.upper = upper;
-  outcome.normal = written(normal);
-  outcome.witness_a = written(origin + (cores.on_a + radius_a * normal));
-  outcome.witness_b = written(origin + (cores.on_b - radius_b * normal));
-  return true;
-}
-
-Vec half_of(const Shape& capsule, const Pose& pose) {
-  return capsule.half_length * column(pose.rotation, 2);
 }
 
 constexpr int of_kinds(ShapeKind a, ShapeKind b) {
