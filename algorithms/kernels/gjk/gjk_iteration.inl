@@ -169,7 +169,7 @@ struct QuadSimplex {
   struct Point {
     Vector difference, a, b;
   };
-  Point points[4]{};
+  Point points[4];
   CornerPair corners[numbered ? 4 : 1];
   int size = 0;
 

@@ -66,14 +66,16 @@ template <class Scalar>
 void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
                              const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
                              WarmStart* start, Outcome& outcome) {
-  if (task != Task::distance && ((start != nullptr && start->plane.parts(pose_a, pose_b)) ||
-                                 balls_are_apart(a, pose_a, b, pose_b))) {
+  const bool parted =
+      task != Task::distance && start != nullptr && start->plane.parts(pose_a, pose_b);
+  const CentreOffset offset = parted ? CentreOffset{} : centre_offset(a, pose_a, b, pose_b);
+  if (parted || (task != Task::distance && balls_are_apart(offset, a, pose_a, b, pose_b))) {
     outcome.answer = Answer::separated;
     outcome.status = Status::ok;
     outcome.iterations = outcome.support_calls = 0;
     return;
   }
-  SupportPair<Scalar> pair(a, pose_a, b, pose_b);
+  SupportPair<Scalar> pair(offset, a, pose_a, b, pose_b);
   outcome.iterations = 0;
   if (start == nullptr) {
     if (task == Task::intersect && fast_gjk_decides(pair, outcome)) return;

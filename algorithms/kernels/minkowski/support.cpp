@@ -75,7 +75,7 @@ CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
 }
 
 template <class Scalar>
-bool balls_are_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
+bool balls_are_apart(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b) {
   // A matrix lengthens a vector by at most its Frobenius norm. Rounding is a dozen units in the
   // last place of the norms, the sizes and the squares; for the offset it is as much of the greater
@@ -87,7 +87,6 @@ bool balls_are_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
   const double stretch_b = pose_b.rotation.squaredNorm();
   const double reach_a = a.size * std::sqrt(stretch_a) + a.radius;
   const double reach_b = b.size * std::sqrt(stretch_b) + b.radius;
-  const CentreOffset offset = centre_offset(a, pose_a, b, pose_b);
   const double reach = (reach_a + reach_b) * beyond_rounding + 2 * offset.doubt;
   const double square = offset.vector.squaredNorm();
   return square > reach * reach && square > least_square && stretch_a > least_square &&
@@ -109,14 +108,14 @@ SupportPair<Scalar>::SupportPair(const CentreOffset& offset, const SupportShape<
       a_(a, pose_a.rotation, unit_),
       b_(b, pose_b.rotation, unit_),
       centre_b_((offset.vector * (1 / unit_)).template cast<Scalar>()),
-      origin_(pose_a(a.centre)),
+      pose_a_(&pose_a),
       is_polytope_(a.is_polytope() && b.is_polytope()),
       is_smooth_(!is_polytope_ && a.is_smooth() && b.is_smooth()) {}
 
-template bool balls_are_apart(const SupportShape<float>&, const Pose&, const SupportShape<float>&,
-                              const Pose&);
-template bool balls_are_apart(const SupportShape<double>&, const Pose&, const SupportShape<double>&,
-                              const Pose&);
+template bool balls_are_apart(const CentreOffset&, const SupportShape<float>&, const Pose&,
+                              const SupportShape<float>&, const Pose&);
+template bool balls_are_apart(const CentreOffset&, const SupportShape<double>&, const Pose&,
+                              const SupportShape<double>&, const Pose&);
 template class SupportPair<float>;
 template class SupportPair<double>;
 template CentreOffset centre_offset(const SupportShape<float>&, const Pose&,

@@ -30,10 +30,16 @@ template <class Scalar>
 CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
                            const SupportShape<Scalar>& b, const Pose& pose_b);
 
-// Returns true if balls around the two bodies are apart by more than rounding.
+// Returns true if balls around the two bodies are apart by more than rounding. `offset` is that of
+// their centres.
+template <class Scalar>
+bool balls_are_apart(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
+                     const SupportShape<Scalar>& b, const Pose& pose_b);
 template <class Scalar>
 bool balls_are_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
-                     const SupportShape<Scalar>& b, const Pose& pose_b);
+                     const SupportShape<Scalar>& b, const Pose& pose_b) {
+  return balls_are_apart(centre_offset(a, pose_a, b, pose_b), a, pose_a, b, pose_b);
+}
 
 // A point of the difference A - B of the cores, and the points of the bodies' cores that it is made
 // of, in the unit and the frame of the pair.
@@ -50,8 +56,12 @@ class SupportPair {
   // point of the difference (a length in the pair's unit) was below this in all tests.
   static constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
 
+  // The pair refers to the pose of a.
   SupportPair(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
               const Pose& pose_b);
+  // The same, with the offset of the centres.
+  SupportPair(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
+              const SupportShape<Scalar>& b, const Pose& pose_b);
 
   // Returns the point of the difference of the cores, A - B, that is furthest in the direction, and
   // counts the call.
@@ -83,17 +93,14 @@ class SupportPair {
   int support_calls() const { return support_calls_; }
 
   Vec3d to_world(const Vec3<Scalar>& point) const {
-    return origin_ + unit_ * point.template cast<double>();
+    return (*pose_a_)(a_.shape().centre) + unit_ * point.template cast<double>();
   }
 
  private:
-  SupportPair(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
-              const SupportShape<Scalar>& b, const Pose& pose_b);
-
   double unit_;
   PosedShape<Scalar> a_, b_;
   Vec3<Scalar> centre_b_;
-  Vec3d origin_;  // body a's centre in the world, metres
+  const Pose* pose_a_;
   bool is_polytope_, is_smooth_;
   int support_calls_ = 0;
 };

@@ -59,13 +59,6 @@ void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
 
 }  // namespace
 
-double power_of_two_above(double length) {
-  // The exponent field, read from the bits: the callers need no more precision.
-  const auto field = static_cast<int>(std::bit_cast<std::uint64_t>(length) >> 52 & 0x7ff);
-  const int exponent = std::clamp(field + 1, 64, 1982);
-  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent) << 52);
-}
-
 template <class Scalar>
 SupportShape<Scalar>::SupportShape(const Shape& shape) {
   const auto set = [&](Core kind, const Vec3d& metres, double greatest_distance) {

@@ -2,6 +2,8 @@
 // narrow phase with support maps.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -81,6 +83,11 @@ std::vector<SupportShape<Scalar>> make_support_shapes(std::span<const Shape> sha
 
 // The least power of two above a length, so that length / result is in [1/2, 1).
 // Clamped so that the result and its inverse are normal numbers; the least of these for zero.
-double power_of_two_above(double length);
+inline double power_of_two_above(double length) {
+  // The exponent field, read from the bits: the callers need no more precision.
+  const auto field = static_cast<int>(std::bit_cast<std::uint64_t>(length) >> 52 & 0x7ff);
+  const int exponent = std::clamp(field + 1, 64, 1982);
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent) << 52);
+}
 
 }  // namespace touchstone
