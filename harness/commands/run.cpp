@@ -125,7 +125,7 @@ int run_other_file(const RunOptions& options) {
 
 // Names the tables itself, because this executable lacks what reads them.
 bool is_other_file(const std::string& file) {
-  return std::ranges::any_of(std::array{"trade", "check", "stress", "soak"},
+  return std::ranges::any_of(std::array{"trade", "check", "stress", "soak", "cells"},
                              [&](const char* key) { return files::has_key(file, key); });
 }
 

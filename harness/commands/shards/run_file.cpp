@@ -1,4 +1,4 @@
-// touchstone run: a shard of a plan, or a file with a table [trade], [check], [stress] or [soak].
+// touchstone run: a shard of a plan, or a file with a table [trade], [check], [stress], [soak] or [cells].
 #include <fmt/format.h>
 #include <sched.h>
 
@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "harness/base/error.h"
+#include "harness/cells/read_cells.h"
 #include "harness/check/requests/case_run.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
@@ -77,8 +78,25 @@ int run_cases(const RunFileOptions& options) {
   return end.ours_wrong ? exit_measured_wrong : exit_done;
 }
 
+int run_cells(const RunFileOptions& options) {
+  if (options.with_page)
+    throw base::InputError(options.file + " has a table [cells]; expected no --report with it");
+  const cells::CellRequest request = cells::read_cells(options.file);
+  const std::filesystem::path folder = results_folder(options.out, request.name);
+  const cells::CellRunResult result =
+      cells::run_cells(request, folder, record::resume_or_overwrite(options.resume),
+                       [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  if (result.interrupted) {
+    fmt::print(stderr, "touchstone: interrupted; whole cells are kept, and --resume goes on\n");
+    return exit_bad_request;
+  }
+  fmt::print("{}Tables in {}\n", cells::write_cell_tables(folder, request.name), folder.string());
+  return result.ours_wrong ? exit_measured_wrong : exit_done;
+}
+
 int run_file(const RunFileOptions& options) {
   if (!options.plan.empty()) return run_shard(options);
+  if (cells::has_cells(options.file)) return run_cells(options);
   return check::has_case_work(options.file) ? run_cases(options) : run_trades(options);
 }
 
@@ -87,7 +105,7 @@ int run_file(const RunFileOptions& options) {
 void add_run_file(Arguments command) {
   const auto options = std::make_shared<RunFileOptions>();
   const Option file = command.text("campaign", options->file,
-                                   "A file with a table [trade], [check], [stress] or [soak]");
+                                   "A file with a table [trade], [check], [stress], [soak] or [cells]");
   command.text("--out", options->out, "Folder (default: results/local/NAME in the project)")
       .needs(file);
   command

@@ -1,0 +1,44 @@
+// A batch of queries of one make, and the algorithms that answer it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "algorithms/algorithm_info.h"
+#include "algorithms/core/outcome.h"
+
+namespace touchstone::cells {
+
+// What was wrong with an algorithm's answers to a cell. Counts are of queries.
+struct Grade {
+  std::int64_t missed = 0;       // says no where the exact answer is yes, and says that it is sure
+  std::int64_t false_hits = 0;   // says yes where the exact answer is no
+  std::int64_t other = 0;        // another number, triangle or time than the exact one
+  std::int64_t unknown = 0;      // gave up, and said so
+  double error = Outcome::none;  // the greatest error of a number, in the unit of the contract
+
+  bool is_right() const { return missed == 0 && false_hits == 0 && other == 0; }
+};
+
+struct Contestant {
+  std::string name;  // the algorithm's, and the scalar's where it offers several
+  Origin origin = Origin::ours;
+  bool approximate = false;      // its errors are known, and are no fault
+  std::function<void()> answer;  // answers all queries; this is timed
+  std::function<Grade()> grade;  // judges the last answers
+};
+
+// The contestants refer to the queries, which they keep alive.
+struct Cell {
+  std::int64_t queries = 0;
+  std::vector<Contestant> contestants;
+};
+
+struct PlannedCell {
+  std::string group, name;     // the group's cells are one table
+  std::function<Cell()> make;  // the same cell each time
+};
+
+}  // namespace touchstone::cells

@@ -1,0 +1,89 @@
+// The rows of a cell run's files; each declares its columns once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "algorithms/core/outcome.h"
+#include "harness/record/row.h"
+
+namespace touchstone::cells {
+
+// grades.csv: one algorithm's answers to one cell.
+struct GradeRow {
+  std::string group, cell, algorithm, origin;
+  bool approximate = false;
+  std::int64_t queries = 0, missed = 0, false_hits = 0, other = 0, unknown = 0;
+  double error = Outcome::none;
+  std::string status;
+};
+template <record::row_of<GradeRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("group", row.group, "Group of cells, one table.");
+  visit("cell", row.cell, "Name of the cell.");
+  visit("algorithm", row.algorithm, "Name of the algorithm, with the scalar where it has several.");
+  visit("origin", row.origin, "ours, peer or oracle.");
+  visit("approximate", row.approximate, "1: its errors are known, and are no fault.");
+  visit("queries", row.queries, "Queries of the cell.");
+  visit("missed", row.missed, "Queries with a no where the exact answer is yes.");
+  visit("false_hits", row.false_hits, "Queries with a yes where the exact answer is no.");
+  visit("other", row.other, "Queries with another number, triangle or time than the exact one.");
+  visit("unknown", row.unknown, "Queries that it gave up, and said so.");
+  visit("error", row.error, "Greatest error of a number; empty where there is none.");
+  visit("status", row.status, "`ok`, or how it ended: crashed, timed_out.");
+}
+
+// raw.csv of a cell run: one sample.
+struct CellSampleRow {
+  std::string group, cell, algorithm;
+  std::int64_t round = 0, position = 0, repeats = 0;
+  double seconds = Outcome::none;
+  std::string noise;
+};
+template <record::row_of<CellSampleRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("group", row.group, "Group of cells, one table.");
+  visit("cell", row.cell, "Name of the cell.");
+  visit("algorithm", row.algorithm, "Name of the algorithm, with the scalar where it has several.");
+  visit("round", row.round, "Number of the round, in which every algorithm is timed once.");
+  visit("position", row.position, "Position in the round, which is shuffled.");
+  visit("repeats", row.repeats, "How often all queries were answered in the sample.");
+  visit("seconds", row.seconds, "Time of a query, seconds.");
+  visit("noise", row.noise, "What else the machine did in the round; empty when it was quiet.");
+}
+
+// times.csv of a cell run: one algorithm in one cell.
+struct CellTimeRow {
+  GradeRow grade;
+  double seconds = Outcome::none, low = Outcome::none, high = Outcome::none;
+  std::int64_t samples = 0;
+  bool best = false;
+};
+template <record::row_of<CellTimeRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  columns(row.grade, visit);
+  visit("seconds", record::rounded(row.seconds, 4), "Median time of a query, seconds.");
+  visit("seconds_low", record::rounded(row.low, 4), "Lower end of its interval at 95 %.");
+  visit("seconds_high", record::rounded(row.high, 4), "Upper end.");
+  visit("samples", row.samples, "Samples.");
+  visit("best", row.best, "1: the fastest of ours, or of the peers, that is right in this cell.");
+}
+
+// best.csv of a cell run: the fastest of ours that is right, against the fastest peer that is.
+struct CellBestRow {
+  std::string group, cell, ours, peer;
+  double ratio = Outcome::none, low = Outcome::none, high = Outcome::none;
+};
+template <record::row_of<CellBestRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("group", row.group, "Group of cells, one table.");
+  visit("cell", row.cell, "Name of the cell.");
+  visit("ours", row.ours, "The fastest of ours that is right.");
+  visit("peer", row.peer, "The fastest peer that is right; empty if none is.");
+  visit("ratio", record::rounded(row.ratio, 4),
+        "Time of the peer over ours: the median of the rounds.");
+  visit("ratio_low", record::rounded(row.low, 4), "Lower end of its interval at 95 %.");
+  visit("ratio_high", record::rounded(row.high, 4), "Upper end.");
+}
+
+}  // namespace touchstone::cells

@@ -1,0 +1,188 @@
+// Grades the contestants of each cell in a process of their own, then times them here.
+#include "harness/cells/cell_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "harness/base/clock.h"
+#include "harness/base/random.h"
+#include "harness/cells/cell_rows.h"
+#include "harness/measure/noise.h"
+#include "harness/process/interrupt.h"
+#include "harness/process/isolate.h"
+#include "harness/record/machine.h"
+
+namespace touchstone::cells {
+namespace {
+
+enum File : std::size_t { grades_file, raw_file };
+
+struct Graded {
+  Grade grade;
+  double seconds = 0;  // of one answer to all queries
+  process::ItemState state = process::ItemState::not_run;
+};
+
+std::vector<Graded> grade(const Cell& cell, double time_limit) {
+  struct Shared {
+    Grade grade;
+    double seconds;
+  };
+  process::SharedArray<Shared> shared(cell.contestants.size());
+  process::IsolationLimits limits;
+  limits.item_seconds = 4 * time_limit;
+  const process::IsolationReport report =
+      process::isolate(cell.contestants.size(), limits, [&]() -> process::ItemWork {
+        return [&](std::size_t i) {
+          const base::Stopwatch watch;
+          cell.contestants[i].answer();
+          shared[i].seconds = watch.seconds();
+          shared[i].grade = cell.contestants[i].grade();
+        };
+      });
+  std::vector<Graded> graded;
+  for (std::size_t i = 0; i < cell.contestants.size(); ++i)
+    graded.push_back({shared[i].grade, shared[i].seconds, report.states[i]});
+  return graded;
+}
+
+std::vector<std::size_t> shuffled(std::vector<std::size_t> order, base::Random random) {
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  return order;
+}
+
+class CellRun {
+ public:
+  CellRun(const CellRequest& request, const std::filesystem::path& folder,
+          record::FolderStart start)
+      : request_(request), folder_(plan(request, folder, start)) {}
+
+  CellRunResult run(const std::function<void(const std::string&)>& say) {
+    const process::InterruptGuard guard;
+    note_earlier_grades();
+    for (std::size_t i = static_cast<std::size_t>(folder_.units()); i < request_.cells.size();
+         ++i) {
+      const PlannedCell& planned = request_.cells[i];
+      say(fmt::format("[{}/{}] {}, {}", i + 1, request_.cells.size(), planned.group, planned.name));
+      if (!measure(planned, i)) {
+        result_.interrupted = true;
+        return result_;
+      }
+      folder_.commit();
+    }
+    folder_.finish();
+    return result_;
+  }
+
+ private:
+  static record::ResultFolderPlan plan(const CellRequest& request,
+                                       const std::filesystem::path& folder,
+                                       record::FolderStart start) {
+    record::ResultFolderPlan plan;
+    plan.folder = folder;
+    plan.files = {{"grades.csv", record::header_of<GradeRow>()},
+                  {"raw.csv", record::header_of<CellSampleRow>()}};
+    plan.identity = {{"cells", request.name},
+                     {"rounds", std::to_string(request.rounds)},
+                     {"sample_seconds", fmt::format("{}", request.sample_seconds)},
+                     {"order_seed", std::to_string(request.seed)}};
+    plan.identity.insert(plan.identity.end(), request.identity.begin(), request.identity.end());
+    for (auto& fact : record::machine_facts()) plan.identity.push_back(std::move(fact));
+    plan.start = start;
+    plan.removed = {"times.csv", "best.csv", "tables.md"};
+    return plan;
+  }
+
+  void note(const GradeRow& row) {
+    const bool right = row.missed == 0 && row.false_hits == 0 && row.other == 0;
+    result_.ours_wrong |=
+        row.origin == "ours" && !row.approximate && (!right || row.status != "ok");
+  }
+  void note_earlier_grades() {
+    folder_.each_row<GradeRow>(grades_file, [&](const GradeRow& row) { note(row); });
+  }
+
+  // Returns false if it was interrupted.
+  bool measure(const PlannedCell& planned, std::size_t number) {
+    const Cell cell = planned.make();
+    const std::vector<Graded> graded = grade(cell, request_.time_limit);
+    std::vector<std::size_t> timed;
+    for (std::size_t i = 0; i < graded.size(); ++i) {
+      write_grade(planned, cell, cell.contestants[i], graded[i]);
+      if (graded[i].state == process::ItemState::done && graded[i].seconds <= request_.time_limit)
+        timed.push_back(i);
+    }
+    for (const std::size_t i : timed) cell.contestants[i].answer();  // what is cold is not timed
+    for (int round = 0; round < request_.rounds; ++round) {
+      if (process::InterruptGuard::raised()) return false;
+      time_round(planned, cell, graded, round,
+                 shuffled(timed, base::Random(request_.seed, number << 16 | unsigned(round))));
+    }
+    return true;
+  }
+
+  void write_grade(const PlannedCell& planned, const Cell& cell, const Contestant& contestant,
+                   const Graded& graded) {
+    GradeRow row;
+    row.group = planned.group;
+    row.cell = planned.name;
+    row.algorithm = contestant.name;
+    row.origin = to_string(contestant.origin);
+    row.approximate = contestant.approximate;
+    row.queries = cell.queries;
+    row.missed = graded.grade.missed;
+    row.false_hits = graded.grade.false_hits;
+    row.other = graded.grade.other;
+    row.unknown = graded.grade.unknown;
+    row.error = graded.grade.error;
+    row.status = to_string(graded.state);
+    note(row);
+    folder_.write(grades_file, row);
+  }
+
+  void time_round(const PlannedCell& planned, const Cell& cell, const std::vector<Graded>& graded,
+                  int round, const std::vector<std::size_t>& order) {
+    const measure::NoiseReading before = measure::NoiseReading::now();
+    const base::Stopwatch whole;
+    std::vector<CellSampleRow> rows;
+    for (std::size_t position = 0; position < order.size(); ++position) {
+      const std::size_t i = order[position];
+      CellSampleRow row;
+      row.group = planned.group;
+      row.cell = planned.name;
+      row.algorithm = cell.contestants[i].name;
+      row.round = round;
+      row.position = static_cast<std::int64_t>(position);
+      row.repeats = static_cast<std::int64_t>(std::clamp(
+          std::ceil(request_.sample_seconds / std::max(graded[i].seconds, 1e-7)), 1.0, 1e6));
+      const base::Stopwatch watch;
+      for (std::int64_t k = 0; k < row.repeats; ++k) cell.contestants[i].answer();
+      row.seconds = watch.seconds() / static_cast<double>(row.repeats) /
+                    static_cast<double>(std::max<std::int64_t>(cell.queries, 1));
+      rows.push_back(row);
+    }
+    const std::string noise =
+        measure::noise_judge()(before, measure::NoiseReading::now(), whole.seconds(), 0);
+    for (CellSampleRow& row : rows) {
+      row.noise = noise;
+      folder_.write(raw_file, row);
+    }
+  }
+
+  const CellRequest& request_;
+  record::ResultFolder folder_;
+  CellRunResult result_;
+};
+
+}  // namespace
+
+CellRunResult run_cells(const CellRequest& request, const std::filesystem::path& folder,
+                        record::FolderStart start,
+                        const std::function<void(const std::string&)>& say) {
+  return CellRun(request, folder, start).run(say);
+}
+
+}  // namespace touchstone::cells

@@ -1,0 +1,15 @@
+// The kinds of cells. Each reads its own keys of a table [cells] and makes its cells.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "harness/cells/cell.h"
+#include "harness/files/toml_table.h"
+
+namespace touchstone::cells {
+
+// Files are relative to `home`. Throw InputError with file, line and what was expected.
+std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesystem::path& home);
+
+}  // namespace touchstone::cells

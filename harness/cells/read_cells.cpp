@@ -1,0 +1,50 @@
+// Reads a table [cells]: what all kinds have, then what is the kind's own.
+#include "harness/cells/read_cells.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "harness/base/hash.h"
+#include "harness/cells/kinds.h"
+#include "harness/files/text_file.h"
+#include "harness/files/toml_table.h"
+
+namespace touchstone::cells {
+namespace {
+
+using MakeCells = std::vector<PlannedCell> (*)(files::TomlTable&, const std::filesystem::path&);
+constexpr std::array<std::string_view, 1> kinds = {"rays"};
+constexpr std::array<MakeCells, 1> makers = {ray_cells};
+
+std::string fingerprint(const std::string& text) {
+  std::uint64_t hash = 0;
+  for (const char c : text) hash = base::mix(hash ^ static_cast<unsigned char>(c));
+  return base::to_hex(hash);
+}
+
+}  // namespace
+
+bool has_cells(const std::filesystem::path& file) { return files::has_key(file, "cells"); }
+
+CellRequest read_cells(const std::filesystem::path& file) {
+  const toml::table root = files::parse_toml(file);
+  files::TomlTable top(root, file.string(), "");
+  CellRequest request;
+  request.name = top.text("name", file.stem().string());
+  files::TomlTable table = top.inside("cells", "cells");
+  request.rounds = static_cast<int>(table.integer("rounds", 6, 10'000, request.rounds));
+  request.sample_seconds = table.number("sample_seconds", files::positive, request.sample_seconds);
+  request.time_limit = table.number("time_limit", files::positive, request.time_limit);
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  request.seed = static_cast<std::uint64_t>(table.integer("order_seed", 0, most, 1));
+  request.cells = makers[table.choice("kind", kinds)](table, file.parent_path());
+  table.finish();
+  top.finish();
+  request.identity = {{"cells_hash", fingerprint(files::read_text(file))}};
+  return request;
+}
+
+}  // namespace touchstone::cells

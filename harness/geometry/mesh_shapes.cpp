@@ -1,0 +1,137 @@
+// Grids of quadrilaterals, bent to tori, knots, ellipsoids and hills.
+#include "harness/geometry/mesh_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "harness/base/plain_math.h"
+#include "harness/base/random.h"
+#include "harness/base/reproducible_math.h"
+
+namespace touchstone::geometry {
+namespace {
+
+using Index = std::uint32_t;
+
+Vec3d as_floats(const Vec3d& v) { return v.cast<float>().cast<double>(); }
+
+double part(std::size_t i, std::size_t n) {
+  return static_cast<double>(i) / static_cast<double>(n);
+}
+
+// Splits the quadrilateral of four vertices, anticlockwise, into two triangles.
+void add_quadrilateral(Mesh& mesh, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+  const auto at = [](std::size_t i) { return static_cast<Index>(i); };
+  mesh.triangles.push_back({at(a), at(b), at(c)});
+  mesh.triangles.push_back({at(a), at(c), at(d)});
+}
+
+// A grid that closes on itself both ways. `point` takes two numbers of turns.
+Mesh closed_grid(std::size_t along, std::size_t across,
+                 const std::function<Vec3d(double, double)>& point) {
+  Mesh mesh;
+  for (std::size_t i = 0; i < along; ++i) {
+    for (std::size_t k = 0; k < across; ++k)
+      mesh.vertices.push_back(as_floats(point(part(i, along), part(k, across))));
+  }
+  for (std::size_t i = 0; i < along; ++i) {
+    const std::size_t next = (i + 1) % along;
+    for (std::size_t k = 0; k < across; ++k) {
+      const std::size_t above = (k + 1) % across;
+      add_quadrilateral(mesh, i * across + k, next * across + k, next * across + above,
+                        i * across + above);
+    }
+  }
+  return mesh;
+}
+
+// A point of the trefoil knot.
+Vec3d on_trefoil(double turns) {
+  const auto one = base::sin_cos_turns(turns), two = base::sin_cos_turns(2 * turns),
+             three = base::sin_cos_turns(3 * turns);
+  return {0.5 * (one.sin + 2 * two.sin), 0.5 * (one.cos - 2 * two.cos), -0.5 * three.sin};
+}
+
+}  // namespace
+
+Mesh torus(std::size_t around, std::size_t across, double tube_radius) {
+  return closed_grid(around, across, [&](double u, double v) {
+    const auto ring = base::sin_cos_turns(u), tube = base::sin_cos_turns(v);
+    const double radius = 1 + tube_radius * tube.cos;
+    return Vec3d(radius * ring.cos, radius * ring.sin, tube_radius * tube.sin);
+  });
+}
+
+Mesh trefoil(std::size_t along, std::size_t across, double tube_radius) {
+  return closed_grid(along, across, [&](double u, double v) {
+    // The tube's rings stand across the knot; any direction that turns smoothly with it fixes their start.
+    constexpr double step = 1e-4;
+    const Vec3d centre = on_trefoil(u);
+    const Vec3d tangent = base::unit(on_trefoil(u + step) - on_trefoil(u - step));
+    const Vec3d right = base::beside(tangent, centre), up = base::outer(right, tangent);
+    const auto tube = base::sin_cos_turns(v);
+    return Vec3d(centre + tube_radius * (tube.cos * right + tube.sin * up));
+  });
+}
+
+Mesh ellipsoid_with_poles(const Vec3d& radii, std::size_t stacks, std::size_t slices) {
+  Mesh mesh;
+  for (std::size_t i = 1; i < stacks; ++i) {
+    const auto height = base::sin_cos_turns(0.5 * part(i, stacks));
+    for (std::size_t k = 0; k < slices; ++k) {
+      const auto ring = base::sin_cos_turns(part(k, slices));
+      mesh.vertices.push_back(as_floats(
+          radii.cwiseProduct(Vec3d(height.sin * ring.cos, height.sin * ring.sin, -height.cos))));
+    }
+  }
+  const std::size_t bottom = mesh.vertices.size(), top = bottom + 1, last = (stacks - 2) * slices;
+  mesh.vertices.push_back(as_floats({0, 0, -radii.z()}));
+  mesh.vertices.push_back(as_floats({0, 0, radii.z()}));
+  const auto at = [](std::size_t i) { return static_cast<Index>(i); };
+  for (std::size_t k = 0; k < slices; ++k) {
+    const std::size_t next = (k + 1) % slices;
+    mesh.triangles.push_back({at(bottom), at(next), at(k)});
+    for (std::size_t i = 0; i + 2 < stacks; ++i) {
+      add_quadrilateral(mesh, i * slices + k, i * slices + next, (i + 1) * slices + next,
+                        (i + 1) * slices + k);
+    }
+    mesh.triangles.push_back({at(last + k), at(last + next), at(top)});
+  }
+  return mesh;
+}
+
+Mesh terrain(std::size_t cells, double height, std::uint64_t seed) {
+  // Value noise of octaves: each has half the height and twice the points of the one before.
+  Mesh mesh;
+  const auto noise = [&](int octave, double x, double y) {
+    const double scale = std::ldexp(1.0, octave);
+    const double u = (x + 1) * scale, v = (y + 1) * scale;
+    const double i = std::floor(u), k = std::floor(v), s = u - i, t = v - k;
+    const auto at = [&](double column, double row) {
+      const auto number =
+          static_cast<std::uint64_t>(column) << 24 | static_cast<std::uint64_t>(row);
+      return base::Random(seed, number << 6 | static_cast<std::uint64_t>(octave)).uniform(-1, 1);
+    };
+    const double low = at(i, k) * (1 - s) + at(i + 1, k) * s;
+    const double high = at(i, k + 1) * (1 - s) + at(i + 1, k + 1) * s;
+    return (low * (1 - t) + high * t) / scale;
+  };
+  for (std::size_t row = 0; row <= cells; ++row) {
+    for (std::size_t column = 0; column <= cells; ++column) {
+      const double x = 2 * part(column, cells) - 1, y = 2 * part(row, cells) - 1;
+      double z = 0;
+      for (int octave = 1; octave <= 6; ++octave) z += height * noise(octave, x, y);
+      mesh.vertices.push_back(as_floats({x, y, z}));
+    }
+  }
+  for (std::size_t row = 0; row < cells; ++row) {
+    for (std::size_t column = 0; column < cells; ++column) {
+      const std::size_t a = row * (cells + 1) + column, d = a + cells + 1;
+      add_quadrilateral(mesh, a, a + 1, d + 1, d);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace touchstone::geometry

@@ -1,0 +1,29 @@
+// Triangle meshes of simple bodies that are not convex, or that strain algorithms. Used by cells and
+// tests.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "harness/geometry/mesh.h"
+
+namespace touchstone::geometry {
+
+// All coordinates are floats (metres), the same on every machine. The first three are closed, their
+// triangles anticlockwise seen from outside. Counts are at least 3.
+
+// A ring around z: `around` quadrilaterals along the centre line of radius 1, `across` around the tube of
+// this radius (below 1).
+Mesh torus(std::size_t around, std::size_t across, double tube_radius);
+
+// A tube around a trefoil knot that is about 3 across: `along` quadrilaterals along it, `across` around it.
+Mesh trefoil(std::size_t along, std::size_t across, double tube_radius);
+
+// The ellipsoid of these semi-axes: `stacks` rings of `slices` triangles. Both poles have `slices` triangles.
+Mesh ellipsoid_with_poles(const Vec3d& radii, std::size_t stacks, std::size_t slices);
+
+// A square of hills over [-1, 1] on x and y, `cells` by `cells` quadrilaterals; heights by
+// octaves of value noise from this seed.
+Mesh terrain(std::size_t cells, double height, std::uint64_t seed);
+
+}  // namespace touchstone::geometry
