@@ -35,8 +35,8 @@ struct RayHit {
 
   bool hit = false;
   Status status = Status::unsupported;
-  std::uint32_t triangle = no_triangle;
-  // NaN without a hit. The point is vertex 0 + u * (vertex 1 - vertex 0) + v * (vertex 2 - vertex 0).
+  std::uint32_t triangle = no_triangle;  // without a hit, and where `any` of a peer does not tell
+  // NaN in the same cases. The point is vertex 0 + u * (vertex 1 - vertex 0) + v * (vertex 2 - vertex 0).
   double t = Outcome::none;
   double u = Outcome::none, v = Outcome::none;
 };
