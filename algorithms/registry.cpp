@@ -9,6 +9,7 @@ namespace touchstone {
 std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
+std::vector<RayCastEntry> list_ray_casts();
 
 namespace {
 
@@ -36,6 +37,11 @@ std::span<const ManifoldEntry> contact_manifolds() {
   return list;
 }
 
+std::span<const RayCastEntry> ray_casts() {
+  static const std::vector<RayCastEntry> list = list_ray_casts();
+  return list;
+}
+
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
 }
@@ -45,6 +51,7 @@ const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
 const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
 }
+const RayCastEntry* find_ray_cast(std::string_view name) { return find(ray_casts(), name); }
 
 bool offers(const NarrowPhaseEntry& entry, Task task) {
   return std::ranges::find(entry.tasks, task) != entry.tasks.end();
@@ -63,6 +70,14 @@ bool offers(const ManifoldEntry& entry, Precision scalar) {
   return std::ranges::find(entry.scalars, scalar) != entry.scalars.end();
 }
 
+bool offers(const RayCastEntry& entry, RayTask task) {
+  return std::ranges::find(entry.tasks, task) != entry.tasks.end();
+}
+
+bool offers(const RayCastEntry& entry, Precision scalar) {
+  return std::ranges::find(entry.scalars, scalar) != entry.scalars.end();
+}
+
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b) {
   return entry.supports == nullptr || entry.supports(std::min(a, b), std::max(a, b));
 }
@@ -78,6 +93,14 @@ std::string_view to_string(Origin origin) {
     case Origin::ours: return "ours";
     case Origin::peer: return "peer";
     case Origin::oracle: return "oracle";
+  }
+  return "?";
+}
+
+std::string_view to_string(RayTask task) {
+  switch (task) {
+    case RayTask::closest: return "closest";
+    case RayTask::any: return "any";
   }
   return "?";
 }

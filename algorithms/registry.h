@@ -12,6 +12,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/contact_manifold.h"
 #include "algorithms/narrow_phase.h"
+#include "algorithms/ray_cast.h"
 
 namespace touchstone {
 
@@ -19,11 +20,13 @@ namespace touchstone {
 std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
+std::span<const RayCastEntry> ray_casts();
 
 // Each returns null if no entry has that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
+const RayCastEntry* find_ray_cast(std::string_view name);
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);
@@ -31,6 +34,8 @@ bool offers(const NarrowPhaseEntry& entry, Precision scalar);
 // True if the entry offers the task for these kinds, in either order.
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
 bool offers(const ManifoldEntry& entry, Precision scalar);
+bool offers(const RayCastEntry& entry, RayTask task);
+bool offers(const RayCastEntry& entry, Precision scalar);
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // kinds in either order
 // The encoding of a pair of these kinds, in either order.
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,

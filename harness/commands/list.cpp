@@ -47,6 +47,9 @@ std::vector<Listed> all_algorithms() {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
   }
+  for (const RayCastEntry& entry : ray_casts()) {
+    all.push_back({&entry.info, "ray", joined(entry.tasks), joined(entry.scalars)});
+  }
   return all;
 }
 

@@ -48,6 +48,14 @@ TEST(Registry, ContactManifoldsAreWellDescribed) {
   }
 }
 
+TEST(Registry, RayCastsAreWellDescribed) {
+  check_info(ray_casts());
+  for (const RayCastEntry& entry : ray_casts()) {
+    EXPECT_TRUE(offers(entry, RayTask::closest)) << entry.info.name;
+    EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
+  }
+}
+
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const BroadPhaseEntry& entry : broad_phases()) {
     EXPECT_EQ(find_broad_phase(entry.info.name), &entry);
@@ -58,6 +66,10 @@ TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     EXPECT_EQ(find_contact_manifold(entry.info.name), &entry);
   }
+  for (const RayCastEntry& entry : ray_casts()) {
+    EXPECT_EQ(find_ray_cast(entry.info.name), &entry);
+  }
+  EXPECT_EQ(find_ray_cast("gjk"), nullptr);
   EXPECT_EQ(find_contact_manifold("gjk"), nullptr);
   EXPECT_EQ(find_broad_phase("no such"), nullptr);
   EXPECT_EQ(find_narrow_phase(""), nullptr);

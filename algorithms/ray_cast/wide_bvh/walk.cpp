@@ -1,0 +1,103 @@
+// The ray in the tree's frame, and the choice of the instruction level.
+#include "algorithms/ray_cast/wide_bvh/walk.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/kernels/simd/vector.h"
+
+namespace touchstone::ray_tree {
+namespace {
+
+constexpr double unit = 0x1p-53;        // a double's rounding
+constexpr double float_unit = 0x1p-24;  // a float's
+
+// A child whose box is met at tau = near.
+struct Met {
+  std::int32_t child;
+  float near;
+};
+
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/ray_cast/wide_bvh/walk.inl"
+#include "algorithms/kernels/simd/foreach_target.inl"
+
+}  // namespace
+
+float LocalRay::tau_end(double t) const {
+  return round_up((t * per_t) * (1 + 0x1p-40) - moved * (1 - 0x1p-40) +
+                  static_cast<double>(tau_off));
+}
+
+bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
+  const Frame& frame = mesh.frame();
+  const Vec3d from = (ray.origin - frame.centre) * frame.scale;
+  const double reach = from.cwiseAbs().maxCoeff();
+  if (!(reach < 0x1p30)) return false;
+  Eigen::Index z = 0;
+  const double greatest = ray.direction.cwiseAbs().maxCoeff(&z);
+  const int exponent = std::ilogb(greatest);
+  if (std::abs(exponent) > 900) return false;
+  const Vec3d direction = ray.direction * std::ldexp(1.0, -exponent);
+  local.per_t = std::ldexp(frame.scale, exponent);
+
+  // The tree lies within 1 of the frame's centre on each axis. The ray comes that near at `enter` at
+  // the soonest; the margin is far more than the rounding.
+  double enter = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double gap = std::abs(from[axis]) - 1;
+    if (gap > 0 && from[axis] * direction[axis] < 0) {
+      enter = std::max(enter, gap / std::abs(direction[axis]));
+    }
+  }
+  // A ray that comes near after so long a way misses the mesh, or comes nearer on another axis.
+  local.moved = enter < 0x1p31 ? std::max(0.0, enter * (1 - 0x1p-40) - 0x1p-10) : 0.0;
+  const Vec3d origin = from + local.moved * direction;
+  const double off_double = 8 * unit * (reach + 2 * local.moved);
+  const double origin_reach = origin.cwiseAbs().maxCoeff();
+
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const double along = std::abs(direction[k]) < 0x1p-60 ? 0.0 : direction[k];
+    const bool forward = along >= 0;
+    // 2^-50 is more than a component that was left out moves the ray over the whole way.
+    const double off = off_double + 0x1p-50;
+    const double ahead = origin[k] + off, behind = origin[k] - off;
+    local.near_origin[axis] = forward ? round_up(ahead) : round_down(behind);
+    local.far_origin[axis] = forward ? round_down(behind) : round_up(ahead);
+    local.inverse[axis] = static_cast<float>(1 / (along == 0 ? 0.0 : along));
+    local.near[axis] = forward ? axis : axis + 3;
+    local.far[axis] = forward ? axis + 3 : axis;
+  }
+  local.axes = {static_cast<std::size_t>((z + 1) % 3), static_cast<std::size_t>((z + 2) % 3),
+                static_cast<std::size_t>(z)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    local.origin[k] = static_cast<float>(origin[static_cast<Eigen::Index>(local.axes[k])]);
+  }
+  const auto along = [&](std::size_t k) {
+    return direction[static_cast<Eigen::Index>(local.axes[k])];
+  };
+  local.shear_x = static_cast<float>(along(0) / along(2));
+  local.shear_y = static_cast<float>(along(1) / along(2));
+  local.inverse_z = static_cast<float>(1 / along(2));
+  // A vertex seen from the origin is up to `seen` long. Its coordinate is off by the vertex's own
+  // rounding (none if the leaves are exact), the origin's in doubles and in floats, and one of the
+  // difference. The sheared one has two such errors, the shear's rounding, a product's and a sum's.
+  const double seen = 1 + origin_reach;
+  const double coordinate = (mesh.is_exact() ? 0 : float_unit) + off_double +
+                            float_unit * origin_reach + float_unit * seen;
+  local.off = round_up(1.01 * (2 * coordinate + 4 * float_unit * seen));
+  local.tau_off = round_up(1.01 * (coordinate + 3 * float_unit * seen));
+  return true;
+}
+
+void walk(const RayMesh& mesh, const LocalRay& local, RayTask task, RayQuery& query) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::walk_tree(mesh, local, task, query);
+    case Isa::avx2: return avx2::walk_tree(mesh, local, task, query);
+    case Isa::baseline: return baseline::walk_tree(mesh, local, task, query);
+  }
+}
+
+}  // namespace touchstone::ray_tree

@@ -1,0 +1,99 @@
+// Tests of touchstone rays.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "algorithms/registry.h"
+#include "tests/harness/commands/program.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<std::string> columns_of_rays = {"ray",      "algorithm", "scalar", "hit",   "t",
+                                                  "triangle", "u",         "v",      "status"};
+// Two triangles, one behind the other.
+const std::string two_triangles =
+    "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 0 2 1\nf 1 2 3\nf 4 5 6\n";
+const std::string header = "origin_x,origin_y,origin_z,direction_x,direction_y,direction_z,t_max\n";
+
+TEST(RaysCommand, OneRowForEachRayAndCast) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("two.obj", two_triangles);
+  const auto rays = folder.write(
+      "rays.csv", header + "0.5,0.25,3,0,0,-1,inf\n0.5,0.25,3,0,0,-4,0.25\n5,5,3,0,0,-1,inf\n");
+  const auto out = folder.path() / "out.csv";
+  for (const std::string scalar : {"float", "double"}) {
+    const Ran ran = run_program("rays " + mesh.string() + " --rays " + rays.string() +
+                                " --cast wide-bvh,exact --task closest --scalar " + scalar +
+                                " --out " + out.string());
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    const auto rows = read_rows(out, columns_of_rays);
+    ASSERT_EQ(rows.size(), 6u);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::string name = i % 2 == 0 ? "wide-bvh" : "exact";
+      using Row = std::vector<std::string>;
+      const std::vector<Row> expected = {{"0", name, scalar, "1", "2", "1", "0.25", "0.125", "ok"},
+                                         {"1", name, scalar, "0", "", "", "", "", "ok"},
+                                         {"2", name, scalar, "0", "", "", "", "", "ok"}};
+      EXPECT_EQ(rows[i], expected[i / 2]);
+    }
+  }
+}
+
+TEST(RaysCommand, AllAnswerWhetherThereIsAnyHit) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("two.obj", two_triangles);
+  const auto rays = folder.write("rays.csv", header + "0.5,0.25,3,0,0,-1,4\n5,5,3,0,0,-1,inf\n");
+  const auto out = folder.path() / "out.csv";
+  const Ran ran = run_program("rays " + mesh.string() + " --rays " + rays.string() +
+                              " --cast all --task any --scalar float --out " + out.string());
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  std::size_t asked = 0;
+  for (const auto& row : read_rows(out, columns_of_rays)) {
+    const RayCastEntry& entry = *find_ray_cast(row[1]);
+    if (!offers(entry, RayTask::any) || !offers(entry, Precision::float32)) {
+      EXPECT_EQ(row[8], "unsupported");
+      continue;
+    }
+    ++asked;
+    EXPECT_EQ(row[3], row[0] == "0" ? "1" : "0") << row[1];
+  }
+  EXPECT_GE(asked, 6u);
+}
+
+TEST(RaysCommand, WrongRequests) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("two.obj", two_triangles);
+  const auto good = folder.write("rays.csv", header + "0,0,0,0,0,1,inf\n");
+  const std::string out = " --out " + (folder.path() / "out.csv").string();
+  const auto rays = [&](const std::string& text) {
+    const auto file = folder.write("bad.csv", text);
+    return run_program("rays " + mesh.string() + " --rays " + file.string() +
+                       " --cast exact --task any" + out);
+  };
+  for (const auto& [line, said] : {std::pair{"0,0,0,0,0,0,1", "direction is zero"},
+                                   {"0,0,nan,0,0,1,1", "finite"},
+                                   {"0,0,0,0,0,1,-1", "t_max"},
+                                   {"0,0,0,0,0,1,nan", "t_max"},
+                                   {"0,0,0,0,0,x,1", "direction_z"}}) {
+    const Ran ran = rays(header + "0,0,0,0,0,1,inf\n" + line + "\n");
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_THAT(ran.text, HasSubstr("bad.csv:3:"));
+    EXPECT_THAT(ran.text, HasSubstr(said));
+  }
+  EXPECT_EQ(rays("origin_x,origin_y\n0,0\n").status, 2);
+  const std::string base = "rays " + mesh.string() + " --rays " + good.string();
+  EXPECT_THAT(run_program(base + " --cast nobody --task any" + out).text, HasSubstr("wide-bvh"));
+  EXPECT_EQ(run_program(base + " --cast nobody --task any" + out).status, 2);
+  EXPECT_EQ(run_program(base + " --cast exact --task all" + out).status, 2);
+  EXPECT_EQ(run_program("rays none.obj --rays " + good.string() + " --cast exact --task any" + out)
+                .status,
+            2);
+}
+
+}  // namespace
+}  // namespace touchstone
