@@ -33,6 +33,7 @@ struct Contestant {
 // The contestants refer to the queries, which they keep alive.
 struct Cell {
   std::int64_t queries = 0;
+  std::int64_t graded = 0;  // the first so many are held against exact answers
   std::vector<Contestant> contestants;
 };
 

@@ -13,7 +13,7 @@ namespace touchstone::cells {
 struct GradeRow {
   std::string group, cell, algorithm, origin;
   bool approximate = false;
-  std::int64_t queries = 0, missed = 0, false_hits = 0, other = 0, unknown = 0;
+  std::int64_t queries = 0, graded = 0, missed = 0, false_hits = 0, other = 0, unknown = 0;
   double error = Outcome::none;
   std::string status;
 };
@@ -25,6 +25,7 @@ void columns(Row& row, Visit visit) {
   visit("origin", row.origin, "ours, peer or oracle.");
   visit("approximate", row.approximate, "1: its errors are known, and are no fault.");
   visit("queries", row.queries, "Queries of the cell.");
+  visit("graded", row.graded, "Queries that were held against exact answers, the first ones.");
   visit("missed", row.missed, "Queries with a no where the exact answer is yes.");
   visit("false_hits", row.false_hits, "Queries with a yes where the exact answer is no.");
   visit("other", row.other, "Queries with another number, triangle or time than the exact one.");

@@ -99,7 +99,7 @@ class CellRun {
   void note(const GradeRow& row) {
     const bool right = row.missed == 0 && row.false_hits == 0 && row.other == 0;
     result_.ours_wrong |=
-        row.origin == "ours" && !row.approximate && (!right || row.status != "ok");
+        row.origin == "ours" && !row.approximate && (!right || row.status == "crashed");
   }
   void note_earlier_grades() {
     folder_.each_row<GradeRow>(grades_file, [&](const GradeRow& row) { note(row); });
@@ -133,6 +133,7 @@ class CellRun {
     row.origin = to_string(contestant.origin);
     row.approximate = contestant.approximate;
     row.queries = cell.queries;
+    row.graded = cell.graded;
     row.missed = graded.grade.missed;
     row.false_hits = graded.grade.false_hits;
     row.other = graded.grade.other;

@@ -158,8 +158,9 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
       sections += fmt::format("## {}\n\n", group);
     }
     sections +=
-        fmt::format("### {}\n\n{} queries.\n\n{}\n", cell.name.second,
-                    cell.rows.empty() ? 0 : cell.rows.front().grade.queries, table_of(cell));
+        fmt::format("### {}\n\n{} queries, {} of them held against exact answers.\n\n{}\n",
+                    cell.name.second, cell.rows.empty() ? 0 : cell.rows.front().grade.queries,
+                    cell.rows.empty() ? 0 : cell.rows.front().grade.graded, table_of(cell));
     if (!cell.best) continue;
     bests.push_back(*cell.best);
     const auto number = [](double x) {

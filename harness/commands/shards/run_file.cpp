@@ -104,8 +104,9 @@ int run_file(const RunFileOptions& options) {
 
 void add_run_file(Arguments command) {
   const auto options = std::make_shared<RunFileOptions>();
-  const Option file = command.text("campaign", options->file,
-                                   "A file with a table [trade], [check], [stress], [soak] or [cells]");
+  const Option file =
+      command.text("campaign", options->file,
+                   "A file with a table [trade], [check], [stress], [soak] or [cells]");
   command.text("--out", options->out, "Folder (default: results/local/NAME in the project)")
       .needs(file);
   command
