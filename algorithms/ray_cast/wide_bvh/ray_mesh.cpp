@@ -31,32 +31,18 @@ RayMesh::Corners RayMesh::corners(std::uint32_t triangle) const {
   return {vertex(a), vertex(b), vertex(c)};
 }
 
-RayMesh::Corners RayMesh::corners(const Leaf& leaf, std::size_t lane) const {
-  if (!exact_) return corners(leaf.triangle[lane]);
-  const double size = 1 / frame_.scale;
-  Corners at;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto x =
-          static_cast<double>(leaf.corners[3 * k + static_cast<std::size_t>(axis)][lane]);
-      at[k][axis] = x * size + frame_.centre[axis];
-    }
-  }
-  return at;
-}
-
 // Takes the frame, and finds out whether all vertices are floats in it.
 bool RayMesh::try_frame(const Frame& frame) {
   frame_ = frame;
   exact_ = true;
-  const double size = 1 / frame.scale;
+  size_ = 1 / frame.scale;
   for (const auto& triangle : mesh_->triangles) {
     for (const std::uint32_t number : triangle) {
       const Vec3d v = vertex(number);
       for (int axis = 0; axis < 3; ++axis) {
         const DoubleDouble from_centre = DoubleDouble::sum(v[axis], -frame.centre[axis]);
         const double local = nearest_float(from_centre.high * frame.scale);
-        if (from_centre.low == 0 && local * size == from_centre.high) continue;
+        if (from_centre.low == 0 && local * size_ == from_centre.high) continue;
         exact_ = false;
         return false;
       }

@@ -38,9 +38,20 @@ class RayMesh {
   std::size_t triangles() const { return mesh_->triangles.size(); }
 
   using Corners = std::array<Vec3d, 3>;
-  // The vertices of a triangle as they are, and those in a lane of a leaf.
+  // The vertices of a triangle as they are.
   Corners corners(std::uint32_t triangle) const;
-  Corners corners(const Leaf& leaf, std::size_t lane) const;
+  // Those of a leaf's lane, from the leaf itself if it is exact.
+  Corners corners(const Leaf& leaf, std::size_t lane) const {
+    if (!exact_) return corners(leaf.triangle[lane]);
+    const auto vertex = [&](std::size_t k) {
+      const auto at = [&](std::size_t axis) {
+        return static_cast<double>(leaf.corners[3 * k + axis][lane]) * size_ +
+               frame_.centre[static_cast<int>(axis)];
+      };
+      return Vec3d(at(0), at(1), at(2));
+    };
+    return {vertex(0), vertex(1), vertex(2)};
+  }
 
  private:
   Vec3d vertex(std::uint32_t number) const;
@@ -49,6 +60,7 @@ class RayMesh {
   const TriangleMesh* mesh_;
   Precision scalar_;
   Frame frame_;
+  double size_ = 1;  // 1 / scale
   bool exact_ = false;
   WideBvh tree_;
   std::vector<Leaf> leaves_;

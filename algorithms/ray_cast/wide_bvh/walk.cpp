@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
-#include "algorithms/core/aabb.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone::ray_tree {
@@ -20,14 +21,29 @@ struct Met {
   float near;
 };
 
+// A float that is not less than x, and one that is not greater; off by less than two of its digits.
+float widened_up(double x) {
+  const auto f = static_cast<float>(x);
+  return f + std::abs(f) * 0x1p-23F + 0x1p-100F;
+}
+float widened_down(double x) { return -widened_up(-x); }
+
+// 2^exponent, for exponents of normal numbers.
+double power_of_two(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
+int exponent_of(double normal) {
+  return static_cast<int>(std::bit_cast<std::uint64_t>(normal) >> 52 & 0x7ff) - 1023;
+}
+
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/ray_cast/wide_bvh/walk.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace
 
 float LocalRay::tau_end(double t) const {
-  return round_up((t * per_t) * (1 + 0x1p-40) - moved * (1 - 0x1p-40) +
-                  static_cast<double>(tau_off));
+  return widened_up((t * per_t) * (1 + 0x1p-40) - moved * (1 - 0x1p-40) +
+                    static_cast<double>(tau_off));
 }
 
 bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
@@ -37,10 +53,10 @@ bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
   if (!(reach < 0x1p30)) return false;
   Eigen::Index z = 0;
   const double greatest = ray.direction.cwiseAbs().maxCoeff(&z);
-  const int exponent = std::ilogb(greatest);
+  const int exponent = exponent_of(greatest);
   if (std::abs(exponent) > 900) return false;
-  const Vec3d direction = ray.direction * std::ldexp(1.0, -exponent);
-  local.per_t = std::ldexp(frame.scale, exponent);
+  const Vec3d direction = ray.direction * power_of_two(-exponent);
+  local.per_t = frame.scale * power_of_two(exponent);
 
   // The tree lies within 1 of the frame's centre on each axis. The ray comes that near at `enter` at
   // the soonest; the margin is far more than the rounding.
@@ -64,8 +80,9 @@ bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
     // 2^-50 is more than a component that was left out moves the ray over the whole way.
     const double off = off_double + 0x1p-50;
     const double ahead = origin[k] + off, behind = origin[k] - off;
-    local.near_origin[axis] = forward ? round_up(ahead) : round_down(behind);
-    local.far_origin[axis] = forward ? round_down(behind) : round_up(ahead);
+    local.near_origin[axis] = forward ? widened_up(ahead) : widened_down(behind);
+    local.far_origin[axis] = forward ? widened_down(behind) : widened_up(ahead);
+    // Zero counts as positive, whatever its sign.
     local.inverse[axis] = static_cast<float>(1 / (along == 0 ? 0.0 : along));
     local.near[axis] = forward ? axis : axis + 3;
     local.far[axis] = forward ? axis + 3 : axis;
@@ -87,8 +104,8 @@ bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
   const double seen = 1 + origin_reach;
   const double coordinate = (mesh.is_exact() ? 0 : float_unit) + off_double +
                             float_unit * origin_reach + float_unit * seen;
-  local.off = round_up(1.01 * (2 * coordinate + 4 * float_unit * seen));
-  local.tau_off = round_up(1.01 * (coordinate + 3 * float_unit * seen));
+  local.off = widened_up(1.01 * (2 * coordinate + 4 * float_unit * seen));
+  local.tau_off = widened_up(1.01 * (coordinate + 3 * float_unit * seen));
   return true;
 }
 

@@ -12,38 +12,50 @@ using Vector = Lanes::Vector;
 // Lanes [part, part + width) of the eight.
 constexpr std::size_t width = Lanes::width;
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector axis_near(const WideNode& node, const LocalRay& ray,
-                                                     std::size_t axis, std::size_t part) {
-  return (Lanes::load(&node.planes[ray.near[axis]][part]) -
-          Lanes::broadcast(ray.near_origin[axis])) *
-         Lanes::broadcast(ray.inverse[axis]);
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector axis_far(const WideNode& node, const LocalRay& ray,
-                                                    std::size_t axis, std::size_t part) {
-  return (Lanes::load(&node.planes[ray.far[axis]][part]) -
-          Lanes::broadcast(ray.far_origin[axis])) *
-         Lanes::broadcast(ray.inverse[axis]);
-}
+// What a node's boxes are met with.
+struct Slabs {
+  Vector near_x, near_y, near_z, far_x, far_y, far_z;  // origins of near and far planes
+  Vector inverse_x, inverse_y, inverse_z;
+  const LocalRay& ray;
 
-// The children that the ray meets before tau_end, as bits; `near` gets where. A NaN, of a plane at
-// the origin of a ray along it, is the first operand of min and max, which then give the second.
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned meet(const WideNode& node, const LocalRay& ray,
-                                                  float tau_end, float* near) {
-  // Both ends have three roundings, so that an end that is met before its beginning is met after it
-  // by less than eight units.
-  const Vector more = Lanes::broadcast(1 + 16 * static_cast<float>(float_unit));
-  unsigned bits = 0;
-  for (std::size_t part = 0; part < 8; part += width) {
-    Vector begin = Lanes::broadcast(0), end = Lanes::broadcast(tau_end);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      begin = Lanes::max(axis_near(node, ray, axis, part), begin);
-      end = Lanes::min(axis_far(node, ray, axis, part), end);
+  TOUCHSTONE_TARGET explicit Slabs(const LocalRay& r)
+      : near_x(Lanes::broadcast(r.near_origin[0])),
+        near_y(Lanes::broadcast(r.near_origin[1])),
+        near_z(Lanes::broadcast(r.near_origin[2])),
+        far_x(Lanes::broadcast(r.far_origin[0])),
+        far_y(Lanes::broadcast(r.far_origin[1])),
+        far_z(Lanes::broadcast(r.far_origin[2])),
+        inverse_x(Lanes::broadcast(r.inverse[0])),
+        inverse_y(Lanes::broadcast(r.inverse[1])),
+        inverse_z(Lanes::broadcast(r.inverse[2])),
+        ray(r) {}
+
+  // The children that the ray meets before tau_end, as bits; `near` gets where. A NaN, of a plane at
+  // the origin of a ray along it, is the first operand of min and max, which then give the second.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned meet(const WideNode& node, float tau_end,
+                                                    float* near) const {
+    // Both ends have three roundings, so that an end that is met before its beginning is met after
+    // it by less than eight units.
+    const Vector more = Lanes::broadcast(1 + 16 * static_cast<float>(float_unit));
+    const auto& planes = node.planes;
+    unsigned bits = 0;
+    for (std::size_t part = 0; part < 8; part += width) {
+      const Vector begin_x = (Lanes::load(&planes[ray.near[0]][part]) - near_x) * inverse_x;
+      const Vector begin_y = (Lanes::load(&planes[ray.near[1]][part]) - near_y) * inverse_y;
+      const Vector begin_z = (Lanes::load(&planes[ray.near[2]][part]) - near_z) * inverse_z;
+      const Vector end_x = (Lanes::load(&planes[ray.far[0]][part]) - far_x) * inverse_x;
+      const Vector end_y = (Lanes::load(&planes[ray.far[1]][part]) - far_y) * inverse_y;
+      const Vector end_z = (Lanes::load(&planes[ray.far[2]][part]) - far_z) * inverse_z;
+      const Vector begin =
+          Lanes::max(begin_x, Lanes::max(begin_y, Lanes::max(begin_z, Lanes::broadcast(0))));
+      const Vector end =
+          Lanes::min(end_x, Lanes::min(end_y, Lanes::min(end_z, Lanes::broadcast(tau_end))));
+      Lanes::store(near + part, begin);
+      bits |= Lanes::to_bits(Lanes::less_equal(begin, end * more)) << part;
     }
-    Lanes::store(near + part, begin);
-    bits |= Lanes::to_bits(Lanes::less_equal(begin, end * more)) << part;
+    return bits;
   }
-  return bits;
-}
+};
 
 // Vertex k of each triangle from the ray's origin, on one of the ray's axes.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector seen(const Leaf& leaf, const LocalRay& ray,
@@ -95,14 +107,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned possible_hits(const Leaf& leaf, con
 TOUCHSTONE_TARGET void walk_tree(const RayMesh& mesh, const LocalRay& ray, RayTask task,
                                  RayQuery& query) {
   const WideNode* const nodes = mesh.tree().nodes.data();
+  const Slabs slabs(ray);
   std::array<Met, WideBvh::most_open> stack;
-  std::size_t open = 1;
-  stack[0] = {0, 0};
+  std::size_t open = 0;
+  Met now = {0, 0};
   float tau_end = ray.tau_end(query.t_end());
   alignas(64) float near[8];
-  while (open > 0) {
-    const Met now = stack[--open];
-    if (now.near > tau_end) continue;
+  for (;;) {
     if (WideNode::is_leaf(now.child)) {
       const Leaf& leaf = mesh.leaves()[WideNode::leaf(now.child)];
       for (unsigned bits = possible_hits(leaf, ray, tau_end); bits != 0; bits &= bits - 1) {
@@ -112,18 +123,32 @@ TOUCHSTONE_TARGET void walk_tree(const RayMesh& mesh, const LocalRay& ray, RayTa
         if (task == RayTask::any) return;
         tau_end = ray.tau_end(query.t_end());
       }
-      continue;
+    } else {
+      // Lanes without a child have empty boxes, which no ray meets.
+      const WideNode& node = nodes[now.child];
+      unsigned bits = slabs.meet(node, tau_end, near);
+      if (bits != 0) {
+        const auto met = [&] {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          bits &= bits - 1;
+          return Met{node.child[lane], near[lane]};
+        };
+        now = met();
+        // The nearest is next, and the others are on the stack, the nearer the higher.
+        const std::size_t first = open;
+        while (bits != 0) {
+          Met other = met();
+          if (other.near < now.near) std::swap(other, now);
+          std::size_t at = open++;
+          for (; at > first && stack[at - 1].near < other.near; --at) stack[at] = stack[at - 1];
+          stack[at] = other;
+        }
+        continue;
+      }
     }
-    const WideNode& node = nodes[now.child];
-    const std::size_t first = open;
-    for (unsigned bits = meet(node, ray, tau_end, near); bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      const Met met = {node.child[lane], near[lane]};
-      if (met.child == WideNode::no_child) break;
-      // The nearest ends on top.
-      std::size_t at = open++;
-      for (; at > first && stack[at - 1].near < met.near; --at) stack[at] = stack[at - 1];
-      stack[at] = met;
-    }
+    do {
+      if (open == 0) return;
+      now = stack[--open];
+    } while (now.near > tau_end);
   }
 }
