@@ -9,6 +9,8 @@ namespace touchstone {
 std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
+std::vector<MidPhaseEntry> list_mid_phases();
+std::vector<ConcaveEntry> list_concave_phases();
 
 namespace {
 
@@ -36,6 +38,16 @@ std::span<const ManifoldEntry> contact_manifolds() {
   return list;
 }
 
+std::span<const MidPhaseEntry> mid_phases() {
+  static const std::vector<MidPhaseEntry> list = list_mid_phases();
+  return list;
+}
+
+std::span<const ConcaveEntry> concave_phases() {
+  static const std::vector<ConcaveEntry> list = list_concave_phases();
+  return list;
+}
+
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
 }
@@ -44,6 +56,10 @@ const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
 }
 const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
+}
+const MidPhaseEntry* find_mid_phase(std::string_view name) { return find(mid_phases(), name); }
+const ConcaveEntry* find_concave_phase(std::string_view name) {
+  return find(concave_phases(), name);
 }
 
 bool offers(const NarrowPhaseEntry& entry, Task task) {
@@ -63,6 +79,11 @@ bool offers(const ManifoldEntry& entry, Precision scalar) {
   return std::ranges::find(entry.scalars, scalar) != entry.scalars.end();
 }
 
+bool offers(const ConcaveEntry& entry, ConcaveTask task, Precision scalar) {
+  return std::ranges::find(entry.tasks, task) != entry.tasks.end() &&
+         std::ranges::find(entry.scalars, scalar) != entry.scalars.end();
+}
+
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b) {
   return entry.supports == nullptr || entry.supports(std::min(a, b), std::max(a, b));
 }
@@ -71,6 +92,15 @@ Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Ta
                      Precision scalar) {
   if (entry.encoding == nullptr) return Encoding::as_given;
   return entry.encoding(std::min(a, b), std::max(a, b), task, scalar);
+}
+
+std::string_view to_string(ConcaveTask task) {
+  switch (task) {
+    case ConcaveTask::intersect: return "intersect";
+    case ConcaveTask::distance: return "distance";
+    case ConcaveTask::contacts: return "contacts";
+  }
+  return "?";
 }
 
 std::string_view to_string(Origin origin) {

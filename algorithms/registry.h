@@ -10,7 +10,9 @@
 #include <string_view>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/concave_phase.h"
 #include "algorithms/contact_manifold.h"
+#include "algorithms/mid_phase.h"
 #include "algorithms/narrow_phase.h"
 
 namespace touchstone {
@@ -19,11 +21,15 @@ namespace touchstone {
 std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
+std::span<const MidPhaseEntry> mid_phases();
+std::span<const ConcaveEntry> concave_phases();
 
 // Each returns null if no entry has that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
+const MidPhaseEntry* find_mid_phase(std::string_view name);
+const ConcaveEntry* find_concave_phase(std::string_view name);
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);
@@ -31,6 +37,7 @@ bool offers(const NarrowPhaseEntry& entry, Precision scalar);
 // True if the entry offers the task for these kinds, in either order.
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
 bool offers(const ManifoldEntry& entry, Precision scalar);
+bool offers(const ConcaveEntry& entry, ConcaveTask task, Precision scalar);
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // kinds in either order
 // The encoding of a pair of these kinds, in either order.
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,

@@ -47,6 +47,12 @@ std::vector<Listed> all_algorithms() {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
   }
+  for (const MidPhaseEntry& entry : mid_phases()) {
+    all.push_back({&entry.info, "mid", "pairs", std::string(to_string(Precision::float32))});
+  }
+  for (const ConcaveEntry& entry : concave_phases()) {
+    all.push_back({&entry.info, "concave", joined(entry.tasks), joined(entry.scalars)});
+  }
   return all;
 }
 

@@ -58,7 +58,8 @@ bool in(const std::string& path, const std::string& folder) {
 
 bool is_contract(const std::string& path) {
   return path == "algorithms/broad_phase.h" || path == "algorithms/narrow_phase.h" ||
-         path == "algorithms/contact_manifold.h" || path == "algorithms/algorithm_info.h" ||
+         path == "algorithms/contact_manifold.h" || path == "algorithms/mid_phase.h" ||
+         path == "algorithms/concave_phase.h" || path == "algorithms/algorithm_info.h" ||
          path == "algorithms/broad_phase_work.h" || path == "algorithms/encoding.h" ||
          path == "algorithms/limit.h";
 }
@@ -70,6 +71,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"boxes", {"simd"}},
     {"grid", {"boxes", "sorting"}},
     {"bvh", {"boxes", "simd", "sorting"}},
+    {"triangles", {"simd"}},
     {"minkowski", {"simd"}},
     {"epa", {"minkowski", "simd"}},
     {"gjk", {"epa", "minkowski", "simd"}},
@@ -86,7 +88,8 @@ const std::vector<std::string> harness_rooms = {
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
 bool is_in_algorithms(const std::string& path) {
   return in(path, "algorithms/broad_phase") || in(path, "algorithms/narrow_phase") ||
-         in(path, "algorithms/manifold");
+         in(path, "algorithms/manifold") || in(path, "algorithms/mid_phase") ||
+         in(path, "algorithms/concave");
 }
 
 // The part of `path` that follows `folder`, up to the next slash: "simd" of
@@ -121,7 +124,8 @@ bool may_include(const std::string& from, const std::string& to) {
   if (in(from, "algorithms/core")) return false;
   if (in(from, "algorithms/hull")) return in(to, "algorithms/hull");
   if (in(from, "algorithms/oracle")) {
-    return in(to, "algorithms/oracle") || (is_contract(to) && from.ends_with("/exact.cpp"));
+    return in(to, "algorithms/oracle") || (is_contract(to) && (from.ends_with("/exact.cpp") ||
+                                                              from.ends_with("/exact_concave.cpp")));
   }
   if (in(from, "algorithms/kernels")) {
     if (to == "algorithms/broad_phase_work.h") return true;  // counted where the work is done
@@ -236,7 +240,8 @@ TEST(IncludeRule, NoFileIncludesItselfInACircle) {
 TEST(House, AnAlgorithmOfOneFileHasNoHeader) {
   for (const SourceFile& file : files()) {
     for (const char* folder :
-         {"algorithms/broad_phase", "algorithms/narrow_phase", "algorithms/manifold"}) {
+         {"algorithms/broad_phase", "algorithms/narrow_phase", "algorithms/manifold",
+          "algorithms/mid_phase", "algorithms/concave"}) {
       if (folder_of(file.path) == folder) {
         EXPECT_TRUE(file.path.ends_with(".cpp")) << file.path;
       }
@@ -287,7 +292,7 @@ bool is_algorithm(const std::string& path) {
   const fs::path file = path;
   const fs::path folder = file.parent_path().filename();
   return folder == "broad_phase" || folder == "narrow_phase" || folder == "manifold" ||
-         folder == file.stem();
+         folder == "mid_phase" || folder == "concave" || folder == file.stem();
 }
 
 TEST(House, AnAlgorithmSaysWhatItIsBeforeItBegins) {

@@ -48,6 +48,14 @@ TEST(Registry, ContactManifoldsAreWellDescribed) {
   }
 }
 
+TEST(Registry, MidPhasesAndConcavePhasesAreWellDescribed) {
+  check_info(mid_phases());
+  check_info(concave_phases());
+  for (const ConcaveEntry& entry : concave_phases()) {
+    EXPECT_TRUE(offers(entry, ConcaveTask::intersect, Precision::float64)) << entry.info.name;
+  }
+}
+
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const BroadPhaseEntry& entry : broad_phases()) {
     EXPECT_EQ(find_broad_phase(entry.info.name), &entry);
@@ -58,6 +66,14 @@ TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     EXPECT_EQ(find_contact_manifold(entry.info.name), &entry);
   }
+  for (const MidPhaseEntry& entry : mid_phases()) {
+    EXPECT_EQ(find_mid_phase(entry.info.name), &entry);
+  }
+  for (const ConcaveEntry& entry : concave_phases()) {
+    EXPECT_EQ(find_concave_phase(entry.info.name), &entry);
+  }
+  EXPECT_EQ(find_mid_phase("gjk"), nullptr);
+  EXPECT_EQ(find_concave_phase("certified"), nullptr);
   EXPECT_EQ(find_contact_manifold("gjk"), nullptr);
   EXPECT_EQ(find_broad_phase("no such"), nullptr);
   EXPECT_EQ(find_narrow_phase(""), nullptr);
