@@ -60,10 +60,16 @@ CommonFrame common_frame(const Pose& a, double reach_a, const Pose& b, double re
     }
     return frame;
   }
+  return world_frame(a, reach_a, b, reach_b);
+}
+
+CommonFrame world_frame(const Pose& a, double reach_a, const Pose& b, double reach_b) {
+  CommonFrame frame;
   frame.is_of_a = false;
   frame.a.rotation = a.rotation;
   frame.b.rotation = b.rotation;
-  frame.b.translation = offset;
+  frame.b.translation = b.translation - a.translation;
+  const double far = norm(b.rotation) * reach_b + frame.b.translation.cwiseAbs().maxCoeff();
   frame.error = 8 * u * std::max(norm(a.rotation) * reach_a, far) + tiny;
   return frame;
 }

@@ -22,6 +22,10 @@ struct CommonFrame {
 // in their own frames (metres).
 CommonFrame common_frame(const Pose& a, double reach_a, const Pose& b, double reach_b);
 
+// The same with the world, moved by a's translation, for the frame whatever the rotations are:
+// lengths in it are those of the world.
+CommonFrame world_frame(const Pose& a, double reach_a, const Pose& b, double reach_b);
+
 // `inner` followed by `outer`, in doubles. `reach` bounds the coordinates of the points that are
 // mapped. Each point is off by at most `error` (metres), which is 0 if nothing was rounded.
 struct ComposedPose {

@@ -23,6 +23,7 @@
 #include "algorithms/concave/part_pairs/convex_pairs.h"
 #include "algorithms/concave/part_pairs/interior.h"
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
+#include "algorithms/concave/part_pairs/part_distance.h"
 #include "algorithms/concave_phase.h"
 
 namespace touchstone {
@@ -42,6 +43,7 @@ class PartPairs final : public ConcavePhase {
     bodies_.reserve(bodies.size());
     for (const ConcaveBody& body : bodies) mid_phase_->add(bodies_.emplace_back(body).boxes);
     mesh_pairs_->bind(bodies_);
+    distances_.bind(bodies_);
   }
 
   void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
@@ -65,6 +67,9 @@ class PartPairs final : public ConcavePhase {
       if (!all) outcome.status = Status::ok;
     } else {
       outcome.answer = undecided ? Answer::unknown : Answer::separated;
+    }
+    if (task == ConcaveTask::distance && outcome.answer == Answer::separated) {
+      distances_.measure(a, b, convex_pairs_, outcome);
     }
   }
 
@@ -105,6 +110,7 @@ class PartPairs final : public ConcavePhase {
   std::shared_ptr<MidPhase> mid_phase_;
   std::unique_ptr<MeshPairs> mesh_pairs_;
   ConvexPairs convex_pairs_;
+  PartDistance distances_;
   std::vector<IndexPair> waiting_;
 };
 
@@ -116,7 +122,7 @@ std::unique_ptr<MeshPairs> fused(std::shared_ptr<MidPhase>) { return fused_pairs
 
 ConcaveEntry entry(const char* name, const char* citation, PartPairs::MakeMeshPairs make) {
   return {.info = {.name = name, .citation = citation},
-          .tasks = {ConcaveTask::intersect, ConcaveTask::contacts},
+          .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
           .scalars = {Precision::float64},
           .make = [make](const ConcaveSettings& settings) {
             return std::make_unique<PartPairs>(settings, make);
@@ -149,7 +155,9 @@ std::vector<ConcaveEntry> concave_part_pairs() {
             tested<test_by_guigue_devillers>)};
   for (ConcaveEntry& made : entries) {
     made.approximate = made.info.name == "moller" || made.info.name == "guigue-devillers";
-    if (made.approximate) made.supports = both_are_meshes;
+    if (!made.approximate) continue;
+    made.supports = both_are_meshes;
+    made.tasks = {ConcaveTask::intersect, ConcaveTask::contacts};
   }
   return entries;
 }
