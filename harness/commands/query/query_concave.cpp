@@ -112,7 +112,10 @@ void write_pairs(const std::string& file, const std::vector<files::ConcaveCase>&
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const ConcaveAnswers& answers : all) {
       for (const IndexPair& pair : answers.pairs[i]) {
-        csv.field(cases[i].id).field(answers.entry->info.name).field(pair.a).field(pair.b);
+        csv.field(cases[i].id)
+            .field(answers.entry->info.name)
+            .field(std::uint64_t{pair.a})
+            .field(std::uint64_t{pair.b});
         csv.end_row();
       }
     }
