@@ -10,8 +10,19 @@ std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
 std::vector<RayCastEntry> list_ray_casts();
+std::vector<MidPhaseEntry> list_mid_phases();
+std::vector<ConcaveEntry> list_concave_phases();
+std::vector<CastEntry> list_casts();
+std::vector<CcdEntry> list_ccds();
 
 namespace {
+
+// The list that `make` returns, which is made once.
+template <class Entry, std::vector<Entry> (*make)()>
+std::span<const Entry> list_of() {
+  static const std::vector<Entry> list = make();
+  return list;
+}
 
 template <class Entry>
 const Entry* find(std::span<const Entry> entries, std::string_view name) {
@@ -20,27 +31,29 @@ const Entry* find(std::span<const Entry> entries, std::string_view name) {
   return at == entries.end() ? nullptr : &*at;
 }
 
+template <class Value>
+bool has(const std::vector<Value>& list, Value value) {
+  return std::ranges::find(list, value) != list.end();
+}
+
 }  // namespace
 
 std::span<const BroadPhaseEntry> broad_phases() {
-  static const std::vector<BroadPhaseEntry> list = list_broad_phases();
-  return list;
+  return list_of<BroadPhaseEntry, list_broad_phases>();
 }
-
 std::span<const NarrowPhaseEntry> narrow_phases() {
-  static const std::vector<NarrowPhaseEntry> list = list_narrow_phases();
-  return list;
+  return list_of<NarrowPhaseEntry, list_narrow_phases>();
 }
-
 std::span<const ManifoldEntry> contact_manifolds() {
-  static const std::vector<ManifoldEntry> list = list_contact_manifolds();
-  return list;
+  return list_of<ManifoldEntry, list_contact_manifolds>();
 }
-
-std::span<const RayCastEntry> ray_casts() {
-  static const std::vector<RayCastEntry> list = list_ray_casts();
-  return list;
+std::span<const RayCastEntry> ray_casts() { return list_of<RayCastEntry, list_ray_casts>(); }
+std::span<const MidPhaseEntry> mid_phases() { return list_of<MidPhaseEntry, list_mid_phases>(); }
+std::span<const ConcaveEntry> concave_phases() {
+  return list_of<ConcaveEntry, list_concave_phases>();
 }
+std::span<const CastEntry> casts() { return list_of<CastEntry, list_casts>(); }
+std::span<const CcdEntry> ccds() { return list_of<CcdEntry, list_ccds>(); }
 
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
@@ -52,34 +65,42 @@ const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
 }
 const RayCastEntry* find_ray_cast(std::string_view name) { return find(ray_casts(), name); }
-
-bool offers(const NarrowPhaseEntry& entry, Task task) {
-  return std::ranges::find(entry.tasks, task) != entry.tasks.end();
+const MidPhaseEntry* find_mid_phase(std::string_view name) { return find(mid_phases(), name); }
+const ConcaveEntry* find_concave_phase(std::string_view name) {
+  return find(concave_phases(), name);
 }
+const CastEntry* find_cast(std::string_view name) { return find(casts(), name); }
+const CcdEntry* find_ccd(std::string_view name) { return find(ccds(), name); }
 
-bool offers(const NarrowPhaseEntry& entry, Precision scalar) {
-  return std::ranges::find(entry.scalars, scalar) != entry.scalars.end();
-}
+bool offers(const NarrowPhaseEntry& entry, Task task) { return has(entry.tasks, task); }
+bool offers(const NarrowPhaseEntry& entry, Precision scalar) { return has(entry.scalars, scalar); }
 
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task) {
   if (!offers(entry, task)) return false;
   return entry.supports == nullptr || entry.supports(std::min(a, b), std::max(a, b), task);
 }
 
-bool offers(const ManifoldEntry& entry, Precision scalar) {
-  return std::ranges::find(entry.scalars, scalar) != entry.scalars.end();
-}
-
-bool offers(const RayCastEntry& entry, RayTask task) {
-  return std::ranges::find(entry.tasks, task) != entry.tasks.end();
-}
-
-bool offers(const RayCastEntry& entry, Precision scalar) {
-  return std::ranges::find(entry.scalars, scalar) != entry.scalars.end();
-}
+bool offers(const ManifoldEntry& entry, Precision scalar) { return has(entry.scalars, scalar); }
 
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b) {
   return entry.supports == nullptr || entry.supports(std::min(a, b), std::max(a, b));
+}
+
+bool offers(const RayCastEntry& entry, RayTask task) { return has(entry.tasks, task); }
+bool offers(const RayCastEntry& entry, Precision scalar) { return has(entry.scalars, scalar); }
+
+bool offers(const ConcaveEntry& entry, ConcaveTask task, Precision scalar) {
+  return has(entry.tasks, task) && has(entry.scalars, scalar);
+}
+
+bool offers(const CastEntry& entry, const CastSettings& settings) {
+  return has(entry.scalars, settings.scalar) &&
+         (settings.start == StartContact::counts || entry.approach);
+}
+
+bool offers(const CastEntry& entry, ShapeKind a, ShapeKind b, bool turns) {
+  if (turns && !entry.rotation) return false;
+  return entry.supports == nullptr || entry.supports(std::min(a, b), std::max(a, b), turns);
 }
 
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,
@@ -101,6 +122,28 @@ std::string_view to_string(RayTask task) {
   switch (task) {
     case RayTask::closest: return "closest";
     case RayTask::any: return "any";
+  }
+  return "?";
+}
+
+std::string_view to_string(ConcaveTask task) {
+  switch (task) {
+    case ConcaveTask::intersect: return "intersect";
+    case ConcaveTask::distance: return "distance";
+    case ConcaveTask::contacts: return "contacts";
+  }
+  return "?";
+}
+
+std::string_view to_string(FeaturePair pair) {
+  return pair == FeaturePair::vertex_face ? "vertex-face" : "edge-edge";
+}
+
+std::string_view to_string(CcdAnswer answer) {
+  switch (answer) {
+    case CcdAnswer::hit: return "hit";
+    case CcdAnswer::miss: return "miss";
+    case CcdAnswer::unknown: return "unknown";
   }
   return "?";
 }

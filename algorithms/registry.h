@@ -10,7 +10,11 @@
 #include <string_view>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/cast.h"
+#include "algorithms/ccd.h"
+#include "algorithms/concave_phase.h"
 #include "algorithms/contact_manifold.h"
+#include "algorithms/mid_phase.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/ray_cast.h"
 
@@ -21,12 +25,20 @@ std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
 std::span<const RayCastEntry> ray_casts();
+std::span<const MidPhaseEntry> mid_phases();
+std::span<const ConcaveEntry> concave_phases();
+std::span<const CastEntry> casts();
+std::span<const CcdEntry> ccds();
 
 // Each returns null if no entry has that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
 const RayCastEntry* find_ray_cast(std::string_view name);
+const MidPhaseEntry* find_mid_phase(std::string_view name);
+const ConcaveEntry* find_concave_phase(std::string_view name);
+const CastEntry* find_cast(std::string_view name);
+const CcdEntry* find_ccd(std::string_view name);
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);
@@ -36,6 +48,11 @@ bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
 bool offers(const ManifoldEntry& entry, Precision scalar);
 bool offers(const RayCastEntry& entry, RayTask task);
 bool offers(const RayCastEntry& entry, Precision scalar);
+bool offers(const ConcaveEntry& entry, ConcaveTask task, Precision scalar);
+// True if the entry takes such settings, and pairs of these kinds, in either order, one of which turns
+// or none.
+bool offers(const CastEntry& entry, const CastSettings& settings);
+bool offers(const CastEntry& entry, ShapeKind a, ShapeKind b, bool turns);
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // kinds in either order
 // The encoding of a pair of these kinds, in either order.
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,

@@ -50,6 +50,20 @@ std::vector<Listed> all_algorithms() {
   for (const RayCastEntry& entry : ray_casts()) {
     all.push_back({&entry.info, "ray", joined(entry.tasks), joined(entry.scalars)});
   }
+  for (const MidPhaseEntry& entry : mid_phases()) {
+    all.push_back({&entry.info, "mid", "pairs", std::string(to_string(Precision::float32))});
+  }
+  for (const ConcaveEntry& entry : concave_phases()) {
+    all.push_back({&entry.info, "concave", joined(entry.tasks), joined(entry.scalars)});
+  }
+  for (const CastEntry& entry : casts()) {
+    all.push_back(
+        {&entry.info, "cast", entry.rotation ? "linear;rigid" : "linear", joined(entry.scalars)});
+  }
+  for (const CcdEntry& entry : ccds()) {
+    all.push_back(
+        {&entry.info, "ccd", "vertex-face;edge-edge", std::string(to_string(Precision::float64))});
+  }
   return all;
 }
 

@@ -35,23 +35,6 @@ Mat3d read_quaternion(const JsonNode& node) {
   return q.toRotationMatrix();
 }
 
-Pose read_pose(const JsonNode& body) {
-  Pose pose;
-  if (body.has("translation")) {
-    pose.translation = body.at("translation", "").vector();
-  }
-  if (body.has("rotation") && body.has("quaternion_wxyz")) {
-    body.fail("both \"rotation\" and \"quaternion_wxyz\"; expected one of them");
-  }
-  if (body.has("rotation")) {
-    const std::array<double, 9> rows = body.at("rotation", "").numbers<9>();
-    pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
-  } else if (body.has("quaternion_wxyz")) {
-    pose.rotation = read_quaternion(body.at("quaternion_wxyz", ""));
-  }
-  return pose;
-}
-
 Shape read_shape(const JsonNode& node) {
   node.as_object("an object, such as {\"type\":\"sphere\",\"radius\":1}");
   const JsonNode type = node.at("type", "a shape's name");
@@ -99,6 +82,23 @@ Shape read_shape(const JsonNode& node) {
 OrderedJson to_array(const Vec3d& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
+
+Pose read_pose(const JsonNode& body) {
+  Pose pose;
+  if (body.has("translation")) {
+    pose.translation = body.at("translation", "").vector();
+  }
+  if (body.has("rotation") && body.has("quaternion_wxyz")) {
+    body.fail("both \"rotation\" and \"quaternion_wxyz\"; expected one of them");
+  }
+  if (body.has("rotation")) {
+    const std::array<double, 9> rows = body.at("rotation", "").numbers<9>();
+    pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+  } else if (body.has("quaternion_wxyz")) {
+    pose.rotation = read_quaternion(body.at("quaternion_wxyz", ""));
+  }
+  return pose;
+}
 
 int read_axis(const JsonNode& shape) {
   if (!shape.has("axis")) return 2;

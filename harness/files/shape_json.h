@@ -11,6 +11,9 @@ namespace touchstone::files {
 // the rotation's columns.
 void read_body(const JsonNode& body, Shape& shape, Pose& pose);
 
+// The translation and the rotation of a body; those that are missing are zero and the identity.
+Pose read_pose(const JsonNode& body);
+
 // The axis of a capsule, cylinder or cone: 0, 1 or 2; z if the key is missing.
 int read_axis(const JsonNode& shape);
 

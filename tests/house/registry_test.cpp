@@ -56,23 +56,44 @@ TEST(Registry, RayCastsAreWellDescribed) {
   }
 }
 
+TEST(Registry, MidPhasesAndConcavePhasesAreWellDescribed) {
+  check_info(mid_phases());
+  check_info(concave_phases());
+  for (const ConcaveEntry& entry : concave_phases()) {
+    EXPECT_TRUE(offers(entry, ConcaveTask::intersect, Precision::float64)) << entry.info.name;
+  }
+}
+
+TEST(Registry, CastsAreWellDescribed) {
+  check_info(casts());
+  for (const CastEntry& entry : casts()) {
+    EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
+    EXPECT_TRUE(offers(entry, ShapeKind::box, ShapeKind::box, false)) << entry.info.name;
+    EXPECT_EQ(offers(entry, ShapeKind::hull, ShapeKind::box, true),
+              offers(entry, ShapeKind::box, ShapeKind::hull, true))
+        << entry.info.name;
+  }
+}
+
+TEST(Registry, ContinuousCollisionIsWellDescribed) { check_info(ccds()); }
+
+// Each entry of a list is found by its name.
+template <class Entry>
+void expect_found(std::span<const Entry> entries, const Entry* (*find)(std::string_view)) {
+  for (const Entry& entry : entries) EXPECT_EQ(find(entry.info.name), &entry);
+  EXPECT_EQ(find("no such"), nullptr);
+  EXPECT_EQ(find(""), nullptr);
+}
+
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
-  for (const BroadPhaseEntry& entry : broad_phases()) {
-    EXPECT_EQ(find_broad_phase(entry.info.name), &entry);
-  }
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
-    EXPECT_EQ(find_narrow_phase(entry.info.name), &entry);
-  }
-  for (const ManifoldEntry& entry : contact_manifolds()) {
-    EXPECT_EQ(find_contact_manifold(entry.info.name), &entry);
-  }
-  for (const RayCastEntry& entry : ray_casts()) {
-    EXPECT_EQ(find_ray_cast(entry.info.name), &entry);
-  }
-  EXPECT_EQ(find_ray_cast("gjk"), nullptr);
-  EXPECT_EQ(find_contact_manifold("gjk"), nullptr);
-  EXPECT_EQ(find_broad_phase("no such"), nullptr);
-  EXPECT_EQ(find_narrow_phase(""), nullptr);
+  expect_found(broad_phases(), find_broad_phase);
+  expect_found(narrow_phases(), find_narrow_phase);
+  expect_found(contact_manifolds(), find_contact_manifold);
+  expect_found(ray_casts(), find_ray_cast);
+  expect_found(mid_phases(), find_mid_phase);
+  expect_found(concave_phases(), find_concave_phase);
+  expect_found(casts(), find_cast);
+  expect_found(ccds(), find_ccd);
 }
 
 TEST(Registry, OffersAskForTheKindsInEitherOrder) {

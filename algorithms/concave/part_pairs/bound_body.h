@@ -1,0 +1,33 @@
+// Part of part-pairs: a bound body, with what its queries need.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/concave_body.h"
+#include "algorithms/kernels/triangles/exact_triangles.h"
+
+namespace touchstone {
+
+struct BoundBody {
+  explicit BoundBody(const ConcaveBody& body);
+
+  const ConcaveBody* given;
+  std::vector<Aabb> boxes;  // of the parts, in body coordinates
+  // At least the greatest magnitude of a coordinate of the body's points, apart from those of
+  // half-spaces (metres).
+  double reach = 0;
+  // A corner of each connected piece of a mesh.
+  std::vector<std::uint32_t> pieces;
+
+  const TriangleMesh* mesh() const { return given->mesh.get(); }
+  bool is_solid() const { return mesh() != nullptr && mesh()->solid; }
+  TriangleCorners corners(std::uint32_t triangle) const {
+    const auto& at = mesh()->triangles[triangle];
+    return {mesh()->vertices[at[0]], mesh()->vertices[at[1]], mesh()->vertices[at[2]]};
+  }
+};
+
+}  // namespace touchstone

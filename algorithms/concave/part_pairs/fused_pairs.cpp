@@ -1,0 +1,90 @@
+// Pairs of triangles by a descent whose leaves are tested eight triangles at once.
+#include <bit>
+
+#include "algorithms/concave/part_pairs/mesh_pairs.h"
+#include "algorithms/core/common_frame.h"
+#include "algorithms/kernels/bvh/wide_descent.h"
+#include "algorithms/kernels/triangles/triangle_signs.h"
+
+namespace touchstone {
+namespace {
+
+// A mesh in the order of its tree's leaves.
+struct TreeOfTriangles {
+  WideBvh tree;
+  std::vector<TriangleBlock> blocks;
+};
+
+class FusedPairs final : public MeshPairs {
+ public:
+  void bind(std::span<const BoundBody> bodies) override {
+    bodies_ = bodies;
+    trees_.clear();
+    for (const BoundBody& body : bodies) {
+      TreeOfTriangles& tree = trees_.emplace_back();
+      if (body.mesh() == nullptr) continue;
+      tree.tree = build_wide_bvh(body.boxes);
+      tree.blocks = triangle_blocks(*body.mesh(), tree.tree.order);
+    }
+  }
+
+  void find(const PlacedBody& a, const PlacedBody& b, const TakePartPairs& take) override {
+    Search search{
+        trees_[a.body], trees_[b.body], bodies_[a.body], bodies_[b.body], a.pose, b.pose, {}, take};
+    search.frame = common_frame(a.pose, search.body_a.reach, b.pose, search.body_b.reach);
+    const DescentFrame frame =
+        descent_frame(search.frame, search.body_a.reach, search.body_b.reach);
+    descent_.run(
+        search.a.tree, search.b.tree, frame,
+        [](void* context, std::uint32_t leaf_a, std::uint32_t leaf_b) {
+          return static_cast<Search*>(context)->visit(leaf_a, leaf_b);
+        },
+        &search);
+  }
+
+ private:
+  struct Search {
+    const TreeOfTriangles &a, &b;
+    const BoundBody &body_a, &body_b;
+    const Pose &pose_a, &pose_b;
+    CommonFrame frame;
+    const TakePartPairs& take;
+
+    bool visit(std::uint32_t leaf_a, std::uint32_t leaf_b) const {
+      const auto parts_a = a.tree.leaf(leaf_a), parts_b = b.tree.leaf(leaf_b);
+      TriangleBlock moved_a, moved_b;
+      if (!frame.is_of_a) move(a.blocks[leaf_a], frame.a, moved_a);
+      move(b.blocks[leaf_b], frame.b, moved_b);
+      BlockSigns signs;
+      if (!compare(frame.is_of_a ? a.blocks[leaf_a] : moved_a,
+                   static_cast<unsigned>(parts_a.size()), moved_b,
+                   static_cast<unsigned>(parts_b.size()), frame.error, signs)) {
+        return true;
+      }
+      std::array<IndexPair, TriangleBlock::size * TriangleBlock::size> found;
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < parts_a.size(); ++i) {
+        for (unsigned bits = signs.yes[i] | signs.open[i]; bits != 0; bits &= bits - 1) {
+          const auto j = static_cast<std::size_t>(std::countr_zero(bits));
+          const IndexPair pair = {parts_a[i], parts_b[j]};
+          if ((signs.yes[i] >> j & 1) == 0 &&
+              !share_a_point(body_a.corners(pair.a), pose_a, body_b.corners(pair.b), pose_b)) {
+            continue;
+          }
+          found[count++] = pair;
+        }
+      }
+      return count == 0 || take({found.data(), count});
+    }
+  };
+
+  std::span<const BoundBody> bodies_;
+  std::vector<TreeOfTriangles> trees_;
+  WideDescent descent_;
+};
+
+}  // namespace
+
+std::unique_ptr<MeshPairs> fused_pairs() { return std::make_unique<FusedPairs>(); }
+
+}  // namespace touchstone

@@ -1,0 +1,33 @@
+// Part of part-pairs: the distance of two bodies that share no point.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algorithms/concave/part_pairs/bound_body.h"
+#include "algorithms/concave/part_pairs/convex_pairs.h"
+#include "algorithms/concave_phase.h"
+#include "algorithms/kernels/bvh/wide_nearest.h"
+
+namespace touchstone {
+
+class PartDistance {
+ public:
+  // The bodies stay alive and unchanged. Trees are built with the first query.
+  void bind(std::span<const BoundBody> bodies);
+
+  // Writes the distance, its bounds, the points and the normal. `lower` and `upper` are certified:
+  // they cover all rounding; between convex parts they are those of the narrow phase. Where they are further apart than 1e-9 of the distance and 1e-12 of the
+  // bodies' coordinates the status is not_converged. Nothing is written if a body has no parts.
+  void measure(const PlacedBody& a, const PlacedBody& b, ConvexPairs& convex_pairs,
+               Outcome& outcome);
+
+ private:
+  const WideBvh& tree_of(std::uint32_t body);
+
+  std::span<const BoundBody> bodies_;
+  std::vector<WideBvh> trees_;
+  WideNearest nearest_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,165 @@
+// Part pairs: a mid-phase finds pairs of parts whose boxes may meet, and a test of parts decides.
+// Paper:   Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996 (the descent of two trees); Moller, JGT
+//          1997; Guigue, Devillers, JGT 2003; mesh_pairs.h and kernels/triangles have those of the
+//          signs of volumes.
+// Steps:   1. Bind: boxes of all parts go to the mid-phase; `fused` builds trees of its own for
+//             meshes.
+//          2. Two meshes: pairs of triangles are decided by the signs of volumes in doubles, and in
+//             integers where rounding hides a sign. `fused` tests two leaves of eight at once.
+//          3. A convex part with a convex part or a triangle: a narrow phase decides, sixty-four
+//             pairs at a time.
+//          4. Where no parts meet and a body is solid, exact winding numbers tell whether a piece of
+//             the other lies inside (interior).
+//          5. distance: the trees' nearest pairs first (part_distance).
+// Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
+//          do, and are wrong where rounding is.
+// Fails:   poses of parts within turned compounds are rounded; where that hides a verdict the answer
+//          is unknown and the status degenerate. Each pair in which rounding hides a sign costs some
+//          microseconds, so that a mesh on itself is slow.
+// Cost:    two meshes: O(log n + k) where little meets, k = pairs of leaves that are near.
+#include <optional>
+#include <utility>
+
+#include "algorithms/concave/part_pairs/convex_pairs.h"
+#include "algorithms/concave/part_pairs/interior.h"
+#include "algorithms/concave/part_pairs/mesh_pairs.h"
+#include "algorithms/concave/part_pairs/part_distance.h"
+#include "algorithms/concave_phase.h"
+
+namespace touchstone {
+namespace {
+
+class PartPairs final : public ConcavePhase {
+ public:
+  using MakeMeshPairs = std::unique_ptr<MeshPairs> (*)(std::shared_ptr<MidPhase>);
+
+  PartPairs(const ConcaveSettings& settings, MakeMeshPairs make)
+      : mid_phase_(settings.mid_phase()),
+        mesh_pairs_(make(mid_phase_)),
+        convex_pairs_(settings.narrow_phase()) {}
+
+  void bind(std::span<const ConcaveBody> bodies) override {
+    bodies_.clear();
+    bodies_.reserve(bodies.size());
+    for (const ConcaveBody& body : bodies) mid_phase_->add(bodies_.emplace_back(body).boxes);
+    mesh_pairs_->bind(bodies_);
+    distances_.bind(bodies_);
+  }
+
+  void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
+             std::vector<IndexPair>& pairs) override {
+    outcome.status = Status::ok;
+    pairs.clear();
+    const BoundBody &first = bodies_[a.body], &second = bodies_[b.body];
+    const bool all = task == ConcaveTask::contacts;
+    std::optional<Status> undecided;
+    if (first.mesh() != nullptr && second.mesh() != nullptr) {
+      mesh_pairs_->find(a, b, [&](std::span<const IndexPair> found) {
+        pairs.insert(pairs.end(), found.begin(), found.end());
+        return all;
+      });
+    } else {
+      find_convex(a, b, all, pairs, undecided);
+    }
+    if (undecided) outcome.status = *undecided;
+    if (!pairs.empty() || is_inside(a, b)) {
+      outcome.answer = Answer::overlapping;
+      if (!all) outcome.status = Status::ok;
+    } else {
+      outcome.answer = undecided ? Answer::unknown : Answer::separated;
+    }
+    if (task == ConcaveTask::distance && outcome.answer == Answer::separated) {
+      distances_.measure(a, b, convex_pairs_, outcome);
+    }
+  }
+
+ private:
+  static constexpr std::size_t portion = 64;
+
+  void find_convex(const PlacedBody& a, const PlacedBody& b, bool all,
+                   std::vector<IndexPair>& pairs, std::optional<Status>& undecided) {
+    const auto decide = [&] {
+      const auto outcomes = convex_pairs_.solve(Task::intersect, bodies_[a.body], a.pose,
+                                                bodies_[b.body], b.pose, waiting_);
+      for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        const Outcome& found = outcomes[i];
+        if (found.answer == Answer::unknown) undecided = found.status;
+        if (found.answer == Answer::touching || found.answer == Answer::overlapping) {
+          pairs.push_back(waiting_[i]);
+        }
+      }
+      waiting_.clear();
+      return all || pairs.empty();
+    };
+    waiting_.clear();
+    const bool ended = !mid_phase_->find_pairs(
+        a.body, a.pose, b.body, b.pose, [&](std::span<const IndexPair> found) {
+          waiting_.insert(waiting_.end(), found.begin(), found.end());
+          return waiting_.size() < portion || decide();
+        });
+    if (!ended && !waiting_.empty()) decide();
+  }
+
+  bool is_inside(const PlacedBody& a, const PlacedBody& b) const {
+    const BoundBody &first = bodies_[a.body], &second = bodies_[b.body];
+    return (first.is_solid() && lies_inside(second, b.pose, first, a.pose)) ||
+           (second.is_solid() && lies_inside(first, a.pose, second, b.pose));
+  }
+
+  std::vector<BoundBody> bodies_;
+  std::shared_ptr<MidPhase> mid_phase_;
+  std::unique_ptr<MeshPairs> mesh_pairs_;
+  ConvexPairs convex_pairs_;
+  PartDistance distances_;
+  std::vector<IndexPair> waiting_;
+};
+
+template <RoughTest test>
+std::unique_ptr<MeshPairs> tested(std::shared_ptr<MidPhase> mid_phase) {
+  return tested_pairs(std::move(mid_phase), test);
+}
+std::unique_ptr<MeshPairs> fused(std::shared_ptr<MidPhase>) { return fused_pairs(); }
+
+ConcaveEntry entry(const char* name, const char* citation, PartPairs::MakeMeshPairs make) {
+  return {.info = {.name = name, .citation = citation},
+          .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
+          .scalars = {Precision::float64},
+          .make = [make](const ConcaveSettings& settings) {
+            return std::make_unique<PartPairs>(settings, make);
+          }};
+}
+
+bool both_are_meshes(const ConcaveBody& a, const ConcaveBody& b) { return a.mesh && b.mesh; }
+
+}  // namespace
+}  // namespace touchstone
+
+namespace touchstone::entries {
+
+std::vector<ConcaveEntry> concave_part_pairs() {
+  std::vector<ConcaveEntry> entries = {
+      entry(
+          "fused",
+          "a descent of two trees of eight boxes a node, whose leaves are tested by fifteen signs "
+          "of volumes in vector lanes; integers where rounding hides a sign",
+          fused),
+      entry("part-pairs",
+            "a mid-phase, then signs of volumes or a narrow phase for each pair of parts; integers "
+            "where rounding hides a sign",
+            tested<test_by_signs>),
+      entry("moller", "T. Moller, \"A fast triangle-triangle intersection test\", JGT 2(2), 1997",
+            tested<test_by_moller>),
+      entry("guigue-devillers",
+            "P. Guigue, O. Devillers, \"Fast and robust triangle-triangle overlap test using "
+            "orientation predicates\", JGT 8(1), 2003",
+            tested<test_by_guigue_devillers>)};
+  for (ConcaveEntry& made : entries) {
+    made.approximate = made.info.name == "moller" || made.info.name == "guigue-devillers";
+    if (!made.approximate) continue;
+    made.supports = both_are_meshes;
+    made.tasks = {ConcaveTask::intersect, ConcaveTask::contacts};
+  }
+  return entries;
+}
+
+}  // namespace touchstone::entries

@@ -1,0 +1,76 @@
+// The contract of a concave phase: queries of pairs of bodies that need not be convex. Concave phases
+// and the harness include this.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/algorithm_info.h"
+#include "algorithms/core/concave_body.h"
+#include "algorithms/core/outcome.h"
+#include "algorithms/core/pair_sink.h"
+#include "algorithms/mid_phase.h"
+#include "algorithms/narrow_phase.h"
+
+namespace touchstone {
+
+enum class ConcaveTask : std::uint8_t {
+  intersect,  // do the closed bodies share a point?
+  distance,   // the distance, with its points; only the answer if they share a point
+  contacts,   // all pairs of parts that share a point
+};
+
+std::string_view to_string(ConcaveTask task);
+
+struct ConcaveSettings {
+  Precision scalar = Precision::float64;
+  // What finds pairs of parts, for algorithms that leave this to another one; never null for them.
+  std::function<std::unique_ptr<MidPhase>()> mid_phase = {};
+  // What answers for pairs of convex parts, and of a convex part and a triangle; never null.
+  std::function<std::unique_ptr<NarrowPhase>()> narrow_phase = {};
+};
+
+// A bound body and its place.
+struct PlacedBody {
+  std::uint32_t body;
+  Pose pose;
+};
+
+// One instance for each worker, never shared between threads.
+class ConcavePhase {
+ public:
+  virtual ~ConcavePhase() = default;
+
+  // Called once for each scene. The bodies stay alive and unchanged. Their numbers are finite, and a
+  // mesh's indices are those of its vertices.
+  virtual void bind(std::span<const ConcaveBody> bodies) = 0;
+
+  // Writes the answer: `separated`, or `overlapping` if the closed bodies share a point, a touch
+  // included, or `unknown`. Of a solid mesh the points inside belong to the body. The world
+  // position of a point is that of its body's pose, taken literally; a part of a compound has the
+  // product of the poses instead, and if rounding that product hides the verdict the answer is
+  // unknown and the status degenerate. With ConcaveTask::contacts, `pairs` gets each pair of parts
+  // (triangles, or convex parts) that share a point once, in any order; a body inside of a solid one
+  // has no such pair, and overlaps. Distances and points are in metres in the world; the bounds are
+  // certified where there are some. Never throws on finite input.
+  virtual void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
+                     std::vector<IndexPair>& pairs) = 0;
+};
+
+struct ConcaveEntry {
+  AlgorithmInfo info;
+  std::vector<ConcaveTask> tasks;
+  std::vector<Precision> scalars;
+  // True for the pairs of bodies that it supports; null means all. Others are `unsupported`.
+  bool (*supports)(const ConcaveBody& a, const ConcaveBody& b) = nullptr;
+  // True if it is wrong where its doubles are: its answers are no promise.
+  bool approximate = false;
+  // Null if it is not built.
+  std::function<std::unique_ptr<ConcavePhase>(const ConcaveSettings&)> make;
+};
+
+}  // namespace touchstone

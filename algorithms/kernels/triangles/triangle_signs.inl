@@ -1,0 +1,161 @@
+// The loops of triangle_signs.cpp, once for each level of vector instructions.
+
+using Lanes = Simd<double>;
+using Vector = typename Lanes::Vector;
+
+struct Points {
+  Vector x, y, z;
+};
+
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points points_at(const TriangleBlock& block, std::size_t corner,
+                                                     std::size_t lane) {
+  return {Lanes::load(&block.at[3 * corner][lane]), Lanes::load(&block.at[3 * corner + 1][lane]),
+          Lanes::load(&block.at[3 * corner + 2][lane])};
+}
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points point_of(const TriangleBlock& block, std::size_t corner,
+                                                    std::size_t lane) {
+  return {Lanes::broadcast(block.at[3 * corner][lane]),
+          Lanes::broadcast(block.at[3 * corner + 1][lane]),
+          Lanes::broadcast(block.at[3 * corner + 2][lane])};
+}
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points minus(const Points& p, const Points& q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points cross(const Points& p, const Points& q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector dot(const Points& p, const Points& q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points least(const Points& p, const Points& q) {
+  return {Lanes::min(p.x, q.x), Lanes::min(p.y, q.y), Lanes::min(p.z, q.z)};
+}
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points greatest(const Points& p, const Points& q) {
+  return {Lanes::max(p.x, q.x), Lanes::max(p.y, q.y), Lanes::max(p.z, q.z)};
+}
+
+// The lanes in which a volume is surely positive, and surely negative.
+struct Sign {
+  unsigned plus, minus;
+};
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Sign sign_of(Vector volume, Vector bound, Vector below) {
+  return {Lanes::to_bits(Lanes::less(bound, volume)), Lanes::to_bits(Lanes::less(volume, below))};
+}
+
+// Edges of one triangle against the other: the lanes in which one surely pierces it, and in which
+// all surely miss it.
+struct Pierced {
+  unsigned yes = 0, no = ~0u;
+
+  // An edge with the sides of its ends and its three volumes.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE void add(Sign tail, Sign head, Sign r, Sign s, Sign t) {
+    const unsigned crosses = (tail.plus & head.minus) | (tail.minus & head.plus);
+    const unsigned stays = (tail.plus & head.plus) | (tail.minus & head.minus);
+    const unsigned one_way = (r.plus & s.plus & t.plus) | (r.minus & s.minus & t.minus);
+    const unsigned both_ways = (r.plus | s.plus | t.plus) & (r.minus | s.minus | t.minus);
+    yes |= crosses & one_way;
+    no &= stays | both_ways;
+  }
+};
+
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned one_side(const Sign* s) {
+  return (s[0].plus & s[1].plus & s[2].plus) | (s[0].minus & s[1].minus & s[2].minus);
+}
+
+// Triangle i of a against the lanes of b from `at` on.
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void compare_lanes(const TriangleBlock& block_a, std::size_t i,
+                                                       const Points* b, const Points* edge_b,
+                                                       const Points& low_b, const Points& high_b,
+                                                       Vector error, unsigned wanted, unsigned& yes,
+                                                       unsigned& open) {
+  const Points a[3] = {point_of(block_a, 0, i), point_of(block_a, 1, i), point_of(block_a, 2, i)};
+  const Points low_a = least(least(a[0], a[1]), a[2]);
+  const Points high_a = greatest(greatest(a[0], a[1]), a[2]);
+  // How far b begins behind a's end, and a behind b's end.
+  const Points after = minus(low_b, high_a), before = minus(low_a, high_b);
+  const Points gap = greatest(after, before);
+  const Vector apart = error + error;
+  const unsigned far = Lanes::to_bits(Lanes::less(apart, gap.x)) |
+                       Lanes::to_bits(Lanes::less(apart, gap.y)) |
+                       Lanes::to_bits(Lanes::less(apart, gap.z));
+  yes = 0;
+  open = wanted & ~far;
+  if (open == 0) return;
+
+  const Points size = minus(greatest(high_a, high_b), least(low_a, low_b));
+  const Vector d = Lanes::max(Lanes::max(size.x, size.y), size.z);
+  const Vector bound = d * d *
+                           (Lanes::broadcast(VolumeBound::of_error) * error +
+                            Lanes::broadcast(VolumeBound::of_rounding) * d) +
+                       Lanes::broadcast(VolumeBound::of_underflow);
+  const Vector below = Lanes::broadcast(0) - bound;
+
+  Sign of_a[3], of_b[3];
+  const Points normal_b = cross(edge_b[0], edge_b[1]);
+  for (int k = 0; k < 3; ++k) of_a[k] = sign_of(dot(normal_b, minus(a[k], b[0])), bound, below);
+  open &= ~one_side(of_a);
+  if (open == 0) return;
+  const Points edge_a[3] = {minus(a[1], a[0]), minus(a[2], a[1]), minus(a[0], a[2])};
+  const Points normal_a = cross(edge_a[0], edge_a[1]);
+  for (int k = 0; k < 3; ++k) of_b[k] = sign_of(dot(normal_a, minus(b[k], a[0])), bound, below);
+  open &= ~one_side(of_b);
+  if (open == 0) return;
+
+  Sign edges[3][3];
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) {
+      edges[k][j] = sign_of(dot(cross(edge_a[k], edge_b[j]), minus(b[j], a[k])), bound, below);
+    }
+  }
+  Pierced pierced;
+  for (int k = 0; k < 3; ++k) {
+    const int next = k == 2 ? 0 : k + 1;
+    pierced.add(of_a[k], of_a[next], edges[k][0], edges[k][1], edges[k][2]);
+    pierced.add(of_b[k], of_b[next], edges[0][k], edges[1][k], edges[2][k]);
+  }
+  yes = open & pierced.yes;
+  open &= ~(pierced.yes | pierced.no);
+}
+
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline bool compare_blocks(const TriangleBlock& a,
+                                                                unsigned count_a,
+                                                                const TriangleBlock& b,
+                                                                unsigned count_b, double error,
+                                                                BlockSigns& signs) {
+  const unsigned all_b = (1u << count_b) - 1;
+  const Vector off = Lanes::broadcast(error);
+  signs = {};
+  unsigned any = 0;
+  for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
+    const unsigned wanted = all_b >> at & ((1u << Lanes::width) - 1);
+    const Points p[3] = {points_at(b, 0, at), points_at(b, 1, at), points_at(b, 2, at)};
+    const Points edges[3] = {minus(p[1], p[0]), minus(p[2], p[1]), minus(p[0], p[2])};
+    const Points low = least(least(p[0], p[1]), p[2]);
+    const Points high = greatest(greatest(p[0], p[1]), p[2]);
+    for (std::size_t i = 0; i < count_a; ++i) {
+      unsigned yes, open;
+      compare_lanes(a, i, p, edges, low, high, off, wanted, yes, open);
+      signs.yes[i] = static_cast<std::uint8_t>(signs.yes[i] | yes << at);
+      signs.open[i] = static_cast<std::uint8_t>(signs.open[i] | open << at);
+      any |= yes | open;
+    }
+  }
+  return any != 0;
+}
+
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void move_block(const TriangleBlock& block,
+                                                            const Pose& pose,
+                                                            TriangleBlock& moved) {
+  for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Points p = points_at(block, k, at);
+      for (int row = 0; row < 3; ++row) {
+        const Vector x = Lanes::broadcast(pose.rotation(row, 0)) * p.x +
+                         Lanes::broadcast(pose.rotation(row, 1)) * p.y +
+                         Lanes::broadcast(pose.rotation(row, 2)) * p.z +
+                         Lanes::broadcast(pose.translation[row]);
+        Lanes::store(&moved.at[3 * k + static_cast<std::size_t>(row)][at], x);
+      }
+    }
+  }
+}

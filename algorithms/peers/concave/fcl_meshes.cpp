@@ -1,0 +1,165 @@
+// FCL: trees of oriented boxes and swept rectangles over meshes, descended together.
+// Paper:   Pan, Chitta, Manocha, "FCL: A general purpose library for collision and proximity
+//          queries", ICRA 2012; Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996; Larsen et al.,
+//          UNC TR99-018, 1999. The library is FCL 0.7: fcl::collide and fcl::distance of
+//          BVHModel<OBBRSS>, and of a model and a convex shape.
+// Departs: contacts have neither points nor normals, which are not asked for, and as many as there
+//          are: by default FCL stops at the first. A compound's parts are asked pair by pair, in
+//          the order of their numbers, without a tree.
+// Fails:   a mesh is a surface. A rotation that is not orthonormal is taken for one that is. Pairs
+//          of a mesh and a convex shape are those of FCL's narrow phase (fcl-libccd).
+// Cost:    548 bytes a triangle; allocates a result a query.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "algorithms/concave_phase.h"
+
+#ifdef TOUCHSTONE_HAS_FCL
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+
+#include "algorithms/peers/fcl_shapes.h"
+
+namespace touchstone {
+namespace {
+
+template <class S>
+class FclMeshes final : public ConcavePhase {
+ public:
+  void bind(std::span<const ConcaveBody> bodies) override {
+    bodies_.clear();
+    for (const ConcaveBody& body : bodies) {
+      std::vector<Part>& parts = bodies_.emplace_back();
+      if (body.mesh && !body.mesh->triangles.empty()) {
+        parts.push_back({model_of(*body.mesh), {}, true});
+      }
+      for (const ConvexPart& part : body.parts) {
+        parts.push_back({fcl_shapes::make_fcl_shape<S>(part.shape), part.pose, false});
+      }
+    }
+  }
+
+  void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
+             std::vector<IndexPair>& pairs) override {
+    pairs.clear();
+    outcome.status = Status::not_reported;
+    outcome.answer = Answer::separated;
+    const bool all = task == ConcaveTask::contacts;
+    for (std::uint32_t i = 0; i < bodies_[a.body].size(); ++i) {
+      for (std::uint32_t j = 0; j < bodies_[b.body].size(); ++j) {
+        collide(bodies_[a.body][i], a.pose, i, bodies_[b.body][j], b.pose, j, all, pairs);
+        if (!all && !pairs.empty()) break;
+      }
+      if (!all && !pairs.empty()) break;
+    }
+    if (!pairs.empty()) outcome.answer = Answer::overlapping;
+    if (task == ConcaveTask::distance && pairs.empty()) measure(a, b, outcome);
+  }
+
+ private:
+  struct Part {
+    std::shared_ptr<fcl::CollisionGeometry<S>> geometry;
+    Pose pose;
+    bool is_mesh;
+  };
+
+  static std::shared_ptr<fcl::CollisionGeometry<S>> model_of(const TriangleMesh& mesh) {
+    const auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSS<S>>>();
+    std::vector<fcl::Vector3<S>> vertices;
+    for (const Vec3d& vertex : mesh.vertices) vertices.push_back(vertex.cast<S>());
+    std::vector<fcl::Triangle> triangles;
+    for (const auto& corners : mesh.triangles) {
+      triangles.emplace_back(corners[0], corners[1], corners[2]);
+    }
+    model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+    model->addSubModel(vertices, triangles);
+    model->endModel();
+    return model;
+  }
+
+  static fcl::Transform3<S> place(const Pose& body, const Part& part) {
+    Pose placed = body;
+    if (!part.is_mesh) {
+      placed.rotation = body.rotation * part.pose.rotation;
+      placed.translation = body(part.pose.translation);
+    }
+    return fcl_shapes::to_fcl<S>(placed);
+  }
+
+  // A triangle's number if the part is a mesh, otherwise the part's.
+  static std::uint32_t number(const Part& part, std::uint32_t own, int found) {
+    return part.is_mesh ? static_cast<std::uint32_t>(found) : own;
+  }
+
+  static void collide(const Part& a, const Pose& pose_a, std::uint32_t i, const Part& b,
+                      const Pose& pose_b, std::uint32_t j, bool all,
+                      std::vector<IndexPair>& pairs) {
+    // A mesh comes first, so that b1 is its triangle.
+    const bool swap = !a.is_mesh && b.is_mesh;
+    const fcl::CollisionRequest<S> request(all ? std::size_t{1} << 31 : 1, false);
+    fcl::CollisionResult<S> result;
+    const auto place_a = place(pose_a, a), place_b = place(pose_b, b);
+    if (swap) {
+      fcl::collide(b.geometry.get(), place_b, a.geometry.get(), place_a, request, result);
+    } else {
+      fcl::collide(a.geometry.get(), place_a, b.geometry.get(), place_b, request, result);
+    }
+    for (std::size_t k = 0; k < result.numContacts(); ++k) {
+      const auto& contact = result.getContact(k);
+      const auto of_first = static_cast<int>(contact.b1), of_second = static_cast<int>(contact.b2);
+      pairs.push_back(
+          {number(a, i, swap ? of_second : of_first), number(b, j, swap ? of_first : of_second)});
+    }
+  }
+
+  void measure(const PlacedBody& a, const PlacedBody& b, Outcome& outcome) const {
+    const fcl::DistanceRequest<S> request(true);
+    for (const Part& p : bodies_[a.body]) {
+      for (const Part& q : bodies_[b.body]) {
+        fcl::DistanceResult<S> result;
+        const S found = fcl::distance(p.geometry.get(), place(a.pose, p), q.geometry.get(),
+                                      place(b.pose, q), request, result);
+        if (outcome.distance <= static_cast<double>(found)) continue;
+        outcome.distance = static_cast<double>(found);
+        outcome.witness_a = result.nearest_points[0].template cast<double>();
+        outcome.witness_b = result.nearest_points[1].template cast<double>();
+      }
+    }
+  }
+
+  std::vector<std::vector<Part>> bodies_;
+};
+
+std::unique_ptr<ConcavePhase> make_fcl_meshes(const ConcaveSettings& settings) {
+  if (settings.scalar == Precision::float32) return std::make_unique<FclMeshes<float>>();
+  return std::make_unique<FclMeshes<double>>();
+}
+
+}  // namespace
+}  // namespace touchstone
+#endif
+
+namespace touchstone::entries {
+
+std::vector<ConcaveEntry> peers_fcl_meshes() {
+  ConcaveEntry entry = {
+      .info = {.name = "fcl-obbrss",
+               .citation = "FCL 0.7: fcl::collide and fcl::distance of BVHModel<OBBRSS>",
+               .origin = Origin::peer},
+      .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
+      .scalars = {Precision::float64, Precision::float32},
+      .supports = [](const ConcaveBody& a, const ConcaveBody& b) {
+        return !(a.mesh && a.mesh->solid) && !(b.mesh && b.mesh->solid);
+      }};
+#ifdef TOUCHSTONE_HAS_FCL
+  entry.make = make_fcl_meshes;
+#endif
+  return {entry};
+}
+
+}  // namespace touchstone::entries

@@ -1,0 +1,166 @@
+// Runs concave phases on cases, each in a child process, and writes a row for each answer.
+#include "harness/commands/query/query_concave.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+#include "harness/base/hash.h"
+#include "harness/campaign/selection.h"
+#include "harness/commands/query/query_rows.h"
+#include "harness/commands/shared_options.h"
+#include "harness/files/csv.h"
+#include "harness/process/isolate.h"
+
+namespace touchstone::commands {
+namespace {
+
+struct ConcaveAnswer {
+  Outcome outcome;
+  Status status = Status::unsupported;  // of the outcome too; the child's end is written here
+  std::uint64_t pair_count = 0, pair_hash = 0;
+};
+
+// The answers of one algorithm for all cases, and the pairs of those that were asked for.
+struct ConcaveAnswers {
+  const ConcaveEntry* entry;
+  std::vector<ConcaveAnswer> answers;
+  std::vector<std::vector<IndexPair>> pairs;
+};
+
+class ConcaveQueryRun {
+ public:
+  ConcaveQueryRun(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases)
+      : query_(query), cases_(cases) {
+    const auto* mid = campaign::select(mid_phases(), {query.mid}, "mid-phase").at(0);
+    const auto* parts = campaign::select(narrow_phases(), {query.parts}, "narrow phase").at(0);
+    settings_ = {.scalar = query.scalar, .mid_phase = mid->make, .narrow_phase = [parts] {
+                   return parts->make(NarrowPhaseSettings{});
+                 }};
+  }
+
+  ConcaveAnswers ask(const ConcaveEntry& entry) const {
+    ConcaveAnswers all = {&entry, std::vector<ConcaveAnswer>(cases_.size()), {}};
+    all.pairs.resize(cases_.size());
+    std::vector<std::size_t> taken;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const bool supported = entry.supports == nullptr || entry.supports(cases_[i].a, cases_[i].b);
+      if (supported && offers(entry, query_.task, query_.scalar)) taken.push_back(i);
+    }
+    const process::IsolationLimits limits = {.item_seconds = query_.time_limit};
+    const auto solved = process::isolated_answers<ConcaveAnswer>(taken.size(), limits, [&] {
+      return [&](std::size_t item) {
+        std::vector<IndexPair> pairs;
+        return solve(entry, cases_[taken[item]], pairs);
+      };
+    });
+    for (std::size_t item = 0; item < taken.size(); ++item) {
+      all.answers[taken[item]] = solved.answers[item];
+    }
+    print_failures(entry.info.name, solved.failures, [&](std::size_t item) {
+      return fmt::format("case '{}'", cases_[taken[item]].id);
+    });
+    if (!query_.pairs.empty()) fetch_pairs(all);
+    return all;
+  }
+
+ private:
+  ConcaveAnswer solve(const ConcaveEntry& entry, const files::ConcaveCase& c,
+                      std::vector<IndexPair>& pairs) const {
+    const std::vector<ConcaveBody> bodies = {c.a, c.b};
+    const std::unique_ptr<ConcavePhase> algorithm = entry.make(settings_);
+    algorithm->bind(bodies);
+    ConcaveAnswer answer;
+    algorithm->solve(query_.task, {0, c.pose_a}, {1, c.pose_b}, answer.outcome, pairs);
+    answer.status = answer.outcome.status;
+    answer.pair_count = pairs.size();
+    answer.pair_hash = base::pair_hash(pairs);
+    return answer;
+  }
+
+  // Solves the cases with pairs again, now that it is known how many there are.
+  void fetch_pairs(ConcaveAnswers& all) const {
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const std::size_t count = all.answers[i].pair_count;
+      if (count == 0) continue;
+      process::SharedArray<IndexPair> fetched(count);
+      const process::IsolationLimits limits = {.item_seconds = query_.time_limit};
+      process::isolate(1, limits, [&]() -> process::ItemWork {
+        return [&](std::size_t) {
+          std::vector<IndexPair> pairs;
+          solve(*all.entry, cases_[i], pairs);
+          std::copy_n(pairs.begin(), std::min(count, pairs.size()), fetched.span().begin());
+        };
+      });
+      all.pairs[i].assign(fetched.span().begin(), fetched.span().end());
+      std::ranges::sort(all.pairs[i]);
+    }
+  }
+
+  const ConcaveQuery& query_;
+  const std::vector<files::ConcaveCase>& cases_;
+  ConcaveSettings settings_;
+};
+
+void write_pairs(const std::string& file, const std::vector<files::ConcaveCase>& cases,
+                 const std::vector<ConcaveAnswers>& all) {
+  files::CsvWriter csv(file, {"id", "algorithm", "a_part", "b_part"});
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const ConcaveAnswers& answers : all) {
+      for (const IndexPair& pair : answers.pairs[i]) {
+        csv.field(cases[i].id)
+            .field(answers.entry->info.name)
+            .field(std::uint64_t{pair.a})
+            .field(std::uint64_t{pair.b});
+        csv.end_row();
+      }
+    }
+  }
+  csv.close();
+}
+
+}  // namespace
+
+void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases) {
+  const auto entries =
+      campaign::select(concave_phases(), campaign::split_names(query.names), "concave phase");
+  const ConcaveQueryRun run(query, cases);
+  files::check_output(query.out);
+  if (!query.pairs.empty()) files::check_output(query.pairs);
+  std::vector<ConcaveAnswers> all;
+  all.reserve(entries.size());
+  for (const ConcaveEntry* entry : entries) all.push_back(run.ask(*entry));
+
+  const bool counts = query.task == ConcaveTask::contacts;
+  std::vector<std::string> columns = query_columns();
+  if (counts) columns.insert(columns.end(), {"pair_count", "pair_hash"});
+  files::CsvWriter csv(query.out, columns);
+  QuerySummary summary;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const ConcaveAnswers& answers : all) {
+      const ConcaveAnswer& answer = answers.answers[i];
+      Outcome outcome = answer.outcome;
+      outcome.status = answer.status;
+      summary.count(answers.entry->info.name, outcome);
+      write_query_fields(
+          csv,
+          {cases[i].id, answers.entry->info.name, to_string(query.scalar), to_string(query.task)},
+          outcome);
+      if (counts && outcome.answer == Answer::unknown && answer.pair_count == 0) {
+        csv.field("").field("");
+      } else if (counts) {
+        csv.field(answer.pair_count).field(base::to_hex(answer.pair_hash));
+      }
+      csv.end_row();
+    }
+  }
+  csv.close();
+  if (!query.pairs.empty()) write_pairs(query.pairs, cases, all);
+  summary.print();
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,26 @@
+// touchstone query for bodies that need not be convex.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algorithms/concave_phase.h"
+#include "harness/files/concave/concave_cases.h"
+
+namespace touchstone::commands {
+
+struct ConcaveQuery {
+  std::string names;  // of concave phases, joined by commas
+  ConcaveTask task = ConcaveTask::intersect;
+  Precision scalar = Precision::float64;
+  std::string mid, parts;  // names of the mid-phase and of the narrow phase for convex parts
+  double time_limit = 5;   // seconds a query
+  std::string out;         // the CSV file of answers
+  std::string pairs;       // the CSV file of pairs of parts; none if empty
+};
+
+// Asks concave phases about the cases, writes a row for each answer, and prints a summary. Throws
+// InputError for an unknown name.
+void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases);
+
+}  // namespace touchstone::commands

@@ -1,0 +1,35 @@
+// Reads cases with meshes and compounds.
+#include "harness/files/concave/concave_cases.h"
+
+#include "harness/files/concave/concave_json.h"
+
+namespace touchstone::files {
+namespace {
+
+bool names_convex(const JsonNode& body) {
+  const std::string& type =
+      body.at("shape", "").at("type", "a shape's name").text("a shape's name");
+  return type != "mesh" && type != "compound";
+}
+
+}  // namespace
+
+std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file) {
+  std::vector<ConcaveCase> cases;
+  for_each_json_line(file, "case", [&](const JsonNode& line) {
+    line.as_object("a case: an object with \"id\", \"a\" and \"b\"");
+    ConcaveCase& c = cases.emplace_back();
+    c.id = line.at("id", "a string").text("a string");
+    const JsonNode a = line.at("a", "the first body"), b = line.at("b", "the second body");
+    c.a = read_concave_body(a, c.pose_a);
+    c.b = read_concave_body(b, c.pose_b);
+    c.is_convex = names_convex(a) && names_convex(b);
+  });
+  return cases;
+}
+
+Case convex_case(const ConcaveCase& c) {
+  return {c.id, c.a.parts[0].shape, c.b.parts[0].shape, c.pose_a, c.pose_b};
+}
+
+}  // namespace touchstone::files

@@ -1,0 +1,29 @@
+// Cases whose bodies need not be convex.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "algorithms/core/concave_body.h"
+#include "algorithms/core/pose.h"
+#include "harness/files/cases.h"
+
+namespace touchstone::files {
+
+struct ConcaveCase {
+  std::string id;
+  ConcaveBody a, b;
+  Pose pose_a, pose_b;
+  bool is_convex = true;  // neither body is a mesh or a compound
+};
+
+// Reads a file of cases as read_cases does, with meshes and compounds (concave_json.h). Throws
+// InputError for what read_cases throws it for, and for a triangle without three numbers of
+// vertices, a mesh in a compound, and a solid whose surface is open.
+std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file);
+
+// The case of two convex bodies.
+Case convex_case(const ConcaveCase& c);
+
+}  // namespace touchstone::files

@@ -1,0 +1,145 @@
+// Meshes and compounds from JSON.
+#include "harness/files/concave/concave_json.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "algorithms/core/bounds.h"
+#include "algorithms/core/common_frame.h"
+#include "algorithms/core/placed_box.h"
+#include "harness/files/shape_json.h"
+
+namespace touchstone::files {
+namespace {
+
+std::array<std::uint32_t, 3> read_triangle(const JsonNode& node, std::size_t vertices) {
+  const std::string expected =
+      vertices == 0 ? "no triangle, as there are no vertices"
+                    : fmt::format("three numbers of vertices, from 0 to {}", vertices - 1);
+  if (!node.value().is_array() || node.size() != 3) {
+    node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+  }
+  std::array<std::uint32_t, 3> corners{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const JsonNode corner = node[k];
+    const bool whole = corner.value().is_number_unsigned();
+    const std::uint64_t number = whole ? corner.value().get<std::uint64_t>() : vertices;
+    if (number >= vertices) {
+      corner.fail(fmt::format("found {}; expected {}", corner.found(), expected));
+    }
+    corners[k] = static_cast<std::uint32_t>(number);
+  }
+  return corners;
+}
+
+// A solid's surface goes along each edge one way as often as the other. Vertices in one place count
+// as one.
+void check_closed(const JsonNode& node, const TriangleMesh& mesh) {
+  std::map<std::array<double, 3>, std::uint32_t> number_of;
+  const auto number = [&](std::uint32_t vertex) {
+    const Vec3d& at = mesh.vertices[vertex];
+    const auto next = static_cast<std::uint32_t>(number_of.size());
+    return number_of.try_emplace({at[0], at[1], at[2]}, next).first->second;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+  for (const auto& corners : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t tail = number(corners[k]), head = number(corners[(k + 1) % 3]);
+      if (tail != head) balance[std::minmax(tail, head)] += tail < head ? 1 : -1;
+    }
+  }
+  for (const auto& [edge, sum] : balance) {
+    if (sum == 0) continue;
+    std::array<std::array<double, 3>, 2> ends{};
+    for (const auto& [at, vertex] : number_of) {
+      if (vertex == edge.first) ends[0] = at;
+      if (vertex == edge.second) ends[1] = at;
+    }
+    node.fail(fmt::format(
+        "\"solid\" is true, and the surface is open at the edge from [{},{},{}] to [{},{},{}]; "
+        "expected each edge as often in one direction as in the other",
+        ends[0][0], ends[0][1], ends[0][2], ends[1][0], ends[1][1], ends[1][2]));
+  }
+}
+
+std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& node) {
+  TriangleMesh mesh;
+  const JsonNode vertices = node.at("vertices", "an array of vertices [x,y,z]");
+  vertices.as_array("an array of vertices [x,y,z]");
+  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.vertices.push_back(vertices[i].vector());
+  const JsonNode triangles = node.at("triangles", "an array of triangles [i,j,k]");
+  triangles.as_array("an array of triangles [i,j,k]");
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    mesh.triangles.push_back(read_triangle(triangles[i], mesh.vertices.size()));
+  }
+  if (node.has("solid")) {
+    const JsonNode solid = node.at("solid", "");
+    if (!solid.value().is_boolean()) {
+      solid.fail(fmt::format("found {}; expected true or false", solid.found()));
+    }
+    mesh.solid = solid.value().get<bool>();
+  }
+  if (mesh.solid) check_closed(node, mesh);
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+
+bool has_type(const JsonNode& shape, const char* type) {
+  shape.as_object("an object, such as {\"type\":\"sphere\",\"radius\":1}");
+  return shape.at("type", "a shape's name").text("a shape's name") == type;
+}
+
+// Adds the parts of a compound that lies within others: `around` has their poses, the outermost
+// first.
+void add_parts(const JsonNode& compound, std::vector<Pose>& around,
+               std::vector<ConvexPart>& parts) {
+  const JsonNode list = compound.at("parts", "an array of parts");
+  list.as_array("an array of parts, each with a shape and its place");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonNode node = list[i];
+    node.as_object("a part: an object with a shape and its place");
+    const JsonNode shape =
+        node.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
+    if (has_type(shape, "mesh")) {
+      shape.fail("found a mesh in a compound; expected convex shapes and compounds");
+    }
+    if (has_type(shape, "compound")) {
+      around.push_back(read_pose(node));
+      add_parts(shape, around, parts);
+      around.pop_back();
+      continue;
+    }
+    ConvexPart& part = parts.emplace_back();
+    read_body(node, part.shape, part.pose);
+    const double reach = reach_of({{tight_box(part.shape, Pose{})}});
+    for (auto outer = around.rbegin(); outer != around.rend(); ++outer) {
+      const double stretch = outer->rotation.cwiseAbs().rowwise().sum().maxCoeff();
+      const ComposedPose placed = composed(*outer, part.pose, reach);
+      part.pose = placed.pose;
+      part.rounding = 2 * stretch * part.rounding + placed.error;
+    }
+  }
+}
+
+}  // namespace
+
+ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
+  body.as_object("an object with a shape and its pose");
+  const JsonNode node = body.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
+  ConcaveBody read;
+  if (has_type(node, "mesh")) {
+    read.mesh = read_mesh(node);
+    pose = read_pose(body);
+  } else if (has_type(node, "compound")) {
+    std::vector<Pose> around;
+    add_parts(node, around, read.parts);
+    pose = read_pose(body);
+  } else {
+    read_body(body, read.parts.emplace_back().shape, pose);
+  }
+  return read;
+}
+
+}  // namespace touchstone::files

@@ -1,0 +1,17 @@
+// Bodies that need not be convex, in the format of cases: the shapes of shape_json.h, and
+//     {"type": "mesh", "vertices": [[x,y,z]...], "triangles": [[i,j,k]...], "solid": true or false}
+//     {"type": "compound", "parts": [{"shape": ..., "translation": ..., "rotation": ...}...]}
+// where a part is placed like a body, and may be a compound.
+#pragma once
+
+#include "algorithms/core/concave_body.h"
+#include "algorithms/core/pose.h"
+#include "harness/files/json_line.h"
+
+namespace touchstone::files {
+
+// Throws InputError as described at read_concave_cases. Parts of nested compounds are numbered depth
+// first.
+ConcaveBody read_concave_body(const JsonNode& body, Pose& pose);
+
+}  // namespace touchstone::files

@@ -1,0 +1,119 @@
+// Distances against the oracle's.
+#include <gtest/gtest.h>
+
+#include "algorithms/hull/convex_hull.h"
+#include "tests/algorithms/concave/agreed.h"
+#include "tests/algorithms/concave/meshes.h"
+#include "tests/algorithms/concave/triangle_pair.h"
+#include "tests/algorithms/one_in.h"
+#include "tests/algorithms/random.h"
+
+namespace touchstone {
+namespace {
+
+using reference::Answered;
+using reference::ask;
+using reference::body_of;
+using reference::moved_by;
+
+// Expects bounds that enclose the oracle's distance and are not further apart than `width`; returns
+// true if the bodies are apart.
+bool measures(const std::array<ConcaveBody, 2>& bodies, const Pose& a, const Pose& b,
+              double width) {
+  const Outcome truth = ask("exact", ConcaveTask::distance, bodies, a, b).outcome;
+  for (const char* name : {"fused", "part-pairs"}) {
+    SCOPED_TRACE(name);
+    const Outcome found = ask(name, ConcaveTask::distance, bodies, a, b).outcome;
+    EXPECT_EQ(found.answer, truth.answer);
+    EXPECT_EQ(found.status, Status::ok);
+    if (truth.answer != Answer::separated) {
+      EXPECT_TRUE(std::isnan(found.distance));
+      continue;
+    }
+    EXPECT_LE(found.lower, truth.upper);
+    EXPECT_GE(found.upper, truth.lower);
+    EXPECT_LE(found.upper - found.lower, width + 1e-9 * truth.upper);
+    EXPECT_NEAR(found.distance, truth.distance, width + 1e-9 * truth.upper);
+    EXPECT_NEAR((found.witness_a - found.witness_b).norm(), truth.distance,
+                width + 1e-9 * truth.upper);
+  }
+  return truth.answer == Answer::separated;
+}
+
+TEST(ConcaveDistance, OfTori) {
+  reference::Random random(1);
+  const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(10, 5, 1, 0.2)),
+                                             body_of(reference::torus(8, 4, 0.8, 0.2))};
+  int apart = 0;
+  const int count = drawn(12, 2);
+  for (int i = 0; i < count; ++i) {
+    const Pose a = {random.rotation(), random.vector(1)}, b = {random.rotation(), random.vector(1)};
+    apart += measures(bodies, a, b, 1e-13);
+  }
+  if (one_in == 1) {
+    EXPECT_GT(apart, 2);
+    EXPECT_LT(apart, count);
+  }
+}
+
+TEST(ConcaveDistance, OfTrianglesOfEveryFamily) {
+  reference::Random random(2);
+  int apart = 0, met = 0;
+  for (const auto& family : reference::triangle_families()) {
+    SCOPED_TRACE(family.name);
+    for (const reference::Form form : reference::all_forms) {
+      for (int i = 0; i < drawn(20, 2); ++i) {
+        const reference::TrianglePair pair = in_form(family.draw(random), form, random);
+        const double size = form == reference::Form::far_away ? 4e6 : 4;
+        ++(measures({reference::mesh_of({pair.a}), reference::mesh_of({pair.b})}, pair.pose_a,
+                    pair.pose_b, 1e-12 * size)
+               ? apart
+               : met);
+      }
+    }
+  }
+  EXPECT_GT(apart, 100 / one_in);
+  EXPECT_GT(met, 100 / one_in);
+}
+
+TEST(ConcaveDistance, OfMeshesAndConvexParts) {
+  reference::Random random(3);
+  const ConcaveBody torus = body_of(reference::torus(10, 5, 1, 0.2));
+  ConcaveBody pair = body_of(reference::make_capsule(0.2, 0.3), moved_by({0.5, 0, 0}));
+  pair.parts.push_back({reference::make_box(0.25, 0.25, 0.25), moved_by({-0.5, 0, 0}), 0});
+  int apart = 0;
+  const int count = drawn(12, 3);
+  for (int i = 0; i < count; ++i) {
+    const Pose a = {random.rotation(), random.vector(1)}, b = moved_by(random.vector(1));
+    apart += measures({torus, pair}, a, b, 1e-11);
+    apart += measures({pair, body_of(reference::make_sphere(0.5))}, b, a, 1e-11);
+  }
+  EXPECT_GT(apart, 2);
+}
+
+TEST(ConcaveDistance, OfAnEmptyBodyIsNotKnown) {
+  const ConcaveBody none = body_of(TriangleMesh{});
+  const ConcaveBody ball = body_of(reference::make_sphere(1));
+  for (const char* name : {"fused", "part-pairs", "exact"}) {
+    const Outcome found = ask(name, ConcaveTask::distance, {none, ball}, {}, {}).outcome;
+    EXPECT_EQ(found.answer, Answer::separated);
+    EXPECT_TRUE(std::isnan(found.distance));
+  }
+}
+
+// Lengths are those of the world, whatever the rotations do, and beyond the range of floats.
+TEST(ConcaveDistance, OfStretchedAndHugeBodies) {
+  Pose wide;
+  wide.rotation *= 3;
+  EXPECT_TRUE(
+      measures({body_of(reference::box_mesh(1, 1, 1)), body_of(reference::box_mesh(1, 1, 1))}, wide,
+               moved_by({5, 0, 0}), 1e-13));
+  for (const double size : {1e-30, 1e25, 1e45}) {
+    SCOPED_TRACE(size);
+    const ConcaveBody box = body_of(reference::box_mesh(size, size, size));
+    EXPECT_TRUE(measures({box, box}, {}, moved_by({5 * size, size, 4 * size}), 1e-13 * size));
+  }
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,130 @@
+// Tests of touchstone query with meshes and compounds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "algorithms/registry.h"
+#include "tests/harness/commands/program.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Two triangles that cross, two that touch in a corner, two apart, and a ball over a compound.
+constexpr const char* concave_cases =
+    R"({"id":"cross","a":{"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0]],"triangles":[[0,1,2]]}},)"
+    R"("b":{"shape":{"type":"mesh","vertices":[[0.2,0.2,-1],[0.2,0.2,1],[1,1,1],[5,5,5]],"triangles":[[3,3,3],[0,1,2]]}}})"
+    "\n"
+    R"({"id":"touch","a":{"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0]],"triangles":[[0,1,2]]}},)"
+    R"("b":{"shape":{"type":"mesh","vertices":[[0,0,0],[-1,0,1],[0,-1,1]],"triangles":[[0,1,2]]},"translation":[1,0,0]}})"
+    "\n"
+    R"({"id":"apart","a":{"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0]],"triangles":[[0,1,2]]}},)"
+    R"("b":{"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0]],"triangles":[[0,1,2]]},"translation":[0,0,0.5]}})"
+    "\n"
+    R"({"id":"compound","a":{"shape":{"type":"compound","parts":[)"
+    R"({"shape":{"type":"box","half_extents":[1,1,1]},"translation":[-2,0,0]},)"
+    R"({"shape":{"type":"box","half_extents":[1,1,1]},"translation":[2,0,0]}]}},)"
+    R"("b":{"shape":{"type":"sphere","radius":1},"translation":[2,0,2]}})"
+    "\n";
+
+class ConcaveQueryCommand : public ::testing::Test {
+ protected:
+  Ran run(const std::string& more, const std::string& cases = concave_cases) {
+    const auto file = folder.write("in.jsonl", cases);
+    return run_program("query " + file.string() + " --out " + (folder.path() / "out.csv").string() +
+                       " " + more);
+  }
+  std::vector<std::vector<std::string>> rows(const std::vector<std::string>& columns,
+                                             const char* file = "out.csv") {
+    return read_rows(folder.path() / file, columns);
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(ConcaveQueryCommand, Contacts) {
+  const Ran ran = run("--narrow fused,part-pairs,exact --task contacts --pairs " +
+                      (folder.path() / "pairs.csv").string());
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  std::string header;
+  std::getline(std::ifstream(folder.path() / "out.csv"), header);
+  EXPECT_EQ(header,
+            "id,algorithm,scalar,task,answer,status,distance,lower,upper,normal_x,normal_y,"
+            "normal_z,a_x,a_y,a_z,b_x,b_y,b_z,iterations,support_calls,pair_count,pair_hash");
+  const auto all = rows({"id", "algorithm", "answer", "status", "pair_count", "pair_hash"});
+  ASSERT_EQ(all.size(), 12u);
+  const std::vector<std::string> answers = {"overlapping", "overlapping", "separated",
+                                            "overlapping"};
+  const std::vector<std::string> hashes = {"910a2dec89025cc1", "e220a8397b1dcdaf",
+                                           "0000000000000000", ""};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i][2], answers[i / 3]) << all[i][1];
+    EXPECT_EQ(all[i][3], "ok");
+    EXPECT_EQ(all[i][4], answers[i / 3] == "separated" ? "0" : "1");
+    if (!hashes[i / 3].empty()) {
+      EXPECT_EQ(all[i][5], hashes[i / 3]);
+    }
+  }
+  const auto pairs = rows({"id", "algorithm", "a_part", "b_part"}, "pairs.csv");
+  ASSERT_EQ(pairs.size(), 9u);
+  EXPECT_EQ(pairs[0], (std::vector<std::string>{"cross", "fused", "0", "1"}));
+  EXPECT_EQ(pairs[8], (std::vector<std::string>{"compound", "exact", "1", "0"}));
+}
+
+TEST_F(ConcaveQueryCommand, EveryMidPhaseAndAlgorithm) {
+  for (const MidPhaseEntry& mid : mid_phases()) {
+    const Ran ran = run("--narrow all --task intersect --mid " + mid.info.name);
+    ASSERT_EQ(ran.status, 0) << ran.text;
+    for (const auto& row : rows({"id", "algorithm", "answer", "status"})) {
+      const ConcaveEntry* entry = find_concave_phase(row[1]);
+      ASSERT_NE(entry, nullptr);
+      if (entry->info.origin == Origin::peer || entry->approximate) continue;
+      EXPECT_EQ(row[2], row[0] == "apart" ? "separated" : "overlapping") << row[0] << " " << row[1];
+      EXPECT_EQ(row[3], "ok");
+    }
+  }
+}
+
+TEST_F(ConcaveQueryCommand, Distance) {
+  const Ran ran = run("--narrow fused,exact --task distance");
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  const auto all = rows({"id", "algorithm", "distance", "normal_z", "status"});
+  ASSERT_EQ(all.size(), 8u);
+  EXPECT_EQ(all[4], (std::vector<std::string>{"apart", "fused", "0.5", "1", "ok"}));
+  EXPECT_EQ(all[5][2], "0.5");
+  EXPECT_EQ(all[0][2], "");
+}
+
+// Two convex bodies go to narrow phases, unless a name or the task is that of concave ones.
+TEST_F(ConcaveQueryCommand, ConvexCases) {
+  const std::string convex =
+      R"({"id":"x","a":{"shape":{"type":"sphere","radius":1}},"b":{"shape":{"type":"sphere","radius":1},"translation":[3,0,0]}})";
+  ASSERT_EQ(run("--narrow exact --task penetration", convex).status, 0);
+  ASSERT_EQ(run("--narrow fused --task distance", convex).status, 0);
+  EXPECT_EQ(rows({"distance"}).at(0).at(0), "1");
+  ASSERT_EQ(run("--narrow exact --task contacts", convex).status, 0);
+  EXPECT_EQ(rows({"pair_count"}).at(0).at(0), "0");
+}
+
+TEST_F(ConcaveQueryCommand, Faults) {
+  const auto fault = [&](const std::string& more) {
+    const Ran ran = run(more);
+    EXPECT_EQ(ran.status, 2);
+    return ran.text;
+  };
+  EXPECT_THAT(fault("--narrow gjk --task intersect"),
+              HasSubstr("no concave phase is called 'gjk'"));
+  EXPECT_THAT(fault("--narrow fused --task penetration"),
+              HasSubstr("expected intersect, distance"));
+  EXPECT_THAT(fault("--narrow fused --task contacts --mid tree"),
+              HasSubstr("no mid-phase is called 'tree'"));
+  EXPECT_THAT(fault("--narrow fused --task contacts --parts x"),
+              HasSubstr("no narrow phase is called 'x'"));
+  EXPECT_THAT(fault("--narrow fused --task intersect --pairs p.csv"),
+              HasSubstr("--pairs was given"));
+}
+
+}  // namespace
+}  // namespace touchstone
