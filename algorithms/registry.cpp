@@ -9,6 +9,7 @@ namespace touchstone {
 std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
+std::vector<CcdEntry> list_ccds();
 
 namespace {
 
@@ -36,6 +37,11 @@ std::span<const ManifoldEntry> contact_manifolds() {
   return list;
 }
 
+std::span<const CcdEntry> ccds() {
+  static const std::vector<CcdEntry> list = list_ccds();
+  return list;
+}
+
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
 }
@@ -45,6 +51,7 @@ const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
 const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
 }
+const CcdEntry* find_ccd(std::string_view name) { return find(ccds(), name); }
 
 bool offers(const NarrowPhaseEntry& entry, Task task) {
   return std::ranges::find(entry.tasks, task) != entry.tasks.end();
@@ -78,6 +85,19 @@ std::string_view to_string(Origin origin) {
     case Origin::ours: return "ours";
     case Origin::peer: return "peer";
     case Origin::oracle: return "oracle";
+  }
+  return "?";
+}
+
+std::string_view to_string(FeaturePair pair) {
+  return pair == FeaturePair::vertex_face ? "vertex-face" : "edge-edge";
+}
+
+std::string_view to_string(CcdAnswer answer) {
+  switch (answer) {
+    case CcdAnswer::hit: return "hit";
+    case CcdAnswer::miss: return "miss";
+    case CcdAnswer::unknown: return "unknown";
   }
   return "?";
 }

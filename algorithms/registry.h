@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/ccd.h"
 #include "algorithms/contact_manifold.h"
 #include "algorithms/narrow_phase.h"
 
@@ -19,11 +20,13 @@ namespace touchstone {
 std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
+std::span<const CcdEntry> ccds();
 
 // Each returns null if no entry has that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
+const CcdEntry* find_ccd(std::string_view name);
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);

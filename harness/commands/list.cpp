@@ -47,6 +47,10 @@ std::vector<Listed> all_algorithms() {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
   }
+  for (const CcdEntry& entry : ccds()) {
+    all.push_back(
+        {&entry.info, "ccd", "vertex-face;edge-edge", std::string(to_string(Precision::float64))});
+  }
   return all;
 }
 

@@ -60,7 +60,7 @@ bool is_contract(const std::string& path) {
   return path == "algorithms/broad_phase.h" || path == "algorithms/narrow_phase.h" ||
          path == "algorithms/contact_manifold.h" || path == "algorithms/algorithm_info.h" ||
          path == "algorithms/broad_phase_work.h" || path == "algorithms/encoding.h" ||
-         path == "algorithms/limit.h";
+         path == "algorithms/limit.h" || path == "algorithms/ccd.h";
 }
 
 // The rooms of kernels, from the bottom up, each with those that it may include.
@@ -86,7 +86,7 @@ const std::vector<std::string> harness_rooms = {
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
 bool is_in_algorithms(const std::string& path) {
   return in(path, "algorithms/broad_phase") || in(path, "algorithms/narrow_phase") ||
-         in(path, "algorithms/manifold");
+         in(path, "algorithms/manifold") || in(path, "algorithms/ccd");
 }
 
 // The part of `path` that follows `folder`, up to the next slash: "simd" of
@@ -121,7 +121,8 @@ bool may_include(const std::string& from, const std::string& to) {
   if (in(from, "algorithms/core")) return false;
   if (in(from, "algorithms/hull")) return in(to, "algorithms/hull");
   if (in(from, "algorithms/oracle")) {
-    return in(to, "algorithms/oracle") || (is_contract(to) && from.ends_with("/exact.cpp"));
+    return in(to, "algorithms/oracle") ||
+           (is_contract(to) && (from.ends_with("/exact.cpp") || from.ends_with("/exact_ccd.cpp")));
   }
   if (in(from, "algorithms/kernels")) {
     if (to == "algorithms/broad_phase_work.h") return true;  // counted where the work is done
@@ -235,8 +236,8 @@ TEST(IncludeRule, NoFileIncludesItselfInACircle) {
 
 TEST(House, AnAlgorithmOfOneFileHasNoHeader) {
   for (const SourceFile& file : files()) {
-    for (const char* folder :
-         {"algorithms/broad_phase", "algorithms/narrow_phase", "algorithms/manifold"}) {
+    for (const char* folder : {"algorithms/broad_phase", "algorithms/narrow_phase",
+                               "algorithms/manifold", "algorithms/ccd"}) {
       if (folder_of(file.path) == folder) {
         EXPECT_TRUE(file.path.ends_with(".cpp")) << file.path;
       }
@@ -287,7 +288,7 @@ bool is_algorithm(const std::string& path) {
   const fs::path file = path;
   const fs::path folder = file.parent_path().filename();
   return folder == "broad_phase" || folder == "narrow_phase" || folder == "manifold" ||
-         folder == file.stem();
+         folder == "ccd" || folder == file.stem();
 }
 
 TEST(House, AnAlgorithmSaysWhatItIsBeforeItBegins) {

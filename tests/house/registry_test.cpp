@@ -48,6 +48,8 @@ TEST(Registry, ContactManifoldsAreWellDescribed) {
   }
 }
 
+TEST(Registry, ContinuousCollisionIsWellDescribed) { check_info(ccds()); }
+
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const BroadPhaseEntry& entry : broad_phases()) {
     EXPECT_EQ(find_broad_phase(entry.info.name), &entry);
@@ -58,6 +60,8 @@ TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     EXPECT_EQ(find_contact_manifold(entry.info.name), &entry);
   }
+  for (const CcdEntry& entry : ccds()) EXPECT_EQ(find_ccd(entry.info.name), &entry);
+  EXPECT_EQ(find_ccd("gjk"), nullptr);
   EXPECT_EQ(find_contact_manifold("gjk"), nullptr);
   EXPECT_EQ(find_broad_phase("no such"), nullptr);
   EXPECT_EQ(find_narrow_phase(""), nullptr);
