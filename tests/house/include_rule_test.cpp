@@ -76,6 +76,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"mpr", {"gjk", "minkowski"}},
     {"sat", {"minkowski", "simd"}},
     {"batch", {"minkowski", "simd"}},
+    {"features", {}},
 };
 
 // The rooms of the harness, from the bottom up: each includes itself and those before it.
