@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
                                 {"stress", commands::add_stress},
                                 {"manifold", commands::add_manifold},
                                 {"rays", commands::add_rays},
+                                {"ccd", commands::add_ccd},
                                 {"draw", commands::add_draw},
                                 {"record", commands::add_record},
                                 {"trade", commands::add_trade},

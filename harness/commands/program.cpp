@@ -43,6 +43,8 @@ constexpr std::array all_commands = std::to_array<CommandName>({
     {"query", "Ask narrow phases about pairs of bodies"},
     {"manifold", "The contact points of bodies that lie on each other"},
     {"rays", "Cast rays at a mesh"},
+    {"ccd",
+     "When moving vertices, faces and edges meet: the contacts that are missed, and the time"},
     {"pairs", "Find the pairs of boxes that overlap"},
     {"draw", "Draw a frame of a scene as a PNG"},
     {"record", "Write a scene's boxes as a recording"},

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "algorithms/core/fixed_integer.h"
 #include "algorithms/core/pose.h"
-#include "algorithms/narrow_phase/certified/fixed_integer.h"
 
 namespace touchstone {
 

@@ -1,5 +1,5 @@
-// Part of certified: signed integers of a fixed number of 64-bit limbs, for exact determinants of
-// points on a grid. Nothing is allocated and every loop has a constant length. Includes nothing.
+// Signed integers of a fixed number of 64-bit limbs, for exact determinants of points on a grid.
+// Nothing is allocated and every loop has a constant length. Everything may include this.
 //
 // The oracle's integers (oracle/numbers/integer.h) have any length and are several times slower.
 // The caller makes sure that nothing overflows.

@@ -1,0 +1,30 @@
+// Part of directional-advancement: a query as the lanes have it, and where answers go.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "algorithms/ccd.h"
+#include "algorithms/kernels/features/scaled_edges.h"
+
+namespace touchstone {
+
+struct LaneQuery {
+  ScaledEdges edges;
+  // In the unit of the edges:
+  double threshold;  // a gap of this length along a direction is free of contact
+  double near;       // witness points nearer than this are a hit
+};
+
+// All queries of a call.
+struct LaneBatch {
+  std::span<const CcdQuery> queries;
+  std::span<CcdOutcome> outcomes;
+  double tolerance, separation;  // metres
+  std::int32_t most_steps;
+};
+
+// Returns false if the edges overflow.
+bool load_lane(const CcdQuery& query, const LaneBatch& batch, LaneQuery& lane);
+
+}  // namespace touchstone

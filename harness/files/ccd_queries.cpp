@@ -1,0 +1,148 @@
+// Reads queries of continuous collision.
+#include "harness/files/ccd_queries.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "algorithms/oracle/numbers/dyadic.h"
+#include "harness/base/error.h"
+#include "harness/files/line_reader.h"
+
+namespace touchstone::files {
+namespace {
+
+using oracle::Integer;
+
+class CcdReader {
+ public:
+  explicit CcdReader(const std::filesystem::path& file) : file_(file.string()), lines_(file) {}
+
+  CcdQueries read() {
+    CcdQueries all;
+    CcdQuery query;
+    std::size_t row = 0;
+    int truth = 0;
+    while (const std::optional<std::string_view> line = lines_.next()) {
+      ++line_;
+      if (line->find_first_not_of(" \t\r\n") == std::string_view::npos) continue;
+      split(*line);
+      (row < 4 ? query.start[row] : query.end[row - 4]) = point();
+      if (has_truth()) {
+        const std::string_view text = fields_.back();
+        if (text != "0" && text != "1") {
+          fail(fmt::format("found the truth '{}'; expected 0 or 1", text));
+        }
+        if (row > 0 && truth != text[0] - '0') {
+          fail("found another truth than in the query's first row; expected the same in all eight");
+        }
+        truth = text[0] - '0';
+      }
+      if (++row < 8) continue;
+      row = 0;
+      all.queries.push_back(query);
+      if (has_truth()) all.contacts.push_back(static_cast<char>(truth));
+    }
+    if (row != 0) fail(fmt::format("found {} rows of the last query; expected eight", row));
+    if (all.queries.empty()) fail("no query; expected eight rows for each");
+    all.rounded = rounded_;
+    return all;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw base::InputError(file_, line_, message);
+  }
+
+  bool has_truth() const { return fields_.size() == 4 || fields_.size() == 7; }
+
+  void split(std::string_view line) {
+    const std::size_t before = fields_.size();
+    fields_.clear();
+    for (;;) {
+      const std::size_t comma = line.find(',');
+      std::string_view field = line.substr(0, comma);
+      const std::size_t begin = field.find_first_not_of(" \t\r\n");
+      field = begin == std::string_view::npos ? "" : field.substr(begin);
+      fields_.push_back(field.substr(0, field.find_last_not_of(" \t\r\n") + 1));
+      if (comma == std::string_view::npos) break;
+      line.remove_prefix(comma + 1);
+    }
+    const std::size_t count = fields_.size();
+    if (count != 3 && count != 4 && count != 6 && count != 7) {
+      fail(
+          fmt::format("{} columns; expected three coordinates, each a number or a numerator and a "
+                      "denominator, and perhaps the truth",
+                      count));
+    }
+    if (before != 0 && count != before) {
+      fail(fmt::format("{} columns; expected {}, as in the rows before", count, before));
+    }
+  }
+
+  Vec3d point() {
+    Vec3d x;
+    const bool is_rational = fields_.size() >= 6;
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[static_cast<Eigen::Index>(i)] =
+          is_rational ? ratio(fields_[2 * i], fields_[2 * i + 1]) : number(fields_[i]);
+    }
+    return x;
+  }
+
+  double number(std::string_view text) const {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value)) {
+      fail(fmt::format("found '{}'; expected a number", text));
+    }
+    return value;
+  }
+
+  Integer integer(std::string_view text) const {
+    const std::string_view digits = text.starts_with('-') ? text.substr(1) : text;
+    // Leading zeros would make it octal.
+    const std::size_t begin = std::min(digits.find_first_not_of('0'), digits.size());
+    if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
+      fail(fmt::format("found '{}'; expected an integer", text));
+    }
+    if (begin == digits.size()) return 0;
+    const Integer magnitude{std::string(digits.substr(begin))};
+    return text.starts_with('-') ? Integer(-magnitude) : magnitude;
+  }
+
+  double ratio(std::string_view above, std::string_view below) {
+    const Integer numerator = integer(above), denominator = integer(below);
+    if (denominator <= 0)
+      fail(fmt::format("found the denominator {}; expected one above 0", below));
+    const double value = numerator.convert_to<double>() / denominator.convert_to<double>();
+    if (!std::isfinite(value)) {
+      fail(fmt::format("found {}/{}; expected a number within the range of doubles", above, below));
+    }
+    const oracle::Dyadic parts = oracle::dyadic(value);
+    const bool is_exact = parts.mantissa.is_zero() ? numerator.is_zero()
+                          : parts.exponent < 0
+                              ? numerator << -parts.exponent == parts.mantissa * denominator
+                              : numerator == (parts.mantissa * denominator) << parts.exponent;
+    if (!is_exact) ++rounded_;
+    return value;
+  }
+
+  std::string file_;
+  LineReader lines_;
+  std::int64_t line_ = 0;
+  std::vector<std::string_view> fields_;
+  std::size_t rounded_ = 0;
+};
+
+}  // namespace
+
+CcdQueries read_ccd_queries(const std::filesystem::path& file) { return CcdReader(file).read(); }
+
+}  // namespace touchstone::files

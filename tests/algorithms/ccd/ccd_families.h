@@ -1,0 +1,29 @@
+// Families of queries for tests of continuous collision: hard ones, by construction.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithms/ccd.h"
+#include "tests/algorithms/random.h"
+
+namespace touchstone::reference {
+
+struct CcdFamily {
+  std::string name;
+  FeaturePair pair;
+  std::function<CcdQuery(Random&)> draw;
+  // What every query of it is; unknown where they differ.
+  CcdAnswer truth = CcdAnswer::unknown;
+  bool is_small = false;  // integers for first_contact_of_small
+};
+
+// All families at size about 1, for both kinds.
+std::vector<CcdFamily> ccd_families();
+
+// The query with each coordinate times a factor, plus an offset along all axes (rounded).
+CcdQuery changed(const CcdQuery& query, double factor, double offset = 0);
+
+}  // namespace touchstone::reference
