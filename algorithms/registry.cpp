@@ -9,6 +9,7 @@ namespace touchstone {
 std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
+std::vector<CastEntry> list_casts();
 
 namespace {
 
@@ -36,6 +37,11 @@ std::span<const ManifoldEntry> contact_manifolds() {
   return list;
 }
 
+std::span<const CastEntry> casts() {
+  static const std::vector<CastEntry> list = list_casts();
+  return list;
+}
+
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
 }
@@ -45,6 +51,7 @@ const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
 const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
 }
+const CastEntry* find_cast(std::string_view name) { return find(casts(), name); }
 
 bool offers(const NarrowPhaseEntry& entry, Task task) {
   return std::ranges::find(entry.tasks, task) != entry.tasks.end();
@@ -65,6 +72,16 @@ bool offers(const ManifoldEntry& entry, Precision scalar) {
 
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b) {
   return entry.supports == nullptr || entry.supports(std::min(a, b), std::max(a, b));
+}
+
+bool offers(const CastEntry& entry, const CastSettings& settings) {
+  return std::ranges::find(entry.scalars, settings.scalar) != entry.scalars.end() &&
+         (settings.start == StartContact::counts || entry.approach);
+}
+
+bool offers(const CastEntry& entry, ShapeKind a, ShapeKind b, bool turns) {
+  if (turns && !entry.rotation) return false;
+  return entry.supports == nullptr || entry.supports(std::min(a, b), std::max(a, b), turns);
 }
 
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/cast.h"
 #include "algorithms/contact_manifold.h"
 #include "algorithms/narrow_phase.h"
 
@@ -19,11 +20,13 @@ namespace touchstone {
 std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
+std::span<const CastEntry> casts();
 
 // Each returns null if no entry has that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
+const CastEntry* find_cast(std::string_view name);
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);
@@ -32,6 +35,10 @@ bool offers(const NarrowPhaseEntry& entry, Precision scalar);
 bool offers(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task);
 bool offers(const ManifoldEntry& entry, Precision scalar);
 bool offers(const ManifoldEntry& entry, ShapeKind a, ShapeKind b);  // kinds in either order
+// True if the entry takes such settings, and pairs of these kinds, in either order, one of which turns
+// or none.
+bool offers(const CastEntry& entry, const CastSettings& settings);
+bool offers(const CastEntry& entry, ShapeKind a, ShapeKind b, bool turns);
 // The encoding of a pair of these kinds, in either order.
 Encoding encoding_of(const NarrowPhaseEntry& entry, ShapeKind a, ShapeKind b, Task task,
                      Precision scalar);

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
                                 {"soak", commands::add_soak},
                                 {"stress", commands::add_stress},
                                 {"manifold", commands::add_manifold},
+                                {"cast", commands::add_cast},
                                 {"draw", commands::add_draw},
                                 {"record", commands::add_record},
                                 {"trade", commands::add_trade},

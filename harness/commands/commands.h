@@ -26,6 +26,7 @@ void add_check(Arguments command);
 void add_soak(Arguments command);
 void add_stress(Arguments command);
 void add_manifold(Arguments command);
+void add_cast(Arguments command);
 void add_draw(Arguments command);
 void add_record(Arguments command);
 void add_trade(Arguments command);

@@ -47,6 +47,10 @@ std::vector<Listed> all_algorithms() {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
   }
+  for (const CastEntry& entry : casts()) {
+    all.push_back(
+        {&entry.info, "cast", entry.rotation ? "linear;rigid" : "linear", joined(entry.scalars)});
+  }
   return all;
 }
 

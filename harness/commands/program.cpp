@@ -42,6 +42,7 @@ constexpr std::array all_commands = std::to_array<CommandName>({
     {"list", "List the algorithms, built or not"},
     {"query", "Ask narrow phases about pairs of bodies"},
     {"manifold", "The contact points of bodies that lie on each other"},
+    {"cast", "Ask casts when two moving bodies first touch"},
     {"pairs", "Find the pairs of boxes that overlap"},
     {"draw", "Draw a frame of a scene as a PNG"},
     {"record", "Write a scene's boxes as a recording"},

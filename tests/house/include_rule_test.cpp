@@ -58,9 +58,9 @@ bool in(const std::string& path, const std::string& folder) {
 
 bool is_contract(const std::string& path) {
   return path == "algorithms/broad_phase.h" || path == "algorithms/narrow_phase.h" ||
-         path == "algorithms/contact_manifold.h" || path == "algorithms/algorithm_info.h" ||
-         path == "algorithms/broad_phase_work.h" || path == "algorithms/encoding.h" ||
-         path == "algorithms/limit.h";
+         path == "algorithms/contact_manifold.h" || path == "algorithms/cast.h" ||
+         path == "algorithms/algorithm_info.h" || path == "algorithms/broad_phase_work.h" ||
+         path == "algorithms/encoding.h" || path == "algorithms/limit.h";
 }
 
 // The rooms of kernels, from the bottom up, each with those that it may include.
@@ -76,6 +76,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"mpr", {"gjk", "minkowski"}},
     {"sat", {"minkowski", "simd"}},
     {"batch", {"minkowski", "simd"}},
+    {"motion", {"gjk", "minkowski"}},
 };
 
 // The rooms of the harness, from the bottom up: each includes itself and those before it.
@@ -86,7 +87,7 @@ const std::vector<std::string> harness_rooms = {
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
 bool is_in_algorithms(const std::string& path) {
   return in(path, "algorithms/broad_phase") || in(path, "algorithms/narrow_phase") ||
-         in(path, "algorithms/manifold");
+         in(path, "algorithms/manifold") || in(path, "algorithms/cast");
 }
 
 // The part of `path` that follows `folder`, up to the next slash: "simd" of
@@ -235,8 +236,8 @@ TEST(IncludeRule, NoFileIncludesItselfInACircle) {
 
 TEST(House, AnAlgorithmOfOneFileHasNoHeader) {
   for (const SourceFile& file : files()) {
-    for (const char* folder :
-         {"algorithms/broad_phase", "algorithms/narrow_phase", "algorithms/manifold"}) {
+    for (const char* folder : {"algorithms/broad_phase", "algorithms/narrow_phase",
+                               "algorithms/manifold", "algorithms/cast"}) {
       if (folder_of(file.path) == folder) {
         EXPECT_TRUE(file.path.ends_with(".cpp")) << file.path;
       }
@@ -287,7 +288,7 @@ bool is_algorithm(const std::string& path) {
   const fs::path file = path;
   const fs::path folder = file.parent_path().filename();
   return folder == "broad_phase" || folder == "narrow_phase" || folder == "manifold" ||
-         folder == file.stem();
+         folder == "cast" || folder == file.stem();
 }
 
 TEST(House, AnAlgorithmSaysWhatItIsBeforeItBegins) {

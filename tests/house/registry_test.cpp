@@ -48,6 +48,17 @@ TEST(Registry, ContactManifoldsAreWellDescribed) {
   }
 }
 
+TEST(Registry, CastsAreWellDescribed) {
+  check_info(casts());
+  for (const CastEntry& entry : casts()) {
+    EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
+    EXPECT_TRUE(offers(entry, ShapeKind::box, ShapeKind::box, false)) << entry.info.name;
+    EXPECT_EQ(offers(entry, ShapeKind::hull, ShapeKind::box, true),
+              offers(entry, ShapeKind::box, ShapeKind::hull, true))
+        << entry.info.name;
+  }
+}
+
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const BroadPhaseEntry& entry : broad_phases()) {
     EXPECT_EQ(find_broad_phase(entry.info.name), &entry);
@@ -58,6 +69,8 @@ TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     EXPECT_EQ(find_contact_manifold(entry.info.name), &entry);
   }
+  for (const CastEntry& entry : casts()) EXPECT_EQ(find_cast(entry.info.name), &entry);
+  EXPECT_EQ(find_cast("gjk"), nullptr);
   EXPECT_EQ(find_contact_manifold("gjk"), nullptr);
   EXPECT_EQ(find_broad_phase("no such"), nullptr);
   EXPECT_EQ(find_narrow_phase(""), nullptr);

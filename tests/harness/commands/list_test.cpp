@@ -22,14 +22,16 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
   const auto rows =
       read_rows(folder.write("list.csv", ran.text),
                 {"name", "kind", "origin", "built", "reason", "tasks", "scalars", "citation"});
-  ASSERT_EQ(rows.size(),
-            broad_phases().size() + narrow_phases().size() + contact_manifolds().size());
+  ASSERT_EQ(rows.size(), broad_phases().size() + narrow_phases().size() +
+                             contact_manifolds().size() + casts().size());
   std::set<std::pair<std::string, std::string>> names;
   for (const auto& row : rows) {
     EXPECT_TRUE(names.insert({row[1], row[0]}).second) << row[0];
-    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold");
+    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold" ||
+                row[1] == "cast");
     const AlgorithmInfo& info = row[1] == "broad"    ? find_broad_phase(row[0])->info
                                 : row[1] == "narrow" ? find_narrow_phase(row[0])->info
+                                : row[1] == "cast"   ? find_cast(row[0])->info
                                                      : find_contact_manifold(row[0])->info;
     EXPECT_EQ(row[2], to_string(info.origin));
     EXPECT_EQ(row[3], is_built(info) ? "true" : "false");
@@ -60,6 +62,7 @@ TEST(ListCommand, TableNamesEveryAlgorithm) {
   for (const ManifoldEntry& entry : contact_manifolds()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
+  for (const CastEntry& entry : casts()) EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
 }
 
 TEST(ListCommand, WrongRequests) {
