@@ -18,6 +18,9 @@ struct MovingPairCase {
   // `speed` along the plane of contact (metres; 0: not known). If it is a miss, the gap that they
   // keep at least.
   bool hit = false;
+  // False if the bodies may touch at one instant alone, as at two corners that pass each other: then the
+  // rounding of their placement decides, and an exact answer is either.
+  bool squarely = true;
   double toi = 0, doubt = 0, speed = 0;
   double gap = 0;
   Vec3d normal = Vec3d::Zero();  // of the plane by which it was made, from a to b
