@@ -10,7 +10,8 @@
 //          3. Add the support point, and reduce the simplex to the feature nearest to the origin
 //             (minkowski/simplex). If that is nearer than the radii and the tolerance, it is a hit.
 //          4. The next direction is away from the nearest point. Repeat from step 2.
-//          5. Prove contact a little later, for the upper end of the bracket (motion/contact_by).
+//          5. Prove contact a little later, for the upper end of the bracket: GJK goes on at that time, and at
+//             later ones if that fails.
 // Departs: time grows only through planes whose gap is proven beyond rounding (MovingPair::rounding), so
 //          that no contact is missed and `lower` is certified; giving up is `unknown`, never a miss. The
 //          balls of spheres and capsules are taken off first, so that those are points and segments.
@@ -22,13 +23,14 @@
 //          1e-9 of the larger body's size, or 6e-13 of the greatest of sizes, offset and path if that is
 //          more. Cap: 128 iterations.
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "algorithms/cast.h"
-#include "algorithms/cast/gjk_ray_cast/approach.h"
+#include "algorithms/cast/gjk_ray_cast/contact_proofs.h"
 #include "algorithms/cast/gjk_ray_cast/moving_pair.h"
-#include "algorithms/kernels/motion/contact_by.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {
 namespace {
@@ -74,6 +76,8 @@ class GjkRayCast final : public Cast {
 
   End search(MovingPair& pair, double tolerance, Search& found) const;
   static Vec3d touching_normal(MovingPair& pair, const Search& found, double tolerance);
+  static std::optional<double> contact_by(MovingPair& pair, const Search& found,
+                                          const Vec3d& normal, int& iterations);
   void cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome) const;
 
   CastSettings settings_;
@@ -127,6 +131,27 @@ Vec3d GjkRayCast::touching_normal(MovingPair& pair, const Search& found, double 
   return Vec3d::Zero();
 }
 
+// Returns a time by which the bodies are proven to share a point, if it finds one.
+std::optional<double> GjkRayCast::contact_by(MovingPair& pair, const Search& found,
+                                             const Vec3d& normal, int& iterations) {
+  constexpr int most_tries = 7;
+  constexpr double growth = 16;
+  const double begin = pair.time();
+  if (!(begin > 0) && contact_is_proven(pair, found.simplex, 0, iterations)) return 0;
+  const double depth =
+      found.nearest.inside ? 0.0 : std::max(found.nearest.distance - pair.radius(), 0.0);
+  // First to where they are so deep along the plane that rounding does not hide it.
+  const double least = depth + 256 * MovingPair::rounding;
+  const double speed = -normal.dot(pair.velocity());
+  double step = speed > 0 ? least / speed : least;
+  for (int k = 0; k < most_tries; ++k, step *= growth) {
+    const double time = std::min(begin + step, 1.0);
+    if (contact_is_proven(pair, found.simplex, time, iterations)) return time;
+    if (!(time < 1)) break;
+  }
+  return {};
+}
+
 void GjkRayCast::cast_bounded(const MovingBody& a, const MovingBody& b,
                               CastOutcome& outcome) const {
   constexpr double rounding = MovingPair::rounding;
@@ -169,24 +194,17 @@ void GjkRayCast::cast_bounded(const MovingBody& a, const MovingBody& b,
   const Vec3d normal = at_start ? touching_normal(pair, found, tolerance) : found.plane;
   if (!normal.isZero(0)) outcome.normal = normal;
 
-  const RelativeMotion motion(a, b);
-  const double depth =
-      found.nearest.inside ? 0.0 : std::max(found.nearest.distance - pair.radius(), 0.0);
-  const double speed = -normal.dot(pair.velocity());
-  const double step = speed > 0 ? (depth + 64 * rounding) / speed : 64 * rounding;
-  if (at_start && contact_by(motion, 0, 0, outcome.iterations)) {
-    outcome.upper = 0;
-  } else if (const auto by = contact_by(motion, pair.time(), step, outcome.iterations)) {
-    outcome.upper = *by;
-  }
+  Simplex<double> feature = found.simplex;
   if (found.nearest.inside) {
-    // Weights of an inner point are not known; the nearest face's are good enough for the witness.
-    found.simplex.size = 3;
-    reduce_to_nearest(found.simplex);
+    // Weights of an inner point are not known; a face's are good enough for the witness.
+    feature.size = 3;
+    reduce_to_nearest(feature);
   }
-  const DifferencePoint<double> witness = weighted_mean(found.simplex);
+  const DifferencePoint<double> witness = weighted_mean(feature);
   outcome.point = a.pose->rotation * a.shape->centre + a.pose->translation +
                   outcome.toi * a.motion->displacement + pair.unit() * pair.on_a(witness, normal);
+
+  if (const auto by = contact_by(pair, found, normal, outcome.iterations)) outcome.upper = *by;
 }
 
 }  // namespace

@@ -31,7 +31,9 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
       .task = Task::distance,
       .tolerance = std::max(0.25 * tolerance_ / unit, SupportPair<double>::rounding),
       .most_iterations = most_iterations};
-  const GjkDistanceResult<double> found = gjk_distance(pair, goal);
+  const LastFrame<double> last{kept_, normal_};
+  const GjkDistanceResult<double> found = gjk_distance(pair, goal, &last);
+  kept_.keep(found.simplex);
   outcome.iterations += found.iterations;
   const bool inside = found.end == GjkDistanceResult<double>::End::contact;
   // A simplex nearer than the radii ends the search early, without the plane.
@@ -59,10 +61,12 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
 void AdvancementSearch::finish(double time, CastOutcome& outcome) const {
   if (!normal_.isZero(0)) outcome.normal = normal_;
   outcome.point = point_;
-  const auto by_now = contact_by(motion_, time, 0, outcome.iterations);
-  if (by_now) {
-    outcome.upper = *by_now;
-    return;
+  if (!(time > 0)) {
+    SupportPair<double> pair = motion_.at(0);
+    if (contact_is_proven(pair, motion_.placement_rounding(), outcome.iterations)) {
+      outcome.upper = 0;
+      return;
+    }
   }
   // The first try is at the tolerance's depth if the bodies close at the speed of their origins.
   const double speed = motion_.displacement().norm() +

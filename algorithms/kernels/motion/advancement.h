@@ -1,6 +1,6 @@
 // The loop of conservative advancement: time grows by steps in which the bodies provably stay apart.
 // Used by conservative-advancement and rigid-advancement, which differ in the step.
-// Steps:   1. GJK finds the plane that parts the bodies at the time.
+// Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies.
 //          2. If they are within the tolerance, it is a hit.
 //          3. The step says until when that plane proves them apart; if until the end, it is a miss.
 //          4. Go there, and repeat.
@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "algorithms/core/cast_outcome.h"
+#include "algorithms/kernels/gjk/warm_start.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {
@@ -57,8 +58,9 @@ class AdvancementSearch {
 
  private:
   const RelativeMotion& motion_;
-  double tolerance_;  // metres
-  Vec3d normal_ = Vec3d::Zero();
+  double tolerance_;              // metres
+  WarmStart kept_;                // the last look's simplex
+  Vec3d normal_ = Vec3d::Zero();  // the last plane's
   Vec3d point_ = Vec3d::Zero();
 };
 

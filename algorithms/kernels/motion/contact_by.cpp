@@ -19,7 +19,9 @@ bool contact_is_proven(SupportPair<double>& pair, double slack, int& iterations)
   const NearestPoint<double> nearest = reduce_to_nearest(found.simplex);
   // If every corner is off by less than the distance of the faces from the origin, the true
   // tetrahedron contains the origin too: no plane parts them.
-  if (nearest.inside) return nearest.distance + pair.radius() > margin;
+  if (nearest.inside) {
+    return pair.radius() > margin || (nearest.distance > margin && is_surely_inside(found.simplex));
+  }
   return distance_from_origin(found.simplex) + margin < pair.radius();
 }
 

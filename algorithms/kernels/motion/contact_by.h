@@ -1,5 +1,6 @@
 // The upper end of a bracket of the time of impact: a time by which two bodies are proven to share
-// a point. Used by all our casts.
+// a point. Used by the loop of
+// conservative advancement (advancement.h).
 // Steps:   1. Try a time a little after the found contact.
 //          2. Run GJK there. A tetrahedron of the cores' difference around the origin, or a point of
 //             it nearer to the origin than the radii, is a proof if it holds beyond rounding.

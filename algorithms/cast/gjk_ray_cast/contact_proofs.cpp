@@ -1,8 +1,10 @@
-// Part of gjk-ray-cast: GJK between the difference of two bodies and the path of their offset.
-#include "algorithms/cast/gjk_ray_cast/approach.h"
+// Part of gjk-ray-cast: GJK between the difference of two bodies and the path of their offset, or one
+// point of it.
+#include "algorithms/cast/gjk_ray_cast/contact_proofs.h"
 
 #include <algorithm>
 
+#include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/gjk/simplex_face.h"
 
 namespace touchstone {
@@ -49,6 +51,29 @@ bool never_deeper(MovingPair& pair, double tolerance, int most_iterations, int& 
     }
     if (!(nearest.distance > 0) || nearest.direction.isZero(0)) return false;
     direction = -nearest.direction;
+  }
+  return false;
+}
+
+bool contact_is_proven(MovingPair& pair, Simplex<double> simplex, double time, int& iterations) {
+  constexpr int most_iterations = 16;
+  constexpr double margin = MovingPair::rounding;
+  const double radius = pair.radius();
+  pair.move_to(time, simplex);
+  for (int k = 0; k < most_iterations; ++k) {
+    ++iterations;
+    const NearestPoint<double> nearest = reduce_to_nearest(simplex);
+    // The corners are off by at most corner_rounding, which is_surely_inside allows for.
+    if (nearest.inside) return radius > margin || is_surely_inside(simplex);
+    if (distance_from_origin(simplex) + margin < radius) return true;
+    if (!(nearest.distance > 0)) return false;
+    const DifferencePoint<double> point = pair.support(-nearest.direction);
+    if (nearest.direction.dot(point.difference) - radius > margin) return false;
+    for (int i = 0; i < simplex.size; ++i) {
+      const auto known = simplex.points[static_cast<std::size_t>(i)].difference;
+      if (known == point.difference) return false;
+    }
+    simplex.points[static_cast<std::size_t>(simplex.size++)] = point;
   }
   return false;
 }

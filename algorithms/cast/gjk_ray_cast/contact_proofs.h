@@ -1,4 +1,4 @@
-// Part of gjk-ray-cast: whether bodies that begin in contact approach.
+// Part of gjk-ray-cast: proofs about bodies in contact, by GJK at fixed times.
 #pragma once
 
 #include "algorithms/cast/gjk_ray_cast/moving_pair.h"
@@ -9,5 +9,10 @@ namespace touchstone {
 // pair's unit) in each other at time 0 and at time 1, and so at any time between. GJK finds it:
 // between the difference and the segment that the offset moves along.
 bool never_deeper(MovingPair& pair, double tolerance, int most_iterations, int& iterations);
+
+// Returns true if the bodies share a point at that time, whatever rounding did: a tetrahedron of the
+// cores' difference surely contains the origin, or a point of it is nearer than the radii. The search
+// starts at the simplex, which is that of an earlier time. It leaves the pair at the new time.
+bool contact_is_proven(MovingPair& pair, Simplex<double> simplex, double time, int& iterations);
 
 }  // namespace touchstone
