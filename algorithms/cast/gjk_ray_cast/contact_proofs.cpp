@@ -27,6 +27,19 @@ PathPlane plane_along(MovingPair& pair, const Vec3d& direction) {
   return plane;
 }
 
+// Returns true if the origin is surely between a point of the difference and the ball inside of it: the
+// ray from the point through the origin meets the ball, also if both are off by rounding.
+bool is_before_the_ball(const MovingPair& pair, const Vec3d& point) {
+  constexpr double rounding = MovingPair::rounding;
+  const double length = point.norm();
+  if (!(length > 4 * rounding)) return false;
+  const Vec3d along = -point / length, ball = -pair.offset();
+  const double ahead = along.dot(ball);
+  const double aside = (ball - ahead * along).norm();
+  return ahead > 0 &&
+         aside + 2 * rounding * (ahead + length) / length + rounding < pair.inner_radius();
+}
+
 }  // namespace
 
 bool never_deeper(MovingPair& pair, double tolerance, int most_iterations, int& iterations) {
@@ -60,6 +73,7 @@ bool contact_is_proven(MovingPair& pair, Simplex<double> simplex, double time, i
   constexpr double margin = MovingPair::rounding;
   const double radius = pair.radius();
   pair.move_to(time, simplex);
+  if (simplex.size < 4 && is_before_the_ball(pair, weighted_mean(simplex).difference)) return true;
   for (int k = 0; k < most_iterations; ++k) {
     ++iterations;
     const NearestPoint<double> nearest = reduce_to_nearest(simplex);

@@ -10,9 +10,10 @@ namespace touchstone {
 // between the difference and the segment that the offset moves along.
 bool never_deeper(MovingPair& pair, double tolerance, int most_iterations, int& iterations);
 
-// Returns true if the bodies share a point at that time, whatever rounding did: a tetrahedron of the
-// cores' difference surely contains the origin, or a point of it is nearer than the radii. The search
-// starts at the simplex, which is that of an earlier time. It leaves the pair at the new time.
+// Returns true if the bodies share a point at that time, whatever rounding did: the hull of a point of
+// the simplex and of the ball inside of the difference contains the origin, or a tetrahedron surely does,
+// or a point is nearer than the radii. The simplex is that of an earlier time, and GJK starts there. It
+// leaves the pair at the new time.
 bool contact_is_proven(MovingPair& pair, Simplex<double> simplex, double time, int& iterations);
 
 }  // namespace touchstone

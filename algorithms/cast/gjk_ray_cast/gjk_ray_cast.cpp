@@ -42,6 +42,10 @@ class GjkRayCast final : public Cast {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);
+    inner_radii_.clear();
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      inner_radii_.push_back(inner_radius(shapes[i], shapes_[i]));
+    }
   }
 
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
@@ -83,6 +87,7 @@ class GjkRayCast final : public Cast {
   CastSettings settings_;
   int most_iterations_;
   std::vector<SupportShape<double>> shapes_;
+  std::vector<double> inner_radii_;  // metres, one for each shape
 };
 
 GjkRayCast::End GjkRayCast::search(MovingPair& pair, double tolerance, Search& found) const {
@@ -204,6 +209,12 @@ void GjkRayCast::cast_bounded(const MovingBody& a, const MovingBody& b,
   outcome.point = a.pose->rotation * a.shape->centre + a.pose->translation +
                   outcome.toi * a.motion->displacement + pair.unit() * pair.on_a(witness, normal);
 
+  const auto inner = [&](const MovingBody& body) {
+    return inner_radii_[static_cast<std::size_t>(body.shape - shapes_.data())] *
+           least_stretch(body.pose->rotation);
+  };
+  pair.set_inner_radius(inner(a) + inner(b));
+  found.simplex = feature;
   if (const auto by = contact_by(pair, found, normal, outcome.iterations)) outcome.upper = *by;
 }
 

@@ -47,6 +47,9 @@ class MovingPair {
   double radius() const { return a_.radius() + b_.radius(); }
   double unit() const { return unit_; }
   double size() const { return size_; }  // of the larger body
+  // The radius of a ball about -offset() that the difference of the cores holds, or 0.
+  double inner_radius() const { return inner_radius_; }
+  void set_inner_radius(double metres) { inner_radius_ = metres / unit_; }
   Vec3d on_a(const DifferencePoint<double>& point, const Vec3d& normal) const {
     return point.a + a_.radius() * normal;
   }
@@ -59,7 +62,14 @@ class MovingPair {
   double reach_a_, reach_b_, size_;
   PosedShape<double> a_, b_;
   Vec3d start_, velocity_, offset_;
-  double time_ = 0;
+  double time_ = 0, inner_radius_ = 0;
 };
+
+// The radius (metres) of a ball about the centre of a core, as support shapes have it, that the core
+// holds; rounded down, and 0 for cores without volume or if it is not known.
+double inner_radius(const Shape& shape, const SupportShape<double>& support);
+
+// The least factor by which a matrix lengthens a vector, if it is nearly a rotation, otherwise 0.
+double least_stretch(const Mat3d& matrix);
 
 }  // namespace touchstone
