@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
                                 {"manifold", commands::add_manifold},
                                 {"rays", commands::add_rays},
                                 {"ccd", commands::add_ccd},
+                                {"cast", commands::add_cast},
                                 {"draw", commands::add_draw},
                                 {"record", commands::add_record},
                                 {"trade", commands::add_trade},

@@ -1,4 +1,5 @@
 // The written names of the core's enumerations.
+#include "algorithms/core/cast_outcome.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/shape.h"
 
@@ -47,6 +48,15 @@ std::string_view to_string(Status status) {
     case Status::not_reported: return "not_reported";
     case Status::crashed: return "crashed";
     case Status::timed_out: return "timed_out";
+  }
+  return "?";
+}
+
+std::string_view to_string(CastAnswer answer) {
+  switch (answer) {
+    case CastAnswer::hit: return "hit";
+    case CastAnswer::miss: return "miss";
+    case CastAnswer::unknown: return "unknown";
   }
   return "?";
 }

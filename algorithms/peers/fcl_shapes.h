@@ -1,4 +1,4 @@
-// Our shapes and poses as FCL's. Used by fcl_narrow_phase.cpp alone.
+// Our shapes and poses as FCL's. Used by fcl_narrow_phase.cpp and cast/fcl_casts.cpp.
 #pragma once
 
 #include <fcl/geometry/shape/box.h>
@@ -18,6 +18,7 @@
 
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
+#include "algorithms/encoding.h"
 
 namespace touchstone::fcl_shapes {
 

@@ -28,6 +28,7 @@ void add_stress(Arguments command);
 void add_manifold(Arguments command);
 void add_rays(Arguments command);
 void add_ccd(Arguments command);
+void add_cast(Arguments command);
 void add_draw(Arguments command);
 void add_record(Arguments command);
 void add_trade(Arguments command);

@@ -45,6 +45,7 @@ constexpr std::array all_commands = std::to_array<CommandName>({
     {"rays", "Cast rays at a mesh"},
     {"ccd",
      "When moving vertices, faces and edges meet: the contacts that are missed, and the time"},
+    {"cast", "Ask casts when two moving bodies first touch"},
     {"pairs", "Find the pairs of boxes that overlap"},
     {"draw", "Draw a frame of a scene as a PNG"},
     {"record", "Write a scene's boxes as a recording"},

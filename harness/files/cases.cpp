@@ -6,20 +6,37 @@
 namespace touchstone::files {
 namespace {
 
-Case read_case(const JsonNode& node) {
+void read_case(const JsonNode& node, Case& c) {
   node.as_object("a case: an object with \"id\", \"a\" and \"b\"");
-  Case c;
   c.id = node.at("id", "a string").text("a string");
   read_body(node.at("a", "the first body"), c.shape_a, c.pose_a);
   read_body(node.at("b", "the second body"), c.shape_b, c.pose_b);
-  return c;
+}
+
+Motion read_motion(const JsonNode& body) {
+  Motion motion;
+  if (body.has("displacement")) motion.displacement = body.at("displacement", "").vector();
+  if (body.has("rotation_vector")) motion.rotation_vector = body.at("rotation_vector", "").vector();
+  return motion;
 }
 
 }  // namespace
 
 std::vector<Case> read_cases(const std::filesystem::path& file) {
   std::vector<Case> cases;
-  for_each_json_line(file, "case", [&](const JsonNode& line) { cases.push_back(read_case(line)); });
+  for_each_json_line(file, "case",
+                     [&](const JsonNode& line) { read_case(line, cases.emplace_back()); });
+  return cases;
+}
+
+std::vector<CastCase> read_cast_cases(const std::filesystem::path& file) {
+  std::vector<CastCase> cases;
+  for_each_json_line(file, "case", [&](const JsonNode& line) {
+    CastCase& c = cases.emplace_back();
+    read_case(line, c);
+    c.motion_a = read_motion(line.at("a", "the first body"));
+    c.motion_b = read_motion(line.at("b", "the second body"));
+  });
   return cases;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/core/motion.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 
@@ -16,12 +17,21 @@ struct Case {
   Pose pose_a, pose_b;
 };
 
+// A pair of bodies that move from time 0 to 1; they rest if nothing else is said.
+struct CastCase : Case {
+  Motion motion_a, motion_b;
+};
+
 // Reads a file of cases. Throws InputError with file, line, key and the expected value for:
 // malformed JSON, an unknown shape, an array of the wrong length, NaN or infinite numbers, a
 // negative size, a zero normal or quaternion, an empty hull. Ignores unknown keys. Capsules,
 // cylinders and cones along x or y become ones along z by a permutation of the rotation's columns,
 // which is exact.
 std::vector<Case> read_cases(const std::filesystem::path& file);
+
+// Reads the same with each body's "displacement" (metres) and "rotation_vector" (radians), arrays of
+// three numbers; either may be missing, which means zero.
+std::vector<CastCase> read_cast_cases(const std::filesystem::path& file);
 
 // One line, without the line break, that read_cases turns into the same bits. Rotations are written
 // as matrices.

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "algorithms/registry.h"
 #include "tests/harness/commands/program.h"
@@ -22,16 +25,24 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
   const auto rows =
       read_rows(folder.write("list.csv", ran.text),
                 {"name", "kind", "origin", "built", "reason", "tasks", "scalars", "citation"});
-  ASSERT_EQ(rows.size(), broad_phases().size() + narrow_phases().size() +
-                             contact_manifolds().size() + ray_casts().size());
+  std::map<std::pair<std::string, std::string>, const AlgorithmInfo*> infos;
+  const auto expect_all = [&](const std::string& kind, const auto& entries) {
+    for (const auto& entry : entries) infos[{kind, entry.info.name}] = &entry.info;
+  };
+  expect_all("broad", broad_phases());
+  expect_all("narrow", narrow_phases());
+  expect_all("manifold", contact_manifolds());
+  expect_all("ray", ray_casts());
+  expect_all("mid", mid_phases());
+  expect_all("concave", concave_phases());
+  expect_all("cast", casts());
+  expect_all("ccd", ccds());
+  ASSERT_EQ(rows.size(), infos.size());
   std::set<std::pair<std::string, std::string>> names;
   for (const auto& row : rows) {
     EXPECT_TRUE(names.insert({row[1], row[0]}).second) << row[0];
-    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold" || row[1] == "ray");
-    const AlgorithmInfo& info = row[1] == "broad"    ? find_broad_phase(row[0])->info
-                                : row[1] == "narrow" ? find_narrow_phase(row[0])->info
-                                : row[1] == "ray"    ? find_ray_cast(row[0])->info
-                                                     : find_contact_manifold(row[0])->info;
+    ASSERT_TRUE(infos.contains({row[1], row[0]})) << row[1] << " " << row[0];
+    const AlgorithmInfo& info = *infos[{row[1], row[0]}];
     EXPECT_EQ(row[2], to_string(info.origin));
     EXPECT_EQ(row[3], is_built(info) ? "true" : "false");
     EXPECT_EQ(row[4], is_built(info) ? info.lacking : info.reason);
@@ -64,6 +75,7 @@ TEST(ListCommand, TableNamesEveryAlgorithm) {
   for (const RayCastEntry& entry : ray_casts()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
+  for (const CastEntry& entry : casts()) EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
 }
 
 TEST(ListCommand, WrongRequests) {

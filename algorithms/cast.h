@@ -1,0 +1,71 @@
+// The contract of casts: the first time at which two moving convex bodies touch. Casts and the
+// harness include this.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "algorithms/algorithm_info.h"
+#include "algorithms/core/body_pairs.h"
+#include "algorithms/core/cast_outcome.h"
+#include "algorithms/core/motion.h"
+#include "algorithms/core/outcome.h"
+#include "algorithms/core/pose.h"
+#include "algorithms/core/shape.h"
+
+namespace touchstone {
+
+struct CastSettings {
+  Precision scalar = Precision::float64;
+  // The distance of the bodies (metres) at which a hit may be reported, and with it how early. The
+  // default is the algorithm's own, and is no less than what rounding hides.
+  std::optional<double> tolerance = {};
+  // Greatest number of iterations of each loop of a query; the default is the algorithm's own. A
+  // query that needs more returns not_converged.
+  std::optional<int> max_iterations = {};
+  StartContact start = StartContact::counts;
+};
+
+// Pairs of one combination of kinds, kind_a <= kind_b. Body k of the pairs has motions[k].
+struct CastBatch {
+  ShapeKind kind_a, kind_b;
+  BodyPairs pairs;
+  std::span<const Motion> motions;
+
+  std::size_t size() const { return pairs.first.size(); }
+};
+
+// One instance for each worker, never shared between threads.
+class Cast {
+ public:
+  virtual ~Cast() = default;
+
+  // Called once for each scene: prepares what the algorithm needs of each shape, so that no query
+  // does. The shapes stay alive and unchanged. Numbers are finite and sizes >= 0; zero sizes are
+  // valid.
+  virtual void bind(std::span<const Shape> shapes) = 0;
+
+  // Writes outcomes[i] for each pair i. Never throws on finite input: a failure is a status.
+  virtual void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) = 0;
+};
+
+struct CastEntry {
+  AlgorithmInfo info;
+  std::vector<Precision> scalars;
+  // True if bodies may turn. Otherwise `solve` never gets a motion with a rotation.
+  bool rotation = false;
+  // True if it honours StartContact::approach; otherwise it is never made with that.
+  bool approach = false;
+  // True for the kinds of pairs that it supports, kind_a <= kind_b, if one of them turns or none
+  // does; null means all. `solve` never gets other pairs: their outcome is `unsupported`.
+  bool (*supports)(ShapeKind kind_a, ShapeKind kind_b, bool turns) = nullptr;
+  // Null if it is not built.
+  std::function<std::unique_ptr<Cast>(const CastSettings&)> make;
+};
+
+}  // namespace touchstone

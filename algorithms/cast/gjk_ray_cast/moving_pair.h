@@ -1,0 +1,75 @@
+// Part of gjk-ray-cast: two bodies whose rotations are fixed, as the difference A - B of their cores
+// and a point that moves past it.
+#pragma once
+
+#include <limits>
+
+#include "algorithms/core/motion.h"
+#include "algorithms/kernels/minkowski/simplex.h"
+
+namespace touchstone {
+
+// World axes; lengths are divided by `unit`, which is above the bodies' sizes, their offset at any
+// time and the displacement. At time t body b's centre is at start + t * velocity from body a's; the
+// bodies share a point where that is in the difference of the bodies about their own centres.
+class MovingPair {
+ public:
+  // How far the computed gap of a plane is off the true one. With u half of epsilon, as proven in
+  // certified/proven_rounding.h, where the unit is above offset and sizes too:
+  //   support points, direction, its length, radii              248 u
+  //   velocity (u), its product with t (u), the sum (u)           5.2 u along a direction
+  //   normal . velocity and its product with 1 - t, the sum       11 u
+  //   t itself, advanced by gap / speed, times the speed           8 u
+  // in all 273 u.
+  static constexpr double rounding = 144 * std::numeric_limits<double>::epsilon();
+
+  MovingPair(const SupportShape<double>& a, const Pose& pose_a, const Motion& motion_a,
+             const SupportShape<double>& b, const Pose& pose_b, const Motion& motion_b);
+
+  // False if lengths are beyond the range of the proof.
+  bool is_in_range() const { return unit_ < 0x1p959; }
+
+  // Returns true if a plane parts balls around the bodies from time 0 to 1. If not, `direction` is
+  // a good first one to search for a plane along.
+  bool balls_miss(Vec3d& direction) const;
+
+  // The point of the difference furthest in a direction. `a` and `b` are relative to the bodies' own
+  // centres; `difference` is relative to b's offset at the time.
+  DifferencePoint<double> support(const Vec3d& direction);
+
+  // Sets the time, and moves the differences of a simplex there.
+  void move_to(double time, Simplex<double>& simplex);
+
+  double time() const { return time_; }
+  const Vec3d& start() const { return start_; }
+  const Vec3d& offset() const { return offset_; }
+  const Vec3d& velocity() const { return velocity_; }
+  double radius() const { return a_.radius() + b_.radius(); }
+  double unit() const { return unit_; }
+  double size() const { return size_; }  // of the larger body
+  // The radius of a ball about -offset() that the difference of the cores holds, or 0.
+  double inner_radius() const { return inner_radius_; }
+  void set_inner_radius(double metres) { inner_radius_ = metres / unit_; }
+  Vec3d on_a(const DifferencePoint<double>& point, const Vec3d& normal) const {
+    return point.a + a_.radius() * normal;
+  }
+
+ private:
+  MovingPair(const CentreOffset& offset, const Vec3d& displacement, const SupportShape<double>& a,
+             const Mat3d& rotation_a, const SupportShape<double>& b, const Mat3d& rotation_b);
+
+  double unit_;  // metres, a power of two
+  double reach_a_, reach_b_, size_;
+  PosedShape<double> a_, b_;
+  Vec3d start_, velocity_, offset_;
+  double time_ = 0, inner_radius_ = 0;
+};
+
+// The radius (metres) of a ball about the centre of a core, as support shapes have it, that the core
+// holds; rounded down, and 0 for cores without volume or if it is not known.
+double inner_radius(const Shape& shape, const SupportShape<double>& support);
+
+// The least factor by which a matrix lengthens a vector, if it is nearly a rotation, otherwise 0.
+double least_stretch(const Mat3d& matrix);
+
+}  // namespace touchstone

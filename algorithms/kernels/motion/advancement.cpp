@@ -1,0 +1,81 @@
+// GJK at one time of an advancement, and the outcome of a hit.
+#include "algorithms/kernels/motion/advancement.h"
+
+#include <algorithm>
+
+#include "algorithms/kernels/gjk/gjk_distance.h"
+#include "algorithms/kernels/motion/contact_by.h"
+
+namespace touchstone {
+
+AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const AdvancementGoal& goal)
+    : motion_(motion) {
+  const auto size = [](const MovingBody& body, double reach) {
+    return std::max(reach, body.shape->size) + body.shape->radius;
+  };
+  const double larger =
+      std::max(size(motion.a(), motion.reach_a()), size(motion.b(), motion.reach_b()));
+  // The unit of a pair in contact is below four times its size.
+  const double hidden =
+      16 * (4 * RelativeMotion::pair_rounding * larger + motion.placement_rounding());
+  tolerance_ = std::max(goal.tolerance.value_or(1e-9 * larger), hidden);
+}
+
+Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, CastOutcome& outcome) {
+  using State = Advancement::State;
+  constexpr int most_iterations = 128;
+  Advancement result;
+  const double unit = pair.unit();
+  if (!(unit < 0x1p959)) return result;
+  const GjkDistanceGoal<double> goal{
+      .task = Task::distance,
+      .tolerance = std::max(0.25 * tolerance_ / unit, SupportPair<double>::rounding),
+      .most_iterations = most_iterations};
+  const LastFrame<double> last{kept_, normal_};
+  const GjkDistanceResult<double> found = gjk_distance(pair, goal, &last);
+  kept_.keep(found.simplex);
+  outcome.iterations += found.iterations;
+  const bool inside = found.end == GjkDistanceResult<double>::End::contact;
+  // A simplex nearer than the radii ends the search early, without the plane.
+  const double upper = inside ? 0.0 : unit * (found.upper - pair.radius());
+  if (inside || upper <= tolerance_) {
+    result.state = State::hit;
+    Simplex<double> simplex = found.simplex;
+    if (simplex.size == 4) simplex.size = 3;  // an inner point has no weights
+    const NearestPoint<double> nearest = reduce_to_nearest(simplex);
+    const Vec3d normal = -nearest.direction;
+    if (!(time > 0) && !found.nearest.inside) normal_ = normal;
+    const Vec3d core = weighted_mean(simplex).a + pair.radius_a() * normal_;
+    point_ = motion_.to_world(pair.to_world(core), time);
+    return result;
+  }
+  const double slack = RelativeMotion::pair_rounding * unit + motion_.placement_rounding();
+  result.plane = {time, found.direction, unit * (found.lower - pair.radius()) - slack};
+  if (result.plane.gap > 0) {
+    result.state = State::apart;
+    normal_ = found.direction;
+  }
+  return result;
+}
+
+void AdvancementSearch::finish(double time, CastOutcome& outcome) const {
+  if (!normal_.isZero(0)) outcome.normal = normal_;
+  outcome.point = point_;
+  if (!(time > 0)) {
+    SupportPair<double> pair = motion_.at(0);
+    if (contact_is_proven(pair, motion_.placement_rounding(), outcome.iterations)) {
+      outcome.upper = 0;
+      return;
+    }
+  }
+  // The first try is at the tolerance's depth if the bodies close at the speed of their origins.
+  const double speed = motion_.displacement().norm() +
+                       motion_.a().motion->rotation_vector.norm() * motion_.reach_a() +
+                       motion_.b().motion->rotation_vector.norm() * motion_.reach_b();
+  if (!(speed > 0)) return;
+  if (const auto by = contact_by(motion_, time, 2 * tolerance_ / speed, outcome.iterations)) {
+    outcome.upper = *by;
+  }
+}
+
+}  // namespace touchstone

@@ -1,0 +1,99 @@
+// The loop of conservative advancement: time grows by steps in which the bodies provably stay apart.
+// Used by conservative-advancement and rigid-advancement, which differ in the step.
+// Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies.
+//          2. If they are within the tolerance, it is a hit.
+//          3. The step says until when that plane proves them apart; if until the end, it is a miss.
+//          4. Go there, and repeat.
+//          5. Prove contact a little later, for the upper end of the bracket (contact_by).
+#pragma once
+
+#include <optional>
+
+#include "algorithms/core/cast_outcome.h"
+#include "algorithms/kernels/gjk/warm_start.h"
+#include "algorithms/kernels/motion/relative_motion.h"
+
+namespace touchstone {
+
+// A plane that parts the bodies at a time.
+struct PartingPlane {
+  double time;
+  Vec3d normal;  // unit vector from a to b
+  double gap;    // metres; proven beyond rounding, > 0
+};
+
+// How long a plane parts the bodies.
+struct FreeUntil {
+  double time;      // they are apart in [plane.time, time)
+  bool to_the_end;  // they are apart in [plane.time, 1]
+};
+
+struct AdvancementGoal {
+  // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.
+  std::optional<double> tolerance;
+  int most_steps = 0;
+};
+
+// `Step`: FreeUntil operator()(SupportPair<double>& pair, const PartingPlane& plane), where the pair
+// is at the plane's time.
+template <class Step>
+void advance(const RelativeMotion& motion, const AdvancementGoal& goal, Step&& step,
+             CastOutcome& outcome);
+
+// --- the parts that do not depend on the step -----------------------------------------------------
+
+// One look at the pair at a time.
+struct Advancement {
+  enum class State { apart, hit, open };
+  State state = State::open;
+  PartingPlane plane{};
+};
+
+class AdvancementSearch {
+ public:
+  AdvancementSearch(const RelativeMotion& motion, const AdvancementGoal& goal);
+  Advancement look(SupportPair<double>& pair, double time, CastOutcome& outcome);
+  // Completes the outcome of a hit at the time of the last look.
+  void finish(double time, CastOutcome& outcome) const;
+
+ private:
+  const RelativeMotion& motion_;
+  double tolerance_;              // metres
+  WarmStart kept_;                // the last look's simplex
+  Vec3d normal_ = Vec3d::Zero();  // the last plane's
+  Vec3d point_ = Vec3d::Zero();
+};
+
+template <class Step>
+void advance(const RelativeMotion& motion, const AdvancementGoal& goal, Step&& step,
+             CastOutcome& outcome) {
+  AdvancementSearch search(motion, goal);
+  outcome.status = Status::not_converged;
+  outcome.iterations = 0;
+  double time = 0;
+  outcome.lower = 0;
+  for (int k = 0; k < goal.most_steps; ++k) {
+    SupportPair<double> pair = motion.at(time);
+    const Advancement found = search.look(pair, time, outcome);
+    if (found.state == Advancement::State::open) return;
+    if (found.state == Advancement::State::hit) {
+      outcome.answer = CastAnswer::hit;
+      outcome.status = Status::ok;
+      outcome.toi = time;
+      search.finish(time, outcome);
+      return;
+    }
+    const FreeUntil free = step(pair, found.plane);
+    if (free.to_the_end) {
+      outcome.answer = CastAnswer::miss;
+      outcome.status = Status::ok;
+      outcome.lower = CastOutcome::none;
+      return;
+    }
+    if (!(free.time > time)) return;
+    time = free.time < 1 ? free.time : 1;
+    outcome.lower = time;
+  }
+}
+
+}  // namespace touchstone

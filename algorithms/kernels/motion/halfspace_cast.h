@@ -1,0 +1,23 @@
+// Half-spaces that move without turning: the gap along the plane's normal is linear in time. Used
+// by all our casts.
+#pragma once
+
+#include "algorithms/core/cast_outcome.h"
+#include "algorithms/core/motion.h"
+#include "algorithms/core/pose.h"
+#include "algorithms/kernels/minkowski/support_shape.h"
+
+namespace touchstone {
+
+// The tolerance of a hit in metres, and how the bodies' contact at time 0 is taken.
+struct HalfspaceCastGoal {
+  double tolerance = 0;
+  StartContact start = StartContact::counts;
+};
+
+// Solves a pair whose body b is a half-space, and a is any body, also a half-space.
+void cast_halfspace(const SupportShape<double>& a, const Pose& pose_a, const Motion& motion_a,
+                    const SupportShape<double>& b, const Pose& pose_b, const Motion& motion_b,
+                    const HalfspaceCastGoal& goal, CastOutcome& outcome);
+
+}  // namespace touchstone

@@ -1,0 +1,68 @@
+// A pair of moving bodies as seen from the origin of the first, at any time. Used by
+// conservative-advancement, rigid-advancement and the proof of contact (contact_by.h).
+#pragma once
+
+#include "algorithms/core/motion.h"
+#include "algorithms/kernels/minkowski/support.h"
+
+namespace touchstone {
+
+// exp(rotation_vector): the rotation about that vector by its length. Accurate to a few roundings
+// times 1 + its length.
+Mat3d rotation_by(const Vec3d& rotation_vector);
+
+// Returns an upper bound on the factor by which a matrix lengthens a vector; it is tight for
+// rotations.
+double stretch_of(const Mat3d& matrix);
+
+// A bounded body that moves.
+struct MovingBody {
+  const SupportShape<double>* shape;
+  const Pose* pose;      // at time 0
+  const Motion* motion;  // from time 0 to 1
+};
+
+// The frame moves with the origin of body a, and keeps the world's axes. Lengths are in metres.
+class RelativeMotion {
+ public:
+  RelativeMotion(const MovingBody& a, const MovingBody& b);
+
+  // How far rounding moves a support point of a pair made by `at`, or its plane, in the pair's own
+  // unit; certified/proven_rounding.h proves 248 u, and the rest is for the unit length of a
+  // direction and for the arithmetic on gaps. `placement_rounding` comes on top.
+  static constexpr double pair_rounding = 160 * std::numeric_limits<double>::epsilon();
+
+  // The pair at a time in [0, 1].
+  SupportPair<double> at(double time) const;
+
+  // How far a point of a body that `at` places is off its place relative to the other body
+  // (metres). With u half of epsilon: the offset of the origins is off by u of itself, the
+  // displacement by 2 u and the sum by u; exp(t w) R by (4 |w| + 30) u a body that turns, times
+  // that body's reach. The bound is twice that.
+  double placement_rounding() const { return placement_rounding_; }
+
+  const Vec3d& displacement() const { return displacement_; }                 // of b relative to a
+  Vec3d offset(double time) const { return offset_ + time * displacement_; }  // of b's origin
+  // The centre of a body's shape from its origin at that time, in world axes.
+  Vec3d centre_a(double time) const;
+  Vec3d centre_b(double time) const;
+  // Greatest distance of a core's point from the body's origin.
+  double reach_a() const { return reach_a_; }
+  double reach_b() const { return reach_b_; }
+  const MovingBody& a() const { return a_; }
+  const MovingBody& b() const { return b_; }
+
+  // A point of this frame in the world at that time.
+  Vec3d to_world(const Vec3d& point, double time) const {
+    return point + a_.pose->translation + time * a_.motion->displacement;
+  }
+
+ private:
+  MovingBody a_, b_;
+  Vec3d offset_;        // from a's origin to b's at time 0
+  Vec3d displacement_;  // of b relative to a
+  double reach_a_, reach_b_;
+  double placement_rounding_;
+};
+
+}  // namespace touchstone

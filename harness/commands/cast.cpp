@@ -1,0 +1,147 @@
+// touchstone cast: asks casts when two moving bodies first touch, and writes a row for each answer.
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+#include "harness/campaign/selection.h"
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
+#include "harness/files/cases.h"
+#include "harness/files/csv.h"
+#include "harness/process/isolate.h"
+#include "harness/process/queries/solve_cast.h"
+
+namespace touchstone::commands {
+namespace {
+
+struct CastOptions {
+  std::string cases, casts, out;
+  CastSettings settings;
+  double time_limit = 5;  // seconds a query
+};
+
+// The outcomes of one cast for all cases.
+struct CastAnswers {
+  const CastEntry* entry;
+  std::vector<CastOutcome> outcomes;
+};
+
+// Solves all cases that the cast takes, in a child process. Prints the failures.
+CastAnswers ask(const CastEntry& entry, const std::vector<files::CastCase>& cases,
+                const CastOptions& options) {
+  CastAnswers answers = {&entry, std::vector<CastOutcome>(cases.size())};
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < cases.size() && offers(entry, options.settings); ++i) {
+    const files::CastCase& c = cases[i];
+    if (offers(entry, c.shape_a.kind, c.shape_b.kind, process::turns(c))) taken.push_back(i);
+  }
+  const process::IsolationLimits limits = {.item_seconds = options.time_limit};
+  const auto solved = process::isolated_answers<CastOutcome>(taken.size(), limits, [&] {
+    return [&](std::size_t item) {
+      return process::solve_cast(entry, options.settings, cases[taken[item]]);
+    };
+  });
+  for (std::size_t item = 0; item < taken.size(); ++item) {
+    answers.outcomes[taken[item]] = solved.answers[item];
+  }
+  print_failures(entry.info.name, solved.failures,
+                 [&](std::size_t item) { return fmt::format("case '{}'", cases[taken[item]].id); });
+  return answers;
+}
+
+void write_row(files::CsvWriter& csv, const files::CastCase& c, const CastAnswers& answers,
+               const CastOutcome& outcome, const CastOptions& options) {
+  csv.field(c.id).field(answers.entry->info.name).field(to_string(options.settings.scalar));
+  csv.field(to_string(outcome.answer)).field(to_string(outcome.status));
+  csv.field(outcome.toi).field(outcome.lower).field(outcome.upper);
+  for (const Vec3d& v : {outcome.normal, outcome.point}) {
+    for (const double x : v) csv.field(x);
+  }
+  if (outcome.iterations < 0) {
+    csv.field("");
+  } else {
+    csv.field(outcome.iterations);
+  }
+  csv.end_row();
+}
+
+// Prints the number of each answer and each status of every cast.
+void print_summary(const std::vector<CastAnswers>& all) {
+  fmt::print("{:<28} {:>7} {:>7} {:>7}  {}\n", "cast", "hit", "miss", "unknown", "status");
+  for (const CastAnswers& answers : all) {
+    std::array<std::size_t, 3> counts{};
+    std::map<Status, std::size_t> statuses;
+    for (const CastOutcome& outcome : answers.outcomes) {
+      ++counts[static_cast<std::size_t>(outcome.answer)];
+      ++statuses[outcome.status];
+    }
+    std::string text;
+    for (const auto& [status, count] : statuses) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
+    }
+    fmt::print("{:<28} {:>7} {:>7} {:>7}  {}\n", answers.entry->info.name, counts[0], counts[1],
+               counts[2], text);
+  }
+}
+
+void cast(const CastOptions& options) {
+  const auto entries = campaign::select(casts(), campaign::split_names(options.casts), "cast");
+  const std::vector<files::CastCase> cases = files::read_cast_cases(options.cases);
+  files::check_output(options.out);
+  std::vector<CastAnswers> all;
+  all.reserve(entries.size());
+  for (const CastEntry* entry : entries) all.push_back(ask(*entry, cases, options));
+  files::CsvWriter csv(options.out, {"id", "algorithm", "scalar", "answer", "status", "toi",
+                                     "lower", "upper", "normal_x", "normal_y", "normal_z",
+                                     "point_x", "point_y", "point_z", "iterations"});
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const CastAnswers& answers : all) {
+      write_row(csv, cases[i], answers, answers.outcomes[i], options);
+    }
+  }
+  csv.close();
+  print_summary(all);
+}
+
+}  // namespace
+
+void add_cast(Arguments command) {
+  const auto options = std::make_shared<CastOptions>();
+  CastSettings& settings = options->settings;
+  command
+      .text("CASES", options->cases,
+            "Cases: JSON, one object a line; a body may have a displacement and a rotation_vector")
+      .required();
+  command.text("--cast", options->casts, "Casts: names joined by commas, or all").required();
+  command.one_of("--scalar", settings.scalar, scalar_choices(), "What is calculated in")
+      .show_default("double");
+  command
+      .number("--tolerance", settings.tolerance,
+              "Distance of the bodies at which a hit may be reported (metres)")
+      .positive();
+  command
+      .number("--max-iterations", settings.max_iterations,
+              "Greatest number of iterations of each loop of a query")
+      .positive();
+  const Arguments::Choices<StartContact> starts = {{"counts", StartContact::counts},
+                                                   {"approach", StartContact::approach}};
+  command
+      .one_of("--start", settings.start, starts,
+              "Whether contact at time 0 counts always, or only where the bodies approach")
+      .show_default("counts");
+  add_time_limit(command, options->time_limit).show_default();
+  command.text("--out", options->out, "The CSV file to write").required();
+  command.job([options] {
+    cast(*options);
+    return exit_done;
+  });
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,17 @@
+// Solves one case of two moving bodies with one cast. Used by the command cast.
+#pragma once
+
+#include "algorithms/registry.h"
+#include "harness/files/cases.h"
+
+namespace touchstone::process {
+
+// Returns true if either body turns.
+inline bool turns(const files::CastCase& c) { return c.motion_a.turns() || c.motion_b.turns(); }
+
+// Returns the outcome in the case's own order. The entry must be built, and take such pairs and
+// settings. The cast is bound for the query alone, so that no case can spoil another's answer.
+CastOutcome solve_cast(const CastEntry& entry, const CastSettings& settings,
+                       const files::CastCase& c);
+
+}  // namespace touchstone::process

@@ -1,0 +1,264 @@
+// Moving pairs by construction.
+#include "tests/algorithms/cast/moving_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "algorithms/hull/convex_hull.h"
+#include "tests/algorithms/shapes.h"
+
+namespace touchstone::reference {
+namespace {
+
+Vec3d support_in_body(const Shape& s, const Vec3d& d) {
+  const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
+  const double across = std::hypot(d.x(), d.y());
+  const Vec3d rim =
+      across > 0 ? Vec3d(s.radius * d.x() / across, s.radius * d.y() / across, 0) : Vec3d(0, 0, 0);
+  switch (s.kind) {
+    case ShapeKind::sphere: return s.radius * d.normalized();
+    case ShapeKind::capsule:
+      return s.radius * d.normalized() + Vec3d(0, 0, sign(d.z()) * s.half_length);
+    case ShapeKind::box:
+      return {sign(d.x()) * s.half_extents.x(), sign(d.y()) * s.half_extents.y(),
+              sign(d.z()) * s.half_extents.z()};
+    case ShapeKind::cylinder: return rim + Vec3d(0, 0, sign(d.z()) * s.half_length);
+    case ShapeKind::cone: {
+      const Vec3d tip(0, 0, s.half_length), base = rim - tip;
+      return d.dot(tip) > d.dot(base) ? tip : base;
+    }
+    case ShapeKind::ellipsoid: {
+      const Vec3d e = s.radii.cwiseProduct(d);
+      return s.radii.cwiseProduct(e / e.norm());
+    }
+    case ShapeKind::hull: {
+      Vec3d best = s.hull->vertices[0];
+      for (const Vec3d& v : s.hull->vertices) {
+        if (d.dot(v) > d.dot(best)) best = v;
+      }
+      return best;
+    }
+    case ShapeKind::halfspace: break;
+  }
+  return Vec3d::Zero();
+}
+
+Shape scaled_shape(Shape s, double factor) {
+  s.radius *= factor;
+  s.half_length *= factor;
+  s.half_extents *= factor;
+  s.radii *= factor;
+  s.offset *= factor;
+  if (s.kind == ShapeKind::hull) {
+    std::vector<Vec3d> vertices = s.hull->vertices;
+    for (Vec3d& v : vertices) v *= factor;
+    s.hull = touchstone::make_hull(std::move(vertices));
+  }
+  return s;
+}
+
+// Places b so that its support along -normal is at `gap` from a's along +normal, and moves both.
+void place(MovingPairCase& c, const Vec3d& normal, double gap) {
+  const Vec3d on_a = support_point(c.a, c.pose_a, normal);
+  c.pose_b.translation += on_a + gap * normal - support_point(c.b, c.pose_b, -normal);
+}
+
+// A point inside the body, in the world.
+Vec3d middle_of(const Shape& shape, const Pose& pose) {
+  if (shape.kind != ShapeKind::hull) return pose.translation;
+  Vec3d mean = Vec3d::Zero();
+  for (const Vec3d& v : shape.hull->vertices) mean += v;
+  return pose(mean / static_cast<double>(shape.hull->vertices.size()));
+}
+
+MovingPairCase random_pair(ShapeKind a, ShapeKind b, Random& random) {
+  MovingPairCase c;
+  c.a = random_shape(a, random);
+  c.b = random_shape(b, random);
+  c.pose_a = {random.rotation(), random.vector(1)};
+  c.pose_b = {random.rotation(), Vec3d::Zero()};
+  return c;
+}
+
+}  // namespace
+
+Vec3d support_point(const Shape& shape, const Pose& pose, const Vec3d& direction) {
+  return pose(support_in_body(shape, pose.rotation.transpose() * direction));
+}
+
+Shape random_shape(ShapeKind kind, Random& random) {
+  const auto size = [&] { return random.uniform(0.3, 1); };
+  switch (kind) {
+    case ShapeKind::sphere: return make_sphere(size());
+    case ShapeKind::capsule: return make_capsule(size(), size());
+    case ShapeKind::box: return make_box(size(), size(), size());
+    case ShapeKind::cylinder: return make_cylinder(size(), size());
+    case ShapeKind::cone: return make_cone(size(), size());
+    case ShapeKind::ellipsoid: return make_ellipsoid(size(), size(), size());
+    default: break;
+  }
+  std::vector<Vec3d> vertices;
+  const int count = 4 + random.below(28);
+  for (int i = 0; i < count; ++i) vertices.push_back(random.uniform(0.5, 1) * random.direction());
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = touchstone::make_hull(std::move(vertices));
+  return shape;
+}
+
+Pose pose_at(const Pose& pose, const Motion& motion, double time) {
+  const double angle = motion.rotation_vector.norm();
+  Pose at = pose;
+  if (angle > 0) {
+    at.rotation = Eigen::AngleAxisd(time * angle, motion.rotation_vector / angle) * pose.rotation;
+  }
+  at.translation += time * motion.displacement;
+  return at;
+}
+
+Vec3d contact_normal(ContactFeature feature, const Pose& a, const Pose& b, Random& random) {
+  const int axis = random.below(3);
+  if (feature == ContactFeature::face) return a.rotation.col(axis);
+  if (feature == ContactFeature::edges) {
+    return a.rotation.col(axis).cross(b.rotation.col(random.below(3))).normalized();
+  }
+  return random.direction();
+}
+
+MovingPairCase meeting(ShapeKind a, ShapeKind b, ContactFeature feature, double toi, double path,
+                       Random& random) {
+  MovingPairCase c = random_pair(a, b, random);
+  const Vec3d normal = contact_normal(feature, c.pose_a, c.pose_b, random);
+  place(c, normal, 0);
+  c.inward = middle_of(c.a, c.pose_a) - middle_of(c.b, c.pose_b);
+  c.squarely = random.below(2) == 0;
+  Vec3d velocity = path * (c.squarely ? Vec3d(c.inward.normalized()) : random.direction());
+  if (velocity.dot(normal) > 0) velocity = -velocity;
+  if (!c.squarely) velocity -= 0.1 * path * normal;
+  c.motion_a.displacement = random.vector(path);
+  c.motion_b.displacement = c.motion_a.displacement + velocity;
+  const Vec3d relative = c.motion_b.displacement - c.motion_a.displacement;
+  c.pose_b.translation -= toi * relative;
+  c.hit = true;
+  c.toi = toi;
+  c.normal = normal;
+  c.speed = -normal.dot(relative);
+  c.doubt = 32 * 0x1p-52 * (4 + path) / c.speed;
+  c.what = std::string(to_string(a)) + "-" + std::string(to_string(b)) + " meet";
+  return c;
+}
+
+MovingPairCase passing(ShapeKind a, ShapeKind b, ContactFeature feature, double gap, double path,
+                       Random& random) {
+  MovingPairCase c = random_pair(a, b, random);
+  const Vec3d normal = contact_normal(feature, c.pose_a, c.pose_b, random);
+  place(c, normal, std::max(gap, 0.0));
+  // If both bodies have a point, each part of the way from it to their middles is a point of both
+  // when b has moved by that part of the difference of the middles.
+  c.inward = middle_of(c.a, c.pose_a) - middle_of(c.b, c.pose_b);
+  if (gap < 0) c.pose_b.translation += -gap * c.inward.normalized();
+  const Vec3d along = path * normal.cross(random.direction()).normalized();
+  c.motion_b.displacement = along;
+  c.pose_b.translation -= 0.5 * along;
+  c.hit = gap <= 0;
+  c.gap = gap;
+  c.normal = normal;
+  c.toi = CastOutcome::none;
+  c.what = std::string(to_string(a)) + "-" + std::string(to_string(b)) + " pass at " +
+           std::to_string(gap);
+  return c;
+}
+
+MovingPairCase scaled(MovingPairCase c, double factor) {
+  c.a = scaled_shape(c.a, factor);
+  c.b = scaled_shape(c.b, factor);
+  c.pose_a.translation *= factor;
+  c.pose_b.translation *= factor;
+  c.motion_a.displacement *= factor;
+  c.motion_b.displacement *= factor;
+  c.speed *= factor;
+  c.gap *= factor;
+  return c;
+}
+
+MovingPairCase swapped(MovingPairCase c) {
+  std::swap(c.a, c.b);
+  std::swap(c.pose_a, c.pose_b);
+  std::swap(c.motion_a, c.motion_b);
+  return c;
+}
+
+MovingPairCase drifting(MovingPairCase c, const Vec3d& displacement) {
+  c.motion_a.displacement += displacement;
+  c.motion_b.displacement += displacement;
+  c.doubt += 8 * 0x1p-52 * displacement.norm() / std::max(c.speed, 1e-300);
+  return c;
+}
+
+CastOutcome solve(const CastEntry& entry, const MovingPairCase& given,
+                  const CastSettings& settings) {
+  const bool swap = given.b.kind < given.a.kind;
+  const MovingPairCase c = swap ? swapped(given) : given;
+  const std::array<Shape, 2> shapes = {c.a, c.b};
+  const std::array<Pose, 2> poses = {c.pose_a, c.pose_b};
+  const std::array<Motion, 2> motions = {c.motion_a, c.motion_b};
+  constexpr std::array<std::uint32_t, 2> bodies = {0, 1};
+  CastOutcome outcome;
+  const std::unique_ptr<Cast> cast = entry.make(settings);
+  cast->bind(shapes);
+  const std::span<const std::uint32_t> both(bodies);
+  cast->solve({.kind_a = c.a.kind,
+               .kind_b = c.b.kind,
+               .pairs = {both.subspan(0, 1), both.subspan(1, 1), bodies, poses},
+               .motions = motions},
+              {&outcome, 1});
+  if (swap) outcome.normal = -outcome.normal;
+  return outcome;
+}
+
+void expect_true(const CastEntry& entry, const MovingPairCase& c, const CastOutcome& outcome,
+                 double tolerance, CastCounts& counts) {
+  const std::string who = entry.info.name + ", " + c.what;
+  switch (outcome.answer) {
+    case CastAnswer::hit: ++counts.hits; break;
+    case CastAnswer::miss: ++counts.misses; break;
+    case CastAnswer::unknown: ++counts.unknown; break;
+  }
+  if (outcome.answer == CastAnswer::unknown) {
+    EXPECT_NE(outcome.status, Status::ok) << who;
+    return;
+  }
+  EXPECT_EQ(outcome.status, Status::ok) << who;
+  if (outcome.answer == CastAnswer::miss) {
+    // Rounding of the placement may put contact at the very end after it.
+    const bool sure = c.squarely || entry.info.origin != Origin::oracle;
+    EXPECT_FALSE(c.hit && sure && !(c.toi + c.doubt > 1)) << who << ": missed at " << c.toi;
+    EXPECT_TRUE(std::isnan(outcome.toi)) << who;
+    return;
+  }
+  EXPECT_TRUE(c.hit || c.gap <= 1.01 * tolerance) << who << ": hit where the gap is " << c.gap;
+  EXPECT_GE(outcome.toi, 0) << who;
+  EXPECT_LE(outcome.toi, 1) << who;
+  EXPECT_LE(outcome.lower, outcome.toi) << who;
+  if (!std::isnan(outcome.upper)) {
+    ++counts.brackets;
+    EXPECT_GE(outcome.upper, outcome.lower) << who;
+    EXPECT_TRUE(c.hit) << who << ": contact is said to be proven";
+  }
+  if (!c.hit || std::isnan(c.toi)) return;
+  EXPECT_LE(outcome.lower, c.toi + c.doubt) << who;
+  EXPECT_LE(outcome.toi, c.toi + c.doubt) << who;
+  if (!std::isnan(outcome.upper)) {
+    EXPECT_GE(outcome.upper, c.toi - c.doubt) << who;
+  }
+  if (c.speed > 0) {
+    EXPECT_GE(outcome.toi, c.toi - c.doubt - 1.01 * tolerance / c.speed) << who;
+  }
+  if (!outcome.normal.hasNaN()) {
+    EXPECT_NEAR(outcome.normal.norm(), 1, 1e-9) << who;
+  }
+}
+
+}  // namespace touchstone::reference
