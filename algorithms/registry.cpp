@@ -2,6 +2,9 @@
 #include "algorithms/registry.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "algorithms/within_margin.h"
 
 namespace touchstone {
 
@@ -11,6 +14,19 @@ std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
 
 namespace {
+
+// Returns the entries with algorithms that keep to the margin.
+std::vector<NarrowPhaseEntry> within_margin(std::vector<NarrowPhaseEntry> entries) {
+  for (NarrowPhaseEntry& entry : entries) {
+    if (!entry.make) continue;
+    entry.make = [make = entry.make](const NarrowPhaseSettings& settings) {
+      std::unique_ptr<NarrowPhase> made = make(settings);
+      if (settings.margin) made = std::make_unique<WithinMargin>(std::move(made), *settings.margin);
+      return made;
+    };
+  }
+  return entries;
+}
 
 template <class Entry>
 const Entry* find(std::span<const Entry> entries, std::string_view name) {
@@ -27,7 +43,7 @@ std::span<const BroadPhaseEntry> broad_phases() {
 }
 
 std::span<const NarrowPhaseEntry> narrow_phases() {
-  static const std::vector<NarrowPhaseEntry> list = list_narrow_phases();
+  static const std::vector<NarrowPhaseEntry> list = within_margin(list_narrow_phases());
   return list;
 }
 

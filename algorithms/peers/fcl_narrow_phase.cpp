@@ -256,6 +256,8 @@ std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
        .supports = supports,
        .traits = {.depth_is_bound = true},
        .encoding = quaternion_encoding,
+       .tolerance = "how far the surface is beyond MPR's portal, and the least gain of a step of a "
+                    "distance; 1e-6 m",
        .make = make_libccd},
       {.info = {.name = "fcl-indep",
                 .citation = "FCL 0.7, GJKSolver_indep: shapeIntersect, shapeDistance",
@@ -267,6 +269,7 @@ std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
        .scalars = scalars,
        .supports = supports,
        .encoding = matrix_encoding,
+       .tolerance = "a length for EPA and for `inside`, and a part of the distance for GJK; 1e-6",
        .make = make_indep},
   };
 }

@@ -294,6 +294,7 @@ std::vector<NarrowPhaseEntry> peers_libccd_narrow_phase() {
        .tasks = {penetration},
        .scalars = scalars,
        .supports = supports,
+       .tolerance = "EPA's: the gain of a step of the depth's square, as a square; 1e-4 m",
        .make = make_epa},
       {.info = {.name = "libccd-mpr",
                 .citation = "libccd 2.1, ccdMPRIntersect and ccdMPRPenetration",
@@ -303,6 +304,7 @@ std::vector<NarrowPhaseEntry> peers_libccd_narrow_phase() {
        .scalars = scalars,
        .supports = supports,
        .traits = {.depth_is_bound = true},
+       .tolerance = "how far the surface is beyond the portal, along its normal; 1e-4 m",
        .make = make_mpr},
   };
 }

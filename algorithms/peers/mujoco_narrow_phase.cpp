@@ -219,6 +219,7 @@ std::vector<NarrowPhaseEntry> peers_mujoco_narrow_phase() {
            .supports = supports,
            .traits = {.depth_is_bound = true},
            .encoding = encoding,
+           .tolerance = "MPR's: how far the surface is beyond the portal; 1e-6 m",
            .make = make}};
 }
 

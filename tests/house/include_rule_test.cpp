@@ -60,7 +60,8 @@ bool is_contract(const std::string& path) {
   return path == "algorithms/broad_phase.h" || path == "algorithms/narrow_phase.h" ||
          path == "algorithms/contact_manifold.h" || path == "algorithms/algorithm_info.h" ||
          path == "algorithms/broad_phase_work.h" || path == "algorithms/encoding.h" ||
-         path == "algorithms/limit.h";
+         path == "algorithms/limit.h" || path == "algorithms/pair_query.h" ||
+         path == "algorithms/signed_by_two.h" || path == "algorithms/within_margin.h";
 }
 
 // The rooms of kernels, from the bottom up, each with those that it may include.

@@ -266,6 +266,8 @@ std::vector<NarrowPhaseEntry> narrow_phase_mpr_refined() {
        .tasks = {Task::intersect, Task::penetration},
        .scalars = {Precision::float32, Precision::float64},
        .traits = {.depth_is_bound = true, .starts_warm = true},
+       .tolerance = "how far the surface is beyond the portal, along its normal; 1e-10 (float "
+                    "8e-6), between polytopes what rounding allows",
        .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
          if (settings.scalar == Precision::float32)
            return std::make_unique<MprRefined<float>>(settings);

@@ -62,6 +62,7 @@ class Sat final : public NarrowPhase {
         pair.report(best, task, true, outcomes[i]);
       }
       outcomes[i].iterations = tested_;
+      outcomes[i].support_calls = -1;
     });
   }
 
