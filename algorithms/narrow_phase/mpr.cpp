@@ -53,6 +53,7 @@ void solve_pair(SupportPair<Scalar>& pair, int max_iterations, Scalar tolerance,
       outcome.witness_a = pair.to_world(point.a);
       outcome.witness_b = pair.to_world(point.b);
     } else {
+      outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
       outcome.status = Status::not_converged;
     }
   }

@@ -10,6 +10,8 @@
 //          max_iterations: in fcl-libccd it caps the distance loops and MPR's search for the depth;
 //          MPR's first loops have no cap. In fcl-indep it caps both loops, and EPA's stores grow
 //          with it. The closed forms use neither. FCL never reports that a cap has ended a query.
+//          A signed distance is fcl-libccd's own (GJK, then FCL's EPA, for all kinds alike);
+//          fcl-indep has none, so that the adapter asks for the distance and then for the depth.
 //          fcl-indep's EPA returns the depth negated and the normal in a's frame; the adapter
 //          converts both. Witness points of a penetration are not reported: FCL gives one contact
 //          point, with another meaning for each kind pair. A hull without faces is scanned; one
@@ -40,6 +42,7 @@
 #include <fcl/narrowphase/distance_request.h>
 
 #include "algorithms/peers/fcl_shapes.h"
+#include "algorithms/signed_by_two.h"
 
 namespace touchstone {
 namespace {
@@ -79,7 +82,7 @@ constexpr bool has_closed_form(ShapeKind a, ShapeKind b) {
 
 // FCL has no distance to a half-space, and no contact of two half-spaces.
 bool supports(ShapeKind kind_a, ShapeKind kind_b, Task task) {
-  if (task == Task::distance) return kind_b != ShapeKind::halfspace;
+  if (asks_distance(task)) return kind_b != ShapeKind::halfspace;
   return task == Task::intersect || kind_a != ShapeKind::halfspace;
 }
 
@@ -94,9 +97,10 @@ Encoding matrix_encoding(ShapeKind, ShapeKind, Task, Precision scalar) {
   return scalar == Precision::float32 ? Encoding::float32 : Encoding::as_given;
 }
 
-// Only libccd's own loops use quaternions.
+// Only libccd's own loops use quaternions; a signed distance has no closed form.
 Encoding quaternion_encoding(ShapeKind a, ShapeKind b, Task task, Precision scalar) {
-  if (task == Task::distance ? has_closed_distance(a, b) : has_closed_form(a, b)) {
+  if (task != Task::signed_distance &&
+      (task == Task::distance ? has_closed_distance(a, b) : has_closed_form(a, b))) {
     return matrix_encoding(a, b, task, scalar);
   }
   return scalar == Precision::float32 ? Encoding::quaternion_float32 : Encoding::quaternion;
@@ -122,6 +126,9 @@ class Fcl final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    if (task == Task::signed_distance && !has_signed_distance) {
+      return signed_.solve(*this, batch, outcomes);
+    }
     with_kind(batch.kind_a, [&]<ShapeKind kind_a>() {
       with_kind(batch.kind_b, [&]<ShapeKind kind_b>() {
         if constexpr (kind_a <= kind_b) solve_kinds<kind_a, kind_b>(task, batch, outcomes);
@@ -130,6 +137,10 @@ class Fcl final : public NarrowPhase {
   }
 
  private:
+  // GJKSolver_indep::shapeSignedDistance is there, and gives no depth.
+  static constexpr bool has_signed_distance =
+      std::is_same_v<Solver<S>, fcl::detail::GJKSolver_libccd<S>>;
+
   template <ShapeKind kind_a, ShapeKind kind_b>
   void solve_kinds(Task task, const PairBatch& batch, std::span<Outcome> outcomes) {
     set_tolerance(solver_, default_tolerance(task));
@@ -147,6 +158,7 @@ class Fcl final : public NarrowPhase {
       }
       Outcome& outcome = outcomes[i];
       outcome.status = Status::not_reported;
+      outcome.iterations = outcome.support_calls = -1;
       try {
         switch (task) {
           case Task::intersect:
@@ -157,6 +169,11 @@ class Fcl final : public NarrowPhase {
           case Task::distance:
             if constexpr (kind_b != ShapeKind::halfspace) distance(a, pose_a, b, pose_b, outcome);
             break;
+          case Task::signed_distance:
+            if constexpr (kind_b != ShapeKind::halfspace && has_signed_distance) {
+              signed_distance(a, pose_a, b, pose_b, outcome);
+            }
+            break;
           case Task::penetration:
             penetration<has_closed_form(kind_a, kind_b)>(a, pose_a, b, pose_b, outcome);
             break;
@@ -164,13 +181,14 @@ class Fcl final : public NarrowPhase {
       } catch (...) {
         outcome.answer = Answer::unknown;
         outcome.status = Status::degenerate;
+        clear_numbers(outcome);
       }
     }
   }
 
   static S default_tolerance(Task task) {
-    return task == Task::distance ? fcl::DistanceRequest<S>().distance_tolerance
-                                  : fcl::CollisionRequest<S>().gjk_tolerance;
+    return asks_distance(task) ? fcl::DistanceRequest<S>().distance_tolerance
+                               : fcl::CollisionRequest<S>().gjk_tolerance;
   }
 
   template <class A, class B>
@@ -179,6 +197,7 @@ class Fcl final : public NarrowPhase {
     S gap = std::numeric_limits<S>::quiet_NaN();
     Vec3<S> witness_a, witness_b;
     solver_.shapeDistance(a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
+    clear_numbers(outcome);
     if (std::isnan(gap)) {
       outcome.answer = Answer::unknown;
       outcome.status = Status::degenerate;
@@ -192,12 +211,33 @@ class Fcl final : public NarrowPhase {
     }
   }
 
+  template <class A, class B>
+  void signed_distance(const A& a, const fcl::Transform3<S>& pose_a, const B& b,
+                       const fcl::Transform3<S>& pose_b, Outcome& outcome) const {
+    S gap = std::numeric_limits<S>::quiet_NaN();
+    Vec3<S> witness_a, witness_b;
+    solver_.shapeSignedDistance(a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
+    clear_numbers(outcome);
+    if (std::isnan(gap)) {
+      outcome.answer = Answer::unknown;
+      outcome.status = Status::degenerate;
+      return;
+    }
+    outcome.answer = gap > 0   ? Answer::separated
+                     : gap < 0 ? Answer::overlapping
+                               : Answer::touching;
+    outcome.distance = static_cast<double>(gap);
+    outcome.witness_a = witness_a.template cast<double>();
+    outcome.witness_b = witness_b.template cast<double>();
+  }
+
   template <bool closed_form, class A, class B>
   void penetration(const A& a, const fcl::Transform3<S>& pose_a, const B& b,
                    const fcl::Transform3<S>& pose_b, Outcome& outcome) {
     contacts_.clear();
     const bool found = solver_.shapeIntersect(a, pose_a, b, pose_b, &contacts_);
     outcome.answer = found ? Answer::overlapping : Answer::separated;
+    if (found) clear_numbers(outcome);
     if (!found || contacts_.empty()) return;
     const fcl::ContactPoint<S>& deepest =
         *std::ranges::max_element(contacts_, {}, &fcl::ContactPoint<S>::penetration_depth);
@@ -221,6 +261,7 @@ class Fcl final : public NarrowPhase {
   std::vector<std::unique_ptr<fcl::ShapeBase<S>>> shapes_;
   std::vector<double> reaches_;
   std::vector<fcl::ContactPoint<S>> contacts_;
+  SignedByTwo signed_;
 };
 
 template <template <class> class Solver>
@@ -243,11 +284,12 @@ namespace touchstone::entries {
 
 std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
   using enum Task;
-  const std::vector<Task> tasks = {intersect, distance, penetration};
+  const std::vector<Task> tasks(all_tasks.begin(), all_tasks.end());
   const std::vector<Precision> scalars = {Precision::float32, Precision::float64};
   return {
       {.info = {.name = "fcl-libccd",
-                .citation = "FCL 0.7, GJKSolver_libccd: shapeIntersect, shapeDistance",
+                .citation = "FCL 0.7, GJKSolver_libccd: shapeIntersect, shapeDistance, "
+                            "shapeSignedDistance",
                 .origin = Origin::peer,
                 .known_defect = "the depth is MPR's, an upper bound; cone or half-space on "
                                 "half-space is wrong"},

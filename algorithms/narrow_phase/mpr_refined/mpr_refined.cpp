@@ -199,6 +199,7 @@ class RefinedDepth {
     outcome.upper = -pair_.unit() * static_cast<double>(std::max(lower_ - rounding, Scalar{0}));
     outcome.normal = best_.normal.template cast<double>().normalized();
     if (!best_.settled) {
+      outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
       outcome.status = Status::not_converged;
       return;
     }
