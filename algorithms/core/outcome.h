@@ -14,9 +14,9 @@ namespace touchstone {
 
 // The task of a query, which computes no more than this.
 enum class Task : std::uint8_t {
-  intersect,    // do the bodies share a point?
-  distance,     // the distance, with witness points; only the answer if they overlap
-  penetration,  // the depth, with normal and witness points; only the answer if separated
+  intersect,        // do the bodies share a point?
+  distance,         // the distance, with witness points; only the answer if they overlap
+  penetration,      // the depth, with normal and witness points; only the answer if separated
   signed_distance,  // the distance if separated, the depth if overlapping, each as above
 };
 inline constexpr std::array all_tasks{Task::intersect, Task::distance, Task::penetration,
@@ -43,8 +43,8 @@ constexpr bool asks_for_number(Task task, Answer answer) {
 
 enum class Precision : std::uint8_t { float32, float64 };
 
-// Fields that are not known are NaN. So are those that the task does not need, in an outcome that was
-// new before the call; `only_given` takes what an earlier call left out of one that was not.
+// Fields that are not known are NaN. Those that the task does not need stay as they were before the
+// call: NaN in a new outcome; `only_given` clears them in one that was used before.
 //
 // `touching` without bounds, or with both zero, says that the bodies have common points and no
 // common interior. With other bounds, `lower` <= 0 <= `upper` for every task, it says that the signed

@@ -111,8 +111,9 @@ NarrowPhaseEntry entry(AlgorithmInfo info, bool starts_warm,
           .tasks = {all_tasks.begin(), all_tasks.end()},
           .scalars = {Precision::float32, Precision::float64},
           .traits = {.stops_by_duality_gap = true, .starts_warm = starts_warm},
-          .tolerance = "the gap between both bounds on a distance or depth; 1e-10 (float 1e-5), "
-                       "between polytopes what rounding allows",
+          .tolerance =
+              "the gap between both bounds on a distance or depth; 1e-10 (float 1e-5), "
+              "between polytopes what rounding allows",
           .make = make};
 }
 

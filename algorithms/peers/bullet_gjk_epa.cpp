@@ -36,8 +36,8 @@ class GjkEpa {
     if (has_cut_off) {
       // Bullet compares this cut-off with the distance of the cores, without margins. Touching
       // bodies are kept.
-      const btScalar reach = a->getMargin() + b->getMargin() +
-                             static_cast<btScalar>(for_distance ? *margin_ : 0);
+      const btScalar reach =
+          a->getMargin() + b->getMargin() + static_cast<btScalar>(for_distance ? *margin_ : 0);
       query.input.m_maximumDistanceSquared = reach * reach + std::numeric_limits<btScalar>::min();
     }
     Deepest deepest;

@@ -223,9 +223,7 @@ class Fcl final : public NarrowPhase {
       outcome.status = Status::degenerate;
       return;
     }
-    outcome.answer = gap > 0   ? Answer::separated
-                     : gap < 0 ? Answer::overlapping
-                               : Answer::touching;
+    outcome.answer = gap > 0 ? Answer::separated : gap < 0 ? Answer::overlapping : Answer::touching;
     outcome.distance = static_cast<double>(gap);
     outcome.witness_a = witness_a.template cast<double>();
     outcome.witness_b = witness_b.template cast<double>();

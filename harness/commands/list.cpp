@@ -43,8 +43,8 @@ std::vector<Listed> all_algorithms() {
     all.push_back({&entry.info, "broad", "pairs", std::string(to_string(Precision::float32))});
   }
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
-    all.push_back({&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars),
-                   entry.tolerance});
+    all.push_back(
+        {&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars), entry.tolerance});
   }
   for (const ManifoldEntry& entry : contact_manifolds()) {
     all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});

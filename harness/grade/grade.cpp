@@ -113,8 +113,8 @@ Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, con
   // The number has nothing to be compared with if the exact answer is on the other side of contact.
   const bool both_apart =
       asks_distance(task) && outcome.answer != Answer::overlapping && !(exact.upper < 0);
-  const bool both_meet = !both_apart && asks_depth(task) &&
-                         outcome.answer != Answer::separated && !(exact.lower > 0);
+  const bool both_meet =
+      !both_apart && asks_depth(task) && outcome.answer != Answer::separated && !(exact.lower > 0);
   if (!both_apart && !both_meet) return grade;
   const double error = outside(outcome.distance, exact.lower, exact.upper);
   (both_apart ? grade.distance_error : grade.depth_error) = both_apart ? error : 0 - error;

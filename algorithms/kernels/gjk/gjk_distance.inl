@@ -165,8 +165,7 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
     }
     const DifferencePoint<Scalar> point = Cores::support(pair, direction);
     const Scalar lower = -direction.dot(point.difference);
-    const bool of_normal =
-        asks_depth(task) && !accelerated && !(found.lower - radius > rounding);
+    const bool of_normal = asks_depth(task) && !accelerated && !(found.lower - radius > rounding);
     if (of_normal || lower > found.lower) {
       found.lower = lower;
       found.direction = direction;

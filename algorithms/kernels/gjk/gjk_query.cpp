@@ -144,7 +144,8 @@ GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair
   if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
   } else if (asks_distance(task) && found.lower - pair.radius() > goal.margin) {
-    write_beyond(pair.unit() * static_cast<double>(found.lower - pair.radius() - rounding), outcome);
+    write_beyond(pair.unit() * static_cast<double>(found.lower - pair.radius() - rounding),
+                 outcome);
   } else {
     const Scalar lower = found.lower - pair.radius();
     const Scalar upper = found.upper - pair.radius();

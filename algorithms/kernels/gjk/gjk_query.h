@@ -14,8 +14,8 @@
 namespace touchstone {
 
 struct GjkQuerySettings {
-  std::optional<double> tolerance = {};    // as in NarrowPhaseSettings
-  std::optional<double> duality_gap = {};  // as in NarrowPhaseSettings
+  std::optional<double> tolerance = {};                     // as in NarrowPhaseSettings
+  std::optional<double> duality_gap = {};                   // as in NarrowPhaseSettings
   double margin = std::numeric_limits<double>::infinity();  // metres; as in NarrowPhaseSettings
   int gjk_cap = 128, epa_cap = 256;                         // iterations
   Momentum momentum = Momentum::none;

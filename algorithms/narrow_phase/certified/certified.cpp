@@ -178,15 +178,13 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
   };
   if (found.nearest.inside) {
     // At contact no tetrahedron is surely around the origin.
-    if (!asks_depth(task) && !at_contact && simplex.size == 4 &&
-        is_surely_inside(simplex)) {
+    if (!asks_depth(task) && !at_contact && simplex.size == 4 && is_surely_inside(simplex)) {
       return write_verdict(Answer::overlapping, outcome);
     }
     if (at_contact && contact_decides()) return true;
     if (!polytopes || rounded) return false;
-    return asks_depth(task)
-               ? contacts_.find_depth(pair, simplex, bodies, gaps_, task, outcome)
-               : contacts_.encloses(pair, simplex, outcome);
+    return asks_depth(task) ? contacts_.find_depth(pair, simplex, bodies, gaps_, task, outcome)
+                            : contacts_.encloses(pair, simplex, outcome);
   }
   if (task == Task::penetration && found.lower > pair.radius() + proven_rounding) {
     return write_verdict(Answer::separated, outcome);
@@ -195,8 +193,8 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
     return write_verdict(Answer::overlapping, outcome);
   }
   if (at_contact &&
-      (contact_decides() || (asks_depth(task) && contacts_.find_depth(pair, simplex, bodies, gaps_,
-                                                                      task, outcome)))) {
+      (contact_decides() ||
+       (asks_depth(task) && contacts_.find_depth(pair, simplex, bodies, gaps_, task, outcome)))) {
     return true;
   }
   const Vec3d normal = -found.nearest.direction;
@@ -261,8 +259,9 @@ std::vector<NarrowPhaseEntry> narrow_phase_certified() {
                                 "18, 1997; Gilbert, Johnson, Keerthi, 1988"},
            .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float64},
-           .tolerance = "the gap between both proven bounds on a distance or depth, as a part of the "
-                        "greater body; 2e-13",
+           .tolerance =
+               "the gap between both proven bounds on a distance or depth, as a part of the "
+               "greater body; 2e-13",
            .make = [](const NarrowPhaseSettings& settings) {
              return std::make_unique<Certified>(settings);
            }}};

@@ -40,7 +40,8 @@ class ExactPortal {
       if (!rough.find(start, attempt == 0) || !cast_from(start) || !take(rough)) continue;
       const Answer found = refine();
       if (found != Answer::unknown) answer = found;
-      if (answer != Answer::unknown && (is_close_ || !asks_for_number(task_, answer))) return answer;
+      if (answer != Answer::unknown && (is_close_ || !asks_for_number(task_, answer)))
+        return answer;
     }
     return answer != Answer::unknown ? answer : decide_along(normal);
   }

@@ -52,8 +52,7 @@ bool PolytopeContact::find_depth(Pair& pair, const Simplex<double>& simplex,
   const double tolerance = std::max(Pair::rounding, tolerance_in_doubles(pair, bodies.widest()));
   const Expansion<double> depth = polytope_.expand(pair, simplex, {.tolerance = tolerance});
   outcome.iterations += depth.iterations;
-  if (depth.upper <= nearly &&
-      decide_exactly(pair, {}, depth.normal, bodies, task, outcome)) {
+  if (depth.upper <= nearly && decide_exactly(pair, {}, depth.normal, bodies, task, outcome)) {
     return true;
   }
   if (depth.end != ExpansionEnd::converged || !depth.has_surface) return false;

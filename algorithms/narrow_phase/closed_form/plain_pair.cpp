@@ -192,7 +192,8 @@ bool solve_plain_pair(Task task, const Shape& a, const Pose& pose_a, const Shape
         if (found != Answer::unknown) return true;
       }
       const double extent = b.half_extents.sum() * pose_b.rotation.cwiseAbs().maxCoeff();
-      return answer(task, margin, of_point_and_box(centre, pose_b.rotation, b.half_extents, size + extent),
+      return answer(task, margin,
+                    of_point_and_box(centre, pose_b.rotation, b.half_extents, size + extent),
                     a.radius, 0, pose_a, outcome);
     }
     case of_kinds(ShapeKind::capsule, ShapeKind::capsule): {

@@ -51,8 +51,8 @@ inline std::vector<AnyPair> make_any_pairs(int count) {
                      .pose_a = {random_rotation(random), random_direction(random)},
                      .pose_b = {random_rotation(random), Vec3d::Zero()},
                      .truth = {},
-                     .name = std::string(to_string(kind_a)) + "-" +
-                             std::string(to_string(kind_b)) + " " + std::to_string(k)};
+                     .name = std::string(to_string(kind_a)) + "-" + std::string(to_string(kind_b)) +
+                             " " + std::to_string(k)};
         pair.pose_b.translation =
             pair.pose_a.translation + uniform(random, 0, 2) * random_direction(random);
         const oracle::Solid solid_a(pair.a), solid_b(pair.b);

@@ -61,9 +61,9 @@ TEST(PairQuery, AnswersInEitherOrder) {
           // shortest ways.
           if (pair.a.kind == pair.b.kind) {
             EXPECT_NEAR(of_one.distance, of_other.distance, 1e-8);
-            EXPECT_GT(of_other.normal.dot(of_other.witness_b - of_other.witness_a) *
-                          of_other.distance,
-                      0);
+            EXPECT_GT(
+                of_other.normal.dot(of_other.witness_b - of_other.witness_a) * of_other.distance,
+                0);
           } else {
             EXPECT_EQ(of_one.distance, of_other.distance);
             EXPECT_EQ(of_one.normal, Vec3d(-of_other.normal));

@@ -126,6 +126,20 @@ void expect_the_same(const Outcome& a, const Outcome& b) {
   }
 }
 
+// Whether no number that is given is that of the outcome before.
+void expect_nothing_of(const Outcome& before, const Outcome& outcome) {
+  EXPECT_NE(outcome.distance, before.distance);
+  EXPECT_NE(outcome.lower, before.lower);
+  EXPECT_NE(outcome.upper, before.upper);
+  EXPECT_NE(outcome.iterations, before.iterations);
+  EXPECT_NE(outcome.support_calls, before.support_calls);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NE(outcome.normal[k], before.normal[k]);
+    EXPECT_NE(outcome.witness_a[k], before.witness_a[k]);
+    EXPECT_NE(outcome.witness_b[k], before.witness_b[k]);
+  }
+}
+
 TEST(Leftovers, NothingOfAnEarlierCallIsGiven) {
   Outcome junk;
   junk.answer = Answer::touching;
@@ -134,8 +148,8 @@ TEST(Leftovers, NothingOfAnEarlierCallIsGiven) {
   junk.lower = -18;
   junk.upper = 19;
   junk.normal = junk.witness_a = junk.witness_b = Vec3d(20, 21, 22);
-  junk.iterations = 23;
-  junk.support_calls = 24;
+  junk.iterations = 1'000'023;
+  junk.support_calls = 1'000'024;
   for_each_algorithm([&](const NarrowPhaseEntry& entry, NarrowPhaseSettings settings) {
     for (const AnyPair& pair : any_pairs()) {
       for (const Task task : all_tasks) {
@@ -146,8 +160,13 @@ TEST(Leftovers, NothingOfAnEarlierCallIsGiven) {
             SCOPED_TRACE(pair.name + " " + std::string(to_string(task)) +
                          (call == Call::alone ? " alone" : "") + (cap ? " of two steps" : ""));
             settings.max_iterations = cap;
-            expect_the_same(only_given(task, ask_pair(entry, settings, task, pair, call)),
-                            only_given(task, ask_pair(entry, settings, task, pair, call, junk)));
+            const Outcome after =
+                only_given(task, ask_pair(entry, settings, task, pair, call, junk));
+            expect_nothing_of(junk, after);
+            // A library may answer differently where its memory lies differently.
+            if (!is_peer(entry)) {
+              expect_the_same(only_given(task, ask_pair(entry, settings, task, pair, call)), after);
+            }
             if (testing::Test::HasFailure()) return;
           }
         }
@@ -161,7 +180,7 @@ void expect_within_margin(const NarrowPhaseEntry& entry, const AnyPair& pair, Ta
                           const Outcome& without) {
   const double truth = pair.truth.middle();
   const bool is_beyond = outcome.answer == Answer::separated && std::isnan(outcome.distance);
-  if (!asks_distance(task)) {
+  if (!asks_distance(task) && !is_peer(entry)) {
     expect_the_same(only_given(task, outcome), only_given(task, without));
   } else if (is_beyond) {
     EXPECT_TRUE(outcome.normal.hasNaN() && outcome.witness_a.hasNaN() &&
@@ -177,6 +196,7 @@ void expect_within_margin(const NarrowPhaseEntry& entry, const AnyPair& pair, Ta
                 truth <= margin + error * pair.size());
     EXPECT_EQ(outcome.answer, without.answer);
     EXPECT_EQ(outcome.status, without.status);
+    if (is_peer(entry)) return;
     EXPECT_EQ(std::isnan(outcome.distance), std::isnan(without.distance));
     if (without.status == Status::ok && !std::isnan(without.distance)) {
       EXPECT_NEAR(outcome.distance, without.distance, error * pair.size());
