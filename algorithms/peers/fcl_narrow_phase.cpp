@@ -10,8 +10,9 @@
 //          max_iterations: in fcl-libccd it caps the distance loops and MPR's search for the depth;
 //          MPR's first loops have no cap. In fcl-indep it caps both loops, and EPA's stores grow
 //          with it. The closed forms use neither. FCL never reports that a cap has ended a query.
-//          A signed distance is fcl-libccd's own (GJK, then FCL's EPA, for all kinds alike);
-//          fcl-indep has none, so that the adapter asks for the distance and then for the depth.
+//          A signed distance is the distance and then the depth: shapeSignedDistance of fcl-libccd
+//          has no cap on its EPA and did not end within minutes on one of the tests' pairs; that of
+//          fcl-indep gives no depth.
 //          fcl-indep's EPA returns the depth negated and the normal in a's frame; the adapter
 //          converts both. Witness points of a penetration are not reported: FCL gives one contact
 //          point, with another meaning for each kind pair. A hull without faces is scanned; one
@@ -97,10 +98,10 @@ Encoding matrix_encoding(ShapeKind, ShapeKind, Task, Precision scalar) {
   return scalar == Precision::float32 ? Encoding::float32 : Encoding::as_given;
 }
 
-// Only libccd's own loops use quaternions; a signed distance has no closed form.
+// Only libccd's own loops use quaternions.
 Encoding quaternion_encoding(ShapeKind a, ShapeKind b, Task task, Precision scalar) {
-  if (task != Task::signed_distance &&
-      (task == Task::distance ? has_closed_distance(a, b) : has_closed_form(a, b))) {
+  if ((!asks_distance(task) || has_closed_distance(a, b)) &&
+      (task == Task::distance || has_closed_form(a, b))) {
     return matrix_encoding(a, b, task, scalar);
   }
   return scalar == Precision::float32 ? Encoding::quaternion_float32 : Encoding::quaternion;
@@ -126,9 +127,7 @@ class Fcl final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    if (task == Task::signed_distance && !has_signed_distance) {
-      return signed_.solve(*this, batch, outcomes);
-    }
+    if (task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
     with_kind(batch.kind_a, [&]<ShapeKind kind_a>() {
       with_kind(batch.kind_b, [&]<ShapeKind kind_b>() {
         if constexpr (kind_a <= kind_b) solve_kinds<kind_a, kind_b>(task, batch, outcomes);
@@ -137,10 +136,6 @@ class Fcl final : public NarrowPhase {
   }
 
  private:
-  // GJKSolver_indep::shapeSignedDistance is there, and gives no depth.
-  static constexpr bool has_signed_distance =
-      std::is_same_v<Solver<S>, fcl::detail::GJKSolver_libccd<S>>;
-
   template <ShapeKind kind_a, ShapeKind kind_b>
   void solve_kinds(Task task, const PairBatch& batch, std::span<Outcome> outcomes) {
     set_tolerance(solver_, default_tolerance(task));
@@ -169,11 +164,7 @@ class Fcl final : public NarrowPhase {
           case Task::distance:
             if constexpr (kind_b != ShapeKind::halfspace) distance(a, pose_a, b, pose_b, outcome);
             break;
-          case Task::signed_distance:
-            if constexpr (kind_b != ShapeKind::halfspace && has_signed_distance) {
-              signed_distance(a, pose_a, b, pose_b, outcome);
-            }
-            break;
+          case Task::signed_distance: break;  // solved by the other two
           case Task::penetration:
             penetration<has_closed_form(kind_a, kind_b)>(a, pose_a, b, pose_b, outcome);
             break;
@@ -209,24 +200,6 @@ class Fcl final : public NarrowPhase {
       outcome.witness_a = witness_a.template cast<double>();
       outcome.witness_b = witness_b.template cast<double>();
     }
-  }
-
-  template <class A, class B>
-  void signed_distance(const A& a, const fcl::Transform3<S>& pose_a, const B& b,
-                       const fcl::Transform3<S>& pose_b, Outcome& outcome) const {
-    S gap = std::numeric_limits<S>::quiet_NaN();
-    Vec3<S> witness_a, witness_b;
-    solver_.shapeSignedDistance(a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
-    clear_numbers(outcome);
-    if (std::isnan(gap)) {
-      outcome.answer = Answer::unknown;
-      outcome.status = Status::degenerate;
-      return;
-    }
-    outcome.answer = gap > 0 ? Answer::separated : gap < 0 ? Answer::overlapping : Answer::touching;
-    outcome.distance = static_cast<double>(gap);
-    outcome.witness_a = witness_a.template cast<double>();
-    outcome.witness_b = witness_b.template cast<double>();
   }
 
   template <bool closed_form, class A, class B>
@@ -286,8 +259,7 @@ std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
   const std::vector<Precision> scalars = {Precision::float32, Precision::float64};
   return {
       {.info = {.name = "fcl-libccd",
-                .citation = "FCL 0.7, GJKSolver_libccd: shapeIntersect, shapeDistance, "
-                            "shapeSignedDistance",
+                .citation = "FCL 0.7, GJKSolver_libccd: shapeIntersect, shapeDistance",
                 .origin = Origin::peer,
                 .known_defect = "the depth is MPR's, an upper bound; cone or half-space on "
                                 "half-space is wrong"},
