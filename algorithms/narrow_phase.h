@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
@@ -35,6 +36,11 @@ struct NarrowPhaseSettings {
   // greater error in the distance the nearer the bodies are; published counts of iterations use
   // this criterion.
   std::optional<double> duality_gap = {};
+  // Metres, >= 0: bodies that are further apart need no distance. Where the task asks for one, they
+  // are `separated` without a number, a normal or points, and `lower` is a proven bound beyond the
+  // margin if the algorithm has bounds, NaN if not. The registry sees to this form; an algorithm may
+  // stop as soon as it knows.
+  std::optional<double> margin = {};
 };
 
 // Data that an algorithm keeps for a pair from one frame to the next, in its own format. The caller
@@ -75,9 +81,10 @@ class NarrowPhase {
   // valid.
   virtual void bind(std::span<const Shape> shapes) = 0;
 
-  // Writes outcomes[i] for each pair i; fields that the task does not need stay as they are. Poses
-  // are converted to the algorithm's own scalar and types here, so the conversion is timed with the
-  // query. Never throws on finite input: a failure is a status.
+  // Writes outcomes[i] for each pair i, whatever it held: all that `only_given` takes of it, NaN
+  // where that is not known. Its other fields stay as they are. Poses are converted to the
+  // algorithm's own scalar and types here, so the conversion is timed with the query. Never throws
+  // on finite input: a failure is a status.
   virtual void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) = 0;
 
   // Writes the outcome of pair i alone, for callers that have one pair at a time. It is as right as
@@ -110,6 +117,9 @@ struct NarrowPhaseEntry {
   // both scalars. Its errors are stated against the exact answer for that encoding, and for the
   // pair.
   Encoding (*encoding)(ShapeKind kind_a, ShapeKind kind_b, Task task, Precision scalar) = nullptr;
+  // The length that NarrowPhaseSettings::tolerance limits, and its default, in one line; empty if
+  // there is none to set.
+  std::string tolerance = {};
   // Null if it is not built.
   std::function<std::unique_ptr<NarrowPhase>(const NarrowPhaseSettings&)> make;
 };

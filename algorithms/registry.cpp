@@ -2,6 +2,9 @@
 #include "algorithms/registry.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "algorithms/within_margin.h"
 
 namespace touchstone {
 
@@ -16,6 +19,19 @@ std::vector<CastEntry> list_casts();
 std::vector<CcdEntry> list_ccds();
 
 namespace {
+
+// Returns the entries with algorithms that keep to the margin.
+std::vector<NarrowPhaseEntry> within_margin(std::vector<NarrowPhaseEntry> entries) {
+  for (NarrowPhaseEntry& entry : entries) {
+    if (!entry.make) continue;
+    entry.make = [make = entry.make](const NarrowPhaseSettings& settings) {
+      std::unique_ptr<NarrowPhase> made = make(settings);
+      if (settings.margin) made = std::make_unique<WithinMargin>(std::move(made), *settings.margin);
+      return made;
+    };
+  }
+  return entries;
+}
 
 // The list that `make` returns, which is made once.
 template <class Entry, std::vector<Entry> (*make)()>
@@ -42,7 +58,7 @@ std::span<const BroadPhaseEntry> broad_phases() {
   return list_of<BroadPhaseEntry, list_broad_phases>();
 }
 std::span<const NarrowPhaseEntry> narrow_phases() {
-  return list_of<NarrowPhaseEntry, list_narrow_phases>();
+  return list_of<NarrowPhaseEntry, [] { return within_margin(list_narrow_phases()); }>();
 }
 std::span<const ManifoldEntry> contact_manifolds() {
   return list_of<ManifoldEntry, list_contact_manifolds>();

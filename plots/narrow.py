@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 import best
 import common
 
-TASKS = ["intersect", "distance", "penetration"]
+TASKS = ["intersect", "distance", "penetration", "signed"]
 RIGHT = 1e-3  # of the pair's size: as narrow_best.csv has it
 NO_ERROR = 1e-17  # where an exact answer is drawn
 KEY = ("scene_hash", "bodies", "boxes", "threads", "task", "pair_kind", "algorithm")

@@ -24,6 +24,7 @@ std::string_view to_string(Task task) {
     case Task::intersect: return "intersect";
     case Task::distance: return "distance";
     case Task::penetration: return "penetration";
+    case Task::signed_distance: return "signed";
   }
   return "?";
 }

@@ -1,6 +1,7 @@
 // The outcome of a narrow-phase query. Everything may include this.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,16 +14,37 @@ namespace touchstone {
 
 // The task of a query, which computes no more than this.
 enum class Task : std::uint8_t {
-  intersect,    // do the bodies share a point?
-  distance,     // the distance, with witness points; only the answer if they overlap
-  penetration,  // the depth, with normal and witness points; only the answer if separated
+  intersect,        // do the bodies share a point?
+  distance,         // the distance, with witness points; only the answer if they overlap
+  penetration,      // the depth, with normal and witness points; only the answer if separated
+  signed_distance,  // the distance if separated, the depth if overlapping, each as above
 };
+inline constexpr std::array all_tasks{Task::intersect, Task::distance, Task::penetration,
+                                      Task::signed_distance};
+
+// Whether the task needs the distance of bodies that are apart.
+constexpr bool asks_distance(Task task) {
+  return task == Task::distance || task == Task::signed_distance;
+}
+// Whether the task needs the depth of bodies that overlap.
+constexpr bool asks_depth(Task task) {
+  return task == Task::penetration || task == Task::signed_distance;
+}
 
 enum class Answer : std::uint8_t { separated, touching, overlapping, unknown };
 
+// Whether the task asks for a number, with normal and witness points, if this is the answer. Every
+// task but intersect may give what it knows of a pair whose answer is unknown.
+constexpr bool asks_for_number(Task task, Answer answer) {
+  if (answer == Answer::separated) return asks_distance(task);
+  if (answer == Answer::overlapping) return asks_depth(task);
+  return task != Task::intersect;
+}
+
 enum class Precision : std::uint8_t { float32, float64 };
 
-// Fields that the task does not need, or that are not known, are NaN.
+// Fields that are not known are NaN. Those that the task does not need stay as they were before the
+// call: NaN in a new outcome; `only_given` clears them in one that was used before.
 //
 // `touching` without bounds, or with both zero, says that the bodies have common points and no
 // common interior. With other bounds, `lower` <= 0 <= `upper` for every task, it says that the signed
@@ -53,6 +75,47 @@ static_assert(offsetof(Outcome, status) == offsetof(Outcome, answer) + 1);
 static_assert(offsetof(Outcome, normal) == offsetof(Outcome, distance) + 3 * sizeof(double));
 static_assert(offsetof(Outcome, witness_a) == offsetof(Outcome, normal) + 3 * sizeof(double));
 static_assert(offsetof(Outcome, witness_b) == offsetof(Outcome, witness_a) + 3 * sizeof(double));
+
+// Returns what the task gives with this answer, and nothing else: the answer, the status and the
+// counts always; the bounds if the task asks for a number, or the answer is touching or unknown; the
+// other numbers if the task asks for them and the answer is known.
+inline Outcome only_given(Task task, const Outcome& outcome) {
+  Outcome given = outcome;
+  const bool known = outcome.answer != Answer::unknown;
+  const bool asked = asks_for_number(task, outcome.answer);
+  if (!asked && known && outcome.answer != Answer::touching) {
+    given.lower = given.upper = Outcome::none;
+  }
+  if (!asked || !known) {
+    given.distance = Outcome::none;
+    given.normal = given.witness_a = given.witness_b = Vec3d::Constant(Outcome::none);
+  }
+  return given;
+}
+
+// Forgets all numbers but the counts.
+inline void clear_numbers(Outcome& outcome) {
+  outcome.distance = outcome.lower = outcome.upper = Outcome::none;
+  outcome.normal = outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
+}
+
+// Writes that the bodies are further apart than the margin that was set (NarrowPhaseSettings).
+// `lower` bounds their distance (metres).
+inline void write_beyond(double lower, Outcome& outcome) {
+  clear_numbers(outcome);
+  outcome.answer = Answer::separated;
+  outcome.status = Status::ok;
+  outcome.lower = lower;
+}
+
+// Turns the outcome of the pair (a, b) into that of (b, a).
+inline Outcome swapped(Outcome outcome) {
+  outcome.normal = Vec3d::Zero() - outcome.normal;  // 0 - n keeps a zero positive
+  const Vec3d on_a = outcome.witness_a;
+  outcome.witness_a = outcome.witness_b;
+  outcome.witness_b = on_a;
+  return outcome;
+}
 
 std::string_view to_string(Task task);
 std::string_view to_string(Answer answer);

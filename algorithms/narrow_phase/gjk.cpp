@@ -59,7 +59,7 @@ class Gjk final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for_each_bounded_pair(task, batch, shapes_, ahead_, task == Task::distance, outcomes,
+    for_each_bounded_pair(task, batch, shapes_, ahead_, asks_distance(task), outcomes,
                           [&](std::size_t i, const auto&... bodies) {
                             solve_pair(task, batch, i, bodies..., outcomes[i]);
                           });
@@ -98,6 +98,7 @@ template <Momentum momentum>
 std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
   GjkQuerySettings own{
       .tolerance = settings.tolerance, .duality_gap = settings.duality_gap, .momentum = momentum};
+  own.margin = settings.margin.value_or(own.margin);
   own.gjk_cap = std::max(1, settings.max_iterations.value_or(own.gjk_cap));
   own.epa_cap = std::max(1, settings.max_iterations.value_or(own.epa_cap));
   if (settings.scalar == Precision::float32) return std::make_unique<Gjk<float>>(own);
@@ -107,9 +108,12 @@ std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
 NarrowPhaseEntry entry(AlgorithmInfo info, bool starts_warm,
                        std::unique_ptr<NarrowPhase> (*make)(const NarrowPhaseSettings&)) {
   return {.info = std::move(info),
-          .tasks = {Task::intersect, Task::distance, Task::penetration},
+          .tasks = {all_tasks.begin(), all_tasks.end()},
           .scalars = {Precision::float32, Precision::float64},
           .traits = {.stops_by_duality_gap = true, .starts_warm = starts_warm},
+          .tolerance =
+              "the gap between both bounds on a distance or depth; 1e-10 (float 1e-5), "
+              "between polytopes what rounding allows",
           .make = make};
 }
 

@@ -53,6 +53,7 @@ void solve_pair(SupportPair<Scalar>& pair, int max_iterations, Scalar tolerance,
       outcome.witness_a = pair.to_world(point.a);
       outcome.witness_b = pair.to_world(point.b);
     } else {
+      outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
       outcome.status = Status::not_converged;
     }
   }
@@ -103,6 +104,8 @@ std::vector<NarrowPhaseEntry> narrow_phase_mpr() {
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float32, Precision::float64},
            .traits = {.depth_is_bound = true},
+           .tolerance = "how far the surface is beyond the portal, along its normal; 1e-10 (float "
+                        "8e-6): no error of the depth, which is an upper bound",
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32)
                return std::make_unique<Mpr<float>>(settings);

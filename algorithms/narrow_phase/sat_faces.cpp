@@ -53,6 +53,7 @@ class SatFaces final : public NarrowPhase {
     }
     pair.report(best, task, false, outcome);
     outcome.iterations = tested;
+    outcome.support_calls = -1;
   }
 
   PolytopeShapes<Scalar> shapes_;

@@ -110,9 +110,7 @@ void measure(Oracle& oracle, const Body& a, const Body& b, Task task, Outcome& o
   Certificate certificate;
   const Measure found = oracle.prove(a, b, certificate);
   outcome.answer = found.answer;
-  const bool asked = task == Task::distance ? found.answer != Answer::overlapping
-                                            : found.answer != Answer::separated;
-  if (!asked) return;
+  if (!asks_for_number(task, found.answer)) return;
   outcome.distance = found.middle();
   outcome.lower = found.lower;
   outcome.upper = found.upper;

@@ -39,6 +39,7 @@ class Exact final : public NarrowPhase {
       const auto body = [&](std::uint32_t k) {
         return Body(solids_[batch.pairs.shape_of[k]], batch.pairs.poses[k]);
       };
+      outcomes[i].iterations = outcomes[i].support_calls = -1;
       oracle::answer(oracle_, body(batch.pairs.first[i]), body(batch.pairs.second[i]), task,
                      outcomes[i]);
     }
@@ -59,7 +60,7 @@ std::vector<NarrowPhaseEntry> oracle_exact() {
                     .citation = "Touchstone's oracle: GJK and EPA in integers, each answer with a "
                                 "certificate",
                     .origin = Origin::oracle},
-           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float64},
            .make = [](const NarrowPhaseSettings&) { return std::make_unique<Exact>(); }}};
 }

@@ -187,8 +187,9 @@ inline Answer sign_of(btScalar distance) {
 inline void report(const Contact& contact, const Query& query, Outcome& outcome) {
   outcome.answer = sign_of(contact.distance);
   if (outcome.answer == Answer::unknown) outcome.status = Status::degenerate;
-  const bool asked = (query.task == Task::distance && contact.distance >= 0) ||
-                     (query.task == Task::penetration && contact.distance <= 0);
+  clear_numbers(outcome);
+  const bool asked = (asks_distance(query.task) && contact.distance >= 0) ||
+                     (asks_depth(query.task) && contact.distance <= 0);
   if (!asked) return;
   const Vec3d normal = -from_bullet(contact.normal_on_b);
   outcome.distance = contact.distance;
@@ -229,6 +230,7 @@ class BulletNarrowPhase final : public NarrowPhase {
       const Vec3d offset = offset_between(at_a, query.a.centre, at_b, query.b.centre, query.origin);
       query.input.m_transformA = btTransform(to_matrix(at_a.rotation), btVector3(0, 0, 0));
       query.input.m_transformB = btTransform(to_matrix(at_b.rotation), to_bullet(offset));
+      outcomes[i].iterations = outcomes[i].support_calls = -1;
       algorithm_.answer(query, outcomes[i]);
     }
   }

@@ -2,7 +2,7 @@
 // Paper:   none; Bullet 3.24, btGjkPairDetector: GJK by G. van den Bergen, JGT 1999, and EPA by N.
 //          Presson, btGjkEpa2.
 // Departs: bullet_bodies.h states how bodies and poses are converted. Bullet has no boolean GJK:
-//          intersect computes the distance with a cut-off at touch.
+//          intersect computes the distance with a cut-off at touch. The margin is that cut-off too.
 // Fails:   all thresholds are absolute lengths, 1e-2 to 1e-6: overlapping bodies of millimetres are
 //          reported as separated, and gaps of 1e-5 between larger ones as overlaps. In double the
 //          thresholds are 1e-6 to 1e-14. In either build EPA returns its first tetrahedron if the
@@ -16,25 +16,29 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include <limits>
+#include <optional>
 
 #include "algorithms/peers/bullet_bodies.h"
 
 namespace touchstone::bullet {
 namespace {
 
-struct GjkEpa {
+class GjkEpa {
+ public:
+  explicit GjkEpa(const NarrowPhaseSettings& settings) : margin_(settings.margin) {}
   static void prepare(Body&) {}
 
   void answer(Query& query, Outcome& outcome) {
     const btConvexShape* a = query.a.shape.get();
     const btConvexShape* b = query.b.shape.get();
     btGjkPairDetector detector(a, b, &simplex_, &epa_);
-    if (query.task != Task::distance) {
+    const bool for_distance = asks_distance(query.task), has_cut_off = !for_distance || margin_;
+    if (has_cut_off) {
       // Bullet compares this cut-off with the distance of the cores, without margins. Touching
       // bodies are kept.
-      const btScalar margins = a->getMargin() + b->getMargin();
-      query.input.m_maximumDistanceSquared =
-          margins * margins + std::numeric_limits<btScalar>::min();
+      const btScalar reach =
+          a->getMargin() + b->getMargin() + static_cast<btScalar>(for_distance ? *margin_ : 0);
+      query.input.m_maximumDistanceSquared = reach * reach + std::numeric_limits<btScalar>::min();
     }
     Deepest deepest;
     detector.getClosestPoints(query.input, deepest, nullptr);
@@ -42,9 +46,11 @@ struct GjkEpa {
     outcome.status = Status::not_reported;
     if (deepest.contact) {
       report(*deepest.contact, query, outcome);
-    } else if (query.task != Task::distance && found_distance(detector.m_lastUsedMethod)) {
+    } else if (has_cut_off && found_distance(detector.m_lastUsedMethod)) {
+      clear_numbers(outcome);
       outcome.answer = Answer::separated;  // beyond the cut-off
     } else {
+      clear_numbers(outcome);
       // GJK reached its cap of 1000, or EPA found nothing although GJK reports an overlap.
       constexpr int cap = 1000;
       outcome.answer = Answer::unknown;
@@ -58,6 +64,7 @@ struct GjkEpa {
     return method == 1 || method == 5 || method == 6 || method == 8;
   }
 
+  std::optional<double> margin_;  // metres
   btVoronoiSimplexSolver simplex_;
   btGjkEpaPenetrationDepthSolver epa_;
 };
@@ -84,7 +91,7 @@ std::vector<NarrowPhaseEntry> peers_bullet_gjk_epa() {
                 .known_defect = "EPA stops at its first tetrahedron where flat faces meet "
                                 "squarely: depth down to 58 %",
                 .lacking = bullet::lacking()},
-       .tasks = {Task::intersect, Task::distance, Task::penetration},
+       .tasks = {all_tasks.begin(), all_tasks.end()},
        .scalars = bullet::scalars(),
        .supports = [](ShapeKind, ShapeKind b, Task) { return b != ShapeKind::halfspace; },
        .encoding = bullet::encoding,

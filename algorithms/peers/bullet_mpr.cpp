@@ -45,6 +45,7 @@ class Mpr {
     } catch (const TooMany&) {
       outcome.answer = Answer::unknown;
       outcome.status = Status::not_converged;
+      clear_numbers(outcome);
     }
     outcome.support_calls = calls;
     outcome.iterations = calls / 2;

@@ -25,6 +25,7 @@ struct PolyhedralSat {
     if (query.a.polyhedron == nullptr || query.b.polyhedron == nullptr) {
       outcome.answer = Answer::unknown;
       outcome.status = Status::degenerate;
+      clear_numbers(outcome);
       return;
     }
     const btConvexPolyhedron& hull_a = *query.a.polyhedron;
@@ -56,7 +57,7 @@ struct PolyhedralSat {
     }
     const btVector3 point = deepest.contact ? deepest.contact->point_on_b : highest;
     report({axis, point, -depth}, query, outcome);
-    if (outcome.answer == Answer::separated) outcome.answer = Answer::touching;  // rounding
+    if (outcome.answer == Answer::separated) outcome.answer = Answer::touching;  // by rounding
   }
 
  private:

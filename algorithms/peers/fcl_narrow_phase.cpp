@@ -10,6 +10,9 @@
 //          max_iterations: in fcl-libccd it caps the distance loops and MPR's search for the depth;
 //          MPR's first loops have no cap. In fcl-indep it caps both loops, and EPA's stores grow
 //          with it. The closed forms use neither. FCL never reports that a cap has ended a query.
+//          A signed distance is the distance and then the depth: shapeSignedDistance of fcl-libccd
+//          has no cap on its EPA and did not end within minutes on one of the tests' pairs; that of
+//          fcl-indep gives no depth.
 //          fcl-indep's EPA returns the depth negated and the normal in a's frame; the adapter
 //          converts both. Witness points of a penetration are not reported: FCL gives one contact
 //          point, with another meaning for each kind pair. A hull without faces is scanned; one
@@ -40,6 +43,7 @@
 #include <fcl/narrowphase/distance_request.h>
 
 #include "algorithms/peers/fcl_shapes.h"
+#include "algorithms/signed_by_two.h"
 
 namespace touchstone {
 namespace {
@@ -79,7 +83,7 @@ constexpr bool has_closed_form(ShapeKind a, ShapeKind b) {
 
 // FCL has no distance to a half-space, and no contact of two half-spaces.
 bool supports(ShapeKind kind_a, ShapeKind kind_b, Task task) {
-  if (task == Task::distance) return kind_b != ShapeKind::halfspace;
+  if (asks_distance(task)) return kind_b != ShapeKind::halfspace;
   return task == Task::intersect || kind_a != ShapeKind::halfspace;
 }
 
@@ -96,7 +100,8 @@ Encoding matrix_encoding(ShapeKind, ShapeKind, Task, Precision scalar) {
 
 // Only libccd's own loops use quaternions.
 Encoding quaternion_encoding(ShapeKind a, ShapeKind b, Task task, Precision scalar) {
-  if (task == Task::distance ? has_closed_distance(a, b) : has_closed_form(a, b)) {
+  if ((!asks_distance(task) || has_closed_distance(a, b)) &&
+      (task == Task::distance || has_closed_form(a, b))) {
     return matrix_encoding(a, b, task, scalar);
   }
   return scalar == Precision::float32 ? Encoding::quaternion_float32 : Encoding::quaternion;
@@ -122,6 +127,7 @@ class Fcl final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    if (task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
     with_kind(batch.kind_a, [&]<ShapeKind kind_a>() {
       with_kind(batch.kind_b, [&]<ShapeKind kind_b>() {
         if constexpr (kind_a <= kind_b) solve_kinds<kind_a, kind_b>(task, batch, outcomes);
@@ -147,6 +153,7 @@ class Fcl final : public NarrowPhase {
       }
       Outcome& outcome = outcomes[i];
       outcome.status = Status::not_reported;
+      outcome.iterations = outcome.support_calls = -1;
       try {
         switch (task) {
           case Task::intersect:
@@ -157,6 +164,7 @@ class Fcl final : public NarrowPhase {
           case Task::distance:
             if constexpr (kind_b != ShapeKind::halfspace) distance(a, pose_a, b, pose_b, outcome);
             break;
+          case Task::signed_distance: break;  // solved by the other two
           case Task::penetration:
             penetration<has_closed_form(kind_a, kind_b)>(a, pose_a, b, pose_b, outcome);
             break;
@@ -164,13 +172,14 @@ class Fcl final : public NarrowPhase {
       } catch (...) {
         outcome.answer = Answer::unknown;
         outcome.status = Status::degenerate;
+        clear_numbers(outcome);
       }
     }
   }
 
   static S default_tolerance(Task task) {
-    return task == Task::distance ? fcl::DistanceRequest<S>().distance_tolerance
-                                  : fcl::CollisionRequest<S>().gjk_tolerance;
+    return asks_distance(task) ? fcl::DistanceRequest<S>().distance_tolerance
+                               : fcl::CollisionRequest<S>().gjk_tolerance;
   }
 
   template <class A, class B>
@@ -179,6 +188,7 @@ class Fcl final : public NarrowPhase {
     S gap = std::numeric_limits<S>::quiet_NaN();
     Vec3<S> witness_a, witness_b;
     solver_.shapeDistance(a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
+    clear_numbers(outcome);
     if (std::isnan(gap)) {
       outcome.answer = Answer::unknown;
       outcome.status = Status::degenerate;
@@ -198,6 +208,7 @@ class Fcl final : public NarrowPhase {
     contacts_.clear();
     const bool found = solver_.shapeIntersect(a, pose_a, b, pose_b, &contacts_);
     outcome.answer = found ? Answer::overlapping : Answer::separated;
+    if (found) clear_numbers(outcome);
     if (!found || contacts_.empty()) return;
     const fcl::ContactPoint<S>& deepest =
         *std::ranges::max_element(contacts_, {}, &fcl::ContactPoint<S>::penetration_depth);
@@ -221,6 +232,7 @@ class Fcl final : public NarrowPhase {
   std::vector<std::unique_ptr<fcl::ShapeBase<S>>> shapes_;
   std::vector<double> reaches_;
   std::vector<fcl::ContactPoint<S>> contacts_;
+  SignedByTwo signed_;
 };
 
 template <template <class> class Solver>
@@ -243,7 +255,7 @@ namespace touchstone::entries {
 
 std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
   using enum Task;
-  const std::vector<Task> tasks = {intersect, distance, penetration};
+  const std::vector<Task> tasks(all_tasks.begin(), all_tasks.end());
   const std::vector<Precision> scalars = {Precision::float32, Precision::float64};
   return {
       {.info = {.name = "fcl-libccd",
@@ -256,6 +268,8 @@ std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
        .supports = supports,
        .traits = {.depth_is_bound = true},
        .encoding = quaternion_encoding,
+       .tolerance = "how far the surface is beyond MPR's portal, and the least gain of a step of a "
+                    "distance; 1e-6 m",
        .make = make_libccd},
       {.info = {.name = "fcl-indep",
                 .citation = "FCL 0.7, GJKSolver_indep: shapeIntersect, shapeDistance",
@@ -267,6 +281,7 @@ std::vector<NarrowPhaseEntry> peers_fcl_narrow_phase() {
        .scalars = scalars,
        .supports = supports,
        .encoding = matrix_encoding,
+       .tolerance = "a length for EPA and for `inside`, and a part of the distance for GJK; 1e-6",
        .make = make_indep},
   };
 }

@@ -215,9 +215,11 @@ class Libccd final : public NarrowPhase {
     // EPA's limit is not that of the GJK before it, which may have used up its own.
     const bool gjk_gave_up = !found && query.support_points() > 1 + max_iterations_;
     const bool gave_up = query.stopped() || (method_ == Method::epa && gjk_gave_up);
+    outcome.iterations = -1;
     outcome.support_calls = static_cast<std::int32_t>(query.support_points());
     outcome.status = gave_up ? Status::not_converged : Status::not_reported;
     outcome.answer = found ? Answer::overlapping : gave_up ? Answer::unknown : Answer::separated;
+    if (outcome.answer != Answer::separated) clear_numbers(outcome);
   }
 
   void intersect(const ccd_t& ccd, const Body& a, const Body& b, Outcome& outcome) const {
@@ -237,6 +239,7 @@ class Libccd final : public NarrowPhase {
     if (result == -2) {  // out of memory, or a polytope that cannot be expanded
       outcome.answer = Answer::unknown;
       outcome.status = Status::degenerate;
+      clear_numbers(outcome);
     }
     if (result != 0) return;
     if (!(depth >= 0)) {
@@ -294,6 +297,7 @@ std::vector<NarrowPhaseEntry> peers_libccd_narrow_phase() {
        .tasks = {penetration},
        .scalars = scalars,
        .supports = supports,
+       .tolerance = "EPA's: the gain of a step of the depth's square, as a square; 1e-4 m",
        .make = make_epa},
       {.info = {.name = "libccd-mpr",
                 .citation = "libccd 2.1, ccdMPRIntersect and ccdMPRPenetration",
@@ -303,6 +307,7 @@ std::vector<NarrowPhaseEntry> peers_libccd_narrow_phase() {
        .scalars = scalars,
        .supports = supports,
        .traits = {.depth_is_bound = true},
+       .tolerance = "how far the surface is beyond the portal, along its normal; 1e-4 m",
        .make = make_mpr},
   };
 }

@@ -174,9 +174,11 @@ class Mujoco final : public NarrowPhase {
   static void report(std::span<const mjContact> contacts, bool swapped, Task task,
                      Outcome& outcome) {
     outcome.status = Status::not_reported;
+    outcome.iterations = outcome.support_calls = -1;
     outcome.answer = contacts.empty() ? Answer::separated : Answer::overlapping;
     if (contacts.empty() || task != Task::penetration) return;
     const mjContact& deepest = *std::ranges::min_element(contacts, {}, &mjContact::dist);
+    clear_numbers(outcome);
     outcome.distance = deepest.dist;
     outcome.normal = Vec3d(deepest.frame[0], deepest.frame[1], deepest.frame[2]);
     if (swapped) outcome.normal = -outcome.normal;
@@ -219,6 +221,7 @@ std::vector<NarrowPhaseEntry> peers_mujoco_narrow_phase() {
            .supports = supports,
            .traits = {.depth_is_bound = true},
            .encoding = encoding,
+           .tolerance = "MPR's: how far the surface is beyond the portal; 1e-6 m",
            .make = make}};
 }
 

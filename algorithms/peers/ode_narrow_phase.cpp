@@ -63,8 +63,10 @@ Vec3d to_vector(const dVector3 v) { return {v[0], v[1], v[2]}; }
 
 void report(bool contact, const Vec3d& normal, dReal depth, Task task, Outcome& outcome) {
   outcome.status = Status::not_reported;
+  outcome.iterations = outcome.support_calls = -1;
   outcome.answer = contact ? Answer::overlapping : Answer::separated;
   if (!contact || task != Task::penetration) return;
+  clear_numbers(outcome);
   outcome.distance = 0 - static_cast<double>(depth);
   outcome.normal = normal;
 }

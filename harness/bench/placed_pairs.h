@@ -43,7 +43,7 @@ struct PairRegime {
 
   // Returns true if the task gives more than the answer at that distance.
   bool fits(Task task) const {
-    return task == Task::intersect || (task == Task::distance) == (distance > 0);
+    return task == Task::intersect || (distance > 0 ? asks_distance(task) : asks_depth(task));
   }
 };
 std::span<const PairRegime> pair_regimes();

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 2> box_names = {"tight", "loose"};
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
-constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
+constexpr std::array<std::string_view, 4> task_names = {"intersect", "distance", "penetration",
+                                                        "signed"};
 constexpr std::array<std::string_view, 3> isa_names = {"all", "avx2", "baseline"};
 enum class IsaChoice : std::uint8_t { all, avx2, baseline };
 constexpr std::array<std::string_view, 2> pairing_names = {"separate", "product"};

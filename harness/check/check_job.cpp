@@ -89,7 +89,7 @@ class Job {
     std::vector<Item> items;
     for (std::size_t place = 0; place < cases_.size(); ++place) {
       const files::Case& c = cases_[place].pair();
-      for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+      for (const Task task : all_tasks) {
         if (!offers(algorithm, c.shape_a.kind, c.shape_b.kind, task)) continue;
         items.push_back({place, nullptr, task});
         for (const Variant& variant : variants_[place]) items.push_back({place, &variant, task});
@@ -156,12 +156,12 @@ class Job {
           count.worst_flip = std::max(count.worst_flip, gap / scale);
           beyond = beyond || (gap / scale >= margins.verdict && !algorithm.traits.approximate);
         }
-      } else if (!other_side && grade::asks_for_distance(original.task, outcome.answer) &&
+      } else if (!other_side && asks_for_number(original.task, outcome.answer) &&
                  std::isfinite(outcome.distance) && std::isfinite(turned_back.distance)) {
         const double difference = std::abs(outcome.distance - turned_back.distance) / scale;
         count.worst_difference = std::max(count.worst_difference, difference);
-        const bool any_depth =
-            original.task == Task::penetration && algorithm.traits.depth_is_bound;
+        const bool any_depth = asks_depth(original.task) && outcome.answer != Answer::separated &&
+                               algorithm.traits.depth_is_bound;
         beyond = beyond || (difference > 2 * margins.length && !any_depth);
       }
     }

@@ -9,7 +9,6 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/check/regimes/check_shapes.h"
-#include "harness/process/queries/ordered_pair.h"
 
 namespace touchstone::check {
 namespace {
@@ -150,7 +149,7 @@ std::vector<Variant> variants(const files::Case& c, base::Random& random) {
 }
 
 Outcome to_original(const Variant& variant, const Outcome& outcome) {
-  Outcome original = variant.swapped ? process::swapped(outcome) : outcome;
+  Outcome original = variant.swapped ? touchstone::swapped(outcome) : outcome;
   const geometry::SignedPermutation back = variant.rotation.inverse();
   for (double* length : {&original.distance, &original.lower, &original.upper}) {
     *length = std::ldexp(*length, -variant.exponent);

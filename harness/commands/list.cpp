@@ -24,6 +24,7 @@ struct Listed {
   const AlgorithmInfo* info;
   std::string_view kind;
   std::string tasks, scalars;  // joined by ';'
+  std::string tolerance = {};  // what a tolerance limits
 };
 
 template <class Enumeration>
@@ -42,7 +43,8 @@ std::vector<Listed> all_algorithms() {
     all.push_back({&entry.info, "broad", "pairs", std::string(to_string(Precision::float32))});
   }
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
-    all.push_back({&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars)});
+    all.push_back(
+        {&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars), entry.tolerance});
   }
   for (const ManifoldEntry& entry : contact_manifolds()) {
     all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
@@ -108,6 +110,7 @@ std::string as_table(const std::vector<Listed>& all) {
     std::string about =
         is_built(*row.info) ? row.info->citation : "not built, because " + row.info->reason;
     if (is_built(*row.info) && !row.info->lacking.empty()) about += "; " + row.info->lacking;
+    if (!row.tolerance.empty()) about += "; tolerance: " + row.tolerance;
     if (!row.info->known_defect.empty()) about += " (known defect: " + row.info->known_defect + ")";
     line(row.info->name, row.kind, to_string(row.info->origin), row.tasks, row.scalars, about);
   }

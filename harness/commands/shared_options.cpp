@@ -13,6 +13,14 @@ namespace touchstone::commands {
 const Arguments::Choices<Task>& task_choices() {
   static const Arguments::Choices<Task> choices = {{"intersect", Task::intersect},
                                                    {"distance", Task::distance},
+                                                   {"penetration", Task::penetration},
+                                                   {"signed", Task::signed_distance}};
+  return choices;
+}
+
+const Arguments::Choices<Task>& trade_task_choices() {
+  static const Arguments::Choices<Task> choices = {{"intersect", Task::intersect},
+                                                   {"distance", Task::distance},
                                                    {"penetration", Task::penetration}};
   return choices;
 }

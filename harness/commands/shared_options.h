@@ -17,6 +17,8 @@
 namespace touchstone::commands {
 
 const Arguments::Choices<Task>& task_choices();
+// Those of a trade, whose error is that of a distance or of a depth.
+const Arguments::Choices<Task>& trade_task_choices();
 const Arguments::Choices<Precision>& scalar_choices();
 const Arguments::Choices<scene::BoxKind>& box_choices();
 

@@ -57,7 +57,7 @@ int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, 
 }
 
 void add_trade_axes(Arguments& command, trade::TradeRequest& request) {
-  command.one_of("--task", request.task, task_choices(), "What is asked");
+  command.one_of("--task", request.task, trade_task_choices(), "What is asked");
   add_threads(command, request.threads);
   command.number("--frames", request.overrides.frames, "Frames").positive();
   add_scene_overrides(command, request.overrides);

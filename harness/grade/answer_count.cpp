@@ -62,7 +62,7 @@ void AnswerCount::add(const GradedAnswer& answer) {
     keep_greater(too_shallow, std::max(-given.depth_error, 0.0) / scale);
   }
   keep_greater(depth_end, std::abs(end.depth_error) / scale);
-  if (answer.task == Task::penetration) {
+  if (grades_depth(answer.task, given)) {
     keep_greater(does_not_separate, std::max(given.separation_error, 0.0) / scale);
     keep_greater(excess, given.excess / scale);
   }

@@ -73,12 +73,6 @@ Verdict judge(const Outcome& outcome, Answer exact, Touching touching) {
   return is_contact(outcome.answer) == is_contact(exact) ? Verdict::right : Verdict::silent_error;
 }
 
-bool asks_for_distance(Task task, Answer answer) {
-  if (answer == Answer::touching) return task != Task::intersect;
-  return (task == Task::distance && answer == Answer::separated) ||
-         (task == Task::penetration && answer == Answer::overlapping);
-}
-
 double least_magnitude(double lower, double upper) {
   if (lower > 0) return lower;
   return upper < 0 ? -upper : 0;
@@ -115,10 +109,12 @@ Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, con
   }
   grade.bounds_error = bounds_error(outcome, exact);
   if (is_within_resolution(outcome)) grade.resolution = outcome.upper - outcome.lower;
-  if (!stands_by(outcome) || !asks_for_distance(task, outcome.answer)) return grade;
+  if (!stands_by(outcome) || !asks_for_number(task, outcome.answer)) return grade;
   // The number has nothing to be compared with if the exact answer is on the other side of contact.
-  const bool both_apart = task == Task::distance && !(exact.upper < 0);
-  const bool both_meet = task == Task::penetration && !(exact.lower > 0);
+  const bool both_apart =
+      asks_distance(task) && outcome.answer != Answer::overlapping && !(exact.upper < 0);
+  const bool both_meet =
+      !both_apart && asks_depth(task) && outcome.answer != Answer::separated && !(exact.lower > 0);
   if (!both_apart && !both_meet) return grade;
   const double error = outside(outcome.distance, exact.lower, exact.upper);
   (both_apart ? grade.distance_error : grade.depth_error) = both_apart ? error : 0 - error;
@@ -135,7 +131,7 @@ Grade grade(const Outcome& outcome, Task task, const oracle::Measure& exact, con
 WitnessGrade grade_witnesses(const Outcome& outcome, Task task, const oracle::Body& a,
                              const oracle::Body& b, oracle::Oracle& oracle) {
   WitnessGrade grade;
-  const bool asked = asks_for_distance(task, outcome.answer);
+  const bool asked = asks_for_number(task, outcome.answer);
   const Vec3d &n = outcome.normal, &p = outcome.witness_a, &q = outcome.witness_b;
   if (!stands_by(outcome) || !asked) return grade;
   const bool endless = outcome.answer == Answer::overlapping && outcome.distance < 0;

@@ -1,6 +1,7 @@
 // Grades of one answer: its side of contact and its numbers, against the exact answer.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -81,8 +82,11 @@ struct WitnessGrade {
 WitnessGrade grade_witnesses(const Outcome& outcome, Task task, const oracle::Body& a,
                              const oracle::Body& b, oracle::Oracle& oracle);
 
-// Returns whether the task asks for a distance if this is the answer.
-bool asks_for_distance(Task task, Answer answer);
+// Returns whether the grade of an answer to the task is that of a depth.
+inline bool grades_depth(Task task, const Grade& grade) {
+  return task == Task::penetration ||
+         (task == Task::signed_distance && !std::isnan(grade.depth_error));
+}
 
 // Returns the magnitude of the end nearer to zero; 0 if the enclosure contains zero.
 double least_magnitude(double lower, double upper);

@@ -27,7 +27,7 @@ void for_each_length(const NarrowPhaseEntry& entry, const GradedAnswer& answer, 
   visit("the depth is too small", -grade.depth_error, margins.length);
   if (!entry.traits.depth_is_bound)
     visit("the depth is too great", grade.depth_error, margins.length);
-  if (answer.task == Task::penetration) {
+  if (grades_depth(answer.task, grade)) {
     visit("the translation does not separate", grade.separation_error, margins.length);
   }
 }
@@ -132,7 +132,7 @@ std::string describe(const NarrowPhaseEntry& entry, const GradedAnswer& answer, 
   number(grade.distance_error > 0 ? "distance too great" : "distance too small",
          grade.distance_error);
   number(grade.depth_error > 0 ? "depth too great" : "depth too small", grade.depth_error);
-  if (answer.task == Task::penetration && grade.separation_error > 0) {
+  if (grades_depth(answer.task, grade) && grade.separation_error > 0) {
     number("the translation does not separate", grade.separation_error);
   }
   number("certified bounds miss the exact value", grade.bounds_error);

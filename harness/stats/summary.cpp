@@ -144,7 +144,8 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     if (!off && (row.unknown == 0 || !ours)) continue;
     Fault& fault = fault_of(row.label, ours);
     if (off) fault.worst_error = std::fmax(fault.worst_error, row.worst_error);
-    fault.is_bound = fault.is_bound || (row.depth_is_bound && row.key.task == "penetration");
+    const bool is_depth = row.key.task == "penetration" || row.key.task == "signed";
+    fault.is_bound = fault.is_bound || (row.depth_is_bound && is_depth);
     fault.unknown += row.unknown;
     fault.queries += row.queries;
   }

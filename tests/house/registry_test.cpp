@@ -37,6 +37,7 @@ TEST(Registry, NarrowPhasesAreWellDescribed) {
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
     EXPECT_FALSE(entry.tasks.empty()) << entry.info.name;
     EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
+    EXPECT_EQ(entry.tolerance.find('\n'), std::string::npos) << entry.info.name;
   }
 }
 

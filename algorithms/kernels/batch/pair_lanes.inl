@@ -115,6 +115,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_answer(unsigned overlapping, Outc
   const auto both = static_cast<std::uint16_t>((overlapping & 1) * common);
   std::memcpy(&outcome.answer, &both, sizeof both);
   outcome.iterations = 0;
+  outcome.support_calls = -1;
 }
 
 // Writes the answers of the pairs from `begin` on that have one. Appends the places of the others

@@ -30,8 +30,9 @@ class CarriedPlane {
   static CarriedPlane make(const Vec3d& normal, double gap, double radius_a, const Pose& pose_a,
                            double radius_b, const Pose& pose_b);
 
-  // Returns true if it proves that the bodies are apart by more than rounding.
-  bool parts(const Pose& pose_a, const Pose& pose_b) const;
+  // Returns true if it proves that the bodies are apart by more than rounding, and by more than the
+  // margin (metres).
+  bool parts(const Pose& pose_a, const Pose& pose_b, double margin = 0) const;
 
   // The normal in the world, halfway between where the two bodies carried it: unit length, or zero
   // if there is none.
@@ -69,7 +70,7 @@ inline std::uint32_t CarriedPlane::sum() const {
 //   n . offset - reach - (|n| - 1) balls - radius_a |d_a| - radius_b |d_b|,
 // where the balls are those that round the bodies' cores: they are part of the radii. Instead of
 // the roots, x + y < g is tested by 2 (x^2 + y^2) < g^2.
-inline bool CarriedPlane::parts(const Pose& pose_a, const Pose& pose_b) const {
+inline bool CarriedPlane::parts(const Pose& pose_a, const Pose& pose_b, double margin) const {
   const double a0 = in_a_[0], a1 = in_a_[1], a2 = in_a_[2];
   const Mat3d& r = pose_a.rotation;
   const Mat3d& s = pose_b.rotation;
@@ -90,7 +91,8 @@ inline bool CarriedPlane::parts(const Pose& pose_a, const Pose& pose_b) const {
   const double length = offset.lpNorm<1>();
   const double excess = x * x + y * y + z * z - 1;
   const double gap = x * offset.x() + y * offset.y() + z * offset.z() - double{reach_} -
-                     radii * std::abs(excess) - rounding * (2 * length + 8 * radii);
+                     radii * std::abs(excess) - rounding * (2 * length + 8 * radii) -
+                     (margin > 0 ? margin * (1 + std::abs(excess)) : 0);
   const double bend = radius_a * radius_a * off_a + radius_b * radius_b * off_b;
   constexpr double twice = 2 * (1 + rounding);
   return gap > 0 && gap * gap > twice * bend && excess < 1 &&

@@ -37,7 +37,9 @@ enum class Momentum : std::uint8_t { none, nesterov, where_it_pays };
 template <class Scalar>
 struct GjkDistanceGoal {
   Task task = Task::intersect;
-  Scalar tolerance = 0;                    // of the distance, in the pair's unit
+  Scalar tolerance = 0;  // of the distance, in the pair's unit
+  // Bodies that are proven to be further apart need no distance; in the pair's unit.
+  Scalar margin = std::numeric_limits<Scalar>::infinity();
   std::optional<double> duality_gap = {};  // square metres; replaces the tolerance
   int most_iterations = 0;
   Momentum momentum = Momentum::none;

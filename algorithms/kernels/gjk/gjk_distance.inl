@@ -41,8 +41,10 @@ bool plane_decides(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goa
   ++found.iterations;
   found.lower = separation_along(pair, normal);
   found.direction = normal;
-  if (!(found.lower - pair.radius() > SupportPair<Scalar>::rounding)) return false;
-  if (goal.task == Task::distance && goal.is_open(pair, found.nearest.distance, found.lower)) {
+  const Scalar gap = found.lower - pair.radius();
+  if (!(gap > SupportPair<Scalar>::rounding)) return false;
+  if (asks_distance(goal.task) && !(gap > goal.margin) &&
+      goal.is_open(pair, found.nearest.distance, found.lower)) {
     return false;
   }
   found.end = GjkDistanceResult<Scalar>::End::decided;
@@ -56,7 +58,7 @@ bool resume(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal,
             const LastFrame<Scalar>& last, FastGjkStart<Scalar>& begin,
             GjkDistanceResult<Scalar>& found) {
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
-  const bool only_apart = goal.task != Task::distance;
+  const bool only_apart = !asks_distance(goal.task);
   const bool round = last.kept.size == 0;
   const bool known = (round || (only_apart && last.kept.size < 4)) && !last.direction.isZero(0);
   if (known && only_apart && plane_decides(pair, goal, last.direction, found)) return true;
@@ -72,7 +74,7 @@ bool resume(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal,
   found.nearest = reduce_to_nearest(found.simplex);
   if (is_contact(found)) return true;
   // A simplex nearer than the radius proves the overlap; only a depth remains to be found.
-  if (goal.task != Task::penetration && found.upper - pair.radius() < -rounding) {
+  if (!asks_depth(goal.task) && found.upper - pair.radius() < -rounding) {
     found.end = GjkDistanceResult<Scalar>::End::decided;
     return true;
   }
@@ -89,9 +91,10 @@ bool run_fast_gjk(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal
                   const FastGjkStart<Scalar>& begin, bool numbered,
                   GjkDistanceResult<Scalar>& found) {
   using End = typename GjkDistanceResult<Scalar>::End;
-  const FastGjkGoal first{.only_apart = goal.task != Task::distance,
+  const FastGjkGoal first{.only_apart = !asks_distance(goal.task),
                           .most_iterations = goal.most_iterations,
-                          .numbered = numbered};
+                          .numbered = numbered,
+                          .margin = static_cast<double>(goal.margin)};
   const FastGjkResult<Scalar> quick = Cores::fast_gjk(pair, first, goal.tolerance, begin);
   found.iterations += quick.iterations;
   if (quick.moved) found.simplex = quick.simplex;
@@ -162,7 +165,7 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
     }
     const DifferencePoint<Scalar> point = Cores::support(pair, direction);
     const Scalar lower = -direction.dot(point.difference);
-    const bool of_normal = task == Task::penetration && !accelerated;
+    const bool of_normal = asks_depth(task) && !accelerated && !(found.lower - radius > rounding);
     if (of_normal || lower > found.lower) {
       found.lower = lower;
       found.direction = direction;
@@ -175,10 +178,15 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
         if (apart) found.end = End::decided;
         break;
       case Task::distance:
-        if (apart && !open) found.end = End::decided;
+        if (apart && (!open || found.lower - radius > goal.margin)) found.end = End::decided;
         break;
       case Task::penetration:
         if (apart || (!open && found.lower > rounding)) found.end = End::decided;
+        break;
+      case Task::signed_distance:
+        if (found.lower > rounding && (!open || found.lower - radius > goal.margin)) {
+          found.end = End::decided;
+        }
         break;
     }
     bool known = false;
@@ -191,7 +199,7 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
         accelerated && simplex.size > 0 &&
         !goal.is_open(pair, found.nearest.distance, found.nearest.direction.dot(point.difference));
     // The bound on a shallow overlap of round shapes must hold along the reported normal.
-    const bool oblique = accelerated && task == Task::penetration && !apart && !open;
+    const bool oblique = accelerated && asks_depth(task) && !apart && !open;
     if (accelerated && (found.end != End::decided || oblique) && (known || spent || oblique)) {
       accelerated = false;
       found.end = End::cap;
@@ -217,7 +225,7 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
       return found;
     }
     found.upper = std::min(found.upper, found.nearest.distance);
-    if (task != Task::penetration && found.upper - radius < -rounding) {
+    if (!asks_depth(task) && found.upper - radius < -rounding) {
       found.end = End::decided;
       return found;
     }

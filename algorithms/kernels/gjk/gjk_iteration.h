@@ -3,8 +3,8 @@
 // result. Used by the GJK family, certified, mpr-refined and the room mpr (is_surely_inside).
 // Steps:   1. Start at the difference of the centres, or at a given simplex.
 //          2. Find the support point towards the origin, in vectors of four numbers.
-//          3. If its plane is further from the origin than the radii, or the bounds meet to the
-//             tolerance, stop.
+//          3. If its plane is further from the origin than the radii (and the margin, if the
+//             distance is searched), or the bounds meet to the tolerance, stop.
 //          4. If the point is already in the simplex, stop.
 //          5. Add the point and reduce the simplex to the nearest feature that contains it.
 //          6. If a tetrahedron remains, test that it contains the origin beyond rounding. If that
@@ -20,7 +20,8 @@
 namespace touchstone {
 
 enum class FastGjkEnd : std::uint8_t {
-  apart,     // a support plane is further from the origin than the radius: proven
+  apart,     // a support plane is further from the origin than the radius, and the margin if it
+             // is no search for separation only: proven
   near,      // the simplex's distance is within the tolerance
   inside,    // the tetrahedron contains the origin: proven
   doubtful,  // rounding or the cap ended the iteration
@@ -51,6 +52,8 @@ struct FastGjkGoal {
   bool only_apart = false;  // stop at a plane that separates the bodies
   int most_iterations = 0;
   bool numbered = false;  // the simplex must hold the indices of its corners
+  // Stop at a plane that separates the bodies by more than this, in the pair's unit.
+  double margin = std::numeric_limits<double>::infinity();
 };
 
 // `tolerance` applies to the distance, in the pair's unit.

@@ -241,6 +241,7 @@ TOUCHSTONE_TARGET void fast_gjk_at(SupportPair<Scalar>& pair, const FastGjkGoal&
   // rounding.
   constexpr Scalar as_far = 1024 * std::numeric_limits<Scalar>::epsilon();
   const Scalar apart = pair.radius() + SupportPair<Scalar>::rounding;
+  const Scalar far = goal.only_apart ? apart : apart + static_cast<Scalar>(goal.margin);
   QuadShape<Scalar> a(pair.a()), b(pair.b());
   const Vector centre_b = quad(pair.centre_b());
   QuadSimplex<Scalar, numbered> simplex;
@@ -261,8 +262,8 @@ TOUCHSTONE_TARGET void fast_gjk_at(SupportPair<Scalar>& pair, const FastGjkGoal&
     const Vector on_b = b.template support<CoreOfB>(search, corners.b) + centre_b;
     const Vector point = on_a - on_b;
     found.lower = dot(search, point) / length;
-    if (found.lower > apart && (goal.only_apart || nearest - found.lower <= tolerance)) {
-      found.end = goal.only_apart ? FastGjkEnd::apart : FastGjkEnd::near;
+    if (found.lower > apart && (found.lower > far || nearest - found.lower <= tolerance)) {
+      found.end = found.lower > far ? FastGjkEnd::apart : FastGjkEnd::near;
       found.direction = vec<Scalar>(search);
       break;
     }

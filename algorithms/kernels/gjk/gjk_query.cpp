@@ -62,20 +62,39 @@ double radius_of(const SupportShape<Scalar>& shape) {
 
 }  // namespace
 
+// Returns the offset of the centres, or writes the answer and returns nothing if the last plane or the
+// bounding balls part the bodies enough.
+template <class Scalar>
+[[gnu::always_inline]] inline std::optional<CentreOffset> GjkQuery<Scalar>::offset_unless_apart(
+    const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
+    const Pose& pose_b, Task task, const WarmStart* start, Outcome& outcome) const {
+  const bool measured = asks_distance(task);
+  const double margin = measured ? settings_.margin : 0;
+  if (!(margin < std::numeric_limits<double>::infinity()))
+    return centre_offset(a, pose_a, b, pose_b);
+  const bool parted = start != nullptr && (measured ? start->plane.parts(pose_a, pose_b, margin)
+                                                    : start->plane.parts(pose_a, pose_b));
+  if (!parted) {
+    const CentreOffset offset = centre_offset(a, pose_a, b, pose_b);
+    const bool apart = measured ? balls_are_apart_by(margin, offset, a, pose_a, b, pose_b)
+                                : balls_are_apart(offset, a, pose_a, b, pose_b);
+    if (!apart) return offset;
+  }
+  outcome.answer = Answer::separated;
+  outcome.status = Status::ok;
+  if (measured) write_beyond(margin, outcome);
+  outcome.iterations = outcome.support_calls = 0;
+  return {};
+}
+
 template <class Scalar>
 void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
                              const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
                              WarmStart* start, Outcome& outcome) {
-  const bool parted =
-      task != Task::distance && start != nullptr && start->plane.parts(pose_a, pose_b);
-  const CentreOffset offset = parted ? CentreOffset{} : centre_offset(a, pose_a, b, pose_b);
-  if (parted || (task != Task::distance && balls_are_apart(offset, a, pose_a, b, pose_b))) {
-    outcome.answer = Answer::separated;
-    outcome.status = Status::ok;
-    outcome.iterations = outcome.support_calls = 0;
-    return;
-  }
-  SupportPair<Scalar> pair(offset, a, pose_a, b, pose_b);
+  const std::optional<CentreOffset> offset =
+      offset_unless_apart(a, pose_a, b, pose_b, task, start, outcome);
+  if (!offset) return;
+  SupportPair<Scalar> pair(*offset, a, pose_a, b, pose_b);
   outcome.iterations = 0;
   if (start == nullptr) {
     if (task == Task::intersect && fast_gjk_decides(pair, outcome)) return;
@@ -87,7 +106,7 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
   if (!found.warm_hit) start->keep(found.simplex);
   // The normal's length is off by rounding as well as the bound.
   const double gap = pair.unit() * static_cast<double>(found.lower - pair.radius() - 2 * rounding);
-  if (gap > 0 ? task == Task::distance && found.warm_hit : found.warm_hit) return;
+  if (gap > 0 ? asks_distance(task) && found.warm_hit : found.warm_hit) return;
   start->plane = CarriedPlane::make(found.direction.template cast<double>(), gap, radius_of(a),
                                     pose_a, radius_of(b), pose_b);
 }
@@ -118,6 +137,7 @@ GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair
   const GjkDistanceGoal<Scalar> goal{
       .task = task,
       .tolerance = tolerance(pair.is_polytope()),
+      .margin = static_cast<Scalar>(settings_.margin / pair.unit()) + rounding,
       .duality_gap = settings_.duality_gap,
       .most_iterations = std::max(1, settings_.gjk_cap - outcome.iterations),
       .momentum = settings_.momentum};
@@ -125,6 +145,9 @@ GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair
   outcome.iterations += found.iterations;
   if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
+  } else if (asks_distance(task) && found.lower - pair.radius() > goal.margin) {
+    write_beyond(pair.unit() * static_cast<double>(found.lower - pair.radius() - rounding),
+                 outcome);
   } else {
     const Scalar lower = found.lower - pair.radius();
     const Scalar upper = found.upper - pair.radius();
@@ -133,8 +156,7 @@ GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair
                                          : Answer::unknown;
     const bool touching =
         outcome.answer == Answer::unknown && write_if_touching(pair, lower, upper, outcome);
-    const bool asked = (task == Task::distance && outcome.answer != Answer::overlapping) ||
-                       (task == Task::penetration && outcome.answer != Answer::separated);
+    const bool asked = asks_for_number(task, outcome.answer);
     // A bound that the answer did not need may be open.
     const bool known =
         touching || (outcome.answer != Answer::unknown &&
@@ -145,6 +167,8 @@ GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair
       const Vec3<Scalar> normal = -found.nearest.direction;
       write(pair, found.nearest.distance - pair.radius(), lower, upper, normal, nearest.a,
             nearest.b, outcome);
+    } else if (outcome.answer == Answer::unknown) {
+      clear_numbers(outcome);
     }
   }
   outcome.support_calls = pair.support_calls();
@@ -162,7 +186,7 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
   const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
   const bool on_core = !found.nearest.inside && nearest <= 4 * rounding;
   const bool proven = inside_core || (on_core && radius > 8 * rounding);
-  if (proven && task != Task::penetration) {
+  if (proven && !asks_depth(task)) {
     outcome.answer = Answer::overlapping;
     outcome.status = Status::ok;
     return;
@@ -170,12 +194,13 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
   if (task == Task::intersect && is_at_a_face(pair, found.simplex, outcome)) return;
   ExpansionGoal<Scalar> goal{.tolerance = tolerance(pair.is_polytope()),
                              .doubtful = !inside_core && !on_core};
-  if (task != Task::penetration) goal.enough = rounding;
+  if (!asks_depth(task)) goal.enough = rounding;
   const Expansion<Scalar> depth = polytope_.expand(pair, found.simplex, goal);
   outcome.iterations += depth.iterations;
   if (depth.end == ExpansionEnd::apart && -depth.upper - radius > rounding) {
     outcome.answer = Answer::separated;
-    outcome.status = task == Task::distance ? Status::not_converged : Status::ok;
+    outcome.status = asks_distance(task) ? Status::not_converged : Status::ok;
+    if (asks_distance(task)) clear_numbers(outcome);
     return;
   }
   const bool inside =
@@ -183,13 +208,13 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
   const bool known = depth.end == ExpansionEnd::converged || depth.end == ExpansionEnd::flat;
   outcome.answer = inside ? Answer::overlapping : Answer::unknown;
   outcome.status = Status::not_converged;
-  if (inside && (known || task != Task::penetration)) outcome.status = Status::ok;
+  if (inside && (known || !asks_depth(task))) outcome.status = Status::ok;
   if (!inside && depth.end == ExpansionEnd::flat) outcome.status = Status::degenerate;
   const Scalar lower = -(radius + depth.upper);
   // If the origin may be outside the polytope, its faces give no bound from the other side.
   const Scalar upper = inside ? -(radius + depth.lower) : nearest - radius;
-  if (!inside) write_if_touching(pair, lower, upper, outcome);
-  if (task == Task::intersect || (inside && task == Task::distance)) return;
+  if (!inside && !write_if_touching(pair, lower, upper, outcome)) clear_numbers(outcome);
+  if (!asks_for_number(task, inside ? Answer::overlapping : Answer::unknown)) return;
   write(pair, lower, lower, upper, depth.normal, depth.a, depth.b, outcome);
 }
 

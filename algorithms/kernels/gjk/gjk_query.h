@@ -3,6 +3,7 @@
 // Paper:   see gjk_distance.h and expanding_polytope.h.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "algorithms/core/outcome.h"
@@ -13,9 +14,10 @@
 namespace touchstone {
 
 struct GjkQuerySettings {
-  std::optional<double> tolerance = {};    // as in NarrowPhaseSettings
-  std::optional<double> duality_gap = {};  // as in NarrowPhaseSettings
-  int gjk_cap = 128, epa_cap = 256;        // iterations
+  std::optional<double> tolerance = {};                     // as in NarrowPhaseSettings
+  std::optional<double> duality_gap = {};                   // as in NarrowPhaseSettings
+  double margin = std::numeric_limits<double>::infinity();  // metres; as in NarrowPhaseSettings
+  int gjk_cap = 128, epa_cap = 256;                         // iterations
   Momentum momentum = Momentum::none;
 };
 
@@ -27,7 +29,7 @@ class GjkQuery {
 
   // Solves a pair of bounded bodies. A verdict is `ok` only if a bound proves it beyond rounding.
   // If the plane of `start` still parts the bodies, or if their bounding balls are apart, no
-  // iteration is made except for a distance. Starts from `start` unless it is null, and stores the
+  // iteration is made except for a distance; nor for that if they are by more than the margin. Starts from `start` unless it is null, and stores the
   // result there.
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
              const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
@@ -46,6 +48,10 @@ class GjkQuery {
  private:
   static constexpr Scalar rounding = SupportPair<Scalar>::rounding;
 
+  std::optional<CentreOffset> offset_unless_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
+                                                  const SupportShape<Scalar>& b, const Pose& pose_b,
+                                                  Task task, const WarmStart* start,
+                                                  Outcome& outcome) const;
   bool fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const;
   GjkDistanceResult<Scalar> solve_pair(SupportPair<Scalar>& pair, Task task,
                                        const LastFrame<Scalar>* last, Outcome& outcome);

@@ -50,11 +50,9 @@ void answer(Task task, double distance, double rounding, double widest, const Ve
   } else if (!write_if_touching(distance - rounding, distance + rounding, widest, outcome)) {
     outcome.answer = Answer::unknown;
     outcome.status = Status::not_converged;
+    clear_numbers(outcome);
   }
-  if (task == Task::intersect || (task == Task::distance && common) ||
-      (task == Task::penetration && apart)) {
-    return;
-  }
+  if (!asks_for_number(task, outcome.answer)) return;
   outcome.distance = distance;
   outcome.lower = distance - rounding;
   outcome.upper = distance + rounding;
@@ -107,7 +105,8 @@ void solve_halfspaces(const SupportShape<Scalar>& a, const Pose& pose_a,
   outcome.support_calls = 0;
   if (normal_a.dot(normal_b) > 0 || normal_a.cross(normal_b).norm() > rounding) {
     outcome.answer = Answer::overlapping;
-    outcome.status = task == Task::penetration ? Status::degenerate : Status::ok;
+    outcome.status = asks_depth(task) ? Status::degenerate : Status::ok;
+    if (asks_depth(task)) clear_numbers(outcome);
     return;
   }
   // Heights of the two planes along a's normal, relative to the origin of body a.

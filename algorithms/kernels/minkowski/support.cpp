@@ -74,9 +74,12 @@ CentreOffset centre_offset(const SupportShape<Scalar>& a, const Pose& pose_a,
   return offset;
 }
 
-template <class Scalar>
-bool balls_are_apart(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
-                     const SupportShape<Scalar>& b, const Pose& pose_b) {
+namespace {
+
+template <bool with_margin, class Scalar>
+bool are_apart([[maybe_unused]] double margin, const CentreOffset& offset,
+               const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
+               const Pose& pose_b) {
   // A matrix lengthens a vector by at most its Frobenius norm. Rounding is a dozen units in the
   // last place of the norms, the sizes and the squares; for the offset it is as much of the greater
   // of itself and the reach. Overflow makes the result false; squares that nearly underflow are not
@@ -87,10 +90,25 @@ bool balls_are_apart(const CentreOffset& offset, const SupportShape<Scalar>& a, 
   const double stretch_b = pose_b.rotation.squaredNorm();
   const double reach_a = a.size * std::sqrt(stretch_a) + a.radius;
   const double reach_b = b.size * std::sqrt(stretch_b) + b.radius;
-  const double reach = (reach_a + reach_b) * beyond_rounding + 2 * offset.doubt;
+  double reach = (reach_a + reach_b) * beyond_rounding + 2 * offset.doubt;
+  if constexpr (with_margin) reach += margin * beyond_rounding;
   const double square = offset.vector.squaredNorm();
   return square > reach * reach && square > least_square && stretch_a > least_square &&
          stretch_b > least_square && reach < std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+template <class Scalar>
+bool balls_are_apart(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
+                     const SupportShape<Scalar>& b, const Pose& pose_b) {
+  return are_apart<false>(0, offset, a, pose_a, b, pose_b);
+}
+
+template <class Scalar>
+bool balls_are_apart_by(double margin, const CentreOffset& offset, const SupportShape<Scalar>& a,
+                        const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b) {
+  return are_apart<true>(margin, offset, a, pose_a, b, pose_b);
 }
 
 template <class Scalar>
@@ -116,6 +134,10 @@ template bool balls_are_apart(const CentreOffset&, const SupportShape<float>&, c
                               const SupportShape<float>&, const Pose&);
 template bool balls_are_apart(const CentreOffset&, const SupportShape<double>&, const Pose&,
                               const SupportShape<double>&, const Pose&);
+template bool balls_are_apart_by(double, const CentreOffset&, const SupportShape<float>&,
+                                 const Pose&, const SupportShape<float>&, const Pose&);
+template bool balls_are_apart_by(double, const CentreOffset&, const SupportShape<double>&,
+                                 const Pose&, const SupportShape<double>&, const Pose&);
 template class SupportPair<float>;
 template class SupportPair<double>;
 template CentreOffset centre_offset(const SupportShape<float>&, const Pose&,

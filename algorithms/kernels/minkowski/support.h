@@ -40,6 +40,15 @@ bool balls_are_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b) {
   return balls_are_apart(centre_offset(a, pose_a, b, pose_b), a, pose_a, b, pose_b);
 }
+// Returns true if they are by more than `margin` (metres) as well.
+template <class Scalar>
+bool balls_are_apart_by(double margin, const CentreOffset& offset, const SupportShape<Scalar>& a,
+                        const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b);
+template <class Scalar>
+bool balls_are_apart_by(double margin, const SupportShape<Scalar>& a, const Pose& pose_a,
+                        const SupportShape<Scalar>& b, const Pose& pose_b) {
+  return balls_are_apart_by(margin, centre_offset(a, pose_a, b, pose_b), a, pose_a, b, pose_b);
+}
 
 // A point of the difference A - B of the cores, and the points of the bodies' cores that it is made
 // of, in the unit and the frame of the pair.

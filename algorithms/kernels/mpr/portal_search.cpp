@@ -50,6 +50,7 @@ typename PortalSearch<Scalar>::Exit PortalSearch<Scalar>::decide(Task task, Outc
     if (is_touching(exit, task, outcome)) return exit;
     move_start();
   }
+  clear_numbers(outcome);
   return exit;
 }
 

@@ -127,6 +127,7 @@ void PolytopePair<Scalar>::report(const Axis<Scalar>& best, Task task, bool exac
   if (!complete_) {
     outcome.answer = Answer::unknown;
     outcome.status = too_large_ ? Status::capacity : Status::degenerate;
+    clear_numbers(outcome);
     return;
   }
   const auto metres = [&](Scalar length) { return unit_ * static_cast<double>(length); };
@@ -137,6 +138,7 @@ void PolytopePair<Scalar>::report(const Axis<Scalar>& best, Task task, bool exac
       !write_if_touching(lower, upper, unit_ * resolution<Scalar>, outcome)) {
     outcome.answer = Answer::unknown;
     outcome.status = Status::not_converged;
+    clear_numbers(outcome);
   }
   if (!exact) outcome.upper = Outcome::none;
   if (task != Task::penetration) return;

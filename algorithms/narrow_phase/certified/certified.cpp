@@ -16,7 +16,7 @@
 //          5. distance: GJK's support plane and nearest point bound the signed distance from both
 //             sides, in doubles (double_bounds). Where that is too wide, compute an interval from
 //             the last direction and simplex in long double (distance_bounds, support_bounds).
-//          6. penetration of polytopes: run EPA. The support along its nearest face bounds the
+//          6. The depth of polytopes: run EPA. The support along its nearest face bounds the
 //             depth from above; that its faces enclose a ball bounds it from below. In doubles
 //             first, too.
 //          7. Accept an interval if it decides and, for a distance or depth, is at most the
@@ -71,7 +71,7 @@ class Certified final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for_each_pair(batch.pairs, shapes_, ahead_, task == Task::distance,
+    for_each_pair(batch.pairs, shapes_, ahead_, asks_distance(task),
                   [&](std::size_t i, const PreparedShape& a, const Pose& pose_a,
                       const PreparedShape& b, const Pose& pose_b) {
                     solve_pair({{a, pose_a}, {b, pose_b}, tolerance_}, task, batch, outcomes[i]);
@@ -108,7 +108,7 @@ void Certified::solve_pair(const PlacedPair& bodies, Task task, const PairBatch&
   oracle::answer(oracle_, {a.shape.solid, a.pose}, {b.shape.solid, b.pose}, task, outcome);
   // The enclosure of round cores deep in each other may be wide: then it is a bound, not a depth.
   const bool curved = a.shape.solid.is_curved() || b.shape.solid.is_curved();
-  if (task == Task::penetration && curved &&
+  if (asks_depth(task) && outcome.answer != Answer::separated && curved &&
       outcome.upper - outcome.lower > least_digits * bodies.size()) {
     outcome.status = Status::not_converged;
   }
@@ -116,7 +116,7 @@ void Certified::solve_pair(const PlacedPair& bodies, Task task, const PairBatch&
 
 bool Certified::filter(const PlacedPair& bodies, Task task, Outcome& outcome) {
   const PlacedBody &a = bodies.a, &b = bodies.b;
-  if (task != Task::distance &&
+  if (!asks_distance(task) &&
       balls_are_apart(a.shape.support(), a.pose, b.shape.support(), b.pose)) {
     return write_verdict(Answer::separated, outcome);
   }
@@ -160,7 +160,7 @@ bool Certified::fast_gjk_decides(Pair& pair, const PlacedPair& bodies, Outcome& 
 bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task task,
                                      Outcome& outcome) {
   const GjkDistanceGoal<double> goal{
-      .task = task == Task::penetration ? Task::penetration : Task::distance,
+      .task = asks_depth(task) ? task : Task::distance,
       .tolerance = std::max(4 * std::numeric_limits<double>::epsilon(),
                             tolerance_in_doubles(pair, bodies.widest())),
       .most_iterations = most_iterations};
@@ -178,24 +178,23 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
   };
   if (found.nearest.inside) {
     // At contact no tetrahedron is surely around the origin.
-    if (task != Task::penetration && !at_contact && simplex.size == 4 &&
-        is_surely_inside(simplex)) {
+    if (!asks_depth(task) && !at_contact && simplex.size == 4 && is_surely_inside(simplex)) {
       return write_verdict(Answer::overlapping, outcome);
     }
     if (at_contact && contact_decides()) return true;
     if (!polytopes || rounded) return false;
-    return task == Task::penetration ? contacts_.find_depth(pair, simplex, bodies, gaps_, outcome)
-                                     : contacts_.encloses(pair, simplex, outcome);
+    return asks_depth(task) ? contacts_.find_depth(pair, simplex, bodies, gaps_, task, outcome)
+                            : contacts_.encloses(pair, simplex, outcome);
   }
   if (task == Task::penetration && found.lower > pair.radius() + proven_rounding) {
     return write_verdict(Answer::separated, outcome);
   }
-  if (task != Task::penetration && is_within_radius(pair, simplex)) {
+  if (!asks_depth(task) && is_within_radius(pair, simplex)) {
     return write_verdict(Answer::overlapping, outcome);
   }
   if (at_contact &&
-      (contact_decides() || (task == Task::penetration &&
-                             contacts_.find_depth(pair, simplex, bodies, gaps_, outcome)))) {
+      (contact_decides() ||
+       (asks_depth(task) && contacts_.find_depth(pair, simplex, bodies, gaps_, task, outcome)))) {
     return true;
   }
   const Vec3d normal = -found.nearest.direction;
@@ -209,7 +208,7 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
       return false;
     }
   }
-  if (is_asked(task, outcome.answer)) {
+  if (asks_for_number(task, outcome.answer)) {
     const DifferencePoint<double> nearest = weighted_mean(simplex);
     outcome.normal = normal;
     outcome.witness_a = pair.to_world(nearest.a + pair.radius_a() * normal);
@@ -238,7 +237,7 @@ bool Certified::on_plane(const PlacedPair& bodies, Task task, Outcome& outcome) 
       return false;
     }
   }
-  if (is_asked(task, outcome.answer)) {
+  if (asks_for_number(task, outcome.answer)) {
     PosedShape<double> turned(shape, a.pose.rotation, unit);
     outcome.normal = -outward;
     outcome.witness_a =
@@ -258,8 +257,11 @@ std::vector<NarrowPhaseEntry> narrow_phase_certified() {
                     .citation = "Shewchuk, \"Adaptive precision floating-point arithmetic and fast "
                                 "robust geometric predicates\", Discrete & Computational Geometry "
                                 "18, 1997; Gilbert, Johnson, Keerthi, 1988"},
-           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float64},
+           .tolerance =
+               "the gap between both proven bounds on a distance or depth, as a part of the "
+               "greater body; 2e-13",
            .make = [](const NarrowPhaseSettings& settings) {
              return std::make_unique<Certified>(settings);
            }}};

@@ -112,7 +112,7 @@ void solve(const GridPair& pair, const ContactGuess& guess, SupportPair<double>&
   RoughPortal rough(supports, solid_a, solid_b, guess.simplex);
   ExactPortal<size> portal(a, b, metres, pair.unit, slab, task);
   contact.answer = portal.decide(rough, guess.normal);
-  if (is_asked(task, contact.answer)) {
+  if (asks_for_number(task, contact.answer)) {
     write(portal, a, b, metres, pair.a.pose.translation, contact);
   }
 }

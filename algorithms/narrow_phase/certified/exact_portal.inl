@@ -40,7 +40,8 @@ class ExactPortal {
       if (!rough.find(start, attempt == 0) || !cast_from(start) || !take(rough)) continue;
       const Answer found = refine();
       if (found != Answer::unknown) answer = found;
-      if (answer != Answer::unknown && (is_close_ || !is_asked(task_, answer))) return answer;
+      if (answer != Answer::unknown && (is_close_ || !asks_for_number(task_, answer)))
+        return answer;
     }
     return answer != Answer::unknown ? answer : decide_along(normal);
   }
@@ -142,7 +143,7 @@ class ExactPortal {
         nearest = here;
       }
     }
-    const bool measured = is_asked(task_, Answer::separated);
+    const bool measured = asks_for_number(task_, Answer::separated);
     const double upper = (1 + 0x1p-48) * nearest.point.rounded.norm();
     proof_ = {listed_, -most, upper, {nearest, nearest, nearest}, Vec3d::Constant(1.0 / 3)};
     if (most < 0 && (!measured || upper + most <= close_enough * unit_)) {
@@ -184,7 +185,7 @@ class ExactPortal {
         answer = height.sign() > 0 ? Answer::overlapping
                  : above < 0       ? Answer::separated
                                    : Answer::touching;
-        if (!is_asked(task_, answer)) return answer;
+        if (!asks_for_number(task_, answer)) return answer;
         keep(normal, reach.height, answer);
         const double off = to_double(reach.height - height) / length_of(normal);
         is_close_ = off <= close_enough * unit_;

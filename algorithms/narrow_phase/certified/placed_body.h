@@ -48,18 +48,12 @@ struct PlacedPair {
   bool has_polytopes() const { return a.shape.has_polytope() && b.shape.has_polytope(); }
 };
 
-inline bool is_asked(Task task, Answer answer) {
-  return (task == Task::distance && answer == Answer::separated) ||
-         (task == Task::penetration && answer == Answer::overlapping) ||
-         (task != Task::intersect && answer == Answer::touching);
-}
-
 // Writes a proven answer, and the interval if the task asks for it or the bodies touch. Returns
 // false and writes nothing if that is wider than `widest` (metres) and than two units in the last
 // place.
 inline bool write_answer(Answer answer, const DistanceBounds& gap, double widest, Task task,
                          Outcome& outcome) {
-  if (is_asked(task, answer)) {
+  if (asks_for_number(task, answer)) {
     // The nearer end is used, since the other may be infinite.
     const double magnitude = std::min(std::abs(gap.lower), std::abs(gap.upper));
     const double enough = std::max(widest, 2 * std::numeric_limits<double>::epsilon() * magnitude);

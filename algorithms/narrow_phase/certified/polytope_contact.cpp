@@ -29,7 +29,7 @@ bool PolytopeContact::decide_exactly(Pair& pair, const Simplex<double>& simplex,
   if (!(normal.squaredNorm() > 0.5)) normal = Vec3d::UnitX();
   const ExactContact contact = finder_.find(bodies.a, bodies.b, {normal, simplex}, pair, task);
   if (contact.answer == Answer::unknown) return false;
-  if (is_asked(task, contact.answer)) {
+  if (asks_for_number(task, contact.answer)) {
     outcome.normal = contact.normal;
     outcome.witness_a = contact.on_a;
     outcome.witness_b = contact.on_b;
@@ -47,27 +47,26 @@ bool PolytopeContact::encloses(Pair& pair, const Simplex<double>& simplex, Outco
 }
 
 bool PolytopeContact::find_depth(Pair& pair, const Simplex<double>& simplex,
-                                 const PlacedPair& bodies, DistanceBounder& bounder,
+                                 const PlacedPair& bodies, DistanceBounder& bounder, Task task,
                                  Outcome& outcome) {
   const double tolerance = std::max(Pair::rounding, tolerance_in_doubles(pair, bodies.widest()));
   const Expansion<double> depth = polytope_.expand(pair, simplex, {.tolerance = tolerance});
   outcome.iterations += depth.iterations;
-  if (depth.upper <= nearly &&
-      decide_exactly(pair, {}, depth.normal, bodies, Task::penetration, outcome)) {
+  if (depth.upper <= nearly && decide_exactly(pair, {}, depth.normal, bodies, task, outcome)) {
     return true;
   }
   if (depth.end != ExpansionEnd::converged || !depth.has_surface) return false;
   outcome.normal = depth.normal;
   outcome.witness_a = pair.to_world(depth.a);
   outcome.witness_b = pair.to_world(depth.b);
-  if (write_bounds(inside_in_doubles(pair, polytope_.surface(), depth.upper), bodies.widest(),
-                   Task::penetration, outcome)) {
+  if (write_bounds(inside_in_doubles(pair, polytope_.surface(), depth.upper), bodies.widest(), task,
+                   outcome)) {
     return true;
   }
   const DistanceBounds bounds =
       bounder.inside(bodies.a.shape.proven, bodies.a.pose, bodies.b.shape.proven, bodies.b.pose,
                      pair, polytope_.surface(), depth.normal);
-  return write_bounds(bounds, bodies.widest(), Task::penetration, outcome);
+  return write_bounds(bounds, bodies.widest(), task, outcome);
 }
 
 bool PolytopeContact::decide_rounded(Pair& pair, const Simplex<double>& simplex,

@@ -27,10 +27,10 @@ class PolytopeContact {
   // Whether EPA's faces, from a simplex around the origin, prove that polytopes without radius
   // overlap.
   bool encloses(SupportPair<double>& pair, const Simplex<double>& simplex, Outcome& outcome);
-  // Finds the depth of polytopes without radius that share a point, or their exact verdict at
-  // contact. `bounder` proves the depth.
+  // Finds the depth of polytopes without radius that share a point, or at contact the exact answer
+  // to the task, which asks for the depth. `bounder` proves the depth.
   bool find_depth(SupportPair<double>& pair, const Simplex<double>& simplex,
-                  const PlacedPair& bodies, DistanceBounder& bounder, Outcome& outcome);
+                  const PlacedPair& bodies, DistanceBounder& bounder, Task task, Outcome& outcome);
   // Decides whether the cores of rounded polytopes are their radii apart, if `gap`, the bounds on
   // the signed distance, leaves that open. The simplex is the feature nearest to the origin, and
   // `normal` the direction from a to b.

@@ -26,8 +26,9 @@
 //          interior they meet, so that the depth stays exact. A box keeps its matrix as given: the
 //          inverse takes a point into its frame.
 // Answers: sphere or capsule with sphere, capsule or box, any bounded shape with a half-space: all
-//          tasks. Box with box: intersect and penetration, since 15 axes give no
-//          distance. Within rounding of contact the answer is `touching` with bounds on the signed
+//          tasks. Box with box: intersect and penetration, since 15 axes give no distance. Alone, a
+//          pair beyond the margin is answered before a root is taken. Within rounding of contact the
+//          answer is `touching` with bounds on the signed
 //          distance, at most 2.9e-14 (double) or 1.6e-5 (float) of the pair's unit apart
 //          (kernels/minkowski/resolution).
 // Fails:   reports not_converged if the rounding error is greater than that, and degenerate for a
@@ -35,6 +36,7 @@
 //          more than 1e-10 of the size.
 // Cost:    O(1); one support call for a hull over a half-space.
 #include <algorithm>
+#include <limits>
 
 #include "algorithms/kernels/batch/box_pair_lanes.h"
 #include "algorithms/kernels/gjk/gjk_query.h"
@@ -57,6 +59,10 @@ namespace {
 template <class Scalar>
 class ClosedForm final : public NarrowPhase {
  public:
+  explicit ClosedForm(const NarrowPhaseSettings& settings)
+      : margin_(settings.margin.value_or(std::numeric_limits<double>::infinity())),
+        gjk_(GjkQuerySettings{.margin = margin_}) {}
+
   void bind(std::span<const Shape> shapes) override {
     shapes_ = shapes;
     polytopes_.clear();
@@ -96,10 +102,11 @@ class ClosedForm final : public NarrowPhase {
         outcome.answer = answer;
         outcome.status = Status::ok;
         outcome.iterations = 0;
+        outcome.support_calls = -1;
         return;
       }
       if (task == Task::penetration && solve_plain_box_depth(a, pose_a, b, pose_b, outcome)) return;
-    } else if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome)) {
+    } else if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome, margin_)) {
       return;
     }
     solve_one(task, batch, i, outcome);
@@ -115,7 +122,8 @@ class ClosedForm final : public NarrowPhase {
     } else if (batch.kind_a == ShapeKind::box) {
       solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, task, outcome);
     } else if (batch.kind_a == ShapeKind::capsule && batch.kind_b == ShapeKind::box) {
-      if (plain_capsule_box_(task, shapes_[a], pose_a, shapes_[b], pose_b, outcome)) return;
+      if (plain_capsule_box_(task, shapes_[a], pose_a, shapes_[b], pose_b, outcome, margin_))
+        return;
       gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
     } else {
       solve_round(shapes_[a], pose_a, shapes_[b], pose_b, task, outcome);
@@ -127,6 +135,7 @@ class ClosedForm final : public NarrowPhase {
     const Axis<Scalar> best = pair.far_apart() ? Axis<Scalar>{} : box_axis(pair, tested);
     pair.report(best, task, true, outcome);
     outcome.iterations = 0;
+    outcome.support_calls = -1;
   }
 
   // The greatest dimension of the shape in the world, metres.
@@ -176,13 +185,13 @@ class ClosedForm final : public NarrowPhase {
                         unit * resolution<Scalar>, outcome);
     }
     outcome.iterations = 0;
-    if (task == Task::intersect || (task == Task::distance && common) ||
-        (task == Task::penetration && apart)) {
-      return;
-    }
+    outcome.support_calls = -1;
+    if (outcome.answer == Answer::unknown) clear_numbers(outcome);
+    if (!asks_for_number(task, outcome.answer)) return;
     if (skewed) {
       outcome.answer = Answer::unknown;
       outcome.status = Status::degenerate;
+      clear_numbers(outcome);
       return;
     }
     const auto world = [&](const Vec3<Scalar>& point) {
@@ -196,6 +205,7 @@ class ClosedForm final : public NarrowPhase {
     outcome.witness_b = world(cores.on_b - radius_b * cores.normal);
   }
 
+  double margin_;  // metres
   std::span<const Shape> shapes_;
   std::vector<Polytope<Scalar>> polytopes_;
   std::vector<SupportShape<Scalar>> support_shapes_;
@@ -203,13 +213,13 @@ class ClosedForm final : public NarrowPhase {
   RoundPairLanes<Scalar> round_lanes_;
   PlainBoxes plain_boxes_ = plain_boxes();
   PlainCapsuleBox plain_capsule_box_ = plain_capsule_box();
-  GjkQuery<Scalar> gjk_{GjkQuerySettings{}};
+  GjkQuery<Scalar> gjk_;
   std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
 };
 
 bool takes(ShapeKind a, ShapeKind b, Task task) {
   if (b == ShapeKind::halfspace) return a != ShapeKind::halfspace;
-  if (a == ShapeKind::box && b == ShapeKind::box) return task != Task::distance;
+  if (a == ShapeKind::box && b == ShapeKind::box) return !asks_distance(task);
   return a <= ShapeKind::capsule && b <= ShapeKind::box;
 }
 
@@ -222,13 +232,13 @@ std::vector<NarrowPhaseEntry> narrow_phase_closed_form() {
   return {{.info = {.name = "closed-form",
                     .citation = "Ericson, Real-Time Collision Detection, 2005; Gottschalk, Lin, "
                                 "Manocha, OBBTree, SIGGRAPH 1996"},
-           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float32, Precision::float64},
            .supports = takes,
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32)
-               return std::make_unique<ClosedForm<float>>();
-             return std::make_unique<ClosedForm<double>>();
+               return std::make_unique<ClosedForm<float>>(settings);
+             return std::make_unique<ClosedForm<double>>(settings);
            }}};
 }
 

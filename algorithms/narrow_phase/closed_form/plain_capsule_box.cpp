@@ -120,8 +120,8 @@ bool solve_depth(const CapsuleBox& pair, double radius, const Pose& pose_a, cons
 }
 
 // Answers with the point of the segment at t as the nearest to the box.
-bool solve_at(Task task, double t, const CapsuleBox& pair, double radius, const Pose& pose_a,
-              const Vec3d& h, Outcome& outcome) {
+bool solve_at(Task task, double margin, double t, const CapsuleBox& pair, double radius,
+              const Pose& pose_a, const Vec3d& h, Outcome& outcome) {
   const auto& [centre, half, x, y, z, q, d] = pair;
   const Vec on_a = t * half;
   const auto on_box = [&](double at, double step, int k) {
@@ -135,7 +135,7 @@ bool solve_at(Task task, double t, const CapsuleBox& pair, double radius, const 
   const double longest = std::max(std::max(length(x), length(y)), length(z));
   const double size = length(centre) + length(half) + h.sum() * longest;
   const Nearest cores{on_a, on_b, between, dot(between, centre), extent, size};
-  return answer(task, cores, radius, 0, pose_a, outcome) ||
+  return answer(task, margin, cores, radius, 0, pose_a, outcome) ||
          (task == Task::penetration &&
           solve_depth(pair, radius, pose_a, h, size + radius, outcome));
 }

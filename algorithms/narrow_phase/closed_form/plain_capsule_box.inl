@@ -46,7 +46,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE double nearest_to_box(const Vec& q, const Ve
 }
 
 TOUCHSTONE_TARGET bool solve_capsule_box(Task task, const Shape& capsule, const Pose& pose_a,
-                                         const Shape& box, const Pose& pose_b, Outcome& outcome) {
+                                         const Shape& box, const Pose& pose_b, Outcome& outcome,
+                                         double margin) {
   const Vec centre = read(pose_b.translation) - read(pose_a.translation);
   const Vec half = half_of(capsule, pose_a);
   const Vec x = column(pose_b.rotation, 0), y = column(pose_b.rotation, 1),
@@ -54,6 +55,6 @@ TOUCHSTONE_TARGET bool solve_capsule_box(Task task, const Shape& capsule, const 
   const Vec q{-dot(x, centre), -dot(y, centre), -dot(z, centre)};
   const Vec d{dot(x, half), dot(y, half), dot(z, half)};
   const double t = nearest_to_box(q, d, box.half_extents);
-  return solve_at(task, t, {centre, half, x, y, z, q, d}, capsule.radius, pose_a, box.half_extents,
-                  outcome);
+  return solve_at(task, margin, t, {centre, half, x, y, z, q, d}, capsule.radius, pose_a,
+                  box.half_extents, outcome);
 }

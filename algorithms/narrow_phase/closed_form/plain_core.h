@@ -71,11 +71,13 @@ inline void write(Answer answer, Outcome& outcome) {
   outcome.answer = answer;
   outcome.status = Status::ok;
   outcome.iterations = 0;
+  outcome.support_calls = -1;
 }
 
-// Writes the outcome for cores with balls of these radii around them. Returns false, and leaves it as
+// Writes the outcome for cores with balls of these radii around them; those that are further apart than
+// `margin` (metres) get no distance. Returns false, and leaves it as
 // it is, if that leaves the answer or a number open.
-inline bool answer(Task task, const Nearest& cores, double radius_a, double radius_b,
+inline bool answer(Task task, double margin, const Nearest& cores, double radius_a, double radius_b,
                    const Pose& pose_a, Outcome& outcome) {
   const double square = dot(cores.between, cores.between);
   const double radii = radius_a + radius_b;
@@ -89,8 +91,14 @@ inline bool answer(Task task, const Nearest& cores, double radius_a, double radi
   const double along = cores.along_centre - cores.extent;
   const bool apart = along > 0 && along * along > square * (outer * outer);
   if (!apart && !common) return false;
-  if (task == Task::intersect || (task == Task::distance ? common : apart)) {
+  if (!asks_for_number(task, apart ? Answer::separated : Answer::overlapping)) {
     write(apart ? Answer::separated : Answer::overlapping, outcome);
+    return true;
+  }
+  // The bound is on the distance of the cores, so the margin is added to the radii.
+  if (apart && along * along > square * ((outer + margin) * (outer + margin))) {
+    write(Answer::separated, outcome);
+    write_beyond(margin, outcome);
     return true;
   }
   // A normal of nearly coincident points would have lost its digits.

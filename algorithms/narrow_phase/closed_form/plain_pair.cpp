@@ -87,15 +87,15 @@ constexpr int of_kinds(ShapeKind a, ShapeKind b) {
 }  // namespace
 
 bool solve_plain_pair(Task task, const Shape& a, const Pose& pose_a, const Shape& b,
-                      const Pose& pose_b, Outcome& outcome) {
+                      const Pose& pose_b, Outcome& outcome, double margin) {
   const Vec centre = read(pose_b.translation) - read(pose_a.translation);
   const double size = length(centre);
   switch (of_kinds(a.kind, b.kind)) {
     case of_kinds(ShapeKind::sphere, ShapeKind::sphere):
-      return answer(task, of_points(centre, size), a.radius, b.radius, pose_a, outcome);
+      return answer(task, margin, of_points(centre, size), a.radius, b.radius, pose_a, outcome);
     case of_kinds(ShapeKind::sphere, ShapeKind::capsule): {
       const Vec half = half_of(b, pose_b);
-      return answer(task, of_point_and_segment(centre, half, size + length(half)), a.radius,
+      return answer(task, margin, of_point_and_segment(centre, half, size + length(half)), a.radius,
                     b.radius, pose_a, outcome);
     }
     case of_kinds(ShapeKind::sphere, ShapeKind::box): {
@@ -105,12 +105,13 @@ bool solve_plain_pair(Task task, const Shape& a, const Pose& pose_a, const Shape
         if (found != Answer::unknown) return true;
       }
       const double extent = b.half_extents.sum() * pose_b.rotation.cwiseAbs().maxCoeff();
-      return answer(task, of_point_and_box(centre, pose_b.rotation, b.half_extents, size + extent),
+      return answer(task, margin,
+                    of_point_and_box(centre, pose_b.rotation, b.half_extents, size + extent),
                     a.radius, 0, pose_a, outcome);
     }
     case of_kinds(ShapeKind::capsule, ShapeKind::capsule): {
       const Vec half_a = half_of(a, pose_a), half_b = half_of(b, pose_b);
-      return answer(task,
+      return answer(task, margin,
                     of_segments(half_a, centre, half_b, size + length(half_a) + length(half_b)),
                     a.radius, b.radius, pose_a, outcome);
     }

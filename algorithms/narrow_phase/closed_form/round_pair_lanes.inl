@@ -199,6 +199,7 @@ template <class Scalar, bool long_a, bool long_b, bool box>
 TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task task) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
+  const bool distances = asks_distance(task), depths = asks_depth(task);
   std::size_t left = 0;
   for (std::size_t begin = 0; begin < table.pairs.first.size(); begin += Lanes::width) {
     Cores<Scalar> cores;
@@ -211,10 +212,14 @@ TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task ta
     unsigned apart = cores.usable & Lanes::to_bits(Lanes::less(cores.error, cores.lower - radii));
     unsigned overlapping =
         cores.usable & Lanes::to_bits(Lanes::less(cores.upper - radii, -cores.error));
-    unsigned& asked = task == Task::distance ? apart : overlapping;
-    if (task != Task::intersect && asked != 0) {
+    unsigned asked = (distances ? apart : 0) | (depths ? overlapping : 0);
+    if (asked != 0) {
       // If the bounds are farther apart than this, the normal is not the shortest way.
-      asked &= Lanes::to_bits(Lanes::less(cores.upper - cores.lower, cores.error));
+      const unsigned unsound =
+          asked & ~Lanes::to_bits(Lanes::less(cores.upper - cores.lower, cores.error));
+      asked &= ~unsound;
+      apart &= ~unsound;
+      overlapping &= ~unsound;
       const Vector3<Scalar>& normal = cores.normal;
       write_numbers<Scalar>(
           table, begin, asked,

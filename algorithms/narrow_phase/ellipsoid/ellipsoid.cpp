@@ -30,6 +30,7 @@
 //          size: 1e-12 (double) or 2e-6 (float).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/narrow_phase.h"
@@ -48,6 +49,8 @@ class EllipsoidPlanes final : public NarrowPhase {
  public:
   explicit EllipsoidPlanes(const NarrowPhaseSettings& settings)
       : tolerance_(std::max(static_cast<Scalar>(settings.tolerance.value_or(1e-12) / 2), rounding)),
+        has_margin_(settings.margin.has_value()),
+        margin_(settings.margin.value_or(std::numeric_limits<double>::infinity())),
         step_cap_(std::max(1, settings.max_iterations.value_or(default_step_cap))),
         plane_cap_(std::max(1, settings.max_iterations.value_or(default_plane_cap))) {}
 
@@ -63,9 +66,15 @@ class EllipsoidPlanes final : public NarrowPhase {
       const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
       Outcome& outcome = outcomes[i];
       outcome.iterations = 0;
-      if (task != Task::distance && balls_are_apart(balls_[a], pose_a, balls_[b], pose_b)) {
+      outcome.support_calls = -1;
+      if (!asks_distance(task) && balls_are_apart(balls_[a], pose_a, balls_[b], pose_b)) {
         outcome.answer = Answer::separated;
         outcome.status = Status::ok;
+        continue;
+      }
+      if (has_margin_ && asks_distance(task) &&
+          balls_are_apart_by(margin_, balls_[a], pose_a, balls_[b], pose_b)) {
+        write_beyond(margin_, outcome);
         continue;
       }
       const EllipsoidPair<Scalar> pair(shapes_[a], pose_a, shapes_[b], pose_b);
@@ -73,6 +82,7 @@ class EllipsoidPlanes final : public NarrowPhase {
         case Task::intersect: decide(pair, outcome); break;
         case Task::distance: solve_distance(pair, pose_a.translation, outcome); break;
         case Task::penetration: solve_depth(pair, pose_a.translation, outcome); break;
+        case Task::signed_distance: solve_signed(pair, pose_a.translation, outcome); break;
       }
     }
   }
@@ -86,6 +96,7 @@ class EllipsoidPlanes final : public NarrowPhase {
     const EllipsoidContact<Scalar> found = contact(pair, step_cap_);
     outcome.answer = found.answer;
     outcome.status = found.answer == Answer::unknown ? Status::not_converged : Status::ok;
+    if (found.answer == Answer::unknown) clear_numbers(outcome);
     outcome.iterations += found.iterations;
     return found.normal;
   }
@@ -97,9 +108,10 @@ class EllipsoidPlanes final : public NarrowPhase {
 
   void solve_distance(const EllipsoidPair<Scalar>& pair, const Vec3d& origin,
                       Outcome& outcome) const {
-    const ClimbGoal goal{.only_verdict = true, .most_iterations = step_cap_};
+    const ClimbGoal goal{
+        .only_verdict = true, .most_iterations = step_cap_, .margin = margin_ / pair.unit};
     Climb<Scalar> found = climb(pair, first_normal(pair), goal, tolerance_);
-    outcome.iterations = found.iterations;
+    outcome.iterations += found.iterations;
     if (found.end == ClimbEnd::apart || found.end == ClimbEnd::inside) {
       const bool apart = found.end == ClimbEnd::apart;
       outcome.answer = apart ? Answer::separated : Answer::overlapping;
@@ -118,14 +130,40 @@ class EllipsoidPlanes final : public NarrowPhase {
   }
 
   void solve_depth(const EllipsoidPair<Scalar>& pair, const Vec3d& origin, Outcome& outcome) const {
-    const ClimbGoal goal{.only_apart = true, .most_iterations = step_cap_};
-    const Climb<Scalar> found = climb(pair, first_normal(pair), goal, tolerance_);
+    const Climb<Scalar> found = climb(pair, first_normal(pair), depth_goal(), tolerance_);
     outcome.iterations = found.iterations;
     if (found.end == ClimbEnd::apart) {
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;
       return;
     }
+    solve_depth_from(pair, found, origin, outcome);
+  }
+
+  void solve_signed(const EllipsoidPair<Scalar>& pair, const Vec3d& origin,
+                    Outcome& outcome) const {
+    const ClimbGoal goal{.most_iterations = step_cap_, .margin = margin_ / pair.unit};
+    const Climb<Scalar> found = climb(pair, first_normal(pair), goal, tolerance_);
+    outcome.iterations = found.iterations;
+    if (found.end == ClimbEnd::apart) {
+      outcome.answer = Answer::separated;
+      outcome.status = Status::ok;
+      write_distance(pair, found.plane, origin, outcome);
+      return;
+    }
+    if (!(found.plane.gap - pair.radius > rounding)) {
+      solve_depth_from(pair, found, origin, outcome);
+      if (outcome.answer != Answer::separated) return;
+    }
+    // They are apart, and the ascent did not reach the nearest points.
+    solve_distance(pair, origin, outcome);
+  }
+
+  ClimbGoal depth_goal() const { return {.only_apart = true, .most_iterations = step_cap_}; }
+
+  // `found` ends the ascent from the line of centres.
+  void solve_depth_from(const EllipsoidPair<Scalar>& pair, const Climb<Scalar>& found,
+                        const Vec3d& origin, Outcome& outcome) const {
     // A ball whose centre is outside the ellipsoid: the depth follows from the centre's distance.
     if (found.plane.gap > rounding) {
       const Scalar distance = found.plane.between.norm();
@@ -137,7 +175,7 @@ class EllipsoidPlanes final : public NarrowPhase {
       return;
     }
     const EllipsoidDepth<Scalar> depth =
-        ellipsoid_depth(pair, found.plane, tolerance_, goal, plane_cap_);
+        ellipsoid_depth(pair, found.plane, tolerance_, depth_goal(), plane_cap_);
     outcome.iterations += depth.iterations;
     if (depth.plane.gap - pair.radius > rounding) {
       outcome.answer = Answer::separated;
@@ -159,8 +197,13 @@ class EllipsoidPlanes final : public NarrowPhase {
 
   // Writes the distance of cores that are apart, or nearly so: between the plane's gap and the
   // distance of its points.
-  static void write_distance(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& plane,
-                             const Vec3d& origin, Outcome& outcome) {
+  void write_distance(const EllipsoidPair<Scalar>& pair, const EllipsoidPlane<Scalar>& plane,
+                      const Vec3d& origin, Outcome& outcome) const {
+    const auto proven = pair.unit * static_cast<double>(plane.gap - pair.radius - rounding);
+    if (outcome.answer == Answer::separated && proven > margin_) {
+      write_beyond(proven, outcome);
+      return;
+    }
     const Scalar distance = plane.between.norm();
     // The direction between the points is used if they are far enough apart to define one.
     const bool far = distance > 1024 * rounding && plane.gap > distance / 2;
@@ -187,6 +230,8 @@ class EllipsoidPlanes final : public NarrowPhase {
   }
 
   Scalar tolerance_;  // in the pair's unit, which is up to twice its size
+  bool has_margin_;
+  double margin_;  // metres
   int step_cap_, plane_cap_;
   std::span<const Shape> shapes_;
   std::vector<SupportShape<Scalar>> balls_;
@@ -207,9 +252,11 @@ std::vector<NarrowPhaseEntry> narrow_phase_ellipsoid() {
                                 "Overlap algorithm and the contact function\", J. Computational "
                                 "Physics 58, 1985; Lin, Han, \"On the distance between two "
                                 "ellipsoids\", SIAM J. Optimization 13(1), 2002"},
-           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float32, Precision::float64},
            .supports = takes,
+           .tolerance = "the error of a distance, and half the gap between both bounds on a depth; "
+                        "1e-12 (float 2e-6)",
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
              if (settings.scalar == Precision::float32)
                return std::make_unique<EllipsoidPlanes<float>>(settings);

@@ -63,6 +63,8 @@ struct ClimbGoal {
   bool only_apart = false;    // stop at any plane that separates
   bool only_verdict = false;  // stop at points nearer than the radius
   int most_iterations = 0;
+  // Stop at a plane that separates the bodies by more than this, in the pair's unit.
+  double margin = std::numeric_limits<double>::infinity();
 };
 
 template <class Scalar>

@@ -13,6 +13,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<
   // Beyond this slide witness points within the tolerance would still be oblique.
   const Scalar askew = std::max(tolerance, sizeof(Scalar) == 8 ? Scalar{1e-10} : rounding);
   const Scalar inside = std::max(pair.radius - rounding, Scalar{0});
+  const Scalar far = goal.only_apart ? rounding : rounding + static_cast<Scalar>(goal.margin);
   Climb<Scalar> found;
   std::array<EllipsoidPlane<Scalar>, 2> planes;
   int here = 0;
@@ -33,7 +34,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<
     const EllipsoidPlane<Scalar>& at = planes[here];
     const Scalar slide = at.slide_squared;
     const bool apart = at.gap - pair.radius > rounding;
-    if (goal.only_apart && apart) return end(ClimbEnd::apart);
+    if (at.gap - pair.radius > far) return end(ClimbEnd::apart);
     if (goal.only_verdict && at.between.squaredNorm() < inside * inside) {
       return end(ClimbEnd::inside);
     }

@@ -30,12 +30,14 @@
 // Cost:    like gjk's iterations; all lanes take as long as the slowest. It pays from batches of
 //          about four pairs. Depths take 0.4 to 0.7 of gjk's time in float and up to all of it in
 //          double, less for hulls with fewer vertices. A pair whose polytope grows beyond 64
-//          vertices is solved one by one from the start. Caps and tolerance are gjk's.
+//          vertices is solved one by one from the start. A signed distance takes as long as all
+//          distances, and the depths of the pairs that overlap. Caps and tolerance are gjk's.
 #include <algorithm>
 
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/gjk_lanes/lane_gjk.h"
+#include "algorithms/signed_by_two.h"
 
 namespace touchstone {
 namespace {
@@ -51,6 +53,7 @@ class GjkInLanes final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    if (task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
     left_.resize(std::max(left_.size(), batch.size()));
     const std::size_t count = lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs,
                                            {.task = task,
@@ -72,6 +75,7 @@ class GjkInLanes final : public NarrowPhase {
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
   GjkLanes<Scalar> lanes_;
+  SignedByTwo signed_;
   std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
 };
 
@@ -98,9 +102,10 @@ std::vector<NarrowPhaseEntry> narrow_phase_gjk_lanes() {
                                 "distance between complex objects in three-dimensional space\", "
                                 "IEEE J. Robotics and Automation 4(2), 1988; Ericson, Real-Time "
                                 "Collision Detection, 2005"},
-           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float32, Precision::float64},
            .supports = takes,
+           .tolerance = "the gap between both bounds on a distance or depth; what rounding allows",
            .make = make}};
 }
 

@@ -54,7 +54,7 @@ class GjkTemplated final : public NarrowPhase {
     if (batch.kind_b != ShapeKind::halfspace) {
       query_.set_functions(functions_[core_of(batch.kind_a)][core_of(batch.kind_b)]);
     }
-    for_each_bounded_pair(task, batch, shapes_, ahead_, task == Task::distance, outcomes,
+    for_each_bounded_pair(task, batch, shapes_, ahead_, asks_distance(task), outcomes,
                           [&](std::size_t i, const auto&... bodies) {
                             query_.solve(bodies..., task, nullptr, outcomes[i]);
                           });
@@ -69,6 +69,7 @@ class GjkTemplated final : public NarrowPhase {
 
 std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
   GjkQuerySettings own{.tolerance = settings.tolerance, .duality_gap = settings.duality_gap};
+  own.margin = settings.margin.value_or(own.margin);
   own.gjk_cap = std::max(1, settings.max_iterations.value_or(own.gjk_cap));
   own.epa_cap = std::max(1, settings.max_iterations.value_or(own.epa_cap));
   if (settings.scalar == Precision::float32) return std::make_unique<GjkTemplated<float>>(own);
@@ -87,9 +88,11 @@ std::vector<NarrowPhaseEntry> narrow_phase_gjk_templated() {
                                 "IEEE J. Robotics and Automation 4(2), 1988; van den Bergen, "
                                 "\"Proximity queries and penetration depth computation on 3D game "
                                 "objects\", GDC 2001"},
-           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float32, Precision::float64},
            .traits = {.stops_by_duality_gap = true},
+           .tolerance = "the gap between both bounds on a distance or depth; 1e-10 (float 1e-5), "
+                        "between polytopes what rounding allows",
            .make = make}};
 }
 

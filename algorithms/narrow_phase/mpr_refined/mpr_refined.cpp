@@ -199,6 +199,7 @@ class RefinedDepth {
     outcome.upper = -pair_.unit() * static_cast<double>(std::max(lower_ - rounding, Scalar{0}));
     outcome.normal = best_.normal.template cast<double>().normalized();
     if (!best_.settled) {
+      outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
       outcome.status = Status::not_converged;
       return;
     }
@@ -266,6 +267,8 @@ std::vector<NarrowPhaseEntry> narrow_phase_mpr_refined() {
        .tasks = {Task::intersect, Task::penetration},
        .scalars = {Precision::float32, Precision::float64},
        .traits = {.depth_is_bound = true, .starts_warm = true},
+       .tolerance = "how far the surface is beyond the portal, along its normal; 1e-10 (float "
+                    "8e-6), between polytopes what rounding allows",
        .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
          if (settings.scalar == Precision::float32)
            return std::make_unique<MprRefined<float>>(settings);

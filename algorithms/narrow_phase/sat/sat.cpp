@@ -58,10 +58,12 @@ class Sat final : public NarrowPhase {
       if (gave_up_) {
         outcomes[i].answer = Answer::unknown;
         outcomes[i].status = Status::capacity;
+        clear_numbers(outcomes[i]);
       } else {
         pair.report(best, task, true, outcomes[i]);
       }
       outcomes[i].iterations = tested_;
+      outcomes[i].support_calls = -1;
     });
   }
 

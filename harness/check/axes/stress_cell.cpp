@@ -22,9 +22,7 @@ class CellWork {
 
   CellResult run() {
     for (const auto& [entry, scalar] : request_.algorithms()) {
-      for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
-        ask(entry, scalar, task);
-      }
+      for (const Task task : all_tasks) ask(entry, scalar, task);
     }
     return std::move(result_);
   }

@@ -10,7 +10,6 @@
 #include "harness/grade/encoding.h"
 #include "harness/grade/grade.h"
 #include "harness/process/isolate.h"
-#include "harness/process/queries/ordered_pair.h"
 
 namespace touchstone::check {
 namespace {
@@ -27,7 +26,7 @@ class Cases {
     for (std::int64_t i = 0; i < cases_a_soak_job; ++i) {
       files::Case& c =
           cases_.emplace_back(make(regime, seed, static_cast<std::uint64_t>(first + i)));
-      if (process::needs_swap(c.shape_a.kind, c.shape_b.kind)) {
+      if (needs_swap(c.shape_a.kind, c.shape_b.kind)) {
         std::swap(c.shape_a, c.shape_b);
         std::swap(c.pose_a, c.pose_b);
       }

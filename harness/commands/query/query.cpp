@@ -185,6 +185,10 @@ void add_query(Arguments command) {
               "Stop a distance by the absolute duality gap of its square instead (square metres)")
       .positive();
   command
+      .number("--margin", settings.margin,
+              "Bodies further apart than this get no distance (metres)")
+      .not_negative();
+  command
       .number("--max-iterations", settings.max_iterations,
               "Greatest number of iterations of each loop of a query")
       .positive();

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
-#include <memory>
 
+#include "algorithms/pair_query.h"
 #include "algorithms/registry.h"
 #include "harness/files/cases.h"
 
@@ -25,7 +25,7 @@ class BoundCase {
  private:
   std::array<Shape, 2> shapes_;
   std::array<Pose, 2> poses_;
-  std::unique_ptr<NarrowPhase> narrow_phase_;
+  PairQuery query_;
 };
 
 // Returns the outcome in the case's own order, with only what the task asks for: further values

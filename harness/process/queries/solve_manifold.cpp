@@ -6,8 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "harness/process/queries/ordered_pair.h"
-
 namespace touchstone::process {
 namespace {
 

@@ -17,7 +17,8 @@ std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("
 // What is said of a depth that is an upper bound by design.
 template <class Row>
 std::string_view bound_words(const Row& row) {
-  return row.depth_is_bound && row.key.task == "penetration" ? " (a bound)" : "";
+  const bool is_depth = row.key.task == "penetration" || row.key.task == "signed";
+  return row.depth_is_bound && is_depth ? " (a bound)" : "";
 }
 
 std::string remark(const TimeRow& row, double depth_error) {

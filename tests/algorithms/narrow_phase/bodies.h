@@ -24,7 +24,6 @@ inline void PrintTo(Status status, std::ostream* out) { *out << to_string(status
 namespace touchstone::test {
 
 inline constexpr std::array scalars{Precision::float32, Precision::float64};
-inline constexpr std::array all_tasks{Task::intersect, Task::distance, Task::penetration};
 
 inline Shape sphere(double radius) {
   Shape shape;

@@ -122,10 +122,10 @@ TEST(GjkDegenerate, PointsSegmentsAndPolygons) {
         EXPECT_GE(apart.distance, 3 - 1e-9);
         EXPECT_LE(apart.distance, 5 + 1e-9);
         // Bodies at one place touch at most, or cross without a common volume.
-        for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+        for (const Task task : all_tasks) {
           const Outcome same = query(*gjk, task, at(a, {1, 2, 3}), at(b, {1, 2, 3}, rotation));
           EXPECT_NE(same.answer, Answer::separated);
-          if (task == Task::penetration && !std::isnan(same.distance)) {
+          if (asks_depth(task) && !std::isnan(same.distance)) {
             EXPECT_GE(same.distance, -1 - 1e-9);  // a square pierced by a segment is one deep
             EXPECT_LE(same.distance, 1e-12);
           }
@@ -199,7 +199,7 @@ TEST(GjkDegenerate, TouchingHasBounds) {
   const auto gjk = make_gjk();
   const Body a = at(make_box(1, 1, 1), {0, 0, 0});
   const Body b = at(make_box(1, 1, 1), {0.5, 0.25, 2});
-  for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+  for (const Task task : all_tasks) {
     const Outcome outcome = query(*gjk, task, a, b);
     EXPECT_EQ(outcome.answer, Answer::touching);
     EXPECT_EQ(outcome.status, Status::ok);

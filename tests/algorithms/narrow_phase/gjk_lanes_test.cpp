@@ -160,8 +160,7 @@ TEST(GjkLanes, HoldNoSilentErrorAgainstTheOracle) {
               continue;
             }
             ASSERT_EQ(o.answer, truth.answer);
-            const Answer asked = task == Task::distance ? Answer::separated : Answer::overlapping;
-            if (o.answer != asked || task == Task::intersect) {
+            if (!asks_for_number(task, o.answer)) {
               ASSERT_TRUE(std::isnan(o.distance) && std::isnan(o.witness_a.x()));
               continue;
             }
@@ -175,7 +174,7 @@ TEST(GjkLanes, HoldNoSilentErrorAgainstTheOracle) {
             // face may be a sliver at its rim: then the points are only on their bodies.
             const bool alike =
                 sort == Sort::parallel || sort == Sort::stacked || sort == Sort::skewed;
-            if (task == Task::distance || !alike) {
+            if (o.answer == Answer::separated || !alike) {
               ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(),
                         10 * error + place);
             }
@@ -219,7 +218,7 @@ void expect_few_left() {
       lanes.bind(pairs.shapes, shapes);
       std::vector<Outcome> outcomes(pairs.size());
       std::vector<std::uint32_t> left(pairs.size());
-      for (const Task task : all_tasks) {
+      for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
         const std::size_t count =
             lanes.solve(kinds.a, kinds.b, {pairs.first, pairs.second, pairs.shape_of, pairs.poses},
                         {.task = task,

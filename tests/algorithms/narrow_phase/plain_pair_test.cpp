@@ -81,7 +81,8 @@ bool solve(Task task, const Pair& pair, Outcome& outcome) {
     return solve_plain_box_depth(a.shape, a.pose, b.shape, b.pose, outcome);
   const bool capsule_box = a.shape.kind == ShapeKind::capsule && b.shape.kind == ShapeKind::box;
   const auto function = capsule_box ? plain_capsule_box() : solve_plain_pair;
-  return function(task, a.shape, a.pose, b.shape, b.pose, outcome);
+  return function(task, a.shape, a.pose, b.shape, b.pose, outcome,
+                  std::numeric_limits<double>::infinity());
 }
 
 struct Count {
@@ -104,7 +105,7 @@ void expect_outcome(const Pair& pair, Task task, oracle::Oracle& oracle, Count& 
   ASSERT_EQ(outcome.answer, measure.answer);
   const bool apart = outcome.answer == Answer::separated;
   ++(apart ? count.separated : count.overlapping);
-  if (task == Task::intersect || apart != (task == Task::distance)) {
+  if (!asks_for_number(task, outcome.answer)) {
     EXPECT_TRUE(std::isnan(outcome.distance));
     return;
   }
@@ -132,7 +133,7 @@ TEST(PlainPair, IsRightAtEveryDistance) {
                                        {ShapeKind::sphere, ShapeKind::box},
                                        {ShapeKind::capsule, ShapeKind::capsule},
                                        {ShapeKind::capsule, ShapeKind::box}}) {
-    for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+    for (const Task task : all_tasks) {
       SCOPED_TRACE(testing::Message()
                    << to_string(kind_a) << " " << to_string(kind_b) << " " << to_string(task));
       Count count;
