@@ -20,8 +20,9 @@ std::vector<CcdEntry> list_ccds();
 
 namespace {
 
-// Returns the entries with algorithms that keep to the margin.
-std::vector<NarrowPhaseEntry> within_margin(std::vector<NarrowPhaseEntry> entries) {
+// Returns the narrow phases, which keep to the margin.
+std::vector<NarrowPhaseEntry> list_within_margin() {
+  std::vector<NarrowPhaseEntry> entries = list_narrow_phases();
   for (NarrowPhaseEntry& entry : entries) {
     if (!entry.make) continue;
     entry.make = [make = entry.make](const NarrowPhaseSettings& settings) {
@@ -58,7 +59,7 @@ std::span<const BroadPhaseEntry> broad_phases() {
   return list_of<BroadPhaseEntry, list_broad_phases>();
 }
 std::span<const NarrowPhaseEntry> narrow_phases() {
-  return list_of<NarrowPhaseEntry, [] { return within_margin(list_narrow_phases()); }>();
+  return list_of<NarrowPhaseEntry, list_within_margin>();
 }
 std::span<const ManifoldEntry> contact_manifolds() {
   return list_of<ManifoldEntry, list_contact_manifolds>();

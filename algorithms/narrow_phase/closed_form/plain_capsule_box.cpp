@@ -136,8 +136,7 @@ bool solve_at(Task task, double margin, double t, const CapsuleBox& pair, double
   const double size = length(centre) + length(half) + h.sum() * longest;
   const Nearest cores{on_a, on_b, between, dot(between, centre), extent, size};
   return answer(task, margin, cores, radius, 0, pose_a, outcome) ||
-         (task == Task::penetration &&
-          solve_depth(pair, radius, pose_a, h, size + radius, outcome));
+         (asks_depth(task) && solve_depth(pair, radius, pose_a, h, size + radius, outcome));
 }
 
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/narrow_phase/closed_form/plain_capsule_box.inl"
