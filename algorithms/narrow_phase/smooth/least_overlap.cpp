@@ -50,28 +50,78 @@ double proven_width(const SmoothPair& pair, const SmoothFoot& foot) {
   return 0;
 }
 
-// The part of the sphere of normals that the polytope has to prove.
-struct Rim {
-  Rim(const SmoothFoot& foot, double width, double least)
-      : normal(foot.normal),
-        cosine(width > 0 ? (1 + 1e-12) / std::sqrt(1 + width * width) : 0),
-        height(least) {}
-
-  Vec3d normal;
-  double cosine;  // of the cap's angle; 0 without a cap
-  double height;  // that is to be proven
-
-  // Positive if the vertex of the polar is inside of the plane of the rim.
-  double inside(const Vec3d& m, double distance) const {
-    return cosine > 0 ? height * m.dot(normal) - distance * cosine : -1;
-  }
-};
-
 // A height that the polytope has along the face's normal, and along those of its corners' cones as
 // far as the neighbours' heights say: the least of its corners', whatever rounding did to the normal.
 double height_of(const EpaHull<double>& surface, int face, const Vec3d& m) {
   const std::array<Vec3d, 3> corners = surface.points(surface.corners(face));
   return std::min({m.dot(corners[0]), m.dot(corners[1]), m.dot(corners[2])}) - rounding;
+}
+
+// A normal along which the polytope may be too low, and a face that sees what is there.
+struct Failure {
+  int face = -1;  // -1: there is none
+  Vec3d along = Vec3d::Zero();
+};
+
+// The part of the sphere of normals that the polytope has to prove: outside of the cap.
+struct Rim {
+  Vec3d normal = Vec3d::Zero();
+  double cosine = 0;  // of the cap's angle; 0 without a cap
+  double height = 0;  // that is to be proven
+
+  // Positive if the vertex of the polar is inside of the plane of the rim.
+  double inside(const Vec3d& m, double distance) const {
+    return cosine > 0 ? height * m.dot(normal) - distance * cosine : -1;
+  }
+  Failure failure(const EpaHull<double>& surface) const;
+  Failure failure_on_rim(const EpaHull<double>& surface) const;
+};
+
+// The lowest face outside of the rim, by the planes as they are; where none is too low, the proof
+// itself.
+Failure Rim::failure(const EpaHull<double>& surface) const {
+  Failure found;
+  double least = height + 2 * rounding;
+  surface.all_faces([&](int f) {
+    const double distance = surface.distance(f);
+    if (!(distance < least)) return true;
+    const Vec3d m = surface.normal(f);
+    if (inside(m, distance) > 0) return true;
+    least = distance;
+    found = {f, m};
+    return true;
+  });
+  return found.face < 0 ? failure_on_rim(surface) : found;
+}
+
+Failure Rim::failure_on_rim(const EpaHull<double>& surface) const {
+  Failure found;
+  double worst = 1 - 4 * rounding;
+  const auto consider = [&](int face, const Vec3d& along, double reached) {
+    const double square = along.squaredNorm();
+    // Most are proven without a root.
+    if (reached > 0 && reached * reached >= height * height * square) return;
+    const double length = std::sqrt(square), part = reached / (height * length);
+    if (!(part < worst)) return;
+    worst = part;
+    found = {face, (1 / length) * along};
+  };
+  surface.all_faces([&](int f) {
+    const Vec3d m = surface.normal(f);
+    const double distance = height_of(surface, f, m), in = inside(m, distance);
+    if (in <= 0) {
+      consider(f, m, distance);
+      return true;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int g = surface.neighbour(f, k);
+      const Vec3d other = surface.normal(g);
+      const double beyond = height_of(surface, g, other), out = -inside(other, beyond);
+      if (out >= 0) consider(f, out * m + in * other, out * distance + in * beyond);
+    }
+    return true;
+  });
+  return found;
 }
 
 }  // namespace
@@ -83,7 +133,7 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
   const SmoothPair smooth(pair);
   const double margin = std::max(tolerance / 2, 8 * rounding);
   std::optional<LeastOverlap> found;
-  Rim rim(SmoothFoot{}, 0, 0);
+  Rim rim;
   // Descends from a normal. Returns true if its foot is lower than the last.
   const auto descend = [&](const Vec3d& from) {
     const std::optional<SmoothFoot> foot = find_foot(smooth, from);
@@ -91,9 +141,24 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
     if (!(foot->held > foot->height - margin / 4) || !(foot->held > 4 * margin)) return false;
     found = LeastOverlap{.foot = *foot, .lower = foot->held - margin};
     const double width = proven_width(smooth, *foot);
-    rim = Rim(*foot, width, found->lower);
+    const double cosine = width > 0 ? (1 + 1e-12) / std::sqrt(1 + width * width) : 0;
+    rim = {foot->normal, cosine, found->lower};
     return true;
   };
+
+  // The first normal is the lowest of the tetrahedron's faces and the kinks known.
+  Vec3d first = Vec3d::UnitX();
+  double least_height = std::numeric_limits<double>::infinity();
+  surface_.all_faces([&](int f) {
+    const Vec3d m = surface_.normal(f);
+    const double height = smooth.height(m);
+    if (height < least_height) {
+      least_height = height;
+      first = m;
+    }
+    return true;
+  });
+  descend(best_kink(smooth, first));
 
   int points = 4, iterations = 0;
   // Adds the support point along m, which the face sees. Returns false if that proves nothing more.
@@ -110,51 +175,16 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
   };
 
   for (;;) {
-    // Where the proof fails most, and a face that sees what is there.
-    int worst = -1;
-    Vec3d along = Vec3d::Zero();
-    double least = 1 - 4 * rounding;
-    surface_.all_faces([&](int f) {
-      const Vec3d m = surface_.normal(f);
-      const double distance = height_of(surface_, f, m);
-      if (!found) {
-        if (worst < 0 || distance < least) {
-          least = distance;
-          worst = f;
-          along = m;
-        }
-        return true;
+    const Failure failure = found ? rim.failure(surface_) : Failure{};
+    if (found && failure.face < 0) break;
+    if (!found) {
+      const auto nearest = surface_.nearest_face();
+      if (nearest.face < 0 || !extend(surface_.normal(nearest.face), nearest.face)) {
+        return std::nullopt;
       }
-      const double inside = rim.inside(m, distance);
-      if (inside <= 0) {
-        const double reached = distance / rim.height;
-        if (reached < least) {
-          least = reached;
-          worst = f;
-          along = m;
-        }
-        return true;
-      }
-      for (int k = 0; k < 3; ++k) {
-        const int g = surface_.neighbour(f, k);
-        const Vec3d other = surface_.normal(g);
-        const double distance_g = height_of(surface_, g, other);
-        const double outside = -rim.inside(other, distance_g);
-        if (outside < 0) continue;
-        const Vec3d crossing = outside * m + inside * other;
-        const double plane = outside * distance + inside * distance_g;
-        const double length = std::sqrt(crossing.squaredNorm());
-        const double reached = plane / (rim.height * length);
-        if (reached < least) {
-          least = reached;
-          worst = f;
-          along = (1 / length) * crossing;
-        }
-      }
-      return true;
-    });
-    if (worst < 0) break;
-    if (!extend(along, worst)) return std::nullopt;
+    } else if (!extend(failure.along, failure.face)) {
+      return std::nullopt;
+    }
   }
   found->iterations = iterations;
   return found;

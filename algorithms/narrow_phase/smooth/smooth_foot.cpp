@@ -35,8 +35,16 @@ struct At {
   Vec3d slide;
 };
 
-// Newton steps on the sphere, for pieces without kinks. Returns true at a stationary normal.
-bool descend(const SmoothPair& pair, Vec3d& normal, int& calls) {
+// Where Newton's steps on the sphere ended: at a stationary normal, before a tie of a or of b, or for
+// another reason.
+enum class End : std::uint8_t { stationary, tie_of_a, tie_of_b, other };
+
+bool is_across(const SmoothCore& core, const Vec3d& n, const Vec3d& m) {
+  return core.has_tie() && core.angle_to_tie(n) * core.angle_to_tie(m) < 0;
+}
+
+// Newton steps on the sphere, for pieces without kinks.
+End descend(const SmoothPair& pair, Vec3d& normal, int& calls) {
   At at(pair, normal, calls);
   for (int step = 0; step < most_steps; ++step) {
     if (at.slide_squared <= settled * settled) break;
@@ -51,7 +59,7 @@ bool descend(const SmoothPair& pair, Vec3d& normal, int& calls) {
       shift = 0.1 * (trace + std::abs(at.height));
     }
     const double determinant = minors + shift * (trace + shift);
-    if (!(determinant > 0)) return false;
+    if (!(determinant > 0)) break;
     Vec3d turn = (-1 / determinant) * ((trace + shift) * at.slide - curvature * at.slide);
     const double length = std::sqrt(turn.squaredNorm());
     if (!(length < longest_step)) turn *= longest_step / length;
@@ -60,13 +68,19 @@ bool descend(const SmoothPair& pair, Vec3d& normal, int& calls) {
       const At next(pair, unit(at.normal + turn), calls);
       better = next.height < at.height - 1e-16 ||
                (next.height < at.height + 1e-15 && next.slide_squared < at.slide_squared);
-      if (better) at = next;
+      if (better) {
+        at = next;
+        break;
+      }
+      normal = at.normal;
+      if (is_across(pair.a, at.normal, next.normal)) return End::tie_of_a;
+      if (is_across(pair.b, at.normal, next.normal)) return End::tie_of_b;
       turn *= 0.25;
     }
     if (!better) break;
   }
   normal = at.normal;
-  return at.slide_squared <= most_slide * most_slide;
+  return at.slide_squared <= most_slide * most_slide ? End::stationary : End::other;
 }
 
 // Newton steps along the circle of normals where the ends of `tied` tie, whose own height is the
@@ -93,9 +107,7 @@ bool descend_on_circle(const SmoothCore& tied, const SmoothCore& other, const Ve
     double angle = bend > 0 ? -slope / bend : -std::copysign(0.3, slope);
     angle = std::clamp(angle, -longest_step, longest_step);
     if (std::abs(angle) < 1e-16) break;
-    // Half of the tangent keeps the length up to rounding.
-    const double t = std::tan(0.5 * angle), scale = 1 / (1 + t * t);
-    across = ((1 - t * t) * scale) * across + (2 * t * scale) * along;
+    across += angle * along;
     across -= across.dot(axis) * axis;
     across *= width / std::sqrt(across.squaredNorm());
   }
@@ -235,35 +247,70 @@ bool make_foot(const SmoothPair& pair, const Vec3d& normal, SmoothFoot& foot) {
 std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start) {
   SmoothFoot foot;
   int calls = 0;
-  const double before = pair.height(start) + 1e-15;
   const auto is_foot = [&](const Vec3d& normal) {
     foot.support_calls = calls;
-    return make_foot(pair, normal, foot) && foot.height <= before;
+    return make_foot(pair, normal, foot);
   };
+  const double before = pair.height(start) + 1e-15;
+  const auto is_lower_foot = [&](const Vec3d& normal) {
+    return is_foot(normal) && foot.height <= before;
+  };
+  const auto descends_on_tie = [&](bool of_a, Vec3d normal) {
+    const SmoothCore &tied = of_a ? pair.a : pair.b, &other = of_a ? pair.b : pair.a;
+    return descend_on_circle(tied, other, pair.offset, normal, calls) && is_lower_foot(normal);
+  };
+  Vec3d normal = start;
+  // A start on a kink needs no descent, or one along the kink.
+  if (is_foot(start)) return foot;
+  const End end = descend(pair, normal, calls);
+  if (end == End::stationary && is_lower_foot(normal)) return foot;
+  const bool first = end == End::tie_of_a, tied = first || end == End::tie_of_b;
+  if (tied && descends_on_tie(first, normal)) return foot;
   const auto is_near_tie = [&](const SmoothCore& core) {
-    return core.has_tie() && std::abs(core.angle_to_tie(start)) < near_kink;
+    return core.has_tie() && std::abs(core.angle_to_tie(normal)) < near_kink;
   };
   const bool tie_a = is_near_tie(pair.a), tie_b = is_near_tie(pair.b);
-  Vec3d normal = start;
-  if (descend(pair, normal, calls) && is_foot(normal)) return foot;
-  Vec3d at_meeting = start;
-  if (tie_a && tie_b && meet(pair.a, pair.b, at_meeting) && is_foot(at_meeting)) return foot;
-  for (const bool of_a : {true, false}) {
-    if (!(of_a ? tie_a : tie_b)) continue;
-    normal = start;
-    const SmoothCore &tied = of_a ? pair.a : pair.b, &other = of_a ? pair.b : pair.a;
-    if (descend_on_circle(tied, other, pair.offset, normal, calls) && is_foot(normal)) return foot;
+  Vec3d at_meeting = normal;
+  if (tie_a && tie_b && meet(pair.a, pair.b, at_meeting) && is_lower_foot(at_meeting)) return foot;
+  for (const bool of_a : {!first, first}) {
+    if (of_a == first && tied) continue;
+    if ((of_a ? tie_a : tie_b) && descends_on_tie(of_a, normal)) return foot;
   }
   for (const SmoothCore* core : {&pair.a, &pair.b}) {
     if (!core->has_disc()) continue;
-    const double along = core->axis().dot(start);
+    const double along = core->axis().dot(normal);
     if (core->is_cone() && along > 0) continue;
     if (std::abs(along) > 1 - near_kink * near_kink &&
-        is_foot(std::copysign(1.0, along) * core->axis())) {
+        is_lower_foot(std::copysign(1.0, along) * core->axis())) {
       return foot;
     }
   }
   return std::nullopt;
+}
+
+Vec3d best_kink(const SmoothPair& pair, Vec3d normal) {
+  double least = pair.height(normal);
+  const auto consider = [&](const Vec3d& n) {
+    const double height = pair.height(n);
+    if (!(height < least)) return;
+    least = height;
+    normal = n;
+  };
+  for (const SmoothCore* core : {&pair.a, &pair.b}) {
+    if (!core->has_disc()) continue;
+    consider(-core->axis());
+    if (!core->is_cone()) consider(core->axis());
+  }
+  if (pair.a.has_tie() && pair.b.has_tie()) {
+    Vec3d meeting = pair.a.axis().cross(pair.b.axis());
+    for (int side = 0; side < 2; ++side) {
+      Vec3d n = meeting;
+      if (!meet(pair.a, pair.b, n)) break;
+      consider(n);
+      meeting = -meeting;
+    }
+  }
+  return normal;
 }
 
 }  // namespace touchstone

@@ -38,8 +38,10 @@ struct SmoothFoot {
 };
 
 // Descends from the normal `start` to a local minimum of the height. Returns none if Newton's method
-// finds none within its steps. `apart`: the cores are, so that the minimum is the only one and
-// negative.
+// finds none within its steps.
 std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start);
+
+// Returns the lowest of a normal, the axes of discs, and the normals where ties of both cores meet.
+Vec3d best_kink(const SmoothPair& pair, Vec3d normal);
 
 }  // namespace touchstone

@@ -10,6 +10,9 @@
 // two cores and a vector.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "algorithms/kernels/minkowski/support.h"
 
 namespace touchstone {
@@ -38,11 +41,12 @@ struct Curvature {
 
 // What a core has furthest along a unit normal.
 struct SmoothPoint {
-  Vec3d point;         // relative to the core's centre
-  double height;       // the normal's product with it
-  double reach;        // of the disc or the ball: the norm above; 0 without one
-  bool is_tip;         // cone: the tip, which has no disc
-  Vec3d turn, turn_2;  // the curvature is that of these, over the reach; turn_2 only of a ball
+  Vec3d point = Vec3d::Zero();  // relative to the core's centre
+  double height = 0;            // the normal's product with it
+  double reach = 0;             // of the disc or the ball: the norm above; 0 without one
+  bool is_tip = false;          // cone: the tip, which has no disc
+  // The curvature is the squares of these over the reach; turn_2 is of a ball only.
+  Vec3d turn = Vec3d::Zero(), turn_2 = Vec3d::Zero();
 };
 
 class SmoothCore {
@@ -62,6 +66,8 @@ class SmoothCore {
   double radius() const { return radius_; }
 
   SmoothPoint furthest(const Vec3d& n) const;
+  // The same point's height alone.
+  double height(const Vec3d& n) const;
   // Adds the curvature at that point, where the reach is longer by `more`.
   void add_curvature(const SmoothPoint& at, double more, double weight, Curvature& sum) const {
     if (at.is_tip || !(radius_ > 0) || !(at.reach + more > 0)) return;
@@ -79,6 +85,59 @@ class SmoothCore {
   bool has_tie_ = false;
 };
 
+inline SmoothPoint SmoothCore::furthest(const Vec3d& n) const {
+  // Reaches below this have a direction of rounding only; lengths are at most about 1.
+  constexpr double least_reach = 1e-140;
+  SmoothPoint found;
+  if (core_ == SupportCore::point) return found;
+  const double x = edges_[0].dot(n), y = edges_[1].dot(n), z = edges_[2].dot(n);
+  if (core_ == SupportCore::segment) {
+    found.point = z < 0 ? Vec3d(-edges_[2]) : edges_[2];
+    found.height = std::abs(z);
+    return found;
+  }
+  if (is_ball()) {
+    found.reach = found.height = std::sqrt(x * x + y * y + z * z);
+    if (!(found.reach > least_reach)) return found;
+    const Vec3d w = Vec3d(x, y, z) / found.reach;
+    found.point = w.x() * edges_[0] + w.y() * edges_[1] + w.z() * edges_[2];
+    // Two unit vectors across w.
+    const double sign = std::copysign(1.0, w.z()), t = -1 / (sign + w.z()), s = w.x() * w.y() * t;
+    const Vec3d u(1 + sign * w.x() * w.x() * t, sign * s, -sign * w.x());
+    const Vec3d v(s, sign + w.y() * w.y() * t, -w.y());
+    found.turn = u.x() * edges_[0] + u.y() * edges_[1] + u.z() * edges_[2];
+    found.turn_2 = v.x() * edges_[0] + v.y() * edges_[1] + v.z() * edges_[2];
+    return found;
+  }
+  found.reach = std::sqrt(x * x + y * y);
+  found.is_tip = is_cone() && 2 * z > found.reach;
+  if (found.is_tip) {
+    found.point = edges_[2];
+    found.height = z;
+    return found;
+  }
+  const bool down = is_cone() || z < 0;
+  found.height = found.reach + (down ? -z : z);
+  found.point = down ? Vec3d(-edges_[2]) : edges_[2];
+  if (!(found.reach > least_reach)) return found;
+  const double along = x / found.reach, across = y / found.reach;
+  found.point += along * edges_[0] + across * edges_[1];
+  found.turn = along * edges_[1] - across * edges_[0];
+  return found;
+}
+
+inline double SmoothCore::height(const Vec3d& n) const {
+  if (core_ == SupportCore::point) return 0;
+  const double x = edges_[0].dot(n), y = edges_[1].dot(n), z = edges_[2].dot(n);
+  const double flat = x * x + y * y;
+  switch (core_) {
+    case SupportCore::segment: return std::abs(z);
+    case SupportCore::cylinder: return std::sqrt(flat) + std::abs(z);
+    case SupportCore::cone: return std::max(std::sqrt(flat) - z, z);
+    default: return std::sqrt(flat + z * z);
+  }
+}
+
 struct SmoothPair {
   explicit SmoothPair(SupportPair<double>& pair)
       : a(pair.a(), false), b(pair.b(), true), offset(-pair.centre_b()) {}
@@ -87,7 +146,7 @@ struct SmoothPair {
   Vec3d offset;     // of its centre
 
   // The height of the difference along n: the overlap of the cores, if positive.
-  double height(const Vec3d& n) const;
+  double height(const Vec3d& n) const { return a.height(n) + b.height(n) + n.dot(offset); }
 };
 
 // Returns true if the matrix is a rotation times the extents' scale, up to 1e-12.
