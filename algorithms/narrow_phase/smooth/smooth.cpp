@@ -2,8 +2,9 @@
 // Paper:   Absil, Mahony, Sepulchre, "Optimization Algorithms on Matrix Manifolds", 2008, ch. 6
 //          (Newton on the sphere); Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2),
 //          1988 (verdicts and the start); van den Bergen, GDC 2001 (the polytope).
-// Steps:   1. Pairs whose bounding balls are apart are separated (not for distance).
-//          2. intersect: as `gjk` (kernels/gjk/gjk_query).
+// Steps:   1. depth: pairs whose bounding balls are apart are separated.
+//          2. intersect: try the line of centres and three planes (quick_verdict); then as `gjk`
+//             (kernels/gjk/gjk_query).
 //          3. GJK, with a tolerance of a tenth of the size, tells whether the cores meet.
 //          4. Descend from its normal, or from that of the nearest face of its tetrahedron, to a
 //             normal at which the height of the difference is stationary (smooth_foot).
@@ -29,6 +30,7 @@
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/smooth/least_overlap.h"
+#include "algorithms/narrow_phase/smooth/quick_verdict.h"
 
 namespace touchstone {
 namespace {
@@ -43,15 +45,25 @@ class SmoothNormals final : public NarrowPhase {
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);
     ahead_.bind(shapes_);
+    round_.clear();
+    for (const Shape& shape : shapes) round_.emplace_back(shape);
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    if (task == Task::intersect) {
+      for (std::size_t i = 0; i < batch.size(); ++i) decide(batch.pairs, i, outcomes[i]);
+      return;
+    }
     for_each_bounded_pair(
         task, batch, shapes_, ahead_, task == Task::distance, outcomes,
         [&](std::size_t i, const auto&... bodies) { solve_pair(task, bodies..., outcomes[i]); });
   }
 
   void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    if (task == Task::intersect) {
+      decide(batch.pairs, i, outcome);
+      return;
+    }
     for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
       solve_pair(task, bodies..., outcome);
     });
@@ -61,12 +73,28 @@ class SmoothNormals final : public NarrowPhase {
   using Body = SupportShape<double>;
   static constexpr double rounding = SupportPair<double>::rounding;
 
+  void decide(const BodyPairs& pairs, std::size_t i, Outcome& outcome) {
+    const std::uint32_t first = pairs.first[i], second = pairs.second[i];
+    const std::uint32_t a = pairs.shape_of[first], b = pairs.shape_of[second];
+    const Pose &pose_a = pairs.poses[first], &pose_b = pairs.poses[second];
+    if (is_rotation(pose_a.rotation) && is_rotation(pose_b.rotation)) {
+      const QuickVerdict quick = quick_verdict(round_[a], pose_a, round_[b], pose_b);
+      if (quick.answer != Answer::unknown) {
+        outcome.answer = quick.answer;
+        outcome.status = Status::ok;
+        outcome.iterations = outcome.support_calls = quick.planes;
+        return;
+      }
+    }
+    query_.solve(shapes_[a], pose_a, shapes_[b], pose_b, Task::intersect, nullptr, outcome);
+  }
+
   void solve_pair(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
                   Outcome& outcome) {
     const bool curved = !a.is_polytope() || !b.is_polytope();
     const bool apart = task == Task::penetration && balls_are_apart(a, pose_a, b, pose_b);
-    if (curved && !apart && task != Task::intersect && is_rotation(pose_a.rotation) &&
-        is_rotation(pose_b.rotation) && solve_curved(task, a, pose_a, b, pose_b, outcome)) {
+    if (curved && !apart && is_rotation(pose_a.rotation) && is_rotation(pose_b.rotation) &&
+        solve_curved(task, a, pose_a, b, pose_b, outcome)) {
       return;
     }
     query_.solve(a, pose_a, b, pose_b, task, nullptr, outcome);
@@ -139,6 +167,7 @@ class SmoothNormals final : public NarrowPhase {
   GjkQuery<double> query_;
   LeastOverlapSearch search_;
   std::vector<Body> shapes_;
+  std::vector<RoundShape> round_;
   ShapePrefetch<double> ahead_;
 };
 
