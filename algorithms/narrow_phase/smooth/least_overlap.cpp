@@ -50,13 +50,6 @@ double proven_width(const SmoothPair& pair, const SmoothFoot& foot) {
   return 0;
 }
 
-// A height that the polytope has along the face's normal, and along those of its corners' cones as
-// far as the neighbours' heights say: the least of its corners', whatever rounding did to the normal.
-double height_of(const EpaHull<double>& surface, int face, const Vec3d& m) {
-  const std::array<Vec3d, 3> corners = surface.points(surface.corners(face));
-  return std::min({m.dot(corners[0]), m.dot(corners[1]), m.dot(corners[2])}) - rounding;
-}
-
 // A normal along which the polytope may be too low, and a face that sees what is there.
 struct Failure {
   int face = -1;  // -1: there is none
@@ -75,6 +68,23 @@ struct Rim {
   }
   Failure failure(const EpaHull<double>& surface) const;
   Failure failure_on_rim(const EpaHull<double>& surface) const;
+};
+
+// A face as a vertex of the polar.
+struct PolarVertex {
+  Vec3d normal;
+  // A height that the polytope has along the normal, and, as far as the neighbours' heights say,
+  // along those between: the least of the corners', whatever rounding did to the normal.
+  double height;
+  double inside;  // of the rim
+
+  PolarVertex(const EpaHull<double>& surface, int face, const Rim& rim)
+      : normal(surface.normal(face)) {
+    const std::array<Vec3d, 3> corners = surface.points(surface.corners(face));
+    height = std::min({normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])}) -
+             rounding;
+    inside = rim.inside(normal, height);
+  }
 };
 
 // The lowest face outside of the rim, by the planes as they are; where none is too low, the proof
@@ -107,17 +117,16 @@ Failure Rim::failure_on_rim(const EpaHull<double>& surface) const {
     found = {face, (1 / length) * along};
   };
   surface.all_faces([&](int f) {
-    const Vec3d m = surface.normal(f);
-    const double distance = height_of(surface, f, m), in = inside(m, distance);
-    if (in <= 0) {
-      consider(f, m, distance);
+    const PolarVertex own(surface, f, *this);
+    if (own.inside <= 0) {
+      consider(f, own.normal, own.height);
       return true;
     }
     for (int k = 0; k < 3; ++k) {
-      const int g = surface.neighbour(f, k);
-      const Vec3d other = surface.normal(g);
-      const double beyond = height_of(surface, g, other), out = -inside(other, beyond);
-      if (out >= 0) consider(f, out * m + in * other, out * distance + in * beyond);
+      const PolarVertex other(surface, surface.neighbour(f, k), *this);
+      if (other.inside > 0) continue;
+      consider(f, own.inside * other.normal - other.inside * own.normal,
+               own.inside * other.height - other.inside * own.height);
     }
     return true;
   });
@@ -135,8 +144,8 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
   std::optional<LeastOverlap> found;
   Rim rim;
   // Descends from a normal. Returns true if its foot is lower than the last.
-  const auto descend = [&](const Vec3d& from) {
-    const std::optional<SmoothFoot> foot = find_foot(smooth, from);
+  const auto descend = [&](const Vec3d& from, bool at_kink) {
+    const std::optional<SmoothFoot> foot = find_foot(smooth, from, at_kink);
     if (!foot || (found && !(foot->height < found->foot.height))) return false;
     if (!(foot->held > foot->height - margin / 4) || !(foot->held > 4 * margin)) return false;
     found = LeastOverlap{.foot = *foot, .lower = foot->held - margin};
@@ -158,7 +167,8 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
     }
     return true;
   });
-  descend(best_kink(smooth, first));
+  const std::optional<Vec3d> kink = best_kink(smooth, least_height);
+  descend(kink ? *kink : first, kink.has_value());
 
   int points = 4, iterations = 0;
   // Adds the support point along m, which the face sees. Returns false if that proves nothing more.
@@ -167,7 +177,7 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
     const DifferencePoint<double> point = pair.support(m);
     ++iterations;
     const double height = m.dot(point.difference);
-    if (!found || height < found->foot.height) descend(m);
+    if (!found || height < found->foot.height) descend(m, false);
     if (found && height < found->lower) return false;
     if (!surface_.add(point, face, std::numeric_limits<double>::infinity())) return false;
     ++points;

@@ -127,7 +127,7 @@ class SmoothNormals final : public NarrowPhase {
     const Vec3d normal = -found.nearest.direction;
     if (!(normal.squaredNorm() > 0.5)) return false;
     const SmoothPair smooth(pair);
-    const std::optional<SmoothFoot> foot = find_foot(smooth, normal);
+    const std::optional<SmoothFoot> foot = find_foot(smooth, normal, false);
     if (!foot) return false;
     const double lower = -foot->height, upper = std::sqrt(foot->nearest.squaredNorm());
     if (!(lower - pair.radius() > rounding) || !(upper - lower < tolerance_)) return false;

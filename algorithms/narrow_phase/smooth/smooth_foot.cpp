@@ -9,11 +9,12 @@ namespace touchstone {
 namespace {
 
 constexpr double settled = 2e-15;     // a slide of rounding only, for lengths of about 1
+constexpr double almost = 1e-9;       // Newton's next step squares this
 constexpr double most_slide = 1e-11;  // of a foot
 constexpr double longest_step = 0.5;  // radians
 constexpr int most_steps = 12;
 // Kinks this near to a normal (radians) belong to it.
-constexpr double at_kink = 1e-9;
+constexpr double kink_width = 1e-9;
 // Kinks further away than this are not tried.
 constexpr double near_kink = 0.7;
 
@@ -48,6 +49,8 @@ End descend(const SmoothPair& pair, Vec3d& normal, int& calls) {
   At at(pair, normal, calls);
   for (int step = 0; step < most_steps; ++step) {
     if (at.slide_squared <= settled * settled) break;
+    // The step from here is exact to rounding, and its foot is tested.
+    const bool is_last = at.slide_squared <= almost * almost;
     Curvature curvature;
     pair.a.add_curvature(at.a, 0, 1, curvature);
     pair.b.add_curvature(at.b, 0, 1, curvature);
@@ -63,6 +66,10 @@ End descend(const SmoothPair& pair, Vec3d& normal, int& calls) {
     Vec3d turn = (-1 / determinant) * ((trace + shift) * at.slide - curvature * at.slide);
     const double length = std::sqrt(turn.squaredNorm());
     if (!(length < longest_step)) turn *= longest_step / length;
+    if (is_last) {
+      normal = unit(at.normal + turn);
+      return End::stationary;
+    }
     bool better = false;
     for (int half = 0; half < 4 && !better; ++half) {
       const At next(pair, unit(at.normal + turn), calls);
@@ -100,17 +107,18 @@ bool descend_on_circle(const SmoothCore& tied, const SmoothCore& other, const Ve
     const Vec3d point = at.point + offset;
     const Vec3d along = axis.cross(across);  // the normal's derivative by the angle
     const double slope = point.dot(along);
-    if (std::abs(slope) <= settled * width) break;
+    if (std::abs(slope) <= settled) break;
     Curvature curvature;
     other.add_curvature(at, 0, 1, curvature);
     const double bend = along.dot(curvature * along) - point.dot(across);
     double angle = bend > 0 ? -slope / bend : -std::copysign(0.3, slope);
     angle = std::clamp(angle, -longest_step, longest_step);
-    if (std::abs(angle) < 1e-16) break;
     across += angle * along;
     across -= across.dot(axis) * axis;
     across *= width / std::sqrt(across.squaredNorm());
+    if (std::abs(angle) < almost) break;
   }
+  normal = tilt * axis + across;
   return true;
 }
 
@@ -133,13 +141,14 @@ SmoothFace face_at(const SmoothCore& core, const Vec3d& n) {
   SmoothFace face;
   face.furthest = core.furthest(n);
   face.middle = face.furthest.point;
-  if (core.has_disc() && !face.furthest.is_tip && face.furthest.reach <= at_kink * core.radius()) {
+  if (core.has_disc() && !face.furthest.is_tip &&
+      face.furthest.reach <= kink_width * core.radius()) {
     face.kind = SmoothFace::Kind::disc;
     const bool down = core.is_cone() || core.edge(2).dot(n) < 0;
     face.middle = down ? Vec3d(-core.edge(2)) : core.edge(2);
     face.first = core.edge(0);
     face.second = core.edge(1);
-  } else if (core.has_tie() && std::abs(core.angle_to_tie(n)) <= at_kink) {
+  } else if (core.has_tie() && std::abs(core.angle_to_tie(n)) <= kink_width) {
     face.kind = SmoothFace::Kind::tie;
     if (core.is_cone()) {
       // Both ends, whichever is further by rounding.
@@ -244,7 +253,7 @@ bool make_foot(const SmoothPair& pair, const Vec3d& normal, SmoothFoot& foot) {
 
 }  // namespace
 
-std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start) {
+std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start, bool at_kink) {
   SmoothFoot foot;
   int calls = 0;
   const auto is_foot = [&](const Vec3d& normal) {
@@ -260,8 +269,7 @@ std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start) 
     return descend_on_circle(tied, other, pair.offset, normal, calls) && is_lower_foot(normal);
   };
   Vec3d normal = start;
-  // A start on a kink needs no descent, or one along the kink.
-  if (is_foot(start)) return foot;
+  if (at_kink && is_foot(start)) return foot;
   const End end = descend(pair, normal, calls);
   if (end == End::stationary && is_lower_foot(normal)) return foot;
   const bool first = end == End::tie_of_a, tied = first || end == End::tie_of_b;
@@ -288,13 +296,13 @@ std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start) 
   return std::nullopt;
 }
 
-Vec3d best_kink(const SmoothPair& pair, Vec3d normal) {
-  double least = pair.height(normal);
+std::optional<Vec3d> best_kink(const SmoothPair& pair, double below) {
+  std::optional<Vec3d> best;
   const auto consider = [&](const Vec3d& n) {
     const double height = pair.height(n);
-    if (!(height < least)) return;
-    least = height;
-    normal = n;
+    if (!(height < below)) return;
+    below = height;
+    best = n;
   };
   for (const SmoothCore* core : {&pair.a, &pair.b}) {
     if (!core->has_disc()) continue;
@@ -310,7 +318,7 @@ Vec3d best_kink(const SmoothPair& pair, Vec3d normal) {
       meeting = -meeting;
     }
   }
-  return normal;
+  return best;
 }
 
 }  // namespace touchstone

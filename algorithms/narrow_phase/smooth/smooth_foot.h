@@ -38,10 +38,11 @@ struct SmoothFoot {
 };
 
 // Descends from the normal `start` to a local minimum of the height. Returns none if Newton's method
-// finds none within its steps.
-std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start);
+// finds none within its steps. `at_kink`: the start itself may be one.
+std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start, bool at_kink);
 
-// Returns the lowest of a normal, the axes of discs, and the normals where ties of both cores meet.
-Vec3d best_kink(const SmoothPair& pair, Vec3d normal);
+// Returns the lowest of the axes of discs, and of the normals where ties of both cores meet; none if
+// its height is not below the given one.
+std::optional<Vec3d> best_kink(const SmoothPair& pair, double below);
 
 }  // namespace touchstone

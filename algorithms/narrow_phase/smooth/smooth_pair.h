@@ -51,8 +51,9 @@ struct SmoothPoint {
 
 class SmoothCore {
  public:
-  // `mirrored`: the core of -B.
-  SmoothCore(const PosedShape<double>& body, bool mirrored);
+  // The body's matrix is a rotation up to 1e-12. `unit`: that of the pair, metres. `mirrored`: the
+  // core of -B.
+  SmoothCore(const PosedShape<double>& body, double unit, bool mirrored);
 
   bool is_ball() const { return core_ == SupportCore::ellipsoid; }
   bool is_cone() const { return core_ == SupportCore::cone; }
@@ -140,7 +141,7 @@ inline double SmoothCore::height(const Vec3d& n) const {
 
 struct SmoothPair {
   explicit SmoothPair(SupportPair<double>& pair)
-      : a(pair.a(), false), b(pair.b(), true), offset(-pair.centre_b()) {}
+      : a(pair.a(), pair.unit(), false), b(pair.b(), pair.unit(), true), offset(-pair.centre_b()) {}
 
   SmoothCore a, b;  // b is that of -B
   Vec3d offset;     // of its centre
