@@ -71,6 +71,7 @@ RoundShape::RoundShape(const Shape& shape)
       break;
     default: break;
   }
+  is_solid = shape.kind == ShapeKind::sphere ? x > 0 : x > 0 && y > 0 && z > 0;
 }
 
 QuickVerdict quick_verdict(const RoundShape& a, const Pose& pose_a, const RoundShape& b,
@@ -89,7 +90,7 @@ QuickVerdict quick_verdict(const RoundShape& a, const Pose& pose_a, const RoundS
     const double along = normal.dot(centre);
     const double reach = p.dot(to_a) + q.dot(to_b) + radius * length;
     // Lengths with squares outside of these may have lost digits.
-    if (!(length > 1e-140) || !(length < 1e140)) return found;
+    if (!(length > 1e-130) || !(length < 1e130)) return found;
     const double lost =
         plane_margin * length *
         (std::sqrt(centre.squaredNorm()) + a.x + a.y + a.z + b.x + b.y + b.z + radius);
@@ -97,7 +98,7 @@ QuickVerdict quick_verdict(const RoundShape& a, const Pose& pose_a, const RoundS
       found.answer = Answer::separated;
       return found;
     }
-    if (found.planes == 1) {
+    if (found.planes == 1 && a.is_solid && b.is_solid) {
       const double of_a = gauge(a, to_a, length), of_b = gauge(b, to_b, length);
       if (of_a * of_b < (of_a + of_b) * (1 - gauge_margin)) {
         found.answer = Answer::overlapping;

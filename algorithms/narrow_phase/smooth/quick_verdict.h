@@ -22,6 +22,7 @@ struct RoundShape {
   SupportCore core;
   double x, y, z;  // half axes of the core, metres
   double radius;   // of the ball around it
+  bool is_solid;   // it has a volume, so that every direction has a gauge
 };
 
 struct QuickVerdict {

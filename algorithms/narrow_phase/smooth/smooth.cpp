@@ -5,18 +5,19 @@
 // Steps:   1. depth: pairs whose bounding balls are apart are separated.
 //          2. intersect: try the line of centres and three planes (quick_verdict); then as `gjk`
 //             (kernels/gjk/gjk_query).
-//          3. GJK, with a tolerance of a tenth of the size, tells whether the cores meet.
+//          3. GJK, with a tolerance of a third of the size, tells whether the cores meet.
 //          4. Descend from its normal, or from that of the nearest face of its tetrahedron, to a
 //             normal at which the height of the difference is stationary (smooth_foot).
-//          5. distance: the height and the point of the difference on the normal enclose it.
-//          6. depth: prove that no other height is less, close to the normal by curvature and
+//          5. Cores that are apart: the height and the point of the difference on the normal enclose
+//             their distance, and so the depth of the balls around them.
+//          6. Cores that meet: prove that no other height is less, close to the normal by curvature and
 //             elsewhere by a polytope (least_overlap).
 //          7. What is not proven is solved as `gjk` does.
 // Departs: the normal is searched where two ends of a body tie, or a disc is flat, too: active sets,
 //          with the balance of the tied points as their multipliers.
-// Answers: spheres, capsules, cylinders, cones and ellipsoids with each other. Shallow overlaps of
-//          spheres and capsules with these (their cores are apart), poses that are not rotations up
-//          to 1e-12, and pairs without a round core are gjk's.
+// Answers: spheres, capsules, cylinders, cones and ellipsoids with each other. Poses that are not
+//          rotations up to 1e-12, and depths and distances without curved bodies, or of a sphere and a
+//          cylinder or cone, are gjk's.
 // Fails:   like gjk where a second normal is as good to 1e-12, as between coaxial bodies: the answer
 //          is gjk's, with its tolerance of 1e-10.
 // Cost:    O(1); GJK, about 10 support calls of Newton's method, and about 20 points of a polytope.
@@ -91,7 +92,9 @@ class SmoothNormals final : public NarrowPhase {
 
   void solve_pair(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
                   Outcome& outcome) {
-    const bool curved = !a.is_polytope() || !b.is_polytope();
+    // GJK ends between a point and a flat or ruled surface as soon.
+    const bool curved = a.core == SupportCore::point ? b.core == SupportCore::ellipsoid
+                                                     : !a.is_polytope() || !b.is_polytope();
     const bool apart = task == Task::penetration && balls_are_apart(a, pose_a, b, pose_b);
     if (curved && !apart && is_rotation(pose_a.rotation) && is_rotation(pose_b.rotation) &&
         solve_curved(task, a, pose_a, b, pose_b, outcome)) {
@@ -104,35 +107,49 @@ class SmoothNormals final : public NarrowPhase {
   bool solve_curved(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
                     Outcome& outcome) {
     using End = GjkDistanceResult<double>::End;
-    constexpr double coarse = 0.1;
+    constexpr double coarse = 0.3;
     SupportPair<double> pair(a, pose_a, b, pose_b);
-    const GjkDistanceResult<double> found = gjk_distance(
-        pair, GjkDistanceGoal<double>{
-                  .task = task, .tolerance = coarse, .most_iterations = settings_.gjk_cap});
+    // Cores within balls: their distance is wanted, whatever the task.
+    const GjkDistanceGoal<double> goal{.task = pair.radius() > 0 ? Task::distance : task,
+                                       .tolerance = coarse,
+                                       .most_iterations = settings_.gjk_cap};
+    const GjkDistanceResult<double> found = gjk_distance(pair, goal);
     outcome.iterations = found.iterations;
     if (found.end == End::contact) {
       return task == Task::penetration && found.nearest.inside &&
              solve_depth(pair, found.simplex, outcome);
     }
-    if (task == Task::distance) return solve_distance(pair, found, outcome);
-    if (!(found.lower - pair.radius() > rounding)) return false;
-    outcome.answer = Answer::separated;
-    outcome.status = Status::ok;
-    outcome.support_calls = pair.support_calls();
-    return true;
+    const double lower = found.lower - pair.radius();
+    if (task == Task::penetration && lower > rounding) {
+      outcome.answer = Answer::separated;
+      outcome.status = Status::ok;
+      outcome.support_calls = pair.support_calls();
+      return true;
+    }
+    return solve_apart(task, pair, -found.nearest.direction, outcome);
   }
 
-  bool solve_distance(SupportPair<double>& pair, const GjkDistanceResult<double>& found,
-                      Outcome& outcome) const {
-    const Vec3d normal = -found.nearest.direction;
+  // Cores that are apart: their height has one negative minimum, and the foot's point is the nearest.
+  bool solve_apart(Task task, SupportPair<double>& pair, const Vec3d& normal,
+                   Outcome& outcome) const {
     if (!(normal.squaredNorm() > 0.5)) return false;
     const SmoothPair smooth(pair);
     const std::optional<SmoothFoot> foot = find_foot(smooth, normal, false);
     if (!foot) return false;
     const double lower = -foot->height, upper = std::sqrt(foot->nearest.squaredNorm());
-    if (!(lower - pair.radius() > rounding) || !(upper - lower < tolerance_)) return false;
-    outcome.answer = Answer::separated;
-    write(pair, *foot, upper, lower, upper, outcome);
+    if (!(lower > 4 * rounding) || !(upper - lower < tolerance_)) return false;
+    const double radius = pair.radius();
+    if (lower - radius > rounding) {
+      outcome.answer = Answer::separated;
+    } else if (upper - radius < -rounding) {
+      outcome.answer = Answer::overlapping;
+    } else {
+      return false;
+    }
+    outcome.status = Status::ok;
+    outcome.support_calls = pair.support_calls() + foot->support_calls;
+    const bool asked = (task == Task::distance) == (outcome.answer == Answer::separated);
+    if (asked) write(pair, *foot, upper, lower, upper, outcome);
     return true;
   }
 

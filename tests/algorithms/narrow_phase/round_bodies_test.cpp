@@ -225,7 +225,8 @@ TEST(RoundBodies, StandOnEachOther) {
   Random random(35);
   int apart = 0, deep = 0;
   for (const double scale : {1e-6, 1.0, 1e6}) {
-    for (const ShapeKind below : {ShapeKind::cylinder, ShapeKind::ellipsoid, ShapeKind::capsule}) {
+    for (const ShapeKind below :
+         {ShapeKind::cylinder, ShapeKind::ellipsoid, ShapeKind::capsule, ShapeKind::cone}) {
       for (const ShapeKind above :
            {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid, ShapeKind::sphere}) {
         for (const double gap : {-1e-2, -1e-6, -1e-12, 0.0, 1e-12, 1e-6, 1e-2, 1.0}) {
