@@ -1,5 +1,5 @@
 // The loop over a batch, for algorithms that solve one pair at a time. Used by gjk, gjk-templated,
-// mpr, mpr-refined and certified.
+// mpr, mpr-refined, certified and smooth.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The hull of EPA: a convex polytope of triangles around the origin, to which points are added.
-// Used by expanding_polytope.h alone.
+// Used by expanding_polytope.h and by `smooth`.
 // Paper:   Barber, Dobkin, Huhdanpaa, "The quickhull algorithm for convex hulls", ACM TOMS 22(4),
 //          1996 (horizon, cone).
 // Steps:   1. Start with a tetrahedron (`start`).
@@ -60,6 +60,8 @@ class EpaHull {
   std::array<int, 3> corners(int face) const {
     return {edges_[4 * face].tail, edges_[4 * face + 1].tail, edges_[4 * face + 2].tail};
   }
+  // The face beyond edge k of the face, from its corner k to the next.
+  int neighbour(int face, int k) const { return face_of(edges_[4 * face + k].twin); }
   const DifferencePoint<Scalar>& vertex(int i) const { return vertices_[i]; }
   std::array<Vec3<Scalar>, 3> points(const std::array<int, 3>& corners) const {
     return {vertices_[corners[0]].difference, vertices_[corners[1]].difference,

@@ -1,5 +1,5 @@
 // GJK's distance loop: bounds the distance of two cores from both sides. Used by gjk, gjk-lanes,
-// gjk-templated, certified and clipped-faces.
+// gjk-templated, certified, smooth and clipped-faces.
 //
 // Each simplex bounds the distance from above, each support plane from below.
 // Paper:   Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex

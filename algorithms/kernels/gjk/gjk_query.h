@@ -1,5 +1,5 @@
-// A query of two bodies by GJK, and by EPA if their cores meet. Used by gjk, gjk-templated and
-// gjk-lanes.
+// A query of two bodies by GJK, and by EPA if their cores meet. Used by gjk, gjk-templated,
+// gjk-lanes and smooth.
 // Paper:   see gjk_distance.h and expanding_polytope.h.
 #pragma once
 

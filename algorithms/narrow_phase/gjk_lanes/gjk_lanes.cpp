@@ -21,11 +21,12 @@
 //          the origin is too close to a face of the tetrahedron, a point behind that face is tried.
 //          In EPA nearest faces, visible faces and planes are computed for all lanes together,
 //          horizons one by one.
-// Answers: spheres, capsules, boxes and hulls. The lanes leave open hulls of more than 192 vertices
-//          or far from their own origin, bodies whose matrix is not close to a rotation, and
-//          without AVX2 all pairs in double, since two lanes per vector are slower than none.
-//          Verdicts are as reliable as gjk's.
-//          Near contact they are gjk's own, with its resolution.
+//          In double, verdicts on cylinders, cones and ellipsoids are tried in lanes of floats
+//          first, whose bounds prove them as well.
+// Answers: bounded bodies. The lanes leave open hulls of more than 192 vertices or far from their
+//          own origin, bodies whose matrix is not close to a rotation, and without AVX2 all pairs
+//          in double (but for those verdicts), since two lanes per vector are slower than none.
+//          Verdicts are as reliable as gjk's. Near contact they are gjk's own, with its resolution.
 // Fails:   like gjk.
 // Cost:    like gjk's iterations; all lanes take as long as the slowest. It pays from batches of
 //          about four pairs. Depths take 0.4 to 0.7 of gjk's time in float and up to all of it in
@@ -33,6 +34,7 @@
 //          vertices is solved one by one from the start. A signed distance takes as long as all
 //          distances, and the depths of the pairs that overlap. Caps and tolerance are gjk's.
 #include <algorithm>
+#include <type_traits>
 
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
@@ -50,33 +52,74 @@ class GjkInLanes final : public NarrowPhase {
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
     lanes_.bind(shapes, shapes_);
+    if constexpr (std::is_same_v<Scalar, double>) {
+      quick_shapes_ = make_support_shapes<float>(shapes);
+      quick_.bind(shapes, quick_shapes_);
+    }
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     if (task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
     left_.resize(std::max(left_.size(), batch.size()));
-    const std::size_t count = lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs,
-                                           {.task = task,
-                                            .tolerance = query_.tolerance(true),
-                                            .most_iterations = settings_.gjk_cap,
-                                            .most_expansions = settings_.epa_cap},
-                                           outcomes, left_.data());
+    const bool curved = Lanes::is_curved(batch.kind_a) || Lanes::is_curved(batch.kind_b);
+    const typename Lanes::Goal goal{.task = task,
+                                    .tolerance = query_.tolerance(!curved),
+                                    .most_iterations = settings_.gjk_cap,
+                                    .most_expansions = settings_.epa_cap};
+    const std::size_t count =
+        std::is_same_v<Scalar, double> && curved && task == Task::intersect
+            ? decide_in_floats_first(batch, goal, outcomes)
+            : lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs, goal, outcomes, left_.data());
     for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t i = left_[k];
-      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
-      query_.solve(shapes_[batch.pairs.shape_of[a]], batch.pairs.poses[a],
-                   shapes_[batch.pairs.shape_of[b]], batch.pairs.poses[b], task, nullptr,
-                   outcomes[i]);
+      solve_serially(task, batch.pairs, left_[k], outcomes[left_[k]]);
+    }
+  }
+
+  // One curved pair fills too little of the lanes.
+  void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    if (Lanes::is_curved(batch.kind_a) || Lanes::is_curved(batch.kind_b)) {
+      solve_serially(task, batch.pairs, i, outcome);
+    } else {
+      NarrowPhase::solve_alone(task, batch, i, outcome);
     }
   }
 
  private:
+  using Lanes = GjkLanes<Scalar>;
+
+  // Verdicts of floats are proven for the same bodies, so doubles are for the pairs that floats leave
+  // open. Returns the number of pairs in left_.
+  std::size_t decide_in_floats_first(const PairBatch& batch, const typename Lanes::Goal& goal,
+                                     std::span<Outcome> outcomes) {
+    open_.resize(std::max(open_.size(), batch.size()));
+    const std::size_t open =
+        quick_.solve(batch.kind_a, batch.kind_b, batch.pairs,
+                     {.task = Task::intersect,
+                      .most_iterations = std::min(most_quick_iterations, settings_.gjk_cap)},
+                     outcomes, open_.data());
+    return lanes_.solve_some(batch.kind_a, batch.kind_b, batch.pairs, goal, {open_.data(), open},
+                             outcomes, left_.data());
+  }
+
+  void solve_serially(Task task, const BodyPairs& pairs, std::size_t i, Outcome& outcome) {
+    const std::uint32_t a = pairs.first[i], b = pairs.second[i];
+    query_.solve(shapes_[pairs.shape_of[a]], pairs.poses[a], shapes_[pairs.shape_of[b]],
+                 pairs.poses[b], task, nullptr, outcome);
+  }
+
+  // Floats that take longer mostly end in doubt.
+  static constexpr int most_quick_iterations = 16;
+
   GjkQuerySettings settings_;
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
-  GjkLanes<Scalar> lanes_;
+  Lanes lanes_;
   SignedByTwo signed_;
-  std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
+  // For double: the same in floats.
+  std::vector<SupportShape<float>> quick_shapes_;
+  GjkLanes<float> quick_;
+  // Scratch: the pairs that the lanes leave open, and those that the lanes of floats do.
+  std::vector<std::uint32_t> left_, open_;
 };
 
 std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {

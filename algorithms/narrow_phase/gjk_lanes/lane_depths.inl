@@ -175,7 +175,8 @@ TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
   const NearestFaces<Scalar> nearest = nearest_faces<Scalar>(expanders);
   const Vector3<Scalar>& normal = nearest.normal;
   const Corner<Scalar> corner =
-      find_corner<Scalar, scans>(goal, state, {-normal.x, -normal.y, -normal.z}, active);
+      find_corner<Scalar, scans>(goal, state, {-normal.x, -normal.y, -normal.z},
+                                 Lanes::broadcast(1), active);
   const Vector height = dot<Scalar>(normal, corner.point);
   const Vector open = height - nearest.distance, tolerance = Lanes::broadcast(goal.tolerance);
   unsigned going = active & Lanes::to_bits(Lanes::less(tolerance, open));

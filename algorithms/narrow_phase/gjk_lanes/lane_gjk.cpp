@@ -15,6 +15,7 @@
 #include "algorithms/kernels/batch/pair_lanes.h"
 #include "algorithms/kernels/batch/prefetch.h"
 #include "algorithms/kernels/epa/origin_projection.h"
+#include "algorithms/kernels/gjk/gjk_iteration.h"
 #include "algorithms/kernels/minkowski/simplex.h"
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/narrow_phase/gjk_lanes/bitset_hull.h"
@@ -24,13 +25,17 @@ namespace {
 
 using simd::Quad;
 
+// The kinds of cores that are not polytopes.
+enum class RoundCore : std::uint8_t { none, cylinder, cone, ellipsoid };
+
 // Parameters that all lanes of a batch share.
 template <class Scalar>
 struct LaneGoal {
   const LaneShape<Scalar>* shapes;
   const hull_scan::VertexBlock<Scalar>* some_vertices;  // of some hull, if there is one
-  // Half edges: 3 of a box, 1 of a segment, else 0.
+  // Half edges: 3 of a box, 1 of a segment; 3 half axes of a round core; else 0.
   int halves_a, halves_b;
+  RoundCore round_a, round_b;
   // Rotated hulls: the greatest number of vertices, rounded up to fours; else 0.
   std::uint32_t vertices_a, vertices_b;
   bool scans_a, scans_b;  // hulls that are scanned instead of rotated
@@ -53,15 +58,22 @@ constexpr std::size_t most_starts = 128;
 template <class Scalar>
 constexpr Scalar shortest_square = sizeof(Scalar) == 8 ? Scalar(1e-200) : Scalar(1e-24);
 
+// The square of the least reach of a round core along a direction whose square has all its digits.
+template <class Scalar>
+constexpr Scalar shortest_reach_square =
+    std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon();
+
 // The rounding of SupportPair, since the lanes compute the same numbers.
 template <class Scalar>
 constexpr Scalar lane_rounding = SupportPair<Scalar>::rounding;
 
 // Error bound of a point of the difference. The table in SupportPair gives 26 u per component for
 // cores that are not curved, if the centres are the origins of the bodies and the three half edges
-// of a box are added one by one, and 31 u more if the centres are not.
+// of a box are added one by one, and 31 u more if the centres are not. A round core's point is off
+// by 14 u per component more.
 template <class Scalar>
 struct CornerError {
+  static constexpr Scalar curved = corner_rounding<Scalar>;
   static constexpr Scalar centred = 48 * unit_roundoff<Scalar>;
   static constexpr Scalar shifted = 104 * unit_roundoff<Scalar>;
 };
@@ -87,7 +99,17 @@ std::size_t run_lanes_at_level(const PairTable<Scalar>& table, const LaneGoal<Sc
   }
 }
 
+RoundCore round_core_of(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::cylinder: return RoundCore::cylinder;
+    case ShapeKind::cone: return RoundCore::cone;
+    case ShapeKind::ellipsoid: return RoundCore::ellipsoid;
+    default: return RoundCore::none;
+  }
+}
+
 int halves_of(ShapeKind kind) {
+  if (round_core_of(kind) != RoundCore::none) return 3;
   return kind == ShapeKind::box ? 3 : kind == ShapeKind::capsule ? 1 : 0;
 }
 
@@ -133,35 +155,46 @@ template <class Scalar>
 std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
                                     const Goal& asked, std::span<Outcome> outcomes,
                                     std::uint32_t* left) {
+  while (places_.size() < pairs.first.size()) {
+    places_.push_back(static_cast<std::uint32_t>(places_.size()));
+  }
+  const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
+  return solve_some(kind_a, kind_b, pairs, asked, places, outcomes, left);
+}
+
+template <class Scalar>
+std::size_t GjkLanes<Scalar>::solve_some(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
+                                         const Goal& asked, std::span<const std::uint32_t> places,
+                                         std::span<Outcome> outcomes, std::uint32_t* left) {
   const bool hull_a = kind_a == ShapeKind::hull, hull_b = kind_b == ShapeKind::hull;
   // Vertices are rotated in fours. A block has copies of the first vertex behind the last.
   const std::uint32_t vertices = (most_vertices_ + 3) / 4 * 4;
-  const LaneGoal<Scalar> turned{
-      .shapes = shapes_.data(),
-      .some_vertices = some_vertices_,
-      .halves_a = halves_of(kind_a),
-      .halves_b = halves_of(kind_b),
-      .vertices_a = hull_a ? vertices : 0,
-      .vertices_b = hull_b ? vertices : 0,
-      .scans_a = false,
-      .scans_b = false,
-      .round = kind_a <= ShapeKind::capsule,
-      .centred = centred_,
-      .distances = asked.task == Task::distance,
-      .starts = asked.task == Task::penetration ? &starts_ : nullptr,
-      .corner_error = centred_ ? CornerError<Scalar>::centred : CornerError<Scalar>::shifted,
-      .tolerance = asked.tolerance,
-      .most_iterations = static_cast<Scalar>(asked.most_iterations),
-      .most_expansions = asked.most_expansions};
+  const LaneGoal<Scalar> turned{.shapes = shapes_.data(),
+                                .some_vertices = some_vertices_,
+                                .halves_a = halves_of(kind_a),
+                                .halves_b = halves_of(kind_b),
+                                .round_a = round_core_of(kind_a),
+                                .round_b = round_core_of(kind_b),
+                                .vertices_a = hull_a ? vertices : 0,
+                                .vertices_b = hull_b ? vertices : 0,
+                                .scans_a = false,
+                                .scans_b = false,
+                                .round = kind_a <= ShapeKind::capsule,
+                                .centred = centred_,
+                                .distances = asked.task == Task::distance,
+                                .starts = asked.task == Task::penetration ? &starts_ : nullptr,
+                                .corner_error = is_curved(kind_a) || is_curved(kind_b)
+                                                    ? CornerError<Scalar>::curved
+                                                : centred_ ? CornerError<Scalar>::centred
+                                                           : CornerError<Scalar>::shifted,
+                                .tolerance = asked.tolerance,
+                                .most_iterations = static_cast<Scalar>(asked.most_iterations),
+                                .most_expansions = asked.most_expansions};
   LaneGoal<Scalar> scanned = turned;
   scanned.vertices_a = scanned.vertices_b = 0;
   scanned.scans_a = hull_a;
   scanned.scans_b = hull_b;
   if (turned.starts != nullptr) starts_.all.resize(most_starts);
-  while (places_.size() < pairs.first.size()) {
-    places_.push_back(static_cast<std::uint32_t>(places_.size()));
-  }
-  const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
   // Lanes of doubles are slower than one pair at a time without wider vectors.
   constexpr bool wants_avx2 = std::is_same_v<Scalar, double>;
   if (wants_avx2 && isa() == Isa::baseline) {

@@ -1,10 +1,11 @@
 // Part of gjk-lanes: GJK between small bodies, and EPA if it ends around the origin, one pair per
 // lane of vectors. A lane whose pair is answered takes the next pair of the batch.
 //
-// It takes spheres, capsules, boxes, and hulls without a support cube map, with matrices whose
-// greatest entry is about that of a rotation. Hulls of at most `most_turned_vertices` vertices are
-// rotated into their lane, and every lane tests the next vertex of its own hull. Larger hulls are
-// scanned one lane after the other, sixteen vertices at a time; then all lanes step together.
+// It takes all bounded shapes but hulls with a support cube map, with matrices whose greatest entry
+// is about that of a rotation. Hulls of at most `most_turned_vertices` vertices are rotated into
+// their lane, and every lane tests the next vertex of its own hull. Larger hulls are scanned one
+// lane after the other, sixteen vertices at a time; then all lanes step together. Round cores
+// are an image of the unit ball, cylinder or cone, and their axes are rotated like a box's.
 // Answers are proven by the bounds of gjk_iteration.h: a support plane, a tetrahedron around the
 // origin, or a point of the difference nearer than the radii. Distances lie between the first and
 // the last, depths between the bounds of expanding_polytope.h. All other pairs are returned for a
@@ -31,7 +32,7 @@ template <class Scalar>
 struct LaneShape {
   // {unit, radius, bounding radius, unused}, in metres.
   alignas(32) double numbers[4];
-  alignas(32) Scalar extents[4];  // capsule, box: extents of the core in its unit, and one unused
+  alignas(32) Scalar extents[4];  // extents of the core in its unit, and one unused
   alignas(32) double centre[3];   // like SupportShape's
   std::uint32_t block_count;      // hull
   bool fits;                      // the lanes take it
@@ -59,7 +60,11 @@ class GjkLanes {
   // `support_shapes` are made from `shapes`. Both must outlive this object's use.
   void bind(std::span<const Shape> shapes, std::span<const SupportShape<Scalar>> support_shapes);
 
-  static bool takes(ShapeKind kind) { return kind <= ShapeKind::box || kind == ShapeKind::hull; }
+  static bool takes(ShapeKind kind) { return kind != ShapeKind::halfspace; }
+  // Cylinders, cones and ellipsoids.
+  static bool is_curved(ShapeKind kind) {
+    return kind >= ShapeKind::cylinder && kind <= ShapeKind::ellipsoid;
+  }
 
   struct Goal {
     Task task = Task::intersect;
@@ -70,6 +75,10 @@ class GjkLanes {
   // writes to `left`, which must have room for all. Returns the number of those.
   std::size_t solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs, const Goal& asked,
                     std::span<Outcome> outcomes, std::uint32_t* left);
+  // Solves the pairs at these places alone. `left` must not overlap `places`.
+  std::size_t solve_some(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
+                         const Goal& asked, std::span<const std::uint32_t> places,
+                         std::span<Outcome> outcomes, std::uint32_t* left);
 
  private:
   std::vector<LaneShape<Scalar>> shapes_;

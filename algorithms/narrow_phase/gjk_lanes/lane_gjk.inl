@@ -71,7 +71,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void iterate(const LaneGoal<Scalar>& goal,
   using Vector = typename Lanes::Vector;
   const Vector zero = Lanes::broadcast(0), margin = Lanes::broadcast(lane_rounding<Scalar>);
   const Vector3<Scalar> search = state.search;
-  const Corner<Scalar> corner = find_corner<Scalar, scans>(goal, state, search, state.active);
+  const Corner<Scalar> corner = 
+      find_corner<Scalar, scans>(goal, state, search, state.length, state.active);
 
   const Vector radius = state.radius_a + state.radius_b;
   const Vector plane = dot<Scalar>(search, corner.point);

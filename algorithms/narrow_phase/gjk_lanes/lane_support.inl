@@ -69,12 +69,46 @@ TOUCHSTONE_TARGET Vector3<Scalar> scanned_vertex(
                        columns[2]);
 }
 
+// The point of a round core that is furthest along `search`, or least far. `axes` are the columns of
+// the matrix times the core's extents, so the core is an image of the unit ball, cylinder or cone.
+// Squares of a reach that have lost digits belong to reaches below a rounding of the unit: the
+// centre is as good a point there.
+template <class Scalar, bool forward>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> furthest_round_point(
+    const Vector3<Scalar>* axes, RoundCore core, const Vector3<Scalar>& centre,
+    const Vector3<Scalar>& search, typename Simd<Scalar>::Vector length) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(forward ? 1 : -1);
+  const Vector3<Scalar> direction = scaled<Scalar>(one / length, search);
+  const Vector x = dot<Scalar>(axes[0], direction), y = dot<Scalar>(axes[1], direction),
+               z = dot<Scalar>(axes[2], direction);
+  const bool is_ball = core == RoundCore::ellipsoid;
+  const Vector flat = x * x + y * y, square = is_ball ? flat + z * z : flat;
+  const Vector reach = Lanes::sqrt(square);
+  const auto some = Lanes::less(Lanes::broadcast(shortest_reach_square<Scalar>), square);
+  Vector rim = Lanes::select(some, Lanes::broadcast(1) / reach, zero), along = z * rim;
+  if (!is_ball) {
+    const Vector top = Lanes::broadcast(1);
+    if (core == RoundCore::cylinder) {
+      along = Lanes::select(Lanes::less(z, zero), -top, top);
+    } else {
+      const auto tip = Lanes::less(reach, z + z);
+      along = Lanes::select(tip, top, -top);
+      rim = Lanes::select(tip, zero, rim);
+    }
+  }
+  return moved<Scalar>(
+      moved<Scalar>(moved<Scalar>(centre, x * rim, axes[0]), y * rim, axes[1]), along, axes[2]);
+}
+
 // The point on the core of a that is least far along `search`, the point on b that is furthest, and
-// their difference.
+// their difference. `length` is that of `search`.
 template <class Scalar, bool scans>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Scalar>& goal,
                                                                const LaneState<Scalar>& state,
                                                                const Vector3<Scalar>& search,
+                                                               typename Simd<Scalar>::Vector length,
                                                                unsigned active) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
@@ -86,6 +120,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Sc
                                          {-search.x, -search.y, -search.z}, active);
   } else if (goal.vertices_a != 0) {
     corner.on_a = furthest_vertex<Scalar, false>(state.a, goal.vertices_a, search);
+  } else if (goal.round_a != RoundCore::none) {
+    corner.on_a = furthest_round_point<Scalar, false>(state.a, goal.round_a, {zero, zero, zero},
+                                                      search, length);
   } else {
     corner.on_a =
         furthest_corner<Scalar, false>(state.a, goal.halves_a, {zero, zero, zero}, search);
@@ -95,6 +132,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Sc
     on_b = moved<Scalar>(on_b, Lanes::broadcast(1), state.centre_b);
   } else if (goal.vertices_b != 0) {
     on_b = furthest_vertex<Scalar, true>(state.b, goal.vertices_b, search);
+  } else if (goal.round_b != RoundCore::none) {
+    on_b = furthest_round_point<Scalar, true>(state.b, goal.round_b, state.centre_b, search,
+                                              length);
   } else {
     on_b = furthest_corner<Scalar, true>(state.b, goal.halves_b, state.centre_b, search);
   }

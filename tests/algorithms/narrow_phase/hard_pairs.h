@@ -1,4 +1,4 @@
-// Pairs of spheres, capsules, boxes and hulls that are hard to tell apart, at random.
+// Pairs of bodies that are hard to tell apart, at random.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -81,6 +81,7 @@ inline Shape random_shape(Random& random, ShapeKind kind, bool hard, std::size_t
   shape.radius = length();
   shape.half_length = length();
   for (double& half : shape.half_extents) half = length();
+  shape.radii = shape.half_extents;
   return shape;
 }
 
@@ -120,6 +121,7 @@ inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort s
     shape->radius *= scale;
     shape->half_length *= scale;
     shape->half_extents *= scale;
+    shape->radii *= scale;
     if (shape->kind != ShapeKind::hull) continue;
     std::vector<Vec3d> vertices = shape->hull->vertices;
     for (Vec3d& vertex : vertices) vertex *= scale;

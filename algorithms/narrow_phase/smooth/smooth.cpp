@@ -1,0 +1,224 @@
+// Cylinders, cones, ellipsoids and capsules by Newton's method on the normal.
+// Paper:   Absil, Mahony, Sepulchre, "Optimization Algorithms on Matrix Manifolds", 2008, ch. 6
+//          (Newton on the sphere); Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2),
+//          1988 (verdicts and the start); van den Bergen, GDC 2001 (the polytope).
+// Steps:   1. depth: pairs whose bounding balls are apart are separated.
+//          2. intersect: try the line of centres and three planes (quick_verdict); then as `gjk`
+//             (kernels/gjk/gjk_query).
+//          3. GJK, with a tolerance of a third of the size, tells whether the cores meet.
+//          4. Descend from its normal, or from that of the nearest face of its tetrahedron, to a
+//             normal at which the height of the difference is stationary (smooth_foot).
+//          5. Cores that are apart: the height and the point of the difference on the normal enclose
+//             their distance, and so the depth of the balls around them.
+//          6. Cores that meet: prove that no other height is less, close to the normal by curvature and
+//             elsewhere by a polytope (least_overlap).
+//          7. What is not proven is solved as `gjk` does.
+// Departs: the normal is searched where two ends of a body tie, or a disc is flat, too: active sets,
+//          with the balance of the tied points as their multipliers.
+// Answers: spheres, capsules, cylinders, cones and ellipsoids with each other. Poses that are not
+//          rotations up to 1e-12, and depths and distances without curved bodies, or of a sphere and a
+//          cylinder or cone, are gjk's.
+// Fails:   like gjk where a second normal is as good to 1e-12, as between coaxial bodies: the answer
+//          is gjk's, with its tolerance of 1e-10.
+// Cost:    O(1); GJK, about 10 support calls of Newton's method, and about 20 points of a polytope.
+//          Caps: 128 iterations of GJK, 64 points. Tolerance relative to the size: 1e-12.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "algorithms/kernels/batch/for_each_pair.h"
+#include "algorithms/kernels/gjk/gjk_query.h"
+#include "algorithms/narrow_phase.h"
+#include "algorithms/narrow_phase/smooth/least_overlap.h"
+#include "algorithms/narrow_phase/smooth/quick_verdict.h"
+
+namespace touchstone {
+namespace {
+
+constexpr int default_point_cap = 64;
+
+class SmoothNormals final : public NarrowPhase {
+ public:
+  SmoothNormals(const GjkQuerySettings& settings, double tolerance, int point_cap)
+      : settings_(settings), tolerance_(tolerance), query_(settings), search_(point_cap) {}
+
+  void bind(std::span<const Shape> shapes) override {
+    shapes_ = make_support_shapes<double>(shapes);
+    ahead_.bind(shapes_);
+    round_.clear();
+    for (const Shape& shape : shapes) round_.emplace_back(shape);
+  }
+
+  void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    if (task == Task::intersect) {
+      for (std::size_t i = 0; i < batch.size(); ++i) decide(batch.pairs, i, outcomes[i]);
+      return;
+    }
+    for_each_bounded_pair(
+        task, batch, shapes_, ahead_, task == Task::distance, outcomes,
+        [&](std::size_t i, const auto&... bodies) { solve_pair(task, bodies..., outcomes[i]); });
+  }
+
+  void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    if (task == Task::intersect) {
+      decide(batch.pairs, i, outcome);
+      return;
+    }
+    for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
+      solve_pair(task, bodies..., outcome);
+    });
+  }
+
+ private:
+  using Body = SupportShape<double>;
+  static constexpr double rounding = SupportPair<double>::rounding;
+
+  void decide(const BodyPairs& pairs, std::size_t i, Outcome& outcome) {
+    const std::uint32_t first = pairs.first[i], second = pairs.second[i];
+    const std::uint32_t a = pairs.shape_of[first], b = pairs.shape_of[second];
+    const Pose &pose_a = pairs.poses[first], &pose_b = pairs.poses[second];
+    if (is_rotation(pose_a.rotation) && is_rotation(pose_b.rotation)) {
+      const QuickVerdict quick = quick_verdict(round_[a], pose_a, round_[b], pose_b);
+      if (quick.answer != Answer::unknown) {
+        outcome.answer = quick.answer;
+        outcome.status = Status::ok;
+        outcome.iterations = outcome.support_calls = quick.planes;
+        return;
+      }
+    }
+    query_.solve(shapes_[a], pose_a, shapes_[b], pose_b, Task::intersect, nullptr, outcome);
+  }
+
+  void solve_pair(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
+                  Outcome& outcome) {
+    // GJK ends between a point and a flat or ruled surface as soon.
+    const bool curved = a.core == SupportCore::point ? b.core == SupportCore::ellipsoid
+                                                     : !a.is_polytope() || !b.is_polytope();
+    const bool apart = task == Task::penetration && balls_are_apart(a, pose_a, b, pose_b);
+    if (curved && !apart && is_rotation(pose_a.rotation) && is_rotation(pose_b.rotation) &&
+        solve_curved(task, a, pose_a, b, pose_b, outcome)) {
+      return;
+    }
+    query_.solve(a, pose_a, b, pose_b, task, nullptr, outcome);
+  }
+
+  // Returns false if the answer is gjk's to find.
+  bool solve_curved(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
+                    Outcome& outcome) {
+    using End = GjkDistanceResult<double>::End;
+    constexpr double coarse = 0.3;
+    SupportPair<double> pair(a, pose_a, b, pose_b);
+    // Cores within balls: their distance is wanted, whatever the task.
+    const GjkDistanceGoal<double> goal{.task = pair.radius() > 0 ? Task::distance : task,
+                                       .tolerance = coarse,
+                                       .most_iterations = settings_.gjk_cap};
+    const GjkDistanceResult<double> found = gjk_distance(pair, goal);
+    outcome.iterations = found.iterations;
+    if (found.end == End::contact) {
+      return task == Task::penetration && found.nearest.inside &&
+             solve_depth(pair, found.simplex, outcome);
+    }
+    const double lower = found.lower - pair.radius();
+    if (task == Task::penetration && lower > rounding) {
+      outcome.answer = Answer::separated;
+      outcome.status = Status::ok;
+      outcome.support_calls = pair.support_calls();
+      return true;
+    }
+    return solve_apart(task, pair, -found.nearest.direction, outcome);
+  }
+
+  // Cores that are apart: their height has one negative minimum, and the foot's point is the nearest.
+  bool solve_apart(Task task, SupportPair<double>& pair, const Vec3d& normal,
+                   Outcome& outcome) const {
+    if (!(normal.squaredNorm() > 0.5)) return false;
+    const SmoothPair smooth(pair);
+    const std::optional<SmoothFoot> foot = find_foot(smooth, normal, false);
+    if (!foot) return false;
+    const double lower = -foot->height, upper = std::sqrt(foot->nearest.squaredNorm());
+    if (!(lower > 4 * rounding) || !(upper - lower < tolerance_)) return false;
+    const double radius = pair.radius();
+    if (lower - radius > rounding) {
+      outcome.answer = Answer::separated;
+    } else if (upper - radius < -rounding) {
+      outcome.answer = Answer::overlapping;
+    } else {
+      return false;
+    }
+    outcome.status = Status::ok;
+    outcome.support_calls = pair.support_calls() + foot->support_calls;
+    const bool asked = (task == Task::distance) == (outcome.answer == Answer::separated);
+    if (asked) write(pair, *foot, upper, lower, upper, outcome);
+    return true;
+  }
+
+  bool solve_depth(SupportPair<double>& pair, const Simplex<double>& simplex, Outcome& outcome) {
+    const std::optional<LeastOverlap> least = search_.find(pair, simplex, tolerance_);
+    if (!least || !(least->lower > rounding)) return false;
+    outcome.answer = Answer::overlapping;
+    outcome.iterations += least->iterations;
+    const SmoothFoot& foot = least->foot;
+    write(pair, foot, -foot.height, -foot.height, -least->lower, outcome);
+    return true;
+  }
+
+  // Writes signed distances of the cores.
+  static void write(const SupportPair<double>& pair, const SmoothFoot& foot, double distance,
+                    double lower, double upper, Outcome& outcome) {
+    const double unit = pair.unit(), radius = pair.radius();
+    outcome.status = Status::ok;
+    outcome.distance = unit * (distance - radius);
+    outcome.lower = unit * (lower - radius - rounding);
+    outcome.upper = unit * (upper - radius + rounding);
+    outcome.normal = foot.normal;
+    // The points that the balance chose; b's is on the mirrored core.
+    const Vec3d on_a = foot.a.point(), on_b = pair.centre_b() - foot.b.point();
+    outcome.witness_a = pair.to_world(on_a + pair.radius_a() * foot.normal);
+    outcome.witness_b = pair.to_world(on_b - pair.radius_b() * foot.normal);
+    outcome.support_calls = pair.support_calls() + foot.support_calls;
+  }
+
+  GjkQuerySettings settings_;
+  double tolerance_;  // in the pair's unit, which is up to twice its size
+  GjkQuery<double> query_;
+  LeastOverlapSearch search_;
+  std::vector<Body> shapes_;
+  std::vector<RoundShape> round_;
+  ShapePrefetch<double> ahead_;
+};
+
+bool takes(ShapeKind a, ShapeKind b, Task) {
+  const auto is_round = [](ShapeKind kind) {
+    return kind <= ShapeKind::ellipsoid && kind != ShapeKind::box;
+  };
+  return is_round(a) && is_round(b);
+}
+
+std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
+  GjkQuerySettings own{.tolerance = settings.tolerance};
+  own.gjk_cap = std::max(1, settings.max_iterations.value_or(own.gjk_cap));
+  own.epa_cap = std::max(1, settings.max_iterations.value_or(own.epa_cap));
+  const double tolerance =
+      std::max(settings.tolerance.value_or(1e-12) / 2, 32 * SupportPair<double>::rounding);
+  const int points = std::max(4, settings.max_iterations.value_or(default_point_cap));
+  return std::make_unique<SmoothNormals>(own, tolerance, points);
+}
+
+}  // namespace
+}  // namespace touchstone
+
+namespace touchstone::entries {
+
+std::vector<NarrowPhaseEntry> narrow_phase_smooth() {
+  return {{.info = {.name = "smooth",
+                    .citation = "Gilbert, Johnson, Keerthi, 1988; Newton's method on the sphere of "
+                                "normals: Absil, Mahony, Sepulchre, \"Optimization Algorithms on "
+                                "Matrix Manifolds\", 2008"},
+           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .scalars = {Precision::float64},
+           .supports = takes,
+           .make = make}};
+}
+
+}  // namespace touchstone::entries

@@ -1,0 +1,324 @@
+// Newton's method on the smooth parts of the sphere of normals, on the circles where two ends of a
+// core tie, and the normals where two circles meet or an axis passes.
+#include "algorithms/narrow_phase/smooth/smooth_foot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+namespace {
+
+constexpr double settled = 2e-15;     // a slide of rounding only, for lengths of about 1
+constexpr double almost = 1e-9;       // Newton's next step squares this
+constexpr double most_slide = 1e-11;  // of a foot
+constexpr double longest_step = 0.5;  // radians
+constexpr int most_steps = 12;
+// Kinks this near to a normal (radians) belong to it.
+constexpr double kink_width = 1e-9;
+// Kinks further away than this are not tried.
+constexpr double near_kink = 0.7;
+
+Vec3d unit(const Vec3d& v) { return (1 / std::sqrt(v.squaredNorm())) * v; }
+
+// Both cores at a normal, with the smooth piece of each that is furthest.
+struct At {
+  At(const SmoothPair& pair, const Vec3d& n, int& calls)
+      : normal(n), a(pair.a.furthest(n)), b(pair.b.furthest(n)) {
+    ++calls;
+    const Vec3d point = a.point + b.point + pair.offset;
+    height = a.height + b.height + n.dot(pair.offset);
+    slide = point - n.dot(point) * n;
+    slide_squared = slide.squaredNorm();
+  }
+  Vec3d normal;
+  SmoothPoint a, b;
+  double height, slide_squared;
+  Vec3d slide;
+};
+
+// Where Newton's steps on the sphere ended: at a stationary normal, before a tie of a or of b, or for
+// another reason.
+enum class End : std::uint8_t { stationary, tie_of_a, tie_of_b, other };
+
+bool is_across(const SmoothCore& core, const Vec3d& n, const Vec3d& m) {
+  return core.has_tie() && core.angle_to_tie(n) * core.angle_to_tie(m) < 0;
+}
+
+// Newton steps on the sphere, for pieces without kinks.
+End descend(const SmoothPair& pair, Vec3d& normal, int& calls) {
+  At at(pair, normal, calls);
+  for (int step = 0; step < most_steps; ++step) {
+    if (at.slide_squared <= settled * settled) break;
+    // The step from here is exact to rounding, and its foot is tested.
+    const bool is_last = at.slide_squared <= almost * almost;
+    Curvature curvature;
+    pair.a.add_curvature(at.a, 0, 1, curvature);
+    pair.b.add_curvature(at.b, 0, 1, curvature);
+    const double trace = curvature.trace();
+    const double minors = std::max(curvature.minors(), 0.0);
+    double shift = -at.height;
+    if (!(minors + shift * (trace + shift) > 0 && trace + 2 * shift > 0)) {
+      // Not convex here: the curvature alone, and what it lacks, still gives a descent.
+      shift = 0.1 * (trace + std::abs(at.height));
+    }
+    const double determinant = minors + shift * (trace + shift);
+    if (!(determinant > 0)) break;
+    Vec3d turn = (-1 / determinant) * ((trace + shift) * at.slide - curvature * at.slide);
+    const double length = std::sqrt(turn.squaredNorm());
+    if (!(length < longest_step)) turn *= longest_step / length;
+    if (is_last) {
+      normal = unit(at.normal + turn);
+      return End::stationary;
+    }
+    bool better = false;
+    for (int half = 0; half < 4 && !better; ++half) {
+      const At next(pair, unit(at.normal + turn), calls);
+      better = next.height < at.height - 1e-16 ||
+               (next.height < at.height + 1e-15 && next.slide_squared < at.slide_squared);
+      if (better) {
+        at = next;
+        break;
+      }
+      normal = at.normal;
+      if (is_across(pair.a, at.normal, next.normal)) return End::tie_of_a;
+      if (is_across(pair.b, at.normal, next.normal)) return End::tie_of_b;
+      turn *= 0.25;
+    }
+    if (!better) break;
+  }
+  normal = at.normal;
+  return at.slide_squared <= most_slide * most_slide ? End::stationary : End::other;
+}
+
+// Newton steps along the circle of normals where the ends of `tied` tie, whose own height is the
+// same all along. Returns false if there is no minimum for the other core.
+bool descend_on_circle(const SmoothCore& tied, const SmoothCore& other, const Vec3d& offset,
+                       Vec3d& normal, int& calls) {
+  const Vec3d& axis = tied.axis();
+  const double tilt = tied.tilt(), width = std::sqrt(1 - tilt * tilt);
+  Vec3d across = normal - normal.dot(axis) * axis;
+  const double length = std::sqrt(across.squaredNorm());
+  if (!(length > 1e-6) || !(width > 1e-12)) return false;
+  across *= width / length;
+  for (int step = 0; step < most_steps; ++step) {
+    normal = tilt * axis + across;
+    const SmoothPoint at = other.furthest(normal);
+    ++calls;
+    const Vec3d point = at.point + offset;
+    const Vec3d along = axis.cross(across);  // the normal's derivative by the angle
+    const double slope = point.dot(along);
+    if (std::abs(slope) <= settled) break;
+    Curvature curvature;
+    other.add_curvature(at, 0, 1, curvature);
+    const double bend = along.dot(curvature * along) - point.dot(across);
+    double angle = bend > 0 ? -slope / bend : -std::copysign(0.3, slope);
+    angle = std::clamp(angle, -longest_step, longest_step);
+    across += angle * along;
+    across -= across.dot(axis) * axis;
+    across *= width / std::sqrt(across.squaredNorm());
+    if (std::abs(angle) < almost) break;
+  }
+  normal = tilt * axis + across;
+  return true;
+}
+
+// The normal nearest to `normal` where both circles meet.
+bool meet(const SmoothCore& a, const SmoothCore& b, Vec3d& normal) {
+  const double d = a.axis().dot(b.axis());
+  const Vec3d cross = a.axis().cross(b.axis());
+  const double square = cross.squaredNorm();
+  if (!(square > 1e-12)) return false;
+  const double of_a = (a.tilt() - d * b.tilt()) / square, of_b = (b.tilt() - d * a.tilt()) / square;
+  const double left = (1 - of_a * a.tilt() - of_b * b.tilt()) / square;
+  if (!(left > 0)) return false;
+  const double of_cross = std::copysign(std::sqrt(left), cross.dot(normal));
+  normal = unit(of_a * a.axis() + of_b * b.axis() + of_cross * cross);
+  return true;
+}
+
+// The points of a core with this normal.
+SmoothFace face_at(const SmoothCore& core, const Vec3d& n) {
+  SmoothFace face;
+  face.furthest = core.furthest(n);
+  face.middle = face.furthest.point;
+  if (core.has_disc() && !face.furthest.is_tip &&
+      face.furthest.reach <= kink_width * core.radius()) {
+    face.kind = SmoothFace::Kind::disc;
+    const bool down = core.is_cone() || core.edge(2).dot(n) < 0;
+    face.middle = down ? Vec3d(-core.edge(2)) : core.edge(2);
+    face.first = core.edge(0);
+    face.second = core.edge(1);
+  } else if (core.has_tie() && std::abs(core.angle_to_tie(n)) <= kink_width) {
+    face.kind = SmoothFace::Kind::tie;
+    if (core.is_cone()) {
+      // Both ends, whichever is further by rounding.
+      SmoothPoint& rim = face.furthest;
+      if (rim.is_tip) {
+        const double x = core.edge(0).dot(n), y = core.edge(1).dot(n);
+        const double reach = std::max(rim.reach, 1e-140);
+        rim.is_tip = false;
+        rim.point = (x / reach) * core.edge(0) + (y / reach) * core.edge(1) - core.edge(2);
+        rim.turn = (x / reach) * core.edge(1) - (y / reach) * core.edge(0);
+      }
+      face.first = 0.5 * (core.edge(2) - rim.point);
+      face.middle = 0.5 * (core.edge(2) + rim.point);
+    } else {
+      face.first = core.edge(2);
+      face.middle = face.furthest.point - (core.edge(2).dot(n) < 0 ? -1 : 1) * core.edge(2);
+    }
+  }
+  return face;
+}
+
+double length_of_shares(const SmoothFace& face) {
+  return std::sqrt(face.first_share * face.first_share + face.second_share * face.second_share);
+}
+
+// Chooses the shares, of least squares, that leave no slide. A core whose shares exceed 1 keeps
+// those of length 1, and the other core takes the rest.
+bool balance(const SmoothPair& pair, SmoothFoot& foot) {
+  const Vec3d& n = foot.normal;
+  Eigen::Index least = 0;
+  n.cwiseAbs().minCoeff(&least);
+  const Vec3d u = unit(n.cross(Vec3d::Unit(least))), v = n.cross(u);
+  const Vec3d base = foot.a.middle + foot.b.middle + pair.offset;
+  std::array<bool, 2> kept{};
+  const std::array<SmoothFace*, 2> faces{&foot.a, &foot.b};
+  for (int round = 0; round < 2; ++round) {
+    Vec3d from = base;
+    double uu = 0, uv = 0, vv = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const SmoothFace& face = *faces[k];
+      if (kept[k]) {
+        from += face.point() - face.middle;
+        continue;
+      }
+      for (const Vec3d& g : {face.first, face.second}) {
+        const double x = g.dot(u), y = g.dot(v);
+        uu += x * x;
+        uv += x * y;
+        vv += y * y;
+      }
+    }
+    const double x = -from.dot(u), y = -from.dot(v);
+    const double trace = uu + vv, determinant = uu * vv - uv * uv;
+    double p = 0, q = 0;  // the least-squares multiplier: shares are generators times this
+    if (determinant > 1e-9 * trace * trace) {
+      p = (vv * x - uv * y) / determinant;
+      q = (uu * y - uv * x) / determinant;
+    } else if (trace > 0) {
+      // One direction only: that of the matrix's longer column.
+      const double cx = uu > vv ? uu : uv, cy = uu > vv ? uv : vv;
+      const double along = (cx * x + cy * y) / ((cx * cx + cy * cy) * trace);
+      p = along * cx;
+      q = along * cy;
+    } else {
+      break;
+    }
+    bool again = false;
+    for (std::size_t k = 0; k < 2; ++k) {
+      SmoothFace& face = *faces[k];
+      if (kept[k]) continue;
+      face.first_share = face.first.dot(u) * p + face.first.dot(v) * q;
+      face.second_share = face.second.dot(u) * p + face.second.dot(v) * q;
+      const double length = length_of_shares(face);
+      if (length <= 1) continue;
+      face.first_share /= length;
+      face.second_share /= length;
+      kept[k] = again = true;
+    }
+    if (!again) break;
+  }
+  foot.nearest = pair.offset;
+  double off = 0;  // by how much the kinks miss the normal
+  for (SmoothFace* face : faces) {
+    foot.nearest += face->point();
+    face->slack = std::max(0.0, 1 - length_of_shares(*face));
+    off += std::abs(face->first.dot(n)) + std::abs(face->second.dot(n));
+  }
+  const double along = n.dot(foot.nearest);
+  foot.held = along - off;
+  foot.slide = std::sqrt((foot.nearest - along * n).squaredNorm());
+  return foot.slide <= most_slide;
+}
+
+bool make_foot(const SmoothPair& pair, const Vec3d& normal, SmoothFoot& foot) {
+  foot.normal = normal;
+  foot.a = face_at(pair.a, normal);
+  foot.b = face_at(pair.b, normal);
+  foot.height = foot.a.furthest.height + foot.b.furthest.height + normal.dot(pair.offset);
+  ++foot.support_calls;
+  return balance(pair, foot);
+}
+
+}  // namespace
+
+std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start, bool at_kink) {
+  SmoothFoot foot;
+  int calls = 0;
+  const auto is_foot = [&](const Vec3d& normal) {
+    foot.support_calls = calls;
+    return make_foot(pair, normal, foot);
+  };
+  const double before = pair.height(start) + 1e-15;
+  const auto is_lower_foot = [&](const Vec3d& normal) {
+    return is_foot(normal) && foot.height <= before;
+  };
+  const auto descends_on_tie = [&](bool of_a, Vec3d normal) {
+    const SmoothCore &tied = of_a ? pair.a : pair.b, &other = of_a ? pair.b : pair.a;
+    return descend_on_circle(tied, other, pair.offset, normal, calls) && is_lower_foot(normal);
+  };
+  Vec3d normal = start;
+  if (at_kink && is_foot(start)) return foot;
+  const End end = descend(pair, normal, calls);
+  if (end == End::stationary && is_lower_foot(normal)) return foot;
+  const bool first = end == End::tie_of_a, tied = first || end == End::tie_of_b;
+  if (tied && descends_on_tie(first, normal)) return foot;
+  const auto is_near_tie = [&](const SmoothCore& core) {
+    return core.has_tie() && std::abs(core.angle_to_tie(normal)) < near_kink;
+  };
+  const bool tie_a = is_near_tie(pair.a), tie_b = is_near_tie(pair.b);
+  Vec3d at_meeting = normal;
+  if (tie_a && tie_b && meet(pair.a, pair.b, at_meeting) && is_lower_foot(at_meeting)) return foot;
+  for (const bool of_a : {!first, first}) {
+    if (of_a == first && tied) continue;
+    if ((of_a ? tie_a : tie_b) && descends_on_tie(of_a, normal)) return foot;
+  }
+  for (const SmoothCore* core : {&pair.a, &pair.b}) {
+    if (!core->has_disc()) continue;
+    const double along = core->axis().dot(normal);
+    if (core->is_cone() && along > 0) continue;
+    if (std::abs(along) > 1 - near_kink * near_kink &&
+        is_lower_foot(std::copysign(1.0, along) * core->axis())) {
+      return foot;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Vec3d> best_kink(const SmoothPair& pair, double below) {
+  std::optional<Vec3d> best;
+  const auto consider = [&](const Vec3d& n) {
+    const double height = pair.height(n);
+    if (!(height < below)) return;
+    below = height;
+    best = n;
+  };
+  for (const SmoothCore* core : {&pair.a, &pair.b}) {
+    if (!core->has_disc()) continue;
+    consider(-core->axis());
+    if (!core->is_cone()) consider(core->axis());
+  }
+  if (pair.a.has_tie() && pair.b.has_tie()) {
+    Vec3d meeting = pair.a.axis().cross(pair.b.axis());
+    for (int side = 0; side < 2; ++side) {
+      Vec3d n = meeting;
+      if (!meet(pair.a, pair.b, n)) break;
+      consider(n);
+      meeting = -meeting;
+    }
+  }
+  return best;
+}
+
+}  // namespace touchstone
