@@ -11,7 +11,7 @@ namespace {
 
 std::uint64_t in_one_number(IndexPair pair) { return std::uint64_t{pair.a} << 32 | pair.b; }
 
-// Appends the pairs of `from` that `without` lacks; both are ascending.
+// Writes the pairs of `from` that `without` lacks; both are ascending.
 void write_missing(std::span<const IndexPair> from, std::span<const IndexPair> without,
                    PairSink& sink) {
   sink.start(1);
@@ -19,7 +19,11 @@ void write_missing(std::span<const IndexPair> from, std::span<const IndexPair> w
   auto other = without.begin();
   for (const IndexPair pair : from) {
     while (other != without.end() && *other < pair) ++other;
-    if (other == without.end() || *other != pair) out.push(pair.a, pair.b);
+    if (other == without.end() || *other != pair) {
+      out.push(pair.a, pair.b);
+    } else {
+      ++other;
+    }
   }
 }
 

@@ -11,7 +11,8 @@
 namespace touchstone {
 
 // Sorts both lists, and writes the pairs of `now` that `before` lacks to `began`, and those of
-// `before` that `now` lacks to `ended`, ascending, each in one chunk. No list has a pair twice.
+// `before` that `now` lacks to `ended`, ascending, each in one chunk. Of a pair that is in a list
+// several times, as many are lacking as the other list has fewer.
 void write_difference(std::vector<IndexPair>& now, std::vector<IndexPair>& before, PairSink& began,
                       PairSink& ended);
 

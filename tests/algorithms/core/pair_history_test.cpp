@@ -53,6 +53,12 @@ TEST(PairHistory, DifferenceOfListsInAnyOrder) {
   write_difference(now, before, began, ended);
   EXPECT_EQ(began.gather(), (std::vector<IndexPair>{{1, 2}, {5, 9}}));
   EXPECT_EQ(ended.gather(), (std::vector<IndexPair>{{0, 7}}));
+  // One came twice and went once; one came once and went twice; one did both once.
+  now = {{1, 2}, {3, 4}, {1, 2}, {5, 6}};
+  before = {{3, 4}, {1, 2}, {3, 4}, {5, 6}};
+  write_difference(now, before, began, ended);
+  EXPECT_EQ(began.gather(), (std::vector<IndexPair>{{1, 2}}));
+  EXPECT_EQ(ended.gather(), (std::vector<IndexPair>{{3, 4}}));
 }
 
 }  // namespace
