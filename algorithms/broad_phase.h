@@ -12,6 +12,7 @@
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor.h"
+#include "algorithms/core/pair_history.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/status.h"
 #include "algorithms/core/structure_box.h"
@@ -30,7 +31,7 @@ struct FrameChange {
 
 // A broad phase is called as build, find_pairs, then (update, find_pairs) for each further frame;
 // `build` may come again at any time and starts from scratch. The harness times the three
-// separately.
+// separately. find_changes may be called where find_pairs is.
 //
 // The boxes given to build or update stay alive and unchanged until the next build or update. Boxes
 // are finite, with min <= max, or empty: an empty slot has no body and is skipped. There may be no
@@ -47,6 +48,22 @@ class BroadPhase {
   // Status::capacity. Returns Status::ok otherwise.
   virtual Status find_pairs(PairSink& sink) = 0;
 
+  // Writes the pairs that overlap now and did not at the last call, and those that did then and do
+  // not any more; at the first call, all pairs have begun. Pairs are compared by their ids, over
+  // builds too, and both lists ascend, so every broad phase writes the same. It is called instead
+  // of find_pairs, or beside it; what changes in frames without a call is told by the next one. Its
+  // own memory is not part of work(). Returns what find_pairs does; if that is not Status::ok,
+  // nothing is written, and the next call compares with the last good one.
+  //
+  // A broad phase that does not override it finds all pairs, and compares.
+  virtual Status find_changes(PairSink& began, PairSink& ended) {
+    began.start(0);
+    ended.start(0);
+    const Status status = find_pairs(found_);
+    if (status == Status::ok) told_.compare(found_, began, ended);
+    return status;
+  }
+
   // Returns the work of find_pairs on the last build or update. It repeats the search to count, so
   // that find_pairs itself does not have to; the harness calls it outside of the timed region.
   virtual BroadPhaseWork work() const { return {}; }
@@ -56,6 +73,10 @@ class BroadPhase {
   // body are left out. Empty if it has nothing to show, as before the first build. It is not timed:
   // it may be slow, so that nothing has to be kept for it.
   virtual std::vector<StructureBox> structure() const { return {}; }
+
+ private:
+  PairSink found_;    // pairs of this frame, for find_changes
+  PairHistory told_;  // pairs of the last call of find_changes
 };
 
 // A broad phase of a library that has its own types for boxes.

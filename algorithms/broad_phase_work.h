@@ -27,6 +27,10 @@ struct BroadPhaseWork {
   // Memory held between the calls, all that is reserved, apart from the boxes given and the pairs
   // reported. Scratch of single threads is left out, since it depends on the width.
   std::int64_t bytes = -1;
+  // Bodies, nodes and pairs that the last build or update, and the find_pairs after it, put into
+  // the structure: new ones, and old ones that got another place. It tells long frames. dynamic-bvh
+  // alone counts it, and no table has it.
+  std::int64_t placed = -1;
 };
 
 }  // namespace touchstone

@@ -1,47 +1,21 @@
-// The executor on oneTBB, and the pinning of its threads.
+// The executor's choice between one thread and its crew, and the pinning of threads.
 #include "algorithms/core/executor.h"
-
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_scheduler_observer.h>
 
 #if defined(__linux__)
 #include <sched.h>
 #endif
 
-#include <optional>
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <stdexcept>
+#include <typeinfo>
 #include <vector>
 
-#if defined(TOUCHSTONE_THREAD_SANITIZER)
-// Debian's libtbb is not instrumented, and half of oneTBB is in headers. So the build does not
-// instrument this file either, and ThreadSanitizer does not see the fork and the join. These two
-// functions announce them, once, for every algorithm.
-extern "C" {
-void __tsan_acquire(void* address);
-void __tsan_release(void* address);
-}
-#define TOUCHSTONE_HAPPENS_BEFORE(address) __tsan_release(address)
-#define TOUCHSTONE_HAPPENS_AFTER(address) __tsan_acquire(address)
-#else
-#define TOUCHSTONE_HAPPENS_BEFORE(address) static_cast<void>(address)
-#define TOUCHSTONE_HAPPENS_AFTER(address) static_cast<void>(address)
-#endif
+#include "algorithms/core/executor_crew.h"
 
 namespace touchstone {
-
 namespace {
-
-// They announce the join where a scope ends, also when an exception leaves it.
-struct JoinAfter {
-  void* join;
-  ~JoinAfter() { TOUCHSTONE_HAPPENS_AFTER(join); }
-};
-struct JoinBefore {
-  void* join;
-  ~JoinBefore() { TOUCHSTONE_HAPPENS_BEFORE(join); }
-};
 
 // The processors that this process may use; empty if the system does not report them. The list is
 // read before the first pin, because a pinned thread, and those that it starts, have one left.
@@ -61,70 +35,102 @@ const std::vector<int>& allowed_processors() {
   return processors;
 }
 
-// Pins each thread that enters the arena to the processor of its place there.
-class Pins final : public oneapi::tbb::task_scheduler_observer {
- public:
-  explicit Pins(oneapi::tbb::task_arena& arena) : task_scheduler_observer(arena) { observe(true); }
-  ~Pins() override { observe(false); }
-  Pins(const Pins&) = delete;
-  Pins& operator=(const Pins&) = delete;
-
-  void on_scheduler_entry(bool) override {
+void pin_to(int processor) {
 #if defined(__linux__)
-    thread_local int pinned = -1;
-    const int place = oneapi::tbb::this_task_arena::current_thread_index();
-    const int processor = allowed_processors()[static_cast<std::size_t>(place)];
-    if (pinned == processor) return;
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    CPU_SET(processor, &set);
-    if (sched_setaffinity(0, sizeof set, &set) == 0) pinned = processor;
+  thread_local int pinned = -1;
+  if (pinned == processor) return;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(processor, &set);
+  if (sched_setaffinity(0, sizeof set, &set) == 0) pinned = processor;
+#else
+  static_cast<void>(processor);
 #endif
-  }
+}
+
+// The executor whose task this thread runs, and as which worker.
+struct Place {
+  const void* crew = nullptr;
+  int worker = 0;
+};
+thread_local Place place;
+
+// What a task took when a body of this type last ran; 0 if that is not known. A type may lose its
+// entry to another.
+struct Estimate {
+  const std::type_info* type = nullptr;
+  double seconds_a_task = 0;
 };
 
 }  // namespace
 
-struct Executor::Arena {
-  Arena(int width, Pinning pinning) : arena(width) {
-    arena.initialize();
-    if (pinning == Pinning::none) return;
-    if (allowed_processors().size() < static_cast<std::size_t>(width)) return;
-    pins.emplace(arena);
+class Executor::Crew : public ExecutorCrew {
+ public:
+  using ExecutorCrew::ExecutorCrew;
+
+  void run(std::size_t tasks, const Body& body);
+
+ private:
+  double& seconds_of(const Body& body) {
+    const auto* const type = &body.target_type();
+    Estimate& estimate = estimates_[type->hash_code() % estimates_.size()];
+    if (estimate.type != type) estimate = {type, 0};
+    return estimate.seconds_a_task;
   }
-  oneapi::tbb::task_arena arena;
-  std::optional<Pins> pins;
+
+  std::array<Estimate, 64> estimates_;
 };
 
-Executor::Executor(int width, Pinning pinning) : width_(width) {
+void Executor::Crew::run(std::size_t tasks, const Body& body) {
+  double& seconds_a_task = seconds_of(body);
+  const double seconds = seconds_a_task * static_cast<double>(tasks);
+  Share own;
+  // Of a type that has not run before nothing is known, so the crew is told of its tasks.
+  if (seconds == 0 || seconds >= least_shared_seconds) {
+    own = share(tasks, body, seconds);
+  } else {
+    const auto start = std::chrono::steady_clock::now();
+    for (; own.tasks < tasks; ++own.tasks) body(own.tasks, 0);
+    own.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  if (own.tasks > 0) seconds_a_task = own.seconds / static_cast<double>(own.tasks);
+}
+
+Executor::Executor(int width, Pinning pinning) : width_(width), pinning_(pinning) {
   if (width < 1) throw std::invalid_argument("an executor has at least one thread");
-  if (width > 1) arena_ = std::make_unique<Arena>(width, pinning);
+  const std::size_t processors = allowed_processors().size();
+  if (processors < static_cast<std::size_t>(width)) pinning_ = Pinning::none;
+  if (width == 1) return;
+  crew_ = std::make_unique<Crew>(width, static_cast<std::size_t>(width) <= processors,
+                                 [this](int worker) {
+                                   pin(worker);
+                                   place = {crew_.get(), worker};
+                                 });
 }
 
 Executor::~Executor() = default;
 
+void Executor::pin(int worker) const {
+  if (pinning_ == Pinning::none || width_ == 1) return;
+  pin_to(allowed_processors()[static_cast<std::size_t>(worker)]);
+}
+
 void Executor::run(std::size_t tasks,
                    const std::function<void(std::size_t task, int worker)>& body) {
-  if (!arena_ || tasks <= 1) {
-    for (std::size_t task = 0; task < tasks; ++task) body(task, 0);
+  const bool is_inner = crew_ && place.crew == crew_.get();
+  if (!crew_ || tasks <= 1 || is_inner) {
+    const int worker = is_inner ? place.worker : 0;
+    for (std::size_t task = 0; task < tasks; ++task) body(task, worker);
     return;
   }
-  char fork = 0;
-  char join = 0;
-  TOUCHSTONE_HAPPENS_BEFORE(&fork);
-  const JoinAfter joined{&join};
-  arena_->arena.execute([&] {
-    using Range = oneapi::tbb::blocked_range<std::size_t>;
-    oneapi::tbb::parallel_for(
-        Range(0, tasks, 1),
-        [&](const Range& range) {
-          TOUCHSTONE_HAPPENS_AFTER(&fork);
-          const JoinBefore joins{&join};
-          const int worker = oneapi::tbb::this_task_arena::current_thread_index();
-          for (std::size_t task = range.begin(); task != range.end(); ++task) body(task, worker);
-        },
-        oneapi::tbb::simple_partitioner());
-  });
+  struct Leave {
+    Place outer;
+    ~Leave() { place = outer; }
+  };
+  const Leave leave{place};
+  pin(0);
+  place = {crew_.get(), 0};
+  crew_->run(tasks, body);
 }
 
 }  // namespace touchstone

@@ -16,10 +16,11 @@ enum class Pinning : std::uint8_t {
   one_a_thread,  // if there are enough processors; pins the caller's thread too, and for good
 };
 
-// An oneTBB arena of a fixed width.
+// A crew of a fixed width: the caller's thread and others, which are started when they are first
+// needed. Between two calls of run() they wait awake for a short time, and then asleep.
 class Executor {
  public:
-  // Makes an arena of `width` >= 1 threads, including the caller's.
+  // Makes a crew of `width` >= 1 threads, including the caller's.
   explicit Executor(int width, Pinning pinning = Pinning::none);
   ~Executor();
   Executor(const Executor&) = delete;
@@ -30,13 +31,23 @@ class Executor {
   // Calls body(task, worker) for each task in [0, tasks) and returns when all are done. `worker` is
   // in [0, width), and two calls with the same worker never run at once. The first exception of a
   // body is rethrown. Tasks run in any order. For results that do not depend on the width, cut the
-  // work by its size and not by the width, and let each task write only to its own places.
+  // work by its size and not by the width, and let each task write only to its own places. One
+  // thread at a time calls it, or a body does, whose worker then does all tasks of the inner call.
+  //
+  // The caller works alone where more threads would be slower. It knows so from what the tasks of
+  // the same type of body took before, so give each loop a body of a type of its own, as a lambda
+  // has.
   void run(std::size_t tasks, const std::function<void(std::size_t task, int worker)>& body);
 
+  // Pins the calling thread to the processor of this worker, if this crew's threads are pinned: for
+  // a library that has threads of its own.
+  void pin(int worker) const;
+
  private:
-  struct Arena;
+  class Crew;
   int width_;
-  std::unique_ptr<Arena> arena_;  // null at width 1: the caller then runs all tasks
+  Pinning pinning_;
+  std::unique_ptr<Crew> crew_;  // null at width 1: the caller then runs all tasks
 };
 
 }  // namespace touchstone

@@ -9,9 +9,8 @@
 //          adapter tests those with the smaller primitive first against the given boxes. Embree
 //          drops boxes beyond 1.84e18, so larger worlds are scaled down by a power of two; rounding
 //          keeps the order of floats, so no pair is lost. Embree gets threads=<the executor's
-//          width> and is built on oneTBB too, so it finds the pairs in the executor's arena, on the
-//          threads that ours use; at width one it runs in an arena of one thread, whatever else the
-//          process does with Embree.
+//          width> and is built on oneTBB, so it finds the pairs in an arena of that width, whose
+//          threads are pinned as the executor's are, whatever else the process does with Embree.
 // Fails:   on more than one thread the order of the pairs differs each time. A refitted tree suits
 //          bodies that move a little: where bodies mix it becomes useless, until some come or go
 //          and it is built again. Threads=N limits oneTBB in the whole process to N while Embree is
@@ -22,6 +21,7 @@
 #ifdef TOUCHSTONE_HAS_EMBREE
 #include <embree3/rtcore.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_scheduler_observer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,12 +50,32 @@ RTCBounds to_embree(const Aabb& box, float scale) {
           scale * box.max[0], scale * box.max[1], scale * box.max[2], 0};
 }
 
+// Pins each thread that enters the arena as the executor's thread of the same place is.
+class Pins final : public oneapi::tbb::task_scheduler_observer {
+ public:
+  Pins(oneapi::tbb::task_arena& arena, const Executor& executor)
+      : task_scheduler_observer(arena), executor_(&executor) {
+    observe(true);
+  }
+  ~Pins() override { observe(false); }
+  Pins(const Pins&) = delete;
+  Pins& operator=(const Pins&) = delete;
+
+  void on_scheduler_entry(bool) override {
+    executor_->pin(oneapi::tbb::this_task_arena::current_thread_index());
+  }
+
+ private:
+  const Executor* executor_;
+};
+
 class EmbreeBroadPhase final : public PeerBroadPhase {
  public:
   EmbreeBroadPhase(Executor& executor, RTCBuildQuality quality)
-      : executor_(&executor),
-        quality_(quality),
+      : quality_(quality),
         width_(static_cast<std::size_t>(executor.width())),
+        arena_(executor.width()),
+        pins_(arena_, executor),
         device_(rtcNewDevice(
             ("threads=" + std::to_string(executor.width()) + ",set_affinity=0").c_str())),
         scene_(rtcNewScene(device_)) {
@@ -109,14 +129,7 @@ class EmbreeBroadPhase final : public PeerBroadPhase {
     candidates_ = 0;
     if (ids_.size() < 2) return Status::ok;
     Found found{*this, sink};
-    const auto collide = [&] { rtcCollide(scene_, scene_, &Found::add, &found); };
-    if (width_ == 1) {
-      alone_.execute(collide);
-    } else {  // the first task is all of the work; the other tasks' threads join it
-      executor_->run(width_, [&](std::size_t task, int) {
-        if (task == 0) collide();
-      });
-    }
+    arena_.execute([&] { rtcCollide(scene_, scene_, &Found::add, &found); });
     for (const Count& count : given_) candidates_ += count.pairs;
     switch (rtcGetDeviceError(device_)) {
       case RTC_ERROR_NONE: return Status::ok;
@@ -180,10 +193,10 @@ class EmbreeBroadPhase final : public PeerBroadPhase {
     rtcReleaseGeometry(geometry_);  // the scene holds it
   }
 
-  Executor* executor_;
   RTCBuildQuality quality_;
   std::size_t width_;
-  oneapi::tbb::task_arena alone_{1};
+  oneapi::tbb::task_arena arena_;
+  Pins pins_;
   RTCDevice device_;
   RTCScene scene_;
   RTCGeometry geometry_ = nullptr;

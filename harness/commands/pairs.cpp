@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <span>
@@ -29,7 +30,7 @@ namespace touchstone::commands {
 namespace {
 
 struct PairsOptions {
-  std::string file, broad, out, pairs;
+  std::string file, broad, out, pairs, changes;
   int threads = 2;
   bool rebuild = false;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds a frame
@@ -42,8 +43,10 @@ struct Result {
   std::size_t pairs = 0;
   std::uint64_t hash = 0;
   double seconds = 0;
-  off_t kept_at = 0;  // the place of its pairs in the temporary file
-  int error = 0;      // errno of a failure to keep the pairs
+  std::size_t began = 0, ended = 0;
+  // The place in the temporary file of the pairs, of those that began and of those that ended.
+  off_t kept_at = 0;
+  int error = 0;  // errno of a failure to keep the pairs
 };
 
 // One algorithm, which goes through the frames in a child process.
@@ -52,7 +55,7 @@ class Contender {
   Contender(const BroadPhaseEntry& entry, const std::vector<scene::BoxFrame>& frames,
             const PairsOptions& options)
       : entry_(entry), frames_(frames), options_(options), results_(frames.size()) {
-    if (options.pairs.empty()) return;
+    if (options.pairs.empty() && options.changes.empty()) return;
     kept_.reset(std::tmpfile());
     if (!kept_) keeping_failed(errno);
   }
@@ -81,14 +84,15 @@ class Contender {
 
   // Returns the sorted pairs of the frame.
   std::vector<IndexPair> kept_pairs(std::size_t frame) {
-    const Result& result = results_[frame];
-    std::vector<IndexPair> all(result.pairs);
-    if (fseeko(kept_.get(), result.kept_at, SEEK_SET) != 0 ||
-        std::fread(all.data(), sizeof(IndexPair), all.size(), kept_.get()) != all.size()) {
-      keeping_failed(errno);
-    }
+    std::vector<IndexPair> all = kept(frame, 0, results_[frame].pairs);
     std::ranges::sort(all);
     return all;
+  }
+  // Returns the pairs that began in the frame, or those that ended, ascending.
+  std::vector<IndexPair> kept_changes(std::size_t frame, bool have_begun) {
+    const Result& result = results_[frame];
+    return have_begun ? kept(frame, result.pairs, result.began)
+                      : kept(frame, result.pairs + result.began, result.ended);
   }
 
  private:
@@ -100,7 +104,7 @@ class Contender {
   struct Worker {
     Executor executor;
     std::unique_ptr<BroadPhase> broad_phase;
-    PairSink sink;
+    PairSink sink, began, ended;
     bool built = false;
 
     Worker(const BroadPhaseEntry& entry, int threads)
@@ -120,20 +124,38 @@ class Contender {
     result.pairs = worker.sink.size();
     for (const PairBuffer& chunk : worker.sink.chunks())
       result.hash += base::pair_hash(chunk.pairs());
-    if (kept_) keep(worker.sink, result);
+    if (!options_.changes.empty()) {
+      const Status status = worker.broad_phase->find_changes(worker.began, worker.ended);
+      if (result.status == Status::ok) result.status = status;
+      result.began = worker.began.size();
+      result.ended = worker.ended.size();
+    }
+    if (kept_) keep(worker, result);
     result.known = true;
   }
 
-  void keep(const PairSink& sink, Result& result) {
+  void keep(const Worker& worker, Result& result) {
     // The place is behind all data of an earlier child, even partial data.
     bool good = fseeko(kept_.get(), 0, SEEK_END) == 0;
     result.kept_at = ftello(kept_.get());
-    for (const PairBuffer& chunk : sink.chunks()) {
-      const std::size_t count = chunk.size();
-      good =
-          good && std::fwrite(chunk.pairs().data(), sizeof(IndexPair), count, kept_.get()) == count;
+    for (const PairSink* sink : {&worker.sink, &worker.began, &worker.ended}) {
+      for (const PairBuffer& chunk : sink->chunks()) {
+        const std::size_t count = chunk.size();
+        good = good &&
+               std::fwrite(chunk.pairs().data(), sizeof(IndexPair), count, kept_.get()) == count;
+      }
     }
     if (!good || std::fflush(kept_.get()) != 0) result.error = errno;
+  }
+  // Returns `count` of the pairs that were kept of the frame, from the `first` on.
+  std::vector<IndexPair> kept(std::size_t frame, std::size_t first, std::size_t count) {
+    std::vector<IndexPair> pairs(count);
+    const auto at = results_[frame].kept_at + static_cast<off_t>(first * sizeof(IndexPair));
+    if (fseeko(kept_.get(), at, SEEK_SET) != 0 ||
+        std::fread(pairs.data(), sizeof(IndexPair), count, kept_.get()) != count) {
+      keeping_failed(errno);
+    }
+    return pairs;
   }
   [[noreturn]] static void keeping_failed(int error) {
     throw base::InputError(
@@ -177,18 +199,62 @@ void print_summary(std::span<const std::unique_ptr<Contender>> contenders, std::
   }
 }
 
+struct Output {
+  const char* option;
+  const std::string& file;  // empty if it is not wanted
+};
+
+void check_outputs(std::initializer_list<Output> outputs) {
+  for (const Output& output : outputs) {
+    if (output.file.empty()) continue;
+    files::check_output(output.file);
+    for (const Output* other = outputs.begin(); other != &output; ++other) {
+      if (!other->file.empty() && std::filesystem::weakly_canonical(other->file) ==
+                                      std::filesystem::weakly_canonical(output.file)) {
+        throw base::InputError(fmt::format("{} and {} name the same file; expected two",
+                                           other->option, output.option));
+      }
+    }
+  }
+}
+
+void write_pairs(const std::string& file, const std::vector<scene::BoxFrame>& frames,
+                 std::span<const std::unique_ptr<Contender>> contenders) {
+  files::CsvWriter csv(file, {"frame", "algorithm", "a", "b"});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (const auto& contender : contenders) {
+      for (const IndexPair& pair : contender->kept_pairs(i)) {
+        csv.field(frames[i].number).field(contender->name());
+        csv.field(std::int64_t{pair.a}).field(std::int64_t{pair.b}).end_row();
+      }
+    }
+  }
+  csv.close();
+}
+
+void write_changes(const std::string& file, const std::vector<scene::BoxFrame>& frames,
+                   std::span<const std::unique_ptr<Contender>> contenders) {
+  files::CsvWriter csv(file, {"frame", "algorithm", "a", "b", "change"});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (const auto& contender : contenders) {
+      for (const bool have_begun : {true, false}) {
+        for (const IndexPair& pair : contender->kept_changes(i, have_begun)) {
+          csv.field(frames[i].number).field(contender->name());
+          csv.field(std::int64_t{pair.a}).field(std::int64_t{pair.b});
+          csv.field(have_begun ? "began" : "ended").end_row();
+        }
+      }
+    }
+  }
+  csv.close();
+}
+
 void pairs(const PairsOptions& options) {
   const auto entries =
       campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
   const std::vector<scene::BoxFrame> frames = scene::read_box_frames(options.file);
-  files::check_output(options.out);
-  if (!options.pairs.empty()) {
-    files::check_output(options.pairs);
-    if (std::filesystem::weakly_canonical(options.pairs) ==
-        std::filesystem::weakly_canonical(options.out)) {
-      throw base::InputError("--out and --pairs name the same file; expected two");
-    }
-  }
+  check_outputs(
+      {{"--out", options.out}, {"--pairs", options.pairs}, {"--changes", options.changes}});
   std::vector<std::unique_ptr<Contender>> contenders;
   contenders.reserve(entries.size());
   for (const BroadPhaseEntry* entry : entries) {
@@ -202,19 +268,9 @@ void pairs(const PairsOptions& options) {
       write_row(csv, frames[i], *contender, contender->result(i), options.threads);
     }
   }
-  csv.flush();  // reveals a full disk before either file is there
-  if (!options.pairs.empty()) {
-    files::CsvWriter pairs_csv(options.pairs, {"frame", "algorithm", "a", "b"});
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      for (const auto& contender : contenders) {
-        for (const IndexPair& pair : contender->kept_pairs(i)) {
-          pairs_csv.field(frames[i].number).field(contender->name());
-          pairs_csv.field(std::int64_t{pair.a}).field(std::int64_t{pair.b}).end_row();
-        }
-      }
-    }
-    pairs_csv.close();
-  }
+  csv.flush();  // reveals a full disk before any file is there
+  if (!options.pairs.empty()) write_pairs(options.pairs, frames, contenders);
+  if (!options.changes.empty()) write_changes(options.changes, frames, contenders);
   csv.close();
   print_summary(contenders, frames.size());
 }
@@ -236,6 +292,9 @@ void add_pairs(Arguments command) {
   command.flag("--rebuild", options->rebuild, "Build each frame anew; no updates");
   command.text("--out", options->out, "The CSV file to write").required();
   command.text("--pairs", options->pairs, "Where to write the pairs themselves, as CSV");
+  command.text("--changes", options->changes,
+               "Where to write the pairs that began and those that ended in each frame, as CSV; "
+               "after a frame that is lost, all pairs begin");
   command.job([options] {
     pairs(*options);
     return exit_done;

@@ -18,7 +18,7 @@ namespace touchstone::process {
 
 // Throws std::logic_error if this process has more threads than the calling one, since a forked
 // child then finds their locks held for ever. A used Executor of more than one thread is such a
-// case, since oneTBB keeps its threads. Nothing is checked under ThreadSanitizer, which has a
+// case until it is destroyed. Nothing is checked under ThreadSanitizer, which has a
 // thread of its own, or where the system does not list the threads.
 void expect_one_thread();
 

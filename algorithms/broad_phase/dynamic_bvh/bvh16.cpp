@@ -48,7 +48,7 @@ auto surfaces16_of_level() {
 
 // --- in bulk ---
 
-void Bvh16::start(std::size_t bodies, std::size_t id_count) {
+void Bvh16::start(std::size_t bodies, std::size_t id_count, bool is_to_change) {
   bodies_ = bodies;
   leaves_ = std::max<std::size_t>(1, block_count(bodies, fan));
   std::size_t height = 0;
@@ -62,7 +62,10 @@ void Bvh16::start(std::size_t bodies, std::size_t id_count) {
   root_ = node_count_ - 1;
   free_nodes_.clear();
   marked_.clear();
-  make_node_capacity(node_count_);
+  worn_.clear();
+  // Loaded nodes are full, and are split where bodies come.
+  make_node_capacity(node_count_ + (is_to_change ? node_count_ / 2 : 0));
+  is_to_change_ = is_to_change;
   for (std::size_t h = 0; h <= height; ++h) {
     std::fill(height_of_.begin() + static_cast<std::ptrdiff_t>(begins_[h]),
               height_of_.begin() + static_cast<std::ptrdiff_t>(begins_[h + 1]),
@@ -71,7 +74,7 @@ void Bvh16::start(std::size_t bodies, std::size_t id_count) {
   place_of_.resize(id_count);
 }
 
-void Bvh16::load(Executor& executor, bool is_to_change) {
+void Bvh16::load(Executor& executor) {
   for (std::size_t place = bodies_; place < leaves_ * fan; ++place) {
     boxes_.set(place, Aabb::empty(), nobody);
   }
@@ -91,8 +94,8 @@ void Bvh16::load(Executor& executor, bool is_to_change) {
     const std::size_t end = begins_[height + 2] * fan;
     for (std::size_t i = above + count; i < end; ++i) boxes_.set(i, Aabb::empty(), nobody);
   }
-  if (!is_to_change) return;
-  std::ranges::fill(is_marked_, std::uint8_t{0});
+  if (!is_to_change_) return;
+  std::ranges::fill(mark_of_, Mark::none);
   for (std::size_t node = leaves_; node < node_count_; ++node) cost_of_[node] = cost(node);
 }
 
@@ -103,11 +106,11 @@ void Bvh16::make_node_capacity(std::size_t nodes) {
   boxes_.grow(node_capacity_ * fan);
   for (auto* const items : {&parent_of_, &free_nodes_, &marked_}) items->reserve(node_capacity_);
   height_of_.reserve(node_capacity_);
-  is_marked_.reserve(node_capacity_);
+  mark_of_.reserve(node_capacity_);
   cost_of_.reserve(node_capacity_);
   parent_of_.resize(node_capacity_);
   height_of_.resize(node_capacity_);
-  is_marked_.resize(node_capacity_);
+  mark_of_.resize(node_capacity_);
   cost_of_.resize(node_capacity_);
 }
 
@@ -257,7 +260,7 @@ void Bvh16::show(std::size_t node, const StructureBox& own, bool with_bodies,
 
 std::size_t Bvh16::held_bytes() const {
   return static_cast<std::size_t>(sum_held_bytes(boxes_, place_of_, parent_of_, height_of_,
-                                                 cost_of_, is_marked_, marked_, free_nodes_,
+                                                 cost_of_, mark_of_, marked_, worn_, free_nodes_,
                                                  entries_));
 }
 

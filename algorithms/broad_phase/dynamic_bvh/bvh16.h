@@ -1,14 +1,16 @@
 // Part of dynamic-bvh: a BVH with up to 16 children a node, whose bounds are adjacent and tested
 // together; all leaves have the same depth. It is loaded in bulk and then changed body by body;
-// subtrees that this makes bad are rebuilt.
+// nodes that this makes bad get new children, a few nodes a frame.
 // Papers:  Guttman, "R-Trees: A Dynamic Index Structure for Spatial Searching", SIGMOD 1984; Kamel,
 //          Faloutsos, "On Packing R-trees", CIKM 1993 (the bulk load); Bittner, Hapala, Havran,
 //          "Incremental BVH Construction for Ray Tracing", Computers & Graphics 47, 2015 (a box
 //          goes where it adds the least surface); Catto, "Dynamic Bounding Volume Hierarchies", GDC
 //          2019 (subtrees that have grown are rebuilt by medians).
 // Departs: a full node is split at the median along the longest axis. Nodes are not merged one by
-//          one: a subtree is rebuilt as a whole when the surfaces of its children have grown by
-//          half since it was built, or when its children are less than half full.
+//          one: a node is regrouped when the surfaces of its children have grown by half since they
+//          were made, or when they are less than half full. Its grandchildren, at most 256, are
+//          divided anew by medians, and the subtrees below them stay as they are, so that no frame
+//          has to rebuild much at once.
 #pragma once
 
 #include <array>
@@ -36,15 +38,15 @@ class Bvh16 {
   static constexpr std::size_t fan = 16;
   static constexpr std::uint32_t nobody = 0xffffffff;  // the id at a free place
 
-  // Starts a load. Bodies get places 0, 1 ... in the order of loading, and have ids below
-  // `id_count`. The caller sets each place, in any order, and then calls `load`, with
-  // `is_to_change` if changes follow.
-  void start(std::size_t bodies, std::size_t id_count);
+  // Starts a load, with `is_to_change` if changes follow. Bodies get places 0, 1 ... in the order of
+  // loading, and have ids below `id_count`. The caller sets each place, in any order, and then calls
+  // `load`.
+  void start(std::size_t bodies, std::size_t id_count, bool is_to_change);
   void set(std::size_t place, const Aabb& box, std::uint32_t id) {
     boxes_.set(place, box, id);
     place_of_[id] = static_cast<std::uint32_t>(place);
   }
-  void load(Executor& executor, bool is_to_change);
+  void load(Executor& executor);
   std::size_t loaded() const { return bodies_; }
 
   // The boxes of the bodies and of the nodes; those of a leaf are at 16 consecutive places.
@@ -64,14 +66,16 @@ class Bvh16 {
   // The sum of the sides of the leaves' bounds (metres); a better order makes it smaller.
   double spread() const;
 
-  // Changes of a tree that was loaded with `is_to_change`.
+  // Changes of a tree that was loaded to be changed.
   void insert(std::uint32_t id, const Aabb& box);
   void remove(std::uint32_t id);
   // Gives a body another box, and moves it to another leaf if its own would grow much.
   void move(std::uint32_t id, const Aabb& box);
   void make_room_for_ids(std::size_t id_count) { place_of_.resize(id_count); }
-  // Rebuilds the subtrees that the changes since the last call have made bad; returns their number.
-  std::size_t rebuild_worn();
+  // Regroups nodes that changes have made bad, in the order in which they became so, until `enough`
+  // bodies and nodes have new parents, or none is left; the others wait for the next call. Returns
+  // the number that got new parents, which is less than `enough` + 256.
+  std::size_t rebuild_worn(std::size_t enough);
 
   // Returns the ids of the bodies whose boxes overlap this one; valid until the next use of the
   // scratch.
@@ -94,6 +98,8 @@ class Bvh16 {
     Aabb box;
     std::uint32_t child;
   };
+  // Whether a node's children have changed since the last call of rebuild_worn, or it waits.
+  enum class Mark : std::uint8_t { none, changed, worn };
 
   Aabb bounds_of_node(std::size_t node) const;
   std::size_t new_node(std::size_t height);
@@ -112,20 +118,20 @@ class Bvh16 {
   double cost(std::size_t node) const;
   std::size_t count_children(std::size_t node) const;
   bool is_worn(std::size_t node) const;
-  void rebuild(std::size_t node);
-  void take_out(std::size_t node);
-  void fill(std::size_t node, std::span<Entry> bodies);
-  std::size_t fill_places(std::size_t place, std::size_t count, std::span<Entry> bodies);
+  std::size_t regroup(std::size_t node);
+  void drop_subtree(std::size_t node);
+  std::size_t fill_places(std::size_t place, std::size_t count, std::span<Entry> entries);
 
   AabbSoA boxes_;                         // 16 places a node; the ids are bodies' or nodes'
   std::vector<std::uint32_t> place_of_;   // place of each body
   std::vector<std::uint32_t> parent_of_;  // place of each node in its parent
   std::vector<std::uint8_t> height_of_;   // height of each node; 0 for a leaf
-  std::vector<double> cost_of_;           // cost of each inner node when it was built
-  std::vector<std::uint8_t> is_marked_;   // 1 for a node whose children have changed
-  std::vector<std::uint32_t> marked_, free_nodes_;
-  std::vector<Entry> entries_;  // bodies of a subtree during a rebuild
-  std::size_t bodies_ = 0;      // number of bodies loaded
+  std::vector<double> cost_of_;           // cost of each inner node when its children were made
+  std::vector<Mark> mark_of_;
+  std::vector<std::uint32_t> marked_, worn_, free_nodes_;  // worn_ is the line of those that wait
+  std::vector<Entry> entries_;  // grandchildren of a node that is regrouped
+  bool is_to_change_ = false;
+  std::size_t bodies_ = 0;  // number of bodies loaded
   std::size_t leaves_ = 0;
   std::size_t node_count_ = 0, node_capacity_ = 0;
   std::size_t root_ = 0;

@@ -1,5 +1,5 @@
-// Part of dynamic-bvh: changes of a loaded Bvh16: bodies that come, go and move, and the rebuild of
-// subtrees that this makes bad. See bvh16.h.
+// Part of dynamic-bvh: changes of a loaded Bvh16: bodies that come, go and move, and the regrouping
+// of nodes that this makes bad. See bvh16.h.
 #include <algorithm>
 #include <limits>
 
@@ -10,8 +10,8 @@
 namespace touchstone {
 namespace {
 
-// Bodies for each leaf of a rebuilt subtree; the other places are left for bodies to come.
-constexpr std::size_t leaf_fill = 14;
+// Children of a node that is made anew; the other places are left for those to come.
+constexpr std::size_t node_fill = 14;
 
 // Twice the centre, in double, in which the sum does not overflow. An empty child, whose centre
 // would be NaN, is first in every order.
@@ -63,7 +63,7 @@ std::size_t Bvh16::new_node(std::size_t height) {
     free_nodes_.pop_back();
   }
   height_of_[node] = static_cast<std::uint8_t>(height);
-  is_marked_[node] = 0;
+  mark_of_[node] = Mark::none;
   cost_of_[node] = 0;
   for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
     boxes_.set(place, Aabb::empty(), nobody);
@@ -72,7 +72,7 @@ std::size_t Bvh16::new_node(std::size_t height) {
 }
 
 void Bvh16::drop_node(std::size_t node) {
-  is_marked_[node] = 0;
+  mark_of_[node] = Mark::none;
   free_nodes_.push_back(static_cast<std::uint32_t>(node));
 }
 
@@ -95,8 +95,8 @@ void Bvh16::fit_above(std::size_t node) {
 }
 
 void Bvh16::mark(std::size_t node) {
-  if (is_marked_[node] != 0) return;
-  is_marked_[node] = 1;
+  if (mark_of_[node] != Mark::none) return;
+  mark_of_[node] = Mark::changed;
   marked_.push_back(static_cast<std::uint32_t>(node));
 }
 
@@ -168,14 +168,14 @@ void Bvh16::split(std::size_t node, const Aabb& box, std::uint32_t child) {
   cost_of_[root_] = cost(root_);
 }
 
-// --- subtrees ---
+// --- worn nodes ---
 
 std::size_t Bvh16::count_children(std::size_t node) const {
   const std::uint32_t* const first = boxes_.ids() + node * fan;
   return fan - static_cast<std::size_t>(std::count(first, first + fan, nobody));
 }
 
-// True if an inner node needs a rebuild.
+// True if an inner node is to be regrouped.
 bool Bvh16::is_worn(std::size_t node) const {
   if (!(cost(node) <= most_growth * cost_of_[node])) return true;
   std::size_t children = 0;
@@ -189,76 +189,82 @@ bool Bvh16::is_worn(std::size_t node) const {
   return children > 2 && 2 * grandchildren < children * fan;
 }
 
-// Rebuilds from the top: a rebuild includes all nodes below it.
-std::size_t Bvh16::rebuild_worn() {
+// Worn nodes wait in line, the lower ones of a frame first, since a node may be good again once
+// those below it are.
+std::size_t Bvh16::rebuild_worn(std::size_t enough) {
   std::ranges::sort(marked_, [&](std::uint32_t a, std::uint32_t b) {
-    return height_of_[a] > height_of_[b] || (height_of_[a] == height_of_[b] && a < b);
+    return height_of_[a] < height_of_[b] || (height_of_[a] == height_of_[b] && a < b);
   });
-  std::size_t rebuilt = 0;
-  const std::size_t count = marked_.size();  // nodes that a rebuild marks wait for the next call
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t node = marked_[i];
-    if (is_marked_[node] == 0) continue;
-    is_marked_[node] = 0;
-    if (is_leaf(node) || !is_worn(node)) continue;
-    rebuild(node);
-    ++rebuilt;
+  for (const std::uint32_t node : marked_) {
+    if (mark_of_[node] != Mark::changed) continue;
+    const bool waits = !is_leaf(node) && is_worn(node);
+    mark_of_[node] = waits ? Mark::worn : Mark::none;
+    if (waits) worn_.push_back(node);
   }
-  marked_.erase(marked_.begin(), marked_.begin() + static_cast<std::ptrdiff_t>(count));
-  return rebuilt;
+  marked_.clear();
+  std::size_t regrouped = 0;
+  std::size_t at = 0;
+  for (; at < worn_.size() && regrouped < enough; ++at) {
+    const std::uint32_t node = worn_[at];
+    if (mark_of_[node] != Mark::worn) continue;  // it was dropped
+    mark_of_[node] = Mark::none;
+    if (is_worn(node)) regrouped += regroup(node);
+  }
+  worn_.erase(worn_.begin(), worn_.begin() + static_cast<std::ptrdiff_t>(at));
+  return regrouped;
 }
 
-void Bvh16::rebuild(std::size_t node) {
+// Makes the children of a node anew, from its grandchildren as they are; returns their number.
+std::size_t Bvh16::regroup(std::size_t node) {
   entries_.clear();
-  take_out(node);
-  fill(node, entries_);
-  fit_above(node);
-}
-
-// Lists the bodies of a node and frees all nodes below it.
-void Bvh16::take_out(std::size_t node) {
+  const bool of_bodies = height_of_[node] == 1;
   for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
     const std::uint32_t child = boxes_.ids()[place];
     if (child == nobody) continue;
-    if (is_leaf(node)) {
-      entries_.push_back({box_at(place), child});
-    } else {
-      take_out(child);
-      drop_node(child);
+    for (std::size_t i = child * fan; i < child * fan + fan; ++i) {
+      const Entry entry{box_at(i), boxes_.ids()[i]};
+      if (entry.child == nobody) continue;
+      if (of_bodies || !entry.box.is_empty()) {
+        entries_.push_back(entry);
+      } else {
+        drop_subtree(entry.child);  // all its bodies have left
+      }
     }
+    drop_node(child);
     boxes_.set(place, Aabb::empty(), nobody);
   }
-}
-
-// A subtree has room for 16 times as many bodies as one of the height below. The number of children
-// is such that each has some room left.
-void Bvh16::fill(std::size_t node, std::span<Entry> bodies) {
-  if (is_leaf(node)) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      put(node * fan + i, bodies[i].box, bodies[i].child);
-    }
-    return;
-  }
-  const std::size_t of_child = leaf_fill << (4 * (height_of_[node] - 1));
   const std::size_t children =
-      std::clamp(block_count(bodies.size(), of_child), std::size_t{1}, fan);
-  fill_places(node * fan, children, bodies);
+      std::clamp(block_count(entries_.size(), node_fill), std::size_t{1}, fan);
+  fill_places(node * fan, children, entries_);
   cost_of_[node] = cost(node);
+  fit_above(node);
+  return entries_.size();
 }
 
-// Splits the bodies into `count` new nodes at consecutive places; returns the place after them.
-std::size_t Bvh16::fill_places(std::size_t place, std::size_t count, std::span<Entry> bodies) {
+void Bvh16::drop_subtree(std::size_t node) {
+  drop_node(node);
+  if (is_leaf(node)) return;
+  for (std::size_t place = node * fan; place < node * fan + fan; ++place) {
+    if (boxes_.ids()[place] != nobody) drop_subtree(boxes_.ids()[place]);
+  }
+}
+
+// Splits the entries into `count` new nodes at consecutive places; returns the place after them.
+std::size_t Bvh16::fill_places(std::size_t place, std::size_t count, std::span<Entry> entries) {
   if (count == 1) {
     const std::size_t child = new_node(height_of_[place / fan] - std::size_t{1});
-    fill(child, bodies);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      put(child * fan + i, entries[i].box, entries[i].child);
+    }
+    if (!is_leaf(child)) cost_of_[child] = cost(child);
     put(place, bounds_of_node(child), static_cast<std::uint32_t>(child));
     return place + 1;
   }
-  const std::size_t half = bodies.size() * (count / 2) / count;
-  std::nth_element(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(half), bodies.end(),
-                   along(longest_axis(bodies)));
-  place = fill_places(place, count / 2, bodies.first(half));
-  return fill_places(place, count - count / 2, bodies.subspan(half));
+  const std::size_t half = entries.size() * (count / 2) / count;
+  std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(half),
+                   entries.end(), along(longest_axis(entries)));
+  place = fill_places(place, count / 2, entries.first(half));
+  return fill_places(place, count - count / 2, entries.subspan(half));
 }
 
 }  // namespace touchstone

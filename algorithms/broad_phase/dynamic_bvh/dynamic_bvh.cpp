@@ -11,21 +11,26 @@
 //          3. In an update list the leavers: moved bodies outside of their fat boxes.
 //          4. If more than a sixteenth of the bodies leave, come or go, adapt the margin and start
 //             at step 2.
-//          5. Give leavers new fat boxes in the tree, insert and remove bodies, and rebuild
-//             subtrees that this made bad (bvh16_changes.cpp).
-//          6. Remove the leavers' pairs, query the tree for their new ones, and add these.
-//          7. Test the kept pairs of moved bodies on the tight boxes, and write the pairs that
-//             overlap.
+//          5. Give leavers new fat boxes in the tree, insert and remove bodies, and regroup some
+//             of the nodes that this made bad (bvh16_changes.cpp).
+//          6. Test the kept pairs of moved bodies on the tight boxes.
+//          7. Query the tree for the leavers' partners, and add and remove the pairs in which these
+//             differ from the kept ones.
+//          8. Write the pairs that overlap, or those that began or ended since changes were last
+//             asked for.
 // Departs: nodes have 16 children, see bvh16.h. The margin follows what bodies move in a frame, and
 //          is at most a tenth of their size; a body that has not moved yet has none. The whole tree
 //          is loaded anew, along a Hilbert curve, only when many bodies leave their boxes at once.
+//          In all other frames the work is in proportion to what moved: nodes are mended a few at a
+//          time, and neither nodes nor pairs are ever packed.
 //          If bodies are too fast for a margin, or crowded, each frame loads the tree without one
 //          and searches all pairs.
 // Fails:   a body that overlaps most others and moves: all of its pairs are made anew.
-// Cost:    O(n + k) expected if most bodies move; O(m log n) and copying the k pairs if m do. O(n +
-//          k) memory; k = pairs of fat boxes. About 45 bytes a body, 20 more if many move, and 17 a
-//          pair.
+// Cost:    O(n + k) expected if most bodies move; O(m log n) and copying the k pairs if m do, or
+//          writing the changes alone, for m below n / 5. O(n + k) memory; k = pairs of fat boxes.
+//          About 60 bytes a body, 20 more if many move, and 37 a pair, a third of both in reserve.
 #include <algorithm>
+#include <array>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/broad_phase/dynamic_bvh/aabb_margin.h"
@@ -50,6 +55,7 @@ class DynamicBvh final : public BroadPhase {
 
   void update(const FrameChange& change) override;
   Status find_pairs(PairSink& sink) override;
+  Status find_changes(PairSink& began, PairSink& ended) override;
   BroadPhaseWork work() const override;
   // The nodes with their depths, and the fat boxes below the leaves where pairs of these are kept.
   std::vector<StructureBox> structure() const override {
@@ -66,6 +72,8 @@ class DynamicBvh final : public BroadPhase {
   static constexpr std::size_t least_frames = 3;  // least age of a load that pays for its margin
   static constexpr std::size_t most_pairs_a_body = 64;
   static constexpr std::size_t dense_wait = 32;  // frames
+  // Bodies and nodes to regroup in a frame: as many as cost little beside the frame's own work.
+  static constexpr std::size_t least_regrouped = 256, regrouped_a_change = 4;
   // Bits of a body's state.
   static constexpr std::uint8_t is_leaver = 1;
   static constexpr std::uint8_t is_mover = 2;
@@ -74,6 +82,16 @@ class DynamicBvh final : public BroadPhase {
   // then kept; or the kept pairs.
   enum class Pairs : std::uint8_t { searched, wanted, kept };
 
+  // The bodies whose fat boxes overlap those of a task's leavers, and where those of each leaver
+  // end.
+  struct Partners {
+    std::vector<std::uint32_t> ids;
+    std::array<std::size_t, bodies_a_task> ends;
+  };
+
+  std::size_t end_of_task(std::size_t task) const {
+    return std::min((task + 1) * bodies_a_task, leavers_.size());
+  }
   Aabb fat_box_of(std::uint32_t id) const {
     const Bvh16& tree = bulk_.tree();
     return tree.box_at(tree.place_of(id));
@@ -101,7 +119,11 @@ class DynamicBvh final : public BroadPhase {
   std::vector<std::uint8_t> state_;  // indexed by body
   // Bodies that have left their boxes, or are new, in this frame.
   std::vector<std::uint32_t> leavers_;
-  PairSink found_;  // their pairs
+  std::vector<Partners> found_;  // their partners, of a task each
+  // All pairs of this frame, and those of the last call of find_changes; unless the cache has both.
+  PairSink all_;
+  PairHistory told_;
+  std::size_t placed_ = 0;  // counted for work()
 };
 
 // --- all bodies ---
@@ -125,6 +147,7 @@ void DynamicBvh::make_anew(const FrameChange& change) {
 }
 
 void DynamicBvh::load(Pairs pairs) {
+  if (how_ == Pairs::kept && pairs_.is_told()) told_.set(pairs_.told());
   how_ = pairs;
   frames_ = 0;
   const bool are_fat = pairs == Pairs::wanted;
@@ -132,12 +155,14 @@ void DynamicBvh::load(Pairs pairs) {
     return are_fat && state_[id] != 0 ? margin_.around(boxes_[id]) : boxes_[id];
   });
   count_ = bulk_.tree().loaded();
+  placed_ = count_;
 }
 
 // --- some bodies ---
 
 void DynamicBvh::update(const FrameChange& change) {
   boxes_ = change.boxes;
+  placed_ = 0;
   const std::size_t churn = change.inserted.size() + change.removed.size();
   if (change.moved.empty() && churn == 0) {
     // The tree is as it was loaded; kept pairs are still there.
@@ -171,7 +196,7 @@ bool DynamicBvh::list_leavers(std::span<const std::uint32_t> moved) {
       if ((state_[id] & is_leaver) != 0) leavers_.push_back(id);
     }
   }
-  for (const std::uint32_t id : leavers_) state_[id] = is_mover | is_leaver;
+  for (const std::uint32_t id : leavers_) state_[id] = is_mover;
   return leavers_.size() <= count_ / few;
 }
 
@@ -191,7 +216,6 @@ void DynamicBvh::mark_leavers() {
 
 void DynamicBvh::change_tree(const FrameChange& change) {
   Bvh16& tree = bulk_.tree();
-  pairs_.remove(leavers_);
   pairs_.remove(change.removed);
   for (const std::uint32_t id : leavers_) tree.move(id, margin_.around(boxes_[id]));
   for (const std::uint32_t id : change.removed) tree.remove(id);
@@ -199,34 +223,42 @@ void DynamicBvh::change_tree(const FrameChange& change) {
   pairs_.make_room_for_ids(boxes_.size());
   state_.resize(boxes_.size());
   for (const std::uint32_t id : change.inserted) {
-    state_[id] = is_mover | is_leaver;
+    state_[id] = is_mover;
     leavers_.push_back(id);
     tree.insert(id, margin_.around(boxes_[id]));
   }
-  tree.rebuild_worn();
+  const std::size_t changes = leavers_.size() + change.removed.size();
+  placed_ += changes + tree.rebuild_worn(least_regrouped + regrouped_a_change * changes);
   if (!change.inserted.empty() || !change.removed.empty()) bulk_.change_bodies();
   count_ += change.inserted.size();
   count_ -= change.removed.size();
 }
 
-// Finds the new pairs of the leavers; a pair of two leavers counts once.
+// Finds the leavers' partners, and changes the kept pairs to suit.
 void DynamicBvh::look_anew() {
   const std::size_t tasks = block_count(leavers_.size(), bodies_a_task);
-  found_.start(tasks);
+  if (found_.size() < tasks) found_.resize(tasks);
   const auto look = [&](std::size_t task, int worker) {
     Bvh16Scratch& scratch = bulk_.scratch(worker);
-    const std::size_t last = std::min((task + 1) * bodies_a_task, leavers_.size());
-    for (std::size_t i = task * bodies_a_task; i < last; ++i) {
-      const std::uint32_t id = leavers_[i];
-      for (const std::uint32_t other : bulk_.tree().find(fat_box_of(id), scratch)) {
-        if ((state_[other] & is_leaver) == 0 || id < other) found_.chunk(task).push(id, other);
+    Partners& out = found_[task];
+    out.ids.clear();
+    for (std::size_t i = task * bodies_a_task; i < end_of_task(task); ++i) {
+      for (const std::uint32_t other : bulk_.tree().find(fat_box_of(leavers_[i]), scratch)) {
+        if (other != leavers_[i]) out.ids.push_back(other);
       }
+      out.ends[i % bodies_a_task] = out.ids.size();
     }
   };
   executor_.run(tasks, std::cref(look));
-  for (const std::uint32_t id : leavers_) state_[id] = is_mover;
-  for (const PairBuffer& chunk : found_.chunks()) {
-    for (const IndexPair& pair : chunk.pairs()) pairs_.add(pair, boxes_);
+  for (std::size_t task = 0; task < tasks; ++task) {
+    const Partners& found = found_[task];
+    std::size_t begin = 0;
+    for (std::size_t i = task * bodies_a_task; i < end_of_task(task); ++i) {
+      const std::size_t end = found.ends[i % bodies_a_task];
+      placed_ +=
+          pairs_.replace(leavers_[i], std::span(found.ids).subspan(begin, end - begin), boxes_);
+      begin = end;
+    }
   }
 }
 
@@ -249,6 +281,22 @@ void DynamicBvh::keep_pairs(PairSink& sink) {
   pairs_.refill(executor_, sink, boxes_.size());
   pairs_.test(executor_, boxes_);
   how_ = Pairs::kept;
+  placed_ += count;
+}
+
+Status DynamicBvh::find_changes(PairSink& began, PairSink& ended) {
+  if (how_ == Pairs::kept && pairs_.is_told()) {
+    pairs_.write_changes(began, ended);
+    return Status::ok;
+  }
+  find_pairs(all_);
+  told_.compare(all_, began, ended);
+  if (how_ == Pairs::kept) {
+    pairs_.tell();
+    all_ = {};
+    told_ = {};
+  }
+  return Status::ok;
 }
 
 // Removes the pairs whose tight boxes do not overlap.
@@ -273,6 +321,8 @@ BroadPhaseWork DynamicBvh::work() const {
     work = bulk_.work();
   }
   work.bytes = sum_held_bytes(bulk_, pairs_, state_, leavers_, found_);
+  for (const Partners& found : found_) work.bytes += sum_held_bytes(found.ids);
+  work.placed = static_cast<std::int64_t>(placed_);
   return work;
 }
 

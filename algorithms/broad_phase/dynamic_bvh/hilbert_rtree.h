@@ -39,7 +39,7 @@ class HilbertRTree {
   // Releases the memory of the order if the next load is far off.
   void forget_order();
 
-  // Loads all boxes that are not empty, each as box_of(id). Bvh16::load explains `is_to_change`.
+  // Loads all boxes that are not empty, each as box_of(id). Bvh16::start explains `is_to_change`.
   template <class BoxOf>
   void load(std::span<const Aabb> boxes, bool is_to_change, const BoxOf& box_of) {
     sort_if_needed(boxes);
@@ -71,7 +71,7 @@ class HilbertRTree {
 
   template <class BoxOf>
   void fill(std::size_t id_count, bool is_to_change, const BoxOf& box_of) {
-    tree_.start(order_.size(), id_count);
+    tree_.start(order_.size(), id_count, is_to_change);
     for_each_block(executor_, order_.size(), 4096,
                    [&](std::size_t, std::size_t first, std::size_t last) {
                      for (std::size_t i = first; i < last; ++i) {
@@ -79,7 +79,7 @@ class HilbertRTree {
                        tree_.set(i, box_of(id), id);
                      }
                    });
-    tree_.load(executor_, is_to_change);
+    tree_.load(executor_);
   }
   std::size_t leaves() const { return tree_.loaded() == 0 ? 0 : tree_.leaves(); }
   void sort_if_needed(std::span<const Aabb> boxes);

@@ -1,4 +1,4 @@
-// Part of dynamic-bvh: tests, lists, removal and output of the cached pairs.
+// Part of dynamic-bvh: tests, lists, removal, changes and output of the cached pairs.
 #include "algorithms/broad_phase/dynamic_bvh/pair_cache.h"
 
 #include <algorithm>
@@ -38,19 +38,22 @@ bool meet(const Aabb& a, const Aabb& b) {
 
 void PairCache::make_room(std::size_t count) {
   if (count <= pairs_.size()) return;
-  const std::size_t words = block_count(count + count / 16, word_bits);
-  overlaps_.reserve(words);
-  overlaps_.resize(words);
-  pairs_.reserve(words * word_bits);
-  pairs_.resize(words * word_bits);
-  if (!are_linked_) return;
-  next_.reserve(2 * pairs_.size());
-  next_.resize(2 * pairs_.size());
+  pairs_.grow(count);
+  const std::size_t words = pairs_.size() / word_bits;
+  for (auto* const bits : {&overlaps_, &told_}) bits->resize(words);
+  touched_.resize(words / word_bits);
+  if (are_linked_) make_room_for_links();
+}
+
+void PairCache::make_room_for_links() {
+  for (auto* const links : {&next_, &before_}) links->grow(2 * pairs_.size());
 }
 
 void PairCache::refill(Executor& executor, const PairSink& sink, std::size_t id_count) {
-  are_linked_ = false;
+  are_linked_ = is_told_ = false;
+  lost_.clear();
   gone_ = 0;
+  free_ = none;
   count_ = sink.size();
   make_room(count_);
   std::ranges::fill(overlaps_, 0);
@@ -62,32 +65,37 @@ void PairCache::refill(Executor& executor, const PairSink& sink, std::size_t id_
     begins[i] = static_cast<std::uint32_t>(at);
     at += chunks[i].size();
   }
-  const auto copy = [&](std::size_t i, int) {
-    std::ranges::copy(chunks[i].pairs(), pairs_.begin() + std::ptrdiff_t{begins[i]});
-  };
+  const auto copy = [&](std::size_t i, int) { pairs_.copy(chunks[i].pairs(), begins[i]); };
   executor.run(chunks.size(), std::cref(copy));
-  first_of_.resize(id_count);
+  make_room_for_ids(id_count);
 }
 
-void PairCache::make_room_for_ids(std::size_t id_count) { first_of_.resize(id_count, none); }
+void PairCache::make_room_for_ids(std::size_t id_count) {
+  first_of_.resize(id_count, none);
+  seen_.resize(id_count, 0);
+}
 
 void PairCache::set_bit(std::size_t pair, bool value) {
   std::uint64_t& word = overlaps_[pair / word_bits];
   const std::uint64_t bit = std::uint64_t{1} << pair % word_bits;
   word = (word & ~bit) | (value ? bit : 0);
+  touch(pair / word_bits);
 }
 
 void PairCache::test(Executor& executor, std::span<const Aabb> boxes) {
   for_each_block(executor, count_, pairs_a_task,
                  [&](std::size_t, std::size_t first, std::size_t last) {
-                   for (std::size_t p = first; p < last; p += word_bits) {
+                   const IndexPair* pairs = &pairs_[first];  // they are on one page
+                   for (std::size_t p = first; p < last; p += word_bits, pairs += word_bits) {
                      std::uint64_t word = 0;
                      for (std::size_t i = 0; i < std::min(word_bits, last - p); ++i) {
-                       const auto [a, b] = pairs_[p + i];
+                       const auto [a, b] = pairs[i];
                        const bool test = meet(boxes[a], boxes[b]) & (a != b);
                        word |= std::uint64_t{test} << i;
                      }
+                     if (overlaps_[p / word_bits] == word) continue;
                      overlaps_[p / word_bits] = word;
+                     touch(p / word_bits);
                    }
                  });
 }
@@ -105,8 +113,21 @@ void PairCache::test(std::span<const std::uint32_t> ids, std::span<const Aabb> b
 void PairCache::link(std::size_t pair) {
   for (const std::size_t side : {0, 1}) {
     std::uint32_t& first = first_of_[side == 0 ? pairs_[pair].a : pairs_[pair].b];
-    next_[2 * pair + side] = first;
-    first = static_cast<std::uint32_t>(2 * pair + side);
+    const auto own = static_cast<std::uint32_t>(2 * pair + side);
+    next_[own] = first;
+    before_[own] = none;
+    if (first != none) before_[first] = own;
+    first = own;
+  }
+}
+
+void PairCache::unlink(std::size_t pair) {
+  for (const std::size_t side : {0, 1}) {
+    const std::uint32_t next = next_[2 * pair + side];
+    const std::uint32_t before = before_[2 * pair + side];
+    const std::uint32_t body = side == 0 ? pairs_[pair].a : pairs_[pair].b;
+    (before == none ? first_of_[body] : next_[before]) = next;
+    if (next != none) before_[next] = before;
   }
 }
 
@@ -114,10 +135,7 @@ void PairCache::make_links() {
   if (are_linked_) return;
   are_linked_ = true;
   std::ranges::fill(first_of_, none);
-  if (next_.size() < 2 * pairs_.size()) {
-    next_.reserve(2 * pairs_.size());
-    next_.resize(2 * pairs_.size());
-  }
+  make_room_for_links();
   for (std::size_t p = 0; p < count_; ++p) link(p);
 }
 
@@ -145,39 +163,101 @@ void PairCache::list_pairs_of(std::span<const std::uint32_t> ids) {
 void PairCache::remove(std::span<const std::uint32_t> ids) {
   list_pairs_of(ids);
   for (const std::uint32_t p : listed_) {
-    gone_ += is_gone(p) ? 0 : 1;
-    pairs_[p] = {0, 0};
-    set_bit(p, false);
+    if (!is_gone(p)) remove(p);  // a pair of two of these bodies is listed twice
   }
-  for (const std::uint32_t id : ids) first_of_[id] = none;
+}
+
+void PairCache::remove(std::uint32_t pair) {
+  unlink(pair);
+  std::uint64_t& told = told_[pair / word_bits];
+  const std::uint64_t bit = std::uint64_t{1} << pair % word_bits;
+  if (is_told_ && (told & bit) != 0) lost_.push_back(pairs_[pair]);
+  told &= ~bit;
+  set_bit(pair, false);
+  pairs_[pair] = {0, 0};
+  next_[2 * std::size_t{pair}] = std::exchange(free_, pair);
+  ++gone_;
 }
 
 void PairCache::add(IndexPair pair, std::span<const Aabb> boxes) {
   make_links();
-  if (count_ == pairs_.size() && gone_ > count_ / 16) pack();
-  make_room(count_ + 1);
-  pairs_[count_] = pair;
-  set_bit(count_, meet(boxes[pair.a], boxes[pair.b]));
-  link(count_++);
+  std::size_t place = count_;
+  if (free_ == none) {
+    make_room(++count_);
+  } else {
+    place = std::exchange(free_, next_[2 * std::size_t{free_}]);
+    --gone_;
+  }
+  pairs_[place] = pair;
+  set_bit(place, meet(boxes[pair.a], boxes[pair.b]));
+  link(place);
 }
 
-// Removes the pairs that are gone and keeps the order of the others.
-void PairCache::pack() {
-  std::size_t to = 0;
-  for (std::size_t p = 0; p < count_; ++p) {
-    if (is_gone(p)) continue;
-    const bool bit = (overlaps_[p / word_bits] >> p % word_bits & 1) != 0;
-    pairs_[to] = pairs_[p];
-    set_bit(to++, bit);
-  }
-  // Clears the bits after the last pair, those of its own word too.
-  const std::size_t words = block_count(to, word_bits);
-  if (to % word_bits != 0) overlaps_[words - 1] &= (std::uint64_t{1} << to % word_bits) - 1;
-  std::fill(overlaps_.begin() + static_cast<std::ptrdiff_t>(words), overlaps_.end(), 0);
-  count_ = to;
-  gone_ = 0;
-  are_linked_ = false;
+std::size_t PairCache::replace(std::uint32_t id, std::span<const std::uint32_t> others,
+                               std::span<const Aabb> boxes) {
   make_links();
+  if (round_ > none - 2) {
+    std::ranges::fill(seen_, 0);
+    round_ = 0;
+  }
+  const std::uint32_t wanted = ++round_;
+  const std::uint32_t present = ++round_;
+  for (const std::uint32_t other : others) seen_[other] = wanted;
+  std::size_t changes = 0;
+  for (std::uint32_t at = first_of_[id]; at != none;) {
+    const std::uint32_t pair = at / 2;
+    const std::uint32_t other = at % 2 == 0 ? pairs_[pair].b : pairs_[pair].a;
+    at = next_[at];
+    if (seen_[other] == wanted) {
+      seen_[other] = present;
+    } else {
+      remove(pair);
+      ++changes;
+    }
+  }
+  for (const std::uint32_t other : others) {
+    if (seen_[other] != wanted) continue;
+    add({std::min(id, other), std::max(id, other)}, boxes);
+    ++changes;
+  }
+  return changes;
+}
+
+// --- changes ---
+
+void PairCache::tell() {
+  told_ = overlaps_;
+  std::ranges::fill(touched_, 0);
+  lost_.clear();
+  is_told_ = true;
+}
+
+std::vector<IndexPair> PairCache::told() const {
+  std::vector<IndexPair> pairs = lost_;
+  for (std::size_t p = 0; p < count_; ++p) {
+    if ((told_[p / word_bits] >> p % word_bits & 1) != 0) pairs.push_back(pairs_[p]);
+  }
+  return pairs;
+}
+
+void PairCache::write_changes(PairSink& began, PairSink& ended) {
+  began_.clear();
+  ended_.swap(lost_);
+  lost_.clear();
+  for (std::size_t i = 0; i < touched_.size(); ++i) {
+    for (std::uint64_t words = std::exchange(touched_[i], 0); words != 0; words &= words - 1) {
+      const std::size_t word = i * word_bits + static_cast<std::size_t>(std::countr_zero(words));
+      const std::uint64_t now = overlaps_[word];
+      for (std::uint64_t bits = std::exchange(told_[word], now) ^ now; bits != 0;
+           bits &= bits - 1) {
+        const int bit = std::countr_zero(bits);
+        const IndexPair pair = pairs_[word * word_bits + static_cast<std::size_t>(bit)];
+        ((now >> bit & 1) != 0 ? began_ : ended_).push_back(pair);
+      }
+    }
+  }
+  // A pair that was removed and is back has not changed.
+  write_difference(began_, ended_, began, ended);
 }
 
 // --- output ---
@@ -200,8 +280,9 @@ void PairCache::write(Executor& executor, PairSink& sink) const {
 }
 
 std::size_t PairCache::held_bytes() const {
-  return static_cast<std::size_t>(
-      sum_held_bytes(pairs_, overlaps_, first_of_, next_, open_, listed_));
+  return static_cast<std::size_t>(sum_held_bytes(pairs_, overlaps_, first_of_, next_, before_,
+                                                 seen_, open_, listed_, told_, touched_, lost_,
+                                                 began_, ended_));
 }
 
 }  // namespace touchstone

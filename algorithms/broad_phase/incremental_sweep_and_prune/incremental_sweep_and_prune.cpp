@@ -13,7 +13,7 @@
 //          5. Merge the bodies of step 2 back in, and test each against all boxes.
 //          6. If too many end points pass each other, start at step 1; then sort and sweep only one
 //             axis for 1, 3, 7 or 15 frames, more with each failure.
-//          7. Copy the pairs out.
+//          7. Copy the pairs out, or those that came or went since changes were last asked for.
 // Departs: the three axes are updated concurrently, each for the bodies that moved along it, see
 //          endpoint_list.h. Bodies that come, go or move far are merged into the end points in one
 //          pass, and tested against all boxes a vector at a time. When the end points pass each
@@ -57,6 +57,7 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   }
 
   Status find_pairs(PairSink& sink) override;
+  Status find_changes(PairSink& began, PairSink& ended) override;
 
   // The work of a sweep of the end points as they are, even if the pairs were kept.
   BroadPhaseWork work() const override {
@@ -110,6 +111,9 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   bool are_all_sorted_ = false;
   PairSink found_;
   PairSet set_;
+  // All pairs of this frame, and those of the last call of find_changes, unless the set tells both.
+  PairSink all_;
+  PairHistory told_;
   EndpointMotion motion_;  // motion of the walkers
   std::vector<std::uint32_t> jumpers_, walkers_;
   std::vector<std::uint8_t> mark_;  // 1 for a jumper; indexed by id
@@ -136,6 +140,7 @@ void IncrementalSweepAndPrune::resort_axis(std::span<const Aabb> boxes) {
 }
 
 void IncrementalSweepAndPrune::take_boxes(std::span<const Aabb> boxes) {
+  if (set_.is_told()) told_.set(set_.told());
   before_.assign(boxes.begin(), boxes.end());
   mark_.assign(boxes.size(), 0);  // clears marks left by an abandoned update
   list_bodies(executor_, boxes, ids_);
@@ -169,6 +174,21 @@ Status IncrementalSweepAndPrune::find_pairs(PairSink& sink) {
                    std::copy_n(pairs.data() + first, last - first, out.end());
                    out.advance(last - first);
                  });
+  return Status::ok;
+}
+
+Status IncrementalSweepAndPrune::find_changes(PairSink& began, PairSink& ended) {
+  if (set_.is_told()) {
+    set_.write_changes(began, ended);
+    return Status::ok;
+  }
+  find_pairs(all_);
+  told_.compare(all_, began, ended);
+  if (!swept_) {
+    set_.tell();
+    all_ = {};
+    told_ = {};
+  }
   return Status::ok;
 }
 

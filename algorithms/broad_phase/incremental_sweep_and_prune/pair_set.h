@@ -1,5 +1,6 @@
 // Part of incremental-sweep-and-prune: a set of pairs that persists from frame to frame: a dense
-// array, which is the output, and an open-addressing hash table of places in it.
+// array, which is the output, and an open-addressing hash table of places in it. It notes what comes
+// and goes.
 // Paper: Knuth, "The Art of Computer Programming", vol. 3, section 6.4, Algorithms L and R (linear
 //        probing, and deletion without marks).
 #pragma once
@@ -11,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/core/pair_history.h"
 #include "algorithms/core/pair_sink.h"
 
 namespace touchstone {
@@ -22,7 +24,7 @@ class PairSet {
   // Returns the array, for the caller to fill with distinct pairs; the table is made when it is
   // first needed.
   std::span<IndexPair> refill(std::size_t count) {
-    indexed_ = false;
+    indexed_ = is_told_ = false;
     pairs_.resize(count);
     return pairs_;
   }
@@ -32,6 +34,7 @@ class PairSet {
     index();
     std::size_t slot = find(pair);
     if (slots_[slot] != none) return;
+    if (is_told_) came_.push_back(pair);
     if (2 * (pairs_.size() + 1) > slots_.size()) {
       pairs_.push_back(pair);
       fill();
@@ -47,6 +50,7 @@ class PairSet {
     const std::size_t slot = find(pair);
     const std::uint32_t place = slots_[slot];
     if (place == none) return;
+    if (is_told_) went_.push_back(pair);
     const IndexPair last = pairs_.back();
     slots_[find(last)] = place;
     pairs_[place] = last;
@@ -61,8 +65,32 @@ class PairSet {
     }
   }
 
+  // Begins to note changes: those from the pairs of now.
+  void tell() {
+    came_.clear();
+    went_.clear();
+    is_told_ = true;
+  }
+  // False from a refill until changes are noted again.
+  bool is_told() const { return is_told_; }
+  // Writes the pairs that have come and those that have gone since the last call, or tell(), both
+  // ascending.
+  void write_changes(PairSink& began, PairSink& ended) {
+    write_difference(came_, went_, began, ended);
+    tell();
+  }
+  // Returns the pairs as they were when changes were last told, ascending, and notes no more.
+  std::vector<IndexPair> told() {
+    PairSink gone, told;
+    went_.insert(went_.end(), pairs_.begin(), pairs_.end());
+    write_difference(came_, went_, gone, told);
+    is_told_ = false;
+    return told.gather();
+  }
+
   std::size_t held_bytes() const {
-    return pairs_.capacity() * sizeof(IndexPair) + slots_.capacity() * sizeof(std::uint32_t);
+    return (pairs_.capacity() + came_.capacity() + went_.capacity()) * sizeof(IndexPair) +
+           slots_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
@@ -112,6 +140,8 @@ class PairSet {
   std::vector<std::uint32_t> slots_;  // places of pairs; the size is a power of two
   int shift_ = 0;
   bool indexed_ = false;
+  bool is_told_ = false;
+  std::vector<IndexPair> came_, went_;  // a pair each time that it did
 };
 
 }  // namespace touchstone

@@ -48,6 +48,7 @@ class HilbertSort {
   void refine_runs(Executor& executor, std::span<const Aabb> boxes);
 
   std::vector<std::uint64_t> order_;  // class and place on the curve above, id below
+  std::vector<std::uint64_t> spare_;  // scratch of refine, if a cell needs it
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
   std::vector<IndexRange> runs_;                        // ranges of boxes in one cell

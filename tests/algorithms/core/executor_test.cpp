@@ -7,6 +7,8 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -83,6 +85,72 @@ TEST(Executor, HandsExceptionsOn) {
     int after = 0;
     executor.run(1, [&](std::size_t, int) { ++after; });
     EXPECT_EQ(after, 1);
+  }
+}
+
+// Loops of all lengths, one after the other and after rests in which the threads fall asleep.
+TEST(Executor, RunsLoopAfterLoop) {
+  for (const int width : {2, 3}) {
+    Executor executor(width);
+    std::vector<std::atomic<int>> workers(static_cast<std::size_t>(width));
+    std::size_t all = 0;
+    for (int loop = 0; loop < 3000; ++loop) {
+      const auto tasks = static_cast<std::size_t>(loop % 9);
+      std::vector<int> runs(tasks, 0);
+      executor.run(tasks, [&](std::size_t task, int worker) {
+        ++runs[task];
+        ++workers[static_cast<std::size_t>(worker)];
+      });
+      ASSERT_EQ(runs, std::vector<int>(tasks, 1)) << loop;
+      all += tasks;
+      if (loop % 100 == 0) std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    std::size_t sum = 0;
+    for (const std::atomic<int>& runs : workers) sum += static_cast<std::size_t>(runs);
+    EXPECT_EQ(sum, all);
+    EXPECT_GT(workers[0], 0);
+    std::atomic<int> of_others = 0;
+    executor.run(6, [&](std::size_t, int worker) {
+      of_others += worker == 0 ? 0 : 1;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    });
+    EXPECT_GT(of_others, 0) << "tasks that take long are shared, whoever slept before";
+  }
+}
+
+// What the threads of a loop write is seen after it, and by the next one.
+TEST(Executor, LoopsSeeWhatTheOnesBeforeWrote) {
+  Executor executor(2);
+  std::vector<std::uint64_t> values(64, 1);
+  for (int loop = 0; loop < 500; ++loop) {
+    std::vector<std::uint64_t> next(values.size());
+    executor.run(values.size(), [&](std::size_t task, int) {
+      std::uint64_t value = values[task] + 3 * values[(task + 1) % values.size()];
+      for (int i = 0; i < 200; ++i) value = value * 6364136223846793005u + 1;
+      next[task] = value;
+    });
+    for (std::size_t task = 0; task < values.size(); ++task) {
+      std::uint64_t value = values[task] + 3 * values[(task + 1) % values.size()];
+      for (int i = 0; i < 200; ++i) value = value * 6364136223846793005u + 1;
+      ASSERT_EQ(next[task], value);
+    }
+    values = next;
+  }
+}
+
+TEST(Executor, ALoopInATaskIsItsWorkersOwn) {
+  for (const int width : {1, 2, 4}) {
+    Executor executor(width);
+    std::vector<std::atomic<int>> runs(32 * 32);
+    std::atomic<int> others = 0;
+    executor.run(32, [&](std::size_t outer, int worker) {
+      executor.run(32, [&](std::size_t inner, int own) {
+        ++runs[outer * 32 + inner];
+        others += own == worker ? 0 : 1;
+      });
+    });
+    for (const std::atomic<int>& run : runs) ASSERT_EQ(run, 1);
+    EXPECT_EQ(others, 0);
   }
 }
 

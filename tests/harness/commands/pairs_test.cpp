@@ -135,6 +135,42 @@ TEST_F(PairsCommand, WritesThePairsInOrder) {
   EXPECT_THAT(folder.names(), ElementsAre("in.csv", "out.csv", "pairs.csv"));
 }
 
+TEST_F(PairsCommand, WritesWhatBeganAndEnded) {
+  const auto file = folder.write("in.csv", random_boxes(3));
+  const auto expected = all_pairs(file);
+  for (const char* how : {"", " --rebuild"}) {
+    const Ran ran = run_program("pairs " + file.string() + " --broad naive,dynamic-bvh --out " +
+                                path("out.csv") + " --changes " + path("changes.csv") + how);
+    ASSERT_EQ(ran.status, 0) << ran.text;
+    std::vector<std::vector<std::string>> wanted;
+    std::size_t ended = 0;
+    for (std::size_t frame = 0; frame < expected.size(); ++frame) {
+      const auto& now = expected[frame];
+      const auto before = frame == 0 ? std::vector<IndexPair>{} : expected[frame - 1];
+      for (const char* algorithm : {"dynamic-bvh", "naive"}) {
+        const auto want = [&](const auto& of, const auto& without, const char* change) {
+          for (const IndexPair& pair : of) {
+            if (std::ranges::binary_search(without, pair)) continue;
+            wanted.push_back({std::to_string(frame), algorithm, std::to_string(pair.a),
+                              std::to_string(pair.b), change});
+          }
+        };
+        want(now, before, "began");
+        const std::size_t rows = wanted.size();
+        want(before, now, "ended");
+        ended += wanted.size() - rows;
+      }
+    }
+    EXPECT_GT(wanted.size(), 100u);
+    EXPECT_GT(ended, 20u);
+    auto rows =
+        read_rows(folder.path() / "changes.csv", {"frame", "algorithm", "a", "b", "change"});
+    // The order of the algorithms is that of the list.
+    std::ranges::stable_sort(rows, {}, [](const auto& row) { return row[0] + row[1]; });
+    EXPECT_EQ(rows, wanted);
+  }
+}
+
 TEST_F(PairsCommand, ReadsRecordings) {
   const Aabb near = {{0, 0, 0}, {1, 1, 1}}, far = {{8, 8, 8}, {9, 9, 9}};
   scene::write_aabbs({"scene", "cubes", {{0, 0, 0}, {9, 9, 9}}, {{near, far}, {near, near}}},
@@ -204,6 +240,10 @@ TEST_F(PairsCommand, BadRequests) {
                  "/dev/full: cannot be written: No space");
   expect_refusal(in + " --broad naive" + out + " --pairs " + path("none/p.csv"), "No such file");
   expect_refusal(in + " --broad naive" + out + " --pairs " + path("out.csv"), "the same file");
+  expect_refusal(in + " --broad naive" + out + " --changes " + path("none/c.csv"), "No such file");
+  expect_refusal(
+      in + " --broad naive" + out + " --pairs " + path("p.csv") + " --changes " + path("p.csv"),
+      "--pairs and --changes name the same file");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -76,6 +78,39 @@ TEST(MadeScenes, AreThereAndMoveALittle) {
     }
     EXPECT_GT(moved, scene.size() / 2);
   }
+}
+
+TEST(FarClumps, AreFarApart) {
+  const scene::Scene scene = scene::load_scene(datasets / "broad/far_clumps.toml");
+  ASSERT_EQ(scene.bodies.size(), 10'000u);
+  const scene::ScenePlayer player(scene, scene::BoxKind::tight);
+  Aabb world = Aabb::empty();
+  for (const Aabb& box : player.boxes()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      world.min[k] = std::min(world.min[k], box.min[k]);
+      world.max[k] = std::max(world.max[k], box.max[k]);
+    }
+  }
+  // The boxes along x are in at most fifty groups with wide gaps between them.
+  std::vector<std::array<float, 2>> along;
+  for (const Aabb& box : player.boxes()) along.push_back({box.min[0], box.max[0]});
+  std::ranges::sort(along);
+  const float width = world.max[0] - world.min[0];
+  float covered = 0;
+  float end = world.min[0];
+  for (const auto& [low, high] : along) {
+    covered += std::max(0.0f, high - std::max(low, end));
+    end = std::max(end, high);
+  }
+  EXPECT_LT(covered, 0.1f * width);
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < 1'000; ++i) {
+    for (std::size_t j = 0; j < scene.size(); ++j) {
+      pairs += i != j && overlap(player.boxes()[i], player.boxes()[j]) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(pairs, 2'000u);  // five a body are asked for
+  EXPECT_LT(pairs, 10'000u);
 }
 
 TEST(Home, EachPieceIsOneFileUnderAMegabyteInAll) {

@@ -30,14 +30,14 @@ class WideTrees : public testing::Test {
   }
   void load(std::size_t count, float side) {
     bodies_.clear();
-    tree_.start(count, count);
+    tree_.start(count, count, true);
     for (std::uint32_t id = 0; id < count; ++id) {
       bodies_[id] = box(1, side);
       tree_.set(id, bodies_[id], id);
     }
     next_ = static_cast<std::uint32_t>(count);
     Executor executor(2);
-    tree_.load(executor, true);
+    tree_.load(executor);
   }
   void insert(const Aabb& body) {
     tree_.make_room_for_ids(next_ + 1);
@@ -67,7 +67,7 @@ class WideTrees : public testing::Test {
 };
 
 TEST_F(WideTrees, FindWhatOverlapsWhateverIsChanged) {
-  std::size_t rebuilt = 0, kept = 0;
+  std::size_t regrouped = 0, kept = 0;
   for (const std::size_t count : {0u, 1u, 2u, 15u, 16u, 17u, 300u, 4'000u}) {
     SCOPED_TRACE(count);
     for (const float side : {0.0f, 0.02f, 0.5f}) {
@@ -92,8 +92,9 @@ TEST_F(WideTrees, FindWhatOverlapsWhateverIsChanged) {
           }
           // Not at every other load, for trees that are left to go bad.
           if (changes % 10 == 0 && count % 2 == 0) {
-            const std::size_t now = tree_.rebuild_worn();
-            rebuilt += now;
+            const std::size_t now = tree_.rebuild_worn(300);
+            EXPECT_LT(now, 300 + 256u);
+            regrouped += now;
             kept += now == 0 ? 1 : 0;
           }
           if (changes % 50 == 0) expect_found(box(1, 0.2f));
@@ -105,7 +106,7 @@ TEST_F(WideTrees, FindWhatOverlapsWhateverIsChanged) {
   }
   EXPECT_GT(hits_, queries_ / 4);
   EXPECT_LT(hits_, queries_);
-  EXPECT_GT(rebuilt, 100u);
+  EXPECT_GT(regrouped, 10'000u);
   EXPECT_GT(kept, 1'000u);
 }
 
@@ -128,7 +129,7 @@ TEST_F(WideTrees, StayGoodWhereBodiesWander) {
   };
   // In an order along a curve, as it is to be loaded; the first one is of boxes at random.
   const auto reload = [&] {
-    tree_.start(bodies_.size(), bodies_.size());
+    tree_.start(bodies_.size(), bodies_.size(), true);
     std::vector<std::uint32_t> order;
     for (const auto& [id, body] : bodies_) order.push_back(id);
     const auto cell = [&](std::uint32_t id, std::size_t axis) {
@@ -142,7 +143,7 @@ TEST_F(WideTrees, StayGoodWhereBodiesWander) {
     });
     for (std::size_t i = 0; i < order.size(); ++i) tree_.set(i, bodies_[order[i]], order[i]);
     Executor executor(1);
-    tree_.load(executor, true);
+    tree_.load(executor);
   };
   reload();
   const double at_first = leaf_surfaces();
@@ -159,7 +160,7 @@ TEST_F(WideTrees, StayGoodWhereBodiesWander) {
       }
       tree_.move(id, body);
     }
-    tree_.rebuild_worn();
+    tree_.rebuild_worn(400);
   }
   EXPECT_LT(leaf_surfaces(), 2 * at_first);
   EXPECT_LT(tree_.held_bytes(), 2 * bytes);
@@ -178,7 +179,7 @@ TEST_F(WideTrees, BearExtremes) {
       body.max[axis] = high;
     }
     insert(body);
-    if (i % 10 == 0) tree_.rebuild_worn();
+    if (i % 10 == 0) tree_.rebuild_worn(400);
     expect_found(body);
   }
 }

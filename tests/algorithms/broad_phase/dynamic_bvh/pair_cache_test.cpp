@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <random>
 #include <set>
 
@@ -40,8 +41,39 @@ class KeptPairSets : public testing::Test {
       EXPECT_TRUE(found == truth) << found.size() << " of " << truth.size();
     }
     EXPECT_EQ(kept_.size(), pairs_.size());
+    if (kept_.is_told()) {
+      PairSink began, ended;
+      kept_.write_changes(began, ended);
+      std::vector<IndexPair> expected;
+      std::ranges::set_difference(truth, told_, std::back_inserter(expected));
+      EXPECT_TRUE(began.gather() == expected);
+      began_ += expected.size();
+      expected.clear();
+      std::ranges::set_difference(told_, truth, std::back_inserter(expected));
+      EXPECT_TRUE(ended.gather() == expected);
+      ended_ += expected.size();
+      std::vector<IndexPair> told = kept_.told();
+      std::ranges::sort(told);
+      EXPECT_TRUE(told == truth);
+      told_ = truth;
+    }
     met_ += truth.size();
     apart_ += pairs_.size() - truth.size();
+  }
+
+  void replace_half(std::uint32_t id, std::uint32_t count) {
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t other = id < 20 ? 0 : id - 20; other < std::min(count, id + 20); ++other) {
+      if (other != id && random_() % 2 == 0) others.push_back(other);
+    }
+    std::ranges::shuffle(others, random_);
+    const std::set<IndexPair> before = pairs_;
+    std::erase_if(pairs_, [&](IndexPair pair) { return pair.a == id || pair.b == id; });
+    for (const std::uint32_t other : others)
+      pairs_.insert({std::min(id, other), std::max(id, other)});
+    std::vector<IndexPair> different;
+    std::ranges::set_symmetric_difference(before, pairs_, std::back_inserter(different));
+    EXPECT_EQ(kept_.replace(id, others, boxes_), different.size());
   }
 
   std::mt19937_64 random_{9};
@@ -50,7 +82,8 @@ class KeptPairSets : public testing::Test {
   std::set<IndexPair> pairs_;
   std::vector<Aabb> boxes_;
   PairSink sink_;
-  std::size_t met_ = 0, apart_ = 0;
+  std::vector<IndexPair> told_;
+  std::size_t met_ = 0, apart_ = 0, began_ = 0, ended_ = 0;
 };
 
 TEST_F(KeptPairSets, FollowWhatComesGoesAndMoves) {
@@ -70,6 +103,9 @@ TEST_F(KeptPairSets, FollowWhatComesGoesAndMoves) {
     kept_.refill(executor_, sink_, count);
     kept_.test(executor_, boxes_);
     expect_written();
+    kept_.tell();
+    told_ = kept_.told();
+    std::ranges::sort(told_);
     for (int frame = 0; frame < 200; ++frame) {
       std::set<std::uint32_t> chosen;
       while (chosen.size() < 1 + count / 50) {
@@ -87,12 +123,16 @@ TEST_F(KeptPairSets, FollowWhatComesGoesAndMoves) {
           const auto [a, b] = std::minmax({ids[0], static_cast<std::uint32_t>(random_() % count)});
           if (a != b && pairs_.insert({a, b}).second) kept_.add({a, b}, boxes_);
         }
+      } else if (frame % 3 == 1 && count > 2) {  // about half of the others, of all in turn
+        for (const std::uint32_t id : ids) replace_half(id, count);
       }
-      expect_written();
+      if (frame % 5 != 4) expect_written();  // otherwise changes add up
     }
   }
   EXPECT_GT(met_, 10'000u);
   EXPECT_GT(apart_, 10'000u);
+  EXPECT_GT(began_, 500u);
+  EXPECT_GT(ended_, 500u);
 }
 
 // What goes leaves room for what comes.

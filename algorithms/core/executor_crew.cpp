@@ -1,0 +1,139 @@
+// Part of the executor: the hand-over of tasks to threads, and their waiting.
+#include "algorithms/core/executor_crew.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Threads stay awake for this long after a loop: the next one of the same frame is near.
+constexpr auto awake_for = std::chrono::microseconds(100);
+
+// Waits for some tens of cycles, in which the other thread of a processor's core can work.
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+}  // namespace
+
+ExecutorCrew::ExecutorCrew(int width, bool may_spin, std::function<void(int worker)> begin)
+    : width_(width), may_spin_(may_spin), begin_(std::move(begin)) {}
+
+ExecutorCrew::~ExecutorCrew() {
+  {
+    const std::lock_guard lock(mutex_);
+    state_.fetch_or(is_over);
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+// More threads than this bring nothing, where a crew is wider than the machine.
+void ExecutorCrew::start_threads() {
+  constexpr int most = 8;
+  const int count = may_spin_ ? width_ : std::min(width_, most);
+  for (int worker = 1; worker < count; ++worker) {
+    threads_.emplace_back(&ExecutorCrew::work_as, this, worker);
+  }
+}
+
+void ExecutorCrew::wake() {
+  { const std::lock_guard lock(mutex_); }  // a thread that is about to sleep has seen the loop
+  changed_.notify_all();
+}
+
+// Runs a task if there is one left. The first exception leaves no more tasks.
+bool ExecutorCrew::run_next(int worker) {
+  const std::size_t task = next_.fetch_add(1, std::memory_order_relaxed);
+  if (task >= tasks_) return false;
+  try {
+    (*body_)(task, worker);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::current_exception();
+    next_.store(tasks_, std::memory_order_relaxed);
+  }
+  return true;
+}
+
+ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, double seconds) {
+  if (threads_.empty()) start_threads();
+  const auto start = Clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  body_ = &body;
+  tasks_ = tasks;
+  next_.store(0, std::memory_order_relaxed);
+  state_.fetch_add((std::uint64_t{1} << loop_bits) + is_open);
+  Share own;
+  if (seconds == 0) {  // the first task tells
+    own.tasks += run_next(0) ? 1 : 0;
+    seconds = passed() * static_cast<double>(tasks);
+  }
+  if (seconds >= least_waking_seconds && asleep_.load() > 0) wake();
+  while (run_next(0)) ++own.tasks;
+  own.seconds = passed();
+  state_.fetch_and(~is_open);
+  for (int waited = 0; (state_.load(std::memory_order_acquire) & all_inside) != 0; ++waited) {
+    // Where threads share a processor, those inside need it.
+    waited < 2'000 ? pause() : std::this_thread::yield();
+  }
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  return own;
+}
+
+// --- the threads of the crew ---
+
+void ExecutorCrew::work_as(int worker) {
+  begin_(worker);
+  std::uint64_t loop = 0;
+  while ((state_.load() & is_over) == 0) {
+    if (!enter(loop)) {
+      sleep(loop);
+      continue;
+    }
+    while (run_next(worker)) {
+    }
+    state_.fetch_sub(one_inside, std::memory_order_release);
+  }
+}
+
+// Waits awake for an open loop after this one, enters it and sets the number. Returns false if none
+// comes for some time.
+bool ExecutorCrew::enter(std::uint64_t& loop) {
+  const auto end = Clock::now() + (may_spin_ ? awake_for : std::chrono::microseconds(0));
+  for (;;) {
+    for (int i = 0; i < 64; ++i) {
+      std::uint64_t state = state_.load(std::memory_order_acquire);
+      if ((state & is_over) != 0) return false;
+      if ((state & is_open) != 0 && state >> loop_bits != loop) {
+        if (!state_.compare_exchange_weak(state, state + one_inside)) continue;
+        loop = state >> loop_bits;
+        return true;
+      }
+      if (!may_spin_) break;
+      pause();
+    }
+    if (Clock::now() >= end) return false;
+  }
+}
+
+// Sleeps until it is woken for a loop after this one.
+void ExecutorCrew::sleep(std::uint64_t loop) {
+  std::unique_lock lock(mutex_);
+  ++asleep_;
+  changed_.wait(lock, [&] {
+    const std::uint64_t state = state_.load();
+    return (state & is_over) != 0 || ((state & is_open) != 0 && state >> loop_bits != loop);
+  });
+  --asleep_;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,79 @@
+// Part of the executor: threads that help the caller with the tasks of a loop.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace touchstone {
+
+// A loop is open while its tasks are handed out. A thread of the crew enters an open loop, takes
+// tasks until none is left, and leaves; the caller takes tasks too, closes the loop and waits until
+// all have left. All this goes through one atomic number, which threads that are awake watch.
+class ExecutorCrew {
+ public:
+  using Body = std::function<void(std::size_t task, int worker)>;
+
+  // Measured: two threads that are awake take less time than one for loops of at least this, and
+  // waking one pays for loops that take a thread this long.
+  static constexpr double least_shared_seconds = 3e-6;
+  static constexpr double least_waking_seconds = 30e-6;
+
+  // Threads call `begin` with their number, in [1, width), when they start. They wait awake if
+  // there is a processor for each.
+  ExecutorCrew(int width, bool may_spin, std::function<void(int worker)> begin);
+  ~ExecutorCrew();
+  ExecutorCrew(const ExecutorCrew&) = delete;
+  ExecutorCrew& operator=(const ExecutorCrew&) = delete;
+
+ protected:
+  // What the caller did of a loop.
+  struct Share {
+    std::size_t tasks = 0;
+    double seconds = 0;
+  };
+
+  // Runs all tasks with the crew, as worker 0; `seconds` is what one thread would take, or 0 if
+  // that is not known. Rethrows the first exception of a body.
+  Share share(std::size_t tasks, const Body& body, double seconds);
+
+ private:
+  // Bits of state_: a loop is open; the crew is to end; above them the number of the threads in the
+  // loop, and above these the number of the loop.
+  static constexpr std::uint64_t is_open = 1;
+  static constexpr std::uint64_t is_over = 2;
+  static constexpr std::uint64_t one_inside = 4;
+  static constexpr std::uint64_t all_inside = 0xffff'fffc;
+  static constexpr int loop_bits = 32;
+
+  void start_threads();
+  void wake();
+  void work_as(int worker);
+  bool enter(std::uint64_t& loop);
+  void sleep(std::uint64_t loop);
+  bool run_next(int worker);
+
+  const int width_;
+  const bool may_spin_;
+  const std::function<void(int)> begin_;
+  std::vector<std::thread> threads_;
+
+  // The loop; it changes only while nobody is inside.
+  const Body* body_ = nullptr;
+  std::size_t tasks_ = 0;
+  std::exception_ptr failure_;  // guarded by mutex_
+
+  alignas(64) std::atomic<std::uint64_t> state_ = 0;
+  alignas(64) std::atomic<std::size_t> next_ = 0;  // the next task
+  alignas(64) std::atomic<int> asleep_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;  // there is a new loop, or the crew is to end
+};
+
+}  // namespace touchstone
