@@ -18,14 +18,13 @@ struct Grade {
   std::int64_t other = 0;        // another number, triangle or time than the exact one
   std::int64_t unknown = 0;      // gave up, and said so
   double error = Outcome::none;  // the greatest error of a number, in the unit of the contract
-
-  bool is_right() const { return missed == 0 && false_hits == 0 && other == 0; }
 };
 
 struct Contestant {
   std::string name;  // the algorithm's, and the scalar's where it offers several
   Origin origin = Origin::ours;
   bool approximate = false;      // its errors are known, and are no fault
+  bool tolerant = false;         // it may say yes where the exact answer is no, within a tolerance
   std::function<void()> answer;  // answers all queries; this is timed
   std::function<Grade()> grade;  // judges the last answers
 };

@@ -12,10 +12,12 @@ namespace touchstone::cells {
 // grades.csv: one algorithm's answers to one cell.
 struct GradeRow {
   std::string group, cell, algorithm, origin;
-  bool approximate = false;
+  bool approximate = false, tolerant = false;
   std::int64_t queries = 0, graded = 0, missed = 0, false_hits = 0, other = 0, unknown = 0;
   double error = Outcome::none;
   std::string status;
+
+  bool is_right() const { return missed == 0 && (tolerant || false_hits == 0) && other == 0; }
 };
 template <record::row_of<GradeRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
@@ -24,6 +26,8 @@ void columns(Row& row, Visit visit) {
   visit("algorithm", row.algorithm, "Name of the algorithm, with the scalar where it has several.");
   visit("origin", row.origin, "ours, peer or oracle.");
   visit("approximate", row.approximate, "1: its errors are known, and are no fault.");
+  visit("tolerant", row.tolerant,
+        "1: it may say yes within a tolerance, so false hits are no fault.");
   visit("queries", row.queries, "Queries of the cell.");
   visit("graded", row.graded, "Queries that were held against exact answers, the first ones.");
   visit("missed", row.missed, "Queries with a no where the exact answer is yes.");

@@ -97,9 +97,8 @@ class CellRun {
   }
 
   void note(const GradeRow& row) {
-    const bool right = row.missed == 0 && row.false_hits == 0 && row.other == 0;
     result_.ours_wrong |=
-        row.origin == "ours" && !row.approximate && (!right || row.status == "crashed");
+        row.origin == "ours" && !row.approximate && (!row.is_right() || row.status == "crashed");
   }
   void note_earlier_grades() {
     folder_.each_row<GradeRow>(grades_file, [&](const GradeRow& row) { note(row); });
@@ -132,6 +131,7 @@ class CellRun {
     row.algorithm = contestant.name;
     row.origin = to_string(contestant.origin);
     row.approximate = contestant.approximate;
+    row.tolerant = contestant.tolerant;
     row.queries = cell.queries;
     row.graded = cell.graded;
     row.missed = graded.grade.missed;

@@ -28,16 +28,14 @@ struct CellTimes {
   std::optional<CellBestRow> best;
 };
 
-bool is_right(const GradeRow& row) {
-  return row.status == "ok" && row.missed == 0 && row.false_hits == 0 && row.other == 0;
-}
-
 // The place of the fastest of an origin that is right and was timed.
 std::optional<std::size_t> fastest(const CellTimes& cell, std::string_view origin) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < cell.rows.size(); ++i) {
     const CellTimeRow& row = cell.rows[i];
-    if (row.grade.origin != origin || !is_right(row.grade) || std::isnan(row.seconds)) continue;
+    if (row.grade.origin != origin || row.grade.status != "ok" || !row.grade.is_right() ||
+        std::isnan(row.seconds))
+      continue;
     if (!best || row.seconds < cell.rows[*best].seconds) best = i;
   }
   return best;

@@ -5,13 +5,12 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/campaign/selection.h"
+#include "harness/cells/choices.h"
 #include "harness/cells/kinds.h"
 #include "harness/geometry/named_mesh.h"
 
@@ -167,19 +166,6 @@ Cell make_cell(const TriangleMesh& mesh, Aim aim, RayTask task, std::size_t coun
   return cell;
 }
 
-template <std::size_t size>
-std::vector<std::size_t> choices(files::TomlTable& table, std::string_view key,
-                                 const std::array<std::string_view, size>& names) {
-  std::vector<std::size_t> chosen;
-  for (const toml::node* node : table.elements(key))
-    chosen.push_back(table.choice_of(*node, key, names));
-  if (chosen.empty()) {
-    chosen.resize(size);
-    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  }
-  return chosen;
-}
-
 }  // namespace
 
 std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesystem::path& home) {
@@ -187,13 +173,7 @@ std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesyste
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> aims = choices(table, "rays", aim_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", task_names);
-  std::vector<const RayCastEntry*> entries;
-  try {
-    entries =
-        campaign::select(ray_casts(), table.texts("algorithms", {"ours", "peers"}), "ray cast");
-  } catch (const base::InputError& error) {
-    table.fail("algorithms", error.what());
-  }
+  const auto entries = selected(table, ray_casts(), "ray cast");
   std::vector<PlannedCell> cells;
   for (const std::string& name :
        table.texts("meshes", {"torus-2000", "trefoil-10000", "terrain-100000"})) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "harness/process/queries/ordered_pair.h"
+#include "algorithms/pair_query.h"
 
 namespace touchstone::process {
 

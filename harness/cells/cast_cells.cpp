@@ -1,0 +1,212 @@
+// Pairs of convex bodies that move: towards each other, past each other, through each other, and turning.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "algorithms/hull/convex_hull.h"
+#include "algorithms/oracle/oracle.h"
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+#include "harness/base/plain_math.h"
+#include "harness/base/random.h"
+#include "harness/campaign/selection.h"
+#include "harness/cells/choices.h"
+#include "harness/cells/kinds.h"
+
+namespace touchstone::cells {
+namespace {
+
+enum class Way : std::uint8_t {
+  hit,
+  near_miss,
+  clear_miss,
+  overlapping,
+  far_hit,
+  turn_half,
+  turn_2,
+  turn_20
+};
+constexpr std::array<std::string_view, 8> way_names = {"hit",
+                                                       "miss by 1e-3",
+                                                       "clear miss",
+                                                       "overlapping at the start",
+                                                       "hit from a thousand sizes",
+                                                       "turning by 0.5",
+                                                       "turning by 2",
+                                                       "turning by 20"};
+constexpr std::array<std::string_view, 5> shape_names = {"sphere", "capsule", "box", "hull-32",
+                                                         "hull-128"};
+// A time of impact that is off by more than this length of path is wrong; bodies are about 1 in size.
+constexpr double greatest_error = 1e-2;
+
+double radians(Way way) {
+  switch (way) {
+    case Way::turn_half: return 0.5;
+    case Way::turn_2: return 2;
+    case Way::turn_20: return 20;
+    default: return 0;
+  }
+}
+
+Shape make_shape(std::size_t kind, base::Random& random) {
+  Shape shape;
+  switch (kind) {
+    case 0: shape.radius = random.uniform(0.3, 0.6); return shape;
+    case 1:
+      shape.kind = ShapeKind::capsule;
+      shape.radius = random.uniform(0.15, 0.3);
+      shape.half_length = random.uniform(0.2, 0.5);
+      return shape;
+    case 2:
+      shape.kind = ShapeKind::box;
+      for (int k = 0; k < 3; ++k) shape.half_extents[k] = random.uniform(0.2, 0.5);
+      return shape;
+    default: break;
+  }
+  std::vector<Vec3d> points(kind == 3 ? 32 : 128);
+  for (Vec3d& point : points) point = 0.5 * random.on_sphere();
+  return hull_of(std::move(points));
+}
+
+struct CastInput {
+  std::vector<Shape> shapes;
+  std::vector<std::uint32_t> shape_of, first, second;
+  std::vector<Pose> poses;
+  std::vector<Motion> motions;
+  std::vector<CastOutcome> exact;
+
+  CastBatch batch(std::size_t count) const {
+    const ShapeKind kind = shapes.front().kind;
+    return {kind,
+            kind,
+            {std::span(first).first(count), std::span(second).first(count), shape_of, poses},
+            motions};
+  }
+  // The length of path that a unit of time stands for.
+  double path(std::size_t i) const {
+    const Motion &a = motions[first[i]], &b = motions[second[i]];
+    return base::length(b.displacement - a.displacement) + base::length(a.rotation_vector) +
+           base::length(b.rotation_vector);
+  }
+};
+
+void add_body(CastInput& input, Shape shape, const Pose& pose, const Motion& motion) {
+  input.shape_of.push_back(static_cast<std::uint32_t>(input.shapes.size()));
+  input.shapes.push_back(std::move(shape));
+  input.poses.push_back(pose);
+  input.motions.push_back(motion);
+}
+
+void add_pair(CastInput& input, std::size_t kind, Way way, base::Random& random) {
+  Shape a = make_shape(kind, random), b = make_shape(kind, random);
+  Pose pose_a{random.rotation(), random.in_ball()}, pose_b{random.rotation(), {}};
+  const Vec3d direction = random.on_sphere();
+  const Vec3d across = base::beside(direction, random.on_sphere());
+  const double distance = way == Way::far_hit ? 1000 : way == Way::overlapping ? 0 : 3;
+  double aside = random.uniform(0, 0.2);
+  if (way == Way::clear_miss) aside = 4;
+  if (radians(way) > 0) aside = random.uniform(0, 1.5);
+  pose_b.translation = pose_a.translation + distance * direction + aside * across;
+  Motion motion_a, motion_b;
+  motion_b.displacement = -(way == Way::overlapping ? 1 : 2 * distance) * direction;
+  if (way == Way::near_miss) {
+    // The plane across `across` parts them by 1e-3 all the way.
+    const oracle::Solid solid_a(a), solid_b(b);
+    const oracle::Enclosure apart =
+        oracle::separation_along({solid_a, pose_a}, {solid_b, pose_b}, across);
+    pose_b.translation += (apart.upper + 1e-3) * across;
+  }
+  if (const double turn = radians(way); turn > 0) {
+    motion_a.rotation_vector = random.uniform(0.5, 1) * turn * random.on_sphere();
+    motion_b.rotation_vector = random.uniform(0.5, 1) * turn * random.on_sphere();
+  }
+  input.first.push_back(static_cast<std::uint32_t>(input.poses.size()));
+  input.second.push_back(static_cast<std::uint32_t>(input.poses.size() + 1));
+  add_body(input, std::move(a), pose_a, motion_a);
+  add_body(input, std::move(b), pose_b, motion_b);
+}
+
+Grade grade(const CastInput& input, std::span<const CastOutcome> outcomes) {
+  Grade grade;
+  for (std::size_t i = 0; i < input.exact.size(); ++i) {
+    const CastOutcome &found = outcomes[i], &right = input.exact[i];
+    const bool sure = found.status == Status::ok || found.status == Status::not_reported;
+    if (!sure || found.answer == CastAnswer::unknown) {
+      ++grade.unknown;
+      continue;
+    }
+    if (right.status != Status::ok || right.answer == CastAnswer::unknown) continue;
+    if (found.answer != right.answer) {
+      ++(right.answer == CastAnswer::hit ? grade.missed : grade.false_hits);
+      continue;
+    }
+    if (found.answer == CastAnswer::miss) continue;
+    const double error = std::abs(found.toi - right.toi) * input.path(i);
+    if (!(error <= grade.error)) grade.error = error;
+    if (!(error <= greatest_error)) ++grade.other;
+  }
+  return grade;
+}
+
+Cell make_cell(std::size_t kind, Way way, std::size_t count, std::size_t graded, std::uint64_t seed,
+               std::optional<double> tolerance, const std::vector<const CastEntry*>& entries) {
+  const auto input = std::make_shared<CastInput>();
+  base::Random random(seed, static_cast<std::uint64_t>(way) << 8 | kind);
+  for (std::size_t i = 0; i < count; ++i) add_pair(*input, kind, way, random);
+  const ShapeKind shape = input->shapes.front().kind;
+  const bool turns = radians(way) > 0;
+  input->exact.resize(std::min(graded, count));
+  const std::unique_ptr<Cast> oracle = find_cast("exact")->make({});
+  oracle->bind(input->shapes);
+  oracle->solve(input->batch(input->exact.size()), input->exact);
+  Cell cell;
+  cell.queries = static_cast<std::int64_t>(count);
+  cell.graded = std::ssize(input->exact);
+  for (const CastEntry* entry : entries) {
+    if (!offers(*entry, shape, shape, turns)) continue;
+    for (const Precision scalar : entry->scalars) {
+      const CastSettings settings{.scalar = scalar, .tolerance = tolerance};
+      const std::shared_ptr<Cast> caster = entry->make(settings);
+      caster->bind(input->shapes);
+      const auto outcomes = std::make_shared<std::vector<CastOutcome>>(count);
+      Contestant made;
+      made.name = entry->info.name;
+      if (entry->scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
+      made.origin = entry->info.origin;
+      made.approximate = !entry->info.known_defect.empty();
+      made.answer = [=] { caster->solve(input->batch(input->first.size()), *outcomes); };
+      made.grade = [=] { return grade(*input, *outcomes); };
+      cell.contestants.push_back(std::move(made));
+    }
+  }
+  return cell;
+}
+
+}  // namespace
+
+std::vector<PlannedCell> cast_cells(files::TomlTable& table,
+                                    const std::filesystem::path& /*home*/) {
+  const auto count = static_cast<std::size_t>(table.integer("queries", 16, 1'000'000, 384));
+  const auto graded = static_cast<std::size_t>(table.integer("graded", 16, 1'000'000, 384));
+  const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
+  std::optional<double> tolerance;
+  if (table.has("tolerance")) tolerance = table.number("tolerance", files::positive);
+  const std::vector<std::size_t> ways = choices(table, "ways", way_names);
+  const std::vector<std::size_t> shapes = choices(table, "shapes", shape_names);
+  const auto entries = selected(table, casts(), "cast");
+  std::vector<PlannedCell> cells;
+  for (const std::size_t way : ways) {
+    for (const std::size_t shape : shapes) {
+      cells.push_back({std::string(way_names[way]), std::string(shape_names[shape]), [=] {
+                         return make_cell(shape, static_cast<Way>(way), count, graded, seed,
+                                          tolerance, entries);
+                       }});
+    }
+  }
+  return cells;
+}
+
+}  // namespace touchstone::cells

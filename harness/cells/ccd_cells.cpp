@@ -1,0 +1,180 @@
+// Moving vertices and faces, and moving edges: drawn families, and files of queries.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "algorithms/registry.h"
+#include "harness/base/plain_math.h"
+#include "harness/base/random.h"
+#include "harness/cells/choices.h"
+#include "harness/cells/kinds.h"
+#include "harness/files/ccd_queries.h"
+
+namespace touchstone::cells {
+namespace {
+
+enum class Family : std::uint8_t {
+  crossing,
+  clear_miss,
+  at_the_end,
+  at_a_corner,
+  in_a_plane,
+  alike
+};
+constexpr std::array<std::string_view, 6> family_names = {
+    "crossing",     "clear miss",  "contact at the end", "contact at a corner",
+    "in one plane", "moving alike"};
+constexpr std::array<FeaturePair, 2> pairs = {FeaturePair::vertex_face, FeaturePair::edge_edge};
+
+// A point of each feature, by weights of its vertices: the vertex and the triangle, or both edges.
+struct Weights {
+  std::array<double, 4> of;
+};
+Weights random_weights(FeaturePair pair, bool corner, base::Random& random) {
+  if (pair == FeaturePair::edge_edge) {
+    const double s = corner ? 1 : random.unit(), t = random.unit();
+    return {{1 - s, s, 1 - t, t}};
+  }
+  double u = corner ? 1 : random.unit(), v = corner ? 0 : random.unit();
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  return {{1, 1 - u - v, u, v}};
+}
+std::size_t features_of_first(FeaturePair pair) { return pair == FeaturePair::vertex_face ? 1 : 2; }
+
+Vec3d on(const std::array<Vec3d, 4>& at, const Weights& weights, std::size_t from, std::size_t to) {
+  Vec3d point = Vec3d::Zero();
+  for (std::size_t k = from; k < to; ++k) point += weights.of[k] * at[k];
+  return point;
+}
+
+CcdQuery draw(FeaturePair pair, Family family, base::Random& random) {
+  CcdQuery query;
+  const auto draw_all = [&](std::array<Vec3d, 4>& at) {
+    for (Vec3d& v : at) v = random.in_ball();
+  };
+  draw_all(query.start);
+  draw_all(query.end);
+  const std::size_t split = features_of_first(pair);
+  const auto move_first = [&](std::array<Vec3d, 4>& at, const Vec3d& by) {
+    for (std::size_t k = 0; k < split; ++k) at[k] += by;
+  };
+  switch (family) {
+    case Family::crossing: break;
+    case Family::clear_miss: {
+      const Vec3d away = 3 * random.on_sphere();
+      move_first(query.start, away);
+      move_first(query.end, away);
+      break;
+    }
+    case Family::at_the_end:
+    case Family::at_a_corner: {
+      // The two points meet at time 1, up to rounding; at a corner of one of the features.
+      const Weights weights = random_weights(pair, family == Family::at_a_corner, random);
+      move_first(query.end, on(query.end, weights, split, 4) - on(query.end, weights, 0, split));
+      move_first(query.start, 3 * random.on_sphere());
+      break;
+    }
+    case Family::in_a_plane:
+      for (std::size_t k = 0; k < 4; ++k) query.start[k].z() = query.end[k].z() = 0.25;
+      break;
+    case Family::alike: {
+      const Vec3d by = random.on_sphere();
+      for (std::size_t k = 0; k < 4; ++k) query.end[k] = query.start[k] + by;
+      break;
+    }
+  }
+  return query;
+}
+
+struct CcdInput {
+  FeaturePair pair;
+  std::vector<CcdQuery> queries;
+  std::vector<CcdOutcome> exact;
+};
+
+Grade grade(const CcdInput& input, std::span<const CcdOutcome> outcomes) {
+  Grade grade;
+  for (std::size_t i = 0; i < input.exact.size(); ++i) {
+    const CcdOutcome &found = outcomes[i], &right = input.exact[i];
+    const bool sure = found.status == Status::ok || found.status == Status::not_reported;
+    if (!sure || found.answer == CcdAnswer::unknown) {
+      ++grade.unknown;
+      continue;
+    }
+    if (right.status != Status::ok) continue;
+    if (found.answer != right.answer) {
+      ++(right.answer == CcdAnswer::hit ? grade.missed : grade.false_hits);
+      continue;
+    }
+    if (found.answer == CcdAnswer::miss) continue;
+    // Early is safe; late is a contact that has been passed.
+    const double late = found.toi - right.toi;
+    if (!(late <= grade.error)) grade.error = late;
+  }
+  return grade;
+}
+
+Cell make_cell(const std::shared_ptr<CcdInput>& input, double tolerance,
+               const std::vector<const CcdEntry*>& entries) {
+  input->exact.resize(input->queries.size());
+  find_ccd("exact")->make({})->solve(input->pair, input->queries, input->exact);
+  Cell cell;
+  cell.queries = cell.graded = std::ssize(input->queries);
+  for (const CcdEntry* entry : entries) {
+    const std::shared_ptr<Ccd> solver = entry->make({.tolerance = tolerance});
+    const auto outcomes = std::make_shared<std::vector<CcdOutcome>>(input->queries.size());
+    Contestant made;
+    made.name = entry->info.name;
+    made.origin = entry->info.origin;
+    made.approximate = !entry->info.known_defect.empty();
+    made.answer = [=] { solver->solve(input->pair, input->queries, *outcomes); };
+    // What is found within the tolerance is no fault of those that have one.
+    made.grade = [=] { return grade(*input, *outcomes); };
+    made.tolerant = entry->info.origin == Origin::ours;
+    cell.contestants.push_back(std::move(made));
+  }
+  return cell;
+}
+
+}  // namespace
+
+std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesystem::path& home) {
+  const auto count = static_cast<std::size_t>(table.integer("queries", 16, 10'000'000, 4096));
+  const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
+  const double tolerance = table.number("tolerance", files::positive, 1e-6);
+  const std::vector<std::size_t> families = choices(table, "families", family_names);
+  const auto entries = selected(table, ccds(), "ccd");
+  std::vector<PlannedCell> cells;
+  for (const FeaturePair pair : pairs) {
+    const std::string group(to_string(pair));
+    for (const std::size_t family : families) {
+      cells.push_back({group, std::string(family_names[family]), [=] {
+                         const auto input = std::make_shared<CcdInput>();
+                         input->pair = pair;
+                         base::Random random(seed, family << 1 | static_cast<std::size_t>(pair));
+                         for (std::size_t i = 0; i < count; ++i)
+                           input->queries.push_back(
+                               draw(pair, static_cast<Family>(family), random));
+                         return make_cell(input, tolerance, entries);
+                       }});
+    }
+    const std::string key = pair == FeaturePair::vertex_face ? "vertex_face" : "edge_edge";
+    for (const std::string& file : table.texts(key, {})) {
+      try {
+        const auto input = std::make_shared<CcdInput>();
+        input->pair = pair;
+        input->queries = files::read_ccd_queries(home / file).queries;
+        cells.push_back({group, std::filesystem::path(file).filename().string(),
+                         [=] { return make_cell(input, tolerance, entries); }});
+      } catch (const base::InputError& error) {
+        table.fail(key, error.what());
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace touchstone::cells
