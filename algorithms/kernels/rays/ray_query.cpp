@@ -40,9 +40,9 @@ RayQuery::RayQuery(const Ray& ray) : ray_(ray), t_end_(ray.t_max) {
   ray.direction.cwiseAbs().maxCoeff(&greatest);
   const int z = static_cast<int>(greatest);
   axes_ = {(z + 1) % 3, (z + 2) % 3, z};
-  shear_x_ = ray.direction[axes_[0]] / ray.direction[z];
-  shear_y_ = ray.direction[axes_[1]] / ray.direction[z];
   inverse_ = 1 / ray.direction[z];
+  shear_x_ = ray.direction[axes_[0]] * inverse_;
+  shear_y_ = ray.direction[axes_[1]] * inverse_;
 }
 
 bool RayQuery::offer(std::uint32_t triangle, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
@@ -59,9 +59,10 @@ bool RayQuery::offer(std::uint32_t triangle, const Vec3d& a, const Vec3d& b, con
   }
   const std::array<double, 3> w = {x[2] * y[1] - y[2] * x[1], x[0] * y[2] - y[0] * x[2],
                                    x[1] * y[0] - y[1] * x[0]};
-  // Of x and y: a rounding of the difference, three of shear times z and one of the sum, of numbers
-  // up to `reach` each, are less than 6 units, and each weight is two products of such numbers. 8
-  // and 3 leave room for the roundings of the bound itself.
+  // Of x and y: a rounding of the difference, four of shear times z (of the difference, of the
+  // shear's two steps, of the product) and two of the sum, of numbers up to `reach` each, are 7
+  // units. Each weight is two products of such numbers. 8 and 3 leave room for what these bounds
+  // leave out: products of roundings, and the roundings of the bound itself.
   const double off = 8 * unit * reach;
   const double error = 2 * off * side + 2 * off * off + 3 * unit * side * side + 4 * least_normal;
   const double least = std::min({w[0], w[1], w[2]}), most = std::max({w[0], w[1], w[2]});

@@ -83,7 +83,7 @@ bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
     local.near_origin[axis] = forward ? widened_up(ahead) : widened_down(behind);
     local.far_origin[axis] = forward ? widened_down(behind) : widened_up(ahead);
     // Zero counts as positive, whatever its sign.
-    local.inverse[axis] = static_cast<float>(1 / (along == 0 ? 0.0 : along));
+    local.inverse[axis] = 1 / static_cast<float>(along == 0 ? 0.0 : along);
     local.near[axis] = forward ? axis : axis + 3;
     local.far[axis] = forward ? axis + 3 : axis;
   }
@@ -95,9 +95,10 @@ bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
   const auto along = [&](std::size_t k) {
     return direction[static_cast<Eigen::Index>(local.axes[k])];
   };
-  local.shear_x = static_cast<float>(along(0) / along(2));
-  local.shear_y = static_cast<float>(along(1) / along(2));
-  local.inverse_z = static_cast<float>(1 / along(2));
+  const double inverse = 1 / along(2);
+  local.shear_x = static_cast<float>(along(0) * inverse);
+  local.shear_y = static_cast<float>(along(1) * inverse);
+  local.inverse_z = static_cast<float>(inverse);
   // A vertex seen from the origin is up to `seen` long. Its coordinate is off by the vertex's own
   // rounding (none if the leaves are exact), the origin's in doubles and in floats, and one of the
   // difference. The sheared one has two such errors, the shear's rounding, a product's and a sum's.

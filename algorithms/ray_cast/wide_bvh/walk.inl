@@ -34,8 +34,8 @@ struct Slabs {
   // the origin of a ray along it, is the first operand of min and max, which then give the second.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned meet(const WideNode& node, float tau_end,
                                                     float* near) const {
-    // Both ends have three roundings, so that an end that is met before its beginning is met after
-    // it by less than eight units.
+    // Both ends have four roundings (two of the inverse), so that they change places by less than
+    // nine units.
     const Vector more = Lanes::broadcast(1 + 16 * static_cast<float>(float_unit));
     const auto& planes = node.planes;
     unsigned bits = 0;
@@ -59,8 +59,7 @@ struct Slabs {
 
 // Vertex k of each triangle from the ray's origin, on one of the ray's axes.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector seen(const Leaf& leaf, const LocalRay& ray,
-                                                std::size_t k, std::size_t axis,
-                                                std::size_t part) {
+                                                std::size_t k, std::size_t axis, std::size_t part) {
   return Lanes::load(&leaf.corners[3 * k + ray.axes[axis]][part]) -
          Lanes::broadcast(ray.origin[axis]);
 }
