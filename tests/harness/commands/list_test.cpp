@@ -22,15 +22,19 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
   const auto rows =
       read_rows(folder.write("list.csv", ran.text),
                 {"name", "kind", "origin", "built", "reason", "tasks", "scalars", "citation"});
-  ASSERT_EQ(rows.size(),
-            broad_phases().size() + narrow_phases().size() + contact_manifolds().size());
+  ASSERT_EQ(rows.size(), broad_phases().size() + narrow_phases().size() +
+                             contact_manifolds().size() + mid_phases().size() +
+                             concave_phases().size());
   std::set<std::pair<std::string, std::string>> names;
   for (const auto& row : rows) {
     EXPECT_TRUE(names.insert({row[1], row[0]}).second) << row[0];
-    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold");
-    const AlgorithmInfo& info = row[1] == "broad"    ? find_broad_phase(row[0])->info
-                                : row[1] == "narrow" ? find_narrow_phase(row[0])->info
-                                                     : find_contact_manifold(row[0])->info;
+    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold" ||
+                row[1] == "mid" || row[1] == "concave");
+    const AlgorithmInfo& info = row[1] == "broad"     ? find_broad_phase(row[0])->info
+                                : row[1] == "narrow"  ? find_narrow_phase(row[0])->info
+                                : row[1] == "mid"     ? find_mid_phase(row[0])->info
+                                : row[1] == "concave" ? find_concave_phase(row[0])->info
+                                                      : find_contact_manifold(row[0])->info;
     EXPECT_EQ(row[2], to_string(info.origin));
     EXPECT_EQ(row[3], is_built(info) ? "true" : "false");
     EXPECT_EQ(row[4], is_built(info) ? info.lacking : info.reason);
@@ -58,6 +62,9 @@ TEST(ListCommand, TableNamesEveryAlgorithm) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
   for (const ManifoldEntry& entry : contact_manifolds()) {
+    EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
+  }
+  for (const ConcaveEntry& entry : concave_phases()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
 }
