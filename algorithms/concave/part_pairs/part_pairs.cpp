@@ -83,7 +83,8 @@ class PartPairs final : public ConcavePhase {
                                                 bodies_[b.body], b.pose, waiting_);
       for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const Outcome& found = outcomes[i];
-        if (found.answer == Answer::unknown) undecided = found.status;
+        const bool stands = found.status == Status::ok || found.status == Status::not_reported;
+        if (found.answer == Answer::unknown || !stands) undecided = found.status;
         if (found.answer == Answer::touching || found.answer == Answer::overlapping) {
           pairs.push_back(waiting_[i]);
         }

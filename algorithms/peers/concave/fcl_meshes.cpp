@@ -153,9 +153,12 @@ std::vector<ConcaveEntry> peers_fcl_meshes() {
                .origin = Origin::peer},
       .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
       .scalars = {Precision::float64, Precision::float32},
-      .supports = [](const ConcaveBody& a, const ConcaveBody& b) {
-        return !(a.mesh && a.mesh->solid) && !(b.mesh && b.mesh->solid);
-      }};
+      .supports =
+          [](const ConcaveBody& a, const ConcaveBody& b) {
+            return !(a.mesh && a.mesh->solid) && !(b.mesh && b.mesh->solid);
+          },
+      .approximate = true,
+      .make = nullptr};
 #ifdef TOUCHSTONE_HAS_FCL
   entry.make = make_fcl_meshes;
 #endif

@@ -38,6 +38,12 @@ class ConcaveQueryRun {
       : query_(query), cases_(cases) {
     const auto* mid = campaign::select(mid_phases(), {query.mid}, "mid-phase").at(0);
     const auto* parts = campaign::select(narrow_phases(), {query.parts}, "narrow phase").at(0);
+    if (!answers_for_all(*parts)) {
+      throw base::InputError(fmt::format(
+          "--parts: the narrow phase '{}' does not answer every task for all convex shapes; "
+          "expected one that does, such as certified",
+          query.parts));
+    }
     settings_ = {.scalar = query.scalar, .mid_phase = mid->make, .narrow_phase = [parts] {
                    return parts->make(NarrowPhaseSettings{});
                  }};
@@ -69,6 +75,18 @@ class ConcaveQueryRun {
   }
 
  private:
+  static bool answers_for_all(const NarrowPhaseEntry& entry) {
+    if (!offers(entry, Precision::float64)) return false;
+    for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
+      for (const ShapeKind a : all_shape_kinds) {
+        for (const ShapeKind b : all_shape_kinds) {
+          if (!offers(entry, a, b, task)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
   ConcaveAnswer solve(const ConcaveEntry& entry, const files::ConcaveCase& c,
                       std::vector<IndexPair>& pairs) const {
     const std::vector<ConcaveBody> bodies = {c.a, c.b};
@@ -89,13 +107,16 @@ class ConcaveQueryRun {
       if (count == 0) continue;
       process::SharedArray<IndexPair> fetched(count);
       const process::IsolationLimits limits = {.item_seconds = query_.time_limit};
-      process::isolate(1, limits, [&]() -> process::ItemWork {
+      const auto report = process::isolate(1, limits, [&]() -> process::ItemWork {
         return [&](std::size_t) {
           std::vector<IndexPair> pairs;
           solve(*all.entry, cases_[i], pairs);
           std::copy_n(pairs.begin(), std::min(count, pairs.size()), fetched.span().begin());
         };
       });
+      print_failures(all.entry->info.name, report.failures,
+                     [&](std::size_t) { return fmt::format("pairs of case '{}'", cases_[i].id); });
+      if (!report.failures.empty()) continue;
       all.pairs[i].assign(fetched.span().begin(), fetched.span().end());
       std::ranges::sort(all.pairs[i]);
     }

@@ -69,7 +69,7 @@ class EveryMidPhase : public testing::TestWithParam<std::string> {
 };
 
 Pose any_pose(reference::Random& random, int kind) {
-  Pose pose = {random.rotation(), random.vector(1)};
+  Pose pose = {random.rotation(), random.vector(0.3)};
   if (kind == 1) pose = {Mat3d::Identity(), {0.25, 0.5, 0}};
   if (kind == 2) pose.rotation *= 0.7;
   if (kind == 3) pose.rotation.col(1) += 0.5 * pose.rotation.col(0);
@@ -81,8 +81,8 @@ TEST_P(EveryMidPhase, LeavesOutNoPairThatMeets) {
   reference::Random random(1);
   std::size_t meeting = 0, given = 0, all = 0;
   for (int i = 0; i < drawn(30, 6); ++i) {
-    const auto boxes_a = any_boxes(random, 1 + random.below(40), 0.1);
-    const auto boxes_b = any_boxes(random, 1 + random.below(40), 0.1);
+    const auto boxes_a = any_boxes(random, 1 + random.below(40), 0.25);
+    const auto boxes_b = any_boxes(random, 1 + random.below(40), 0.25);
     BoxTruth truth_a(boxes_a), truth_b(boxes_b);
     const auto mid = make();
     mid->add(boxes_a);
@@ -139,8 +139,8 @@ TEST_P(EveryMidPhase, EndsWhereItIsToldTo) {
 
 TEST_P(EveryMidPhase, FollowsPartsThatMoved) {
   reference::Random random(4);
-  const auto first = any_boxes(random, 60, 0.1), moved = any_boxes(random, 60, 0.1);
-  const auto other = any_boxes(random, 50, 0.1);
+  const auto first = any_boxes(random, 60, 0.25), moved = any_boxes(random, 60, 0.25);
+  const auto other = any_boxes(random, 50, 0.25);
   const auto refitted = make(), built = make();
   refitted->add(first);
   refitted->add(other);

@@ -76,6 +76,9 @@ TEST(ListCommand, TableNamesEveryAlgorithm) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
   for (const CastEntry& entry : casts()) EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
+  for (const ConcaveEntry& entry : concave_phases()) {
+    EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
+  }
 }
 
 TEST(ListCommand, WrongRequests) {
