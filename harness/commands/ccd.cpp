@@ -16,8 +16,8 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
-#include "harness/files/ccd_queries.h"
 #include "harness/files/csv.h"
+#include "harness/files/motion/ccd_queries.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {

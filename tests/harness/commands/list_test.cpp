@@ -22,14 +22,15 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
   const auto rows =
       read_rows(folder.write("list.csv", ran.text),
                 {"name", "kind", "origin", "built", "reason", "tasks", "scalars", "citation"});
-  ASSERT_EQ(rows.size(),
-            broad_phases().size() + narrow_phases().size() + contact_manifolds().size());
+  ASSERT_EQ(rows.size(), broad_phases().size() + narrow_phases().size() +
+                             contact_manifolds().size() + ccds().size());
   std::set<std::pair<std::string, std::string>> names;
   for (const auto& row : rows) {
     EXPECT_TRUE(names.insert({row[1], row[0]}).second) << row[0];
-    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold");
+    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold" || row[1] == "ccd");
     const AlgorithmInfo& info = row[1] == "broad"    ? find_broad_phase(row[0])->info
                                 : row[1] == "narrow" ? find_narrow_phase(row[0])->info
+                                : row[1] == "ccd"    ? find_ccd(row[0])->info
                                                      : find_contact_manifold(row[0])->info;
     EXPECT_EQ(row[2], to_string(info.origin));
     EXPECT_EQ(row[3], is_built(info) ? "true" : "false");
@@ -41,6 +42,9 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
     }
     if (row[1] == "manifold") {
       EXPECT_EQ(row[5], "manifold");
+    }
+    if (row[1] == "ccd") {
+      EXPECT_EQ(row[5], "vertex-face;edge-edge");
     }
   }
 }
