@@ -12,16 +12,15 @@ namespace touchstone {
 bool scale_edges(const std::array<Vec3d, 4>& start, const std::array<Vec3d, 4>& end,
                  ScaledEdges& edges) {
   double* to = edges.at.data();
-  double reach = 0;
+  Vec3d reaches = Vec3d::Zero();  // by axis, because one maximum of all would wait for each
   for (const std::array<Vec3d, 4>* x : {&start, &end}) {
-    for (std::size_t i = 1; i < 4; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        *to = (*x)[i][axis] - (*x)[0][axis];
-        reach = std::max(reach, std::abs(*to));
-        ++to;
-      }
+    for (std::size_t i = 1; i < 4; ++i, to += 3) {
+      const Vec3d edge = (*x)[i] - (*x)[0];
+      reaches = reaches.cwiseMax(edge.cwiseAbs());
+      Eigen::Map<Vec3d>{to} = edge;
     }
   }
+  const double reach = reaches.maxCoeff();
   edges.scale = 1;
   if (reach >= 0x1p-1000 && reach < 0x1p1000) {
     // 2^-(e + 1) for a reach of exponent e.

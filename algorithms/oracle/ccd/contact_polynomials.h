@@ -53,6 +53,33 @@ Triple<Number> sum(const Triple<Number>& u, const Triple<Number>& v) {
   return {u[0] + v[0], u[1] + v[1], u[2] + v[2]};
 }
 
+// The same number.
+template <std::size_t size>
+Integer integer_of(const FixedInteger<size>& x) {
+  const FixedInteger<size> magnitude = x.is_negative() ? FixedInteger<size>{} - x : x;
+  Integer number;
+  number.backend().resize(size, size);
+  for (std::size_t i = 0; i < size; ++i) number.backend().limbs()[i] = magnitude.limbs[i];
+  number.backend().normalize();
+  return x.is_negative() ? Integer(-number) : number;
+}
+
+using IntegerPolynomials = ContactPolynomials<Integer, Integer>;
+
+template <class Area, class Volume>
+IntegerPolynomials in_integers(const ContactPolynomials<Area, Volume>& given) {
+  IntegerPolynomials all;
+  for (std::size_t c = 0; c < 4; ++c) all.volume[c] = integer_of(given.volume[c]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        all.areas[i][c][axis] = integer_of(given.areas[i][c][axis]);
+      }
+    }
+  }
+  return all;
+}
+
 template <class Coordinate>
 auto contact_polynomials(const MovingEdges<Coordinate>& edges) {
   const auto& [s, e] = edges.at;

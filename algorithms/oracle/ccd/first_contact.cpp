@@ -12,11 +12,8 @@ namespace {
 // The polynomials of contact_polynomials.h, made when they are asked for.
 class Conditions {
  public:
-  explicit Conditions(const MovingFeatures& features)
-      : features_(features),
-        edges_(integer_edges(features, grid_of(features))),
-        given_(contact_polynomials(edges_)),
-        volume_(polynomial_of(given_.volume)) {}
+  Conditions(const MovingFeatures& features, const IntegerPolynomials& given)
+      : features_(features), given_(given), volume_(polynomial_of(given.volume)) {}
 
   const Polynomial& volume() const { return volume_; }
 
@@ -31,8 +28,9 @@ class Conditions {
 
   // The differences of coordinates: a vertex of the first feature less one of the second.
   std::vector<Polynomial> differences(std::size_t axis) const {
+    const MovingEdges<Integer> edges = integer_edges(features_, grid_of(features_));
     const auto place = [&](std::size_t time, std::size_t vertex) {
-      return vertex == 0 ? Integer(0) : edges_.at[time][vertex - 1][axis];
+      return vertex == 0 ? Integer(0) : edges.at[time][vertex - 1][axis];
     };
     std::vector<Polynomial> list;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -86,8 +84,7 @@ class Conditions {
 
  private:
   const MovingFeatures& features_;
-  MovingEdges<Integer> edges_;
-  ContactPolynomials<Integer, Integer> given_;
+  const IntegerPolynomials& given_;
   Polynomial volume_;
 };
 
@@ -116,12 +113,16 @@ std::vector<Root> candidates(const Conditions& conditions) {
 
 }  // namespace
 
-std::optional<Root> first_contact(const MovingFeatures& features) {
-  const Conditions conditions(features);
+std::optional<Root> first_contact(const MovingFeatures& features, const IntegerPolynomials& given) {
+  const Conditions conditions(features, given);
   for (Root& time : candidates(conditions)) {
     if (conditions.share_a_point(time)) return time;
   }
   return {};
+}
+
+std::optional<Root> first_contact(const MovingFeatures& features) {
+  return first_contact(features, contact_polynomials(integer_edges(features, grid_of(features))));
 }
 
 }  // namespace touchstone::oracle::ccd

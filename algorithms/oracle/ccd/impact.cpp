@@ -105,9 +105,9 @@ std::optional<bool> share_a_point_at(const MovingFeatures& features,
 
 // Exact coefficients, then the proof in doubles from coefficients that are rounded once: to_double is
 // off by at most 8 roundings of 2^-53, and the division by a binomial by one.
-template <std::size_t size>
-std::optional<Impact> by_fixed_integers(const MovingFeatures& features, const Grid& grid) {
-  const auto given = contact_polynomials(fixed_edges<size>(features, grid));
+template <class Area, class Volume>
+std::optional<Impact> by_exact_coefficients(const MovingFeatures& features,
+                                            const ContactPolynomials<Area, Volume>& given) {
   // Roots at 0 and 1 are taken out: the volume is t^first (1 - t)^(3 - last) times another.
   int first = 0, last = 3;
   const auto is_zero = [&](int i) { return given.volume[static_cast<std::size_t>(i)].is_zero(); };
@@ -152,6 +152,19 @@ std::optional<Impact> by_fixed_integers(const MovingFeatures& features, const Gr
   return *shared ? Impact{true, 1, 1} : Impact{};
 }
 
+Impact bounded(std::optional<Root> time) {
+  if (!time) return {};
+  const Root::Bounds bounds = time->bounds();
+  return {true, bounds.low, bounds.high};
+}
+
+template <std::size_t size>
+Impact by_fixed_integers(const MovingFeatures& features, const Grid& grid) {
+  const auto given = contact_polynomials(fixed_edges<size>(features, grid));
+  const std::optional<Impact> impact = by_exact_coefficients(features, given);
+  return impact ? *impact : bounded(first_contact(features, in_integers(given)));
+}
+
 }  // namespace
 
 Impact impact_of(const MovingFeatures& features, Filters filters) {
@@ -163,18 +176,10 @@ Impact impact_of(const MovingFeatures& features, Filters filters) {
   }
   if (filters != Filters::none) {
     const Grid grid = grid_of(features);
-    std::optional<Impact> impact;
-    if (grid.bits <= 60) {
-      impact = by_fixed_integers<1>(features, grid);
-    } else if (grid.bits <= 124) {
-      impact = by_fixed_integers<2>(features, grid);
-    }
-    if (impact) return *impact;
+    if (grid.bits <= 60) return by_fixed_integers<1>(features, grid);
+    if (grid.bits <= 124) return by_fixed_integers<2>(features, grid);
   }
-  std::optional<Root> time = first_contact(features);
-  if (!time) return {};
-  const Root::Bounds bounds = time->bounds();
-  return {true, bounds.low, bounds.high};
+  return bounded(first_contact(features));
 }
 
 }  // namespace touchstone::oracle::ccd

@@ -9,6 +9,9 @@ namespace touchstone::oracle::ccd {
 namespace {
 
 constexpr int most_halvings = 50, most_nodes = 400;
+// Where so many have not shown a hit, an area that is zero or nearly so is in the way, and integers
+// are quicker.
+constexpr int most_without_hit = 24;
 constexpr double narrow_enough = 0x1p-48, wide_enough_to_fail = 0x1p-40;
 
 struct Node {
@@ -72,7 +75,8 @@ class Search {
       }
       if (state == State::hit) contact_by = node.begin + node.width;
       const bool is_narrow = state == State::hit && node.width <= narrow_enough;
-      if (is_narrow || state == State::stuck || node.halvings == most_halvings) {
+      const int most = contact_by > 1 ? most_without_hit : most_halvings;
+      if (is_narrow || state == State::stuck || node.halvings >= most) {
         if (contact_by - node.begin > wide_enough_to_fail) return {Proven::nothing, 0, 0};
         return {Proven::hit, node.begin, contact_by};
       }

@@ -125,7 +125,7 @@ Restriction restricted(const Polynomial& p, const Cell& cell) {
   // q(x) = 2^(n power) p((numerator + x) / 2^power), by Horner's scheme.
   std::array<Integer, 4> q;
   for (std::size_t i = n + 1; i-- > 0;) {
-    for (std::size_t k = n; k > 0; --k) q[k] = q[k] * cell.numerator + q[k - 1];
+    for (std::size_t k = n - i; k > 0; --k) q[k] = q[k] * cell.numerator + q[k - 1];
     q[0] = q[0] * cell.numerator + (p.coefficient[i] << static_cast<int>(n - i) * cell.power);
   }
   // The Bernstein coefficient i is sum over k of binomial(i, k) / binomial(n, k) q[k]; three times it

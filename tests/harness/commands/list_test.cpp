@@ -54,6 +54,9 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
     if (row[1] == "manifold") {
       EXPECT_EQ(row[5], "manifold");
     }
+    if (row[1] == "ccd") {
+      EXPECT_EQ(row[5], "vertex-face;edge-edge");
+    }
   }
 }
 

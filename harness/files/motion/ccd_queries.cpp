@@ -1,5 +1,5 @@
 // Reads queries of continuous collision.
-#include "harness/files/ccd_queries.h"
+#include "harness/files/motion/ccd_queries.h"
 
 #include <fmt/format.h>
 

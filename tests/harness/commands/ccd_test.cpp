@@ -1,0 +1,143 @@
+// Tests of touchstone ccd.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "algorithms/registry.h"
+#include "tests/harness/commands/program.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<std::string> ccd_columns = {"query",  "algorithm",   "answer",    "toi",
+                                              "status", "free_before", "contact_by"};
+
+// A vertex falls through a resting face from 1 to -1, and one passes beside it.
+std::string falling(const std::string& truth_hit, const std::string& truth_miss) {
+  const auto rows = [](const std::string& x, const std::string& truth) {
+    std::string text;
+    for (const char* z : {"1", "-1"}) {
+      text += x + ",1,0,1," + z + ",1" + truth + "\n";
+      for (const char* corner : {"-1,1,-1,1", "1,1,-1,1", "0,1,1,1"}) {
+        text += std::string(corner) + ",0,1" + truth + "\n";
+      }
+    }
+    return text;
+  };
+  return rows("0", truth_hit) + rows("5", truth_miss);
+}
+
+class CcdCommand : public ::testing::Test {
+ protected:
+  Ran run(const std::filesystem::path& file, const std::string& more = "--ccd all") const {
+    return run_program("ccd " + file.string() + " --kind vertex-face " + more + " --out " +
+                       out().string());
+  }
+  void refuse(const std::string& text, const std::string& expected, const std::string& more = "") {
+    const auto file = folder.write("in.csv", text);
+    expect_refusal(
+        "ccd " + file.string() + " --kind vertex-face --out " + out().string() + " " + more,
+        expected, folder);
+  }
+  std::filesystem::path out() const { return folder.path() / "out.csv"; }
+  TemporaryFolder folder;
+};
+
+TEST_F(CcdCommand, EveryAlgorithmGivesTheRowsOfTheContract) {
+  for (const bool has_truth : {true, false}) {
+    const auto file = folder.write("in.csv", has_truth ? falling(",1", ",0") : falling("", ""));
+    const Ran ran = run(file);
+    ASSERT_EQ(ran.status, 0) << ran.text;
+    const auto rows = read_rows(out(), ccd_columns);
+    std::size_t next = 0;
+    for (int query = 0; query < 2; ++query) {
+      for (const CcdEntry& entry : ccds()) {
+        if (!is_built(entry.info)) continue;
+        ASSERT_LT(next, rows.size());
+        const auto& row = rows[next++];
+        EXPECT_EQ(row[0], std::to_string(query));
+        EXPECT_EQ(row[1], entry.info.name);
+        EXPECT_EQ(row[2], query == 0 ? "hit" : "miss") << row[1];
+        EXPECT_EQ(row[4], entry.info.origin == Origin::peer ? "not_reported" : "ok");
+        if (query == 1) {
+          EXPECT_EQ(row[3], "");
+          continue;
+        }
+        EXPECT_NEAR(std::stod(row[3]), 0.5, 1e-5) << row[1];
+        if (entry.info.origin == Origin::peer) continue;
+        EXPECT_LE(std::stod(row[5]), 0.5);
+        EXPECT_LE(std::stod(row[5]), std::stod(row[6]));
+      }
+    }
+    EXPECT_EQ(next, rows.size());
+  }
+}
+
+TEST_F(CcdCommand, ReadsNumbersAndCountsWhatIsRounded) {
+  std::string text;
+  for (const char* z : {"1.5", "-1e0"}) {
+    text += fmt::format("0,0,{},1\n-1,-1,0,1\n1,-1,0,1\n0,1,0,1\n", z);
+  }
+  const Ran ran = run(folder.write("in.csv", text), "--ccd exact");
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  EXPECT_NEAR(std::stod(read_rows(out(), ccd_columns)[0][3]), 0.6, 1e-12);
+  std::string thirds = falling("", "");
+  thirds.replace(0, 3, "1,3");
+  const Ran rounded = run(folder.write("in.csv", thirds), "--ccd exact");
+  EXPECT_EQ(rounded.status, 0);
+  EXPECT_THAT(rounded.text, HasSubstr("1 coordinates are not doubles, and were rounded"));
+  // These are doubles with more digits than an integer of the machine.
+  std::string fine = falling("", "");
+  fine.replace(0, 3, "1,1298074214633706907132624082305024");
+  const Ran exact = run(folder.write("in.csv", fine), "--ccd exact");
+  EXPECT_EQ(exact.status, 0);
+  EXPECT_THAT(exact.text, testing::Not(HasSubstr("rounded")));
+}
+
+TEST_F(CcdCommand, AMissedContactOfOursIsAnError) {
+  // The truth of the second query is wrong, so that all of ours miss it.
+  const auto file = folder.write("in.csv", falling(",1", ",1"));
+  EXPECT_EQ(run(file).status, 1);
+  EXPECT_EQ(run(file, "--ccd exact").status, 1);
+  if (is_built(find_ccd("fcl-cubic")->info)) {
+    EXPECT_EQ(run(file, "--ccd fcl-cubic").status, 0);
+  }
+  EXPECT_EQ(run(folder.write("in.csv", falling(",0", ",0"))).status, 0);
+}
+
+TEST_F(CcdCommand, SeparationIsPassedOn) {
+  const auto file = folder.write("in.csv", falling("", ""));
+  const Ran ran = run(file, "--ccd directional-advancement,exact --separation 0.5");
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  const auto rows = read_rows(out(), ccd_columns);
+  EXPECT_NEAR(std::stod(rows[0][3]), 0.25, 1e-5);
+  EXPECT_EQ(rows[1][4], "unsupported");
+  EXPECT_EQ(rows[1][2], "unknown");
+}
+
+TEST_F(CcdCommand, RefusesBadInputWithItsPlace) {
+  const std::string good = falling(",1", ",0");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  refuse("", "expected eight rows");
+  refuse(good.substr(0, good.rfind('\n', good.size() - 2) + 1), "found 7 rows of the last query");
+  refuse(changed("0,1,0,1,1,1,1", "0,1,0,1,1,1"), "in.csv:2: 7 columns; expected 6");
+  refuse(changed("0,1,0,1,1,1,1", "0,1,0,1,1"), "in.csv:1: 5 columns");
+  refuse(changed("0,1,0,1,1,1,1", "x,1,0,1,1,1,1"), "in.csv:1: found 'x'; expected an integer");
+  refuse(changed("0,1,0,1,1,1,1", "0,0,0,1,1,1,1"), "found the denominator 0");
+  refuse(changed("0,1,0,1,1,1,1", "0,1,0,1,1,1,2"), "found the truth '2'; expected 0 or 1");
+  refuse(changed("0,1,0,1,1,1,1", "0,1,0,1,1,1,0"), "in.csv:2: found another truth");
+  refuse("0,0,nan\n", "in.csv:1: found 'nan'; expected a number");
+  refuse(good, "'gjk'", "--ccd gjk");
+  refuse(good, "--tolerance", "--tolerance -1");
+  expect_refusal("ccd no.csv --kind edge-edge --out " + out().string(), "no.csv", folder);
+}
+
+}  // namespace
+}  // namespace touchstone
