@@ -64,7 +64,7 @@ TEST_P(LinearCast, BodiesThatMeetAreHitInTime) {
   Random random(1);
   for_each_pair_of_kinds([&](ShapeKind a, ShapeKind b) {
     for (const ContactFeature feature : features) {
-      for (int i = 0; i < drawn(10, 1); ++i) {
+      for (int i = 0; i < drawn(12, 4); ++i) {
         const double toi = i == 0 ? 1 : i == 1 ? 1e-9 : random.uniform(0, 1);
         const double path = std::pow(10, random.uniform(-3, 3));
         check(meeting(a, b, feature, toi, path, random), 1e-9);
