@@ -239,7 +239,7 @@ std::vector<CastEntry> oracle_exact_cast() {
                             "around them in integers; an enclosure of others and of turning ones",
                 .origin = Origin::oracle},
        .scalars = {Precision::float64},
-       .rotation = false,
+       .rotation = true,
        .supports = supports_exact,
        .make = [](const CastSettings& settings) { return std::make_unique<ExactCast>(settings); }}};
 }
