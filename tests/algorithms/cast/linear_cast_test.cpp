@@ -243,6 +243,43 @@ TEST_P(LinearCast, TouchingAtTheStart) {
   });
 }
 
+// Pairs that were not made to meet: the brackets of an algorithm and of the oracle share the truth.
+TEST_P(LinearCast, AgreesWithTheOracle) {
+  const CastEntry& exact = *find_cast("exact");
+  if (&entry() == &exact) return;
+  constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box,
+                                ShapeKind::hull};
+  Random random(10);
+  for (int i = 0; i < drawn(400, 40); ++i) {
+    MovingPairCase c;
+    c.a = random_shape(kinds[static_cast<std::size_t>(random.below(4))], random);
+    c.b = random_shape(kinds[static_cast<std::size_t>(random.below(4))], random);
+    c.pose_a.rotation = random.rotation();
+    c.pose_b = {random.rotation(), random.uniform(1, 5) * random.direction()};
+    c.motion_a.displacement = random.vector(1);
+    c.motion_b.displacement = random.vector(3) - 0.7 * c.pose_b.translation;
+    if (!takes(c)) continue;
+    ++asked;
+    const CastOutcome ours = solve(entry(), c), truth = solve(exact, c);
+    ASSERT_EQ(truth.status, Status::ok);
+    if (ours.answer == CastAnswer::unknown) {
+      ++counts.unknown;
+      continue;
+    }
+    EXPECT_EQ(ours.answer, truth.answer) << "number " << i;
+    if (truth.answer == CastAnswer::hit) {
+      ++counts.hits;
+      EXPECT_LE(ours.lower, truth.upper) << "number " << i;
+      EXPECT_FALSE(ours.upper < truth.lower) << "number " << i;
+    } else {
+      ++counts.misses;
+    }
+  }
+  EXPECT_GE(counts.hits, asked / 5);
+  EXPECT_GE(counts.misses, asked / 5);
+  EXPECT_LE(counts.unknown, asked / 100);
+}
+
 // The same question put differently.
 TEST_P(LinearCast, MetamorphicVariants) {
   Random random(9);
