@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/algorithms/cast/moving_bodies.h"
+#include "tests/algorithms/cast/linear_cast.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/shapes.h"
 
@@ -19,12 +19,6 @@ std::vector<const CastEntry*> turning_casts() {
     if (entry.info.origin != Origin::peer && entry.rotation) all.push_back(&entry);
   }
   return all;
-}
-
-std::string name_of_turning(const testing::TestParamInfo<const CastEntry*>& tested) {
-  std::string name = tested.param->info.name;
-  std::erase(name, '-');
-  return name;
 }
 
 constexpr double pi = std::numbers::pi;
@@ -91,7 +85,7 @@ class RigidCast : public testing::TestWithParam<const CastEntry*> {
   int asked = 0;
 };
 
-INSTANTIATE_TEST_SUITE_P(, RigidCast, testing::ValuesIn(turning_casts()), name_of_turning);
+INSTANTIATE_TEST_SUITE_P(, RigidCast, testing::ValuesIn(turning_casts()), name_of);
 
 TEST_P(RigidCast, RandomMotions) {
   constexpr std::array kinds = {ShapeKind::sphere,   ShapeKind::capsule, ShapeKind::box,
