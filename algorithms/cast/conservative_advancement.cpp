@@ -26,7 +26,7 @@ namespace {
 class ConservativeAdvancement final : public Cast {
  public:
   explicit ConservativeAdvancement(const CastSettings& settings)
-      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000))} {}
+      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000)), false} {}
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);

@@ -1,7 +1,8 @@
 // Rigid advancement: steps as long as the plane of the closest points parts the turning bodies.
 // Paper:   the step is ours; the loop is that of conservative advancement (Mirtich 1996), and the search
 //          along a fixed direction is in the spirit of Catto, "Continuous collision", GDC 2013.
-// Steps:   1. GJK finds the plane of the closest points, with normal n (kernels/gjk).
+// Steps:   0. Begin where balls about the bodies' origins meet.
+//          1. GJK finds the plane of the closest points, with normal n (kernels/gjk).
 //          2. A point rho of a body moves in time h to rho + h w x rho + r, where |r| along n is at most
 //             h^2 / 2 |n x w| |w| |rho|. So the body reaches no further along n than the support
 //             value along n + h (n x w), plus that: the gap after h is at least
@@ -63,7 +64,7 @@ class Reach {
 class RigidAdvancement final : public Cast {
  public:
   explicit RigidAdvancement(const CastSettings& settings)
-      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000))} {}
+      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000)), true} {}
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);

@@ -62,7 +62,7 @@ void write_row(files::CsvWriter& csv, const files::CastCase& c, const CastAnswer
   csv.field(to_string(outcome.answer)).field(to_string(outcome.status));
   csv.field(outcome.toi).field(outcome.lower).field(outcome.upper);
   for (const Vec3d& v : {outcome.normal, outcome.point}) {
-    for (const double x : v) csv.field(x);
+    for (const double x : v) csv.field(x + 0.0);  // no negative zero
   }
   if (outcome.iterations < 0) {
     csv.field("");

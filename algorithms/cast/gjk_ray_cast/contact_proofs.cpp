@@ -27,10 +27,12 @@ PathPlane plane_along(MovingPair& pair, const Vec3d& direction) {
   return plane;
 }
 
-// Returns true if the origin is surely between a point of the difference and the ball inside of it: the
-// ray from the point through the origin meets the ball, also if both are off by rounding.
+// Returns true if the origin is surely in the ball inside of the difference, or between it and a point
+// of the difference: the ray from the point through the origin meets the ball, also if both are off by
+// rounding.
 bool is_before_the_ball(const MovingPair& pair, const Vec3d& point) {
   constexpr double rounding = MovingPair::rounding;
+  if (pair.offset().norm() + rounding < pair.inner_radius()) return true;  // in the ball itself
   const double length = point.norm();
   if (!(length > 4 * rounding)) return false;
   const Vec3d along = -point / length, ball = -pair.offset();
@@ -73,7 +75,7 @@ bool contact_is_proven(MovingPair& pair, Simplex<double> simplex, double time, i
   constexpr double margin = MovingPair::rounding;
   const double radius = pair.radius();
   pair.move_to(time, simplex);
-  if (simplex.size < 4 && is_before_the_ball(pair, weighted_mean(simplex).difference)) return true;
+  if (is_before_the_ball(pair, weighted_mean(simplex).difference)) return true;
   for (int k = 0; k < most_iterations; ++k) {
     ++iterations;
     const NearestPoint<double> nearest = reduce_to_nearest(simplex);

@@ -20,7 +20,7 @@
 //          without `upper`. With StartContact::approach, bodies that touch at time 0 and for which no
 //          plane is found that they keep to are a hit at 0.
 // Cost:    O(1) space; a few support calls for polytopes, one for each digit for curved bodies. Tolerance:
-//          1e-9 of the larger body's size, or 6e-13 of the greatest of sizes, offset and path if that is
+//          1e-9 of the larger body's size, or 3e-13 of the greatest of sizes, offset and path if that is
 //          more. Cap: 128 iterations.
 #include <algorithm>
 #include <optional>
@@ -175,7 +175,7 @@ void GjkRayCast::cast_bounded(const MovingBody& a, const MovingBody& b,
   const double asked =
       settings_.tolerance ? *settings_.tolerance / pair.unit() : 1e-9 * pair.size();
   // A gap that rounding hides can be told neither from contact nor from a miss.
-  const double tolerance = std::max(asked, 16 * rounding);
+  const double tolerance = std::max(asked, 4 * rounding);
   const End end = search(pair, tolerance, found);
   outcome.iterations = found.iterations;
   if (end == End::miss) {

@@ -2,6 +2,7 @@
 #include "algorithms/kernels/motion/advancement.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/motion/contact_by.h"
@@ -19,6 +20,36 @@ AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const Advance
   const double hidden =
       16 * (4 * RelativeMotion::pair_rounding * larger + motion.placement_rounding());
   tolerance_ = std::max(goal.tolerance.value_or(1e-9 * larger), hidden);
+}
+
+FreeUntil apart_by_balls(const RelativeMotion& motion) {
+  const Vec3d start = motion.offset(0);
+  const Vec3d& velocity = motion.displacement();
+  const double square = velocity.squaredNorm(), away = start.norm();
+  const double reach =
+      motion.reach_a() + motion.reach_b() + motion.a().shape->radius + motion.b().shape->radius;
+  // The placement's rounding is that of the offset; products and lengths add as much.
+  const double needed = reach * (1 + 1e-12) + 4 * motion.placement_rounding();
+  if (!(away > needed)) return {0, false};
+  const double nearest = square > 0 ? std::clamp(-start.dot(velocity) / square, 0.0, 1.0) : 0;
+  const auto direction_at = [&](double time) { return motion.offset(time).normalized(); };
+  const Vec3d across = direction_at(nearest);
+  const double gap = across.dot(start), change = across.dot(velocity);
+  if (std::min(gap, gap + change) > needed) return {1, true};
+  // The balls meet where |start + t velocity| is their reach. The plane there, or the first one, has a
+  // gap that is linear in time.
+  const double closing = -start.dot(velocity);
+  const double discriminant = closing * closing - square * (away - needed) * (away + needed);
+  const double meet = discriminant > 0 && closing > 0
+                          ? (away - needed) * (away + needed) / (closing + std::sqrt(discriminant))
+                          : nearest;
+  double free = 0;
+  for (const double time : {std::min(meet, 1.0), 0.0}) {
+    const Vec3d n = direction_at(time);
+    const double open = n.dot(start) - needed, speed = -n.dot(velocity);
+    if (open > 0 && speed > 0) free = std::max(free, open / speed);
+  }
+  return {std::min(free, 1.0), false};
 }
 
 Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, CastOutcome& outcome) {

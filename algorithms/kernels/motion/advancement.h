@@ -32,6 +32,7 @@ struct AdvancementGoal {
   // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.
   std::optional<double> tolerance;
   int most_steps = 0;
+  bool balls_first = false;  // begin where balls about the bodies' origins meet
 };
 
 // `Step`: FreeUntil operator()(SupportPair<double>& pair, const PartingPlane& plane), where the pair
@@ -48,6 +49,9 @@ struct Advancement {
   State state = State::open;
   PartingPlane plane{};
 };
+
+// How long balls about the bodies' origins are proven to stay apart from time 0 on.
+FreeUntil apart_by_balls(const RelativeMotion& motion);
 
 class AdvancementSearch {
  public:
@@ -71,7 +75,16 @@ void advance(const RelativeMotion& motion, const AdvancementGoal& goal, Step&& s
   outcome.status = Status::not_converged;
   outcome.iterations = 0;
   double time = 0;
-  outcome.lower = 0;
+  if (goal.balls_first) {
+    const FreeUntil free = apart_by_balls(motion);
+    if (free.to_the_end) {
+      outcome.answer = CastAnswer::miss;
+      outcome.status = Status::ok;
+      return;
+    }
+    time = free.time;
+  }
+  outcome.lower = time;
   for (int k = 0; k < goal.most_steps; ++k) {
     SupportPair<double> pair = motion.at(time);
     const Advancement found = search.look(pair, time, outcome);

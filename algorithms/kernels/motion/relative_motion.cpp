@@ -51,7 +51,7 @@ RelativeMotion::RelativeMotion(const MovingBody& a, const MovingBody& b)
       reach_a_(reach_of(a)),
       reach_b_(reach_of(b)) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  placement_rounding_ = 4 * epsilon * (offset_.stableNorm() + displacement_.stableNorm()) +
+  placement_rounding_ = 8 * epsilon * (offset_.stableNorm() + displacement_.stableNorm()) +
                         turning_rounding(a, reach_a_) + turning_rounding(b, reach_b_);
 }
 

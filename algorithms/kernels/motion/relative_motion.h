@@ -37,7 +37,8 @@ class RelativeMotion {
 
   // How far a point of a body that `at` places is off its place relative to the other body
   // (metres). With u half of epsilon: the offset of the origins is off by u of itself, the
-  // displacement by 2 u and the sum by u; exp(t w) R by (4 |w| + 30) u a body that turns, times
+  // displacement by 2 u and the sum by u, and a step multiplies the displacement by a direction and a
+  // time, 8 u; exp(t w) R is off by (4 |w| + 30) u a body that turns, times
   // that body's reach. The bound is twice that.
   double placement_rounding() const { return placement_rounding_; }
 
