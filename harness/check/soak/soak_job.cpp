@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "algorithms/pair_query.h"
 #include "harness/grade/encoding.h"
 #include "harness/grade/grade.h"
 #include "harness/process/isolate.h"
