@@ -188,7 +188,9 @@ inline void report(const Contact& contact, const Query& query, Outcome& outcome)
   outcome.answer = sign_of(contact.distance);
   if (outcome.answer == Answer::unknown) outcome.status = Status::degenerate;
   const bool asked = asks_for_number(query.task, outcome.answer);
-  if (!asked && outcome.answer != Answer::touching) return;
+  const bool takes_side =
+      outcome.answer == Answer::separated || outcome.answer == Answer::overlapping;
+  if (!asked && takes_side) return;
   clear_numbers(outcome);
   if (!asked || outcome.answer == Answer::unknown) return;
   const Vec3d normal = -from_bullet(contact.normal_on_b);
