@@ -30,8 +30,8 @@ class PairQuery {
   }
 
   // Answers one pair, alone (NarrowPhase::solve_alone). The outcome is that of (a, b) whichever
-  // order the algorithm takes, and has only what the task gives. The algorithm must offer the task
-  // for these kinds (`offers` of the registry).
+  // order the algorithm takes, and has only what the task gives, and bounds if the algorithm has
+  // some. The algorithm must offer the task for these kinds (`offers` of the registry).
   Outcome solve(Task task, const PairAsked& pair) { return ask(task, pair, true); }
 
   // Answers it as a batch of one pair, as tables are measured.
@@ -69,7 +69,10 @@ inline Outcome PairQuery::ask(Task task, const PairAsked& pair, bool alone) {
   } else {
     narrow_phase_->solve(task, batch, {&outcome, 1});
   }
-  const Outcome given = only_given(task, outcome);
+  Outcome given = only_given(task, outcome);
+  // The outcome was new, so bounds that nobody asked for are the algorithm's own.
+  given.lower = outcome.lower;
+  given.upper = outcome.upper;
   return swap ? swapped(given) : given;
 }
 

@@ -187,10 +187,12 @@ inline Answer sign_of(btScalar distance) {
 inline void report(const Contact& contact, const Query& query, Outcome& outcome) {
   outcome.answer = sign_of(contact.distance);
   if (outcome.answer == Answer::unknown) outcome.status = Status::degenerate;
+  const bool asked = asks_for_number(query.task, outcome.answer);
+  const bool takes_side =
+      outcome.answer == Answer::separated || outcome.answer == Answer::overlapping;
+  if (!asked && takes_side) return;
   clear_numbers(outcome);
-  const bool asked = (asks_distance(query.task) && contact.distance >= 0) ||
-                     (asks_depth(query.task) && contact.distance <= 0);
-  if (!asked) return;
+  if (!asked || outcome.answer == Answer::unknown) return;
   const Vec3d normal = -from_bullet(contact.normal_on_b);
   outcome.distance = contact.distance;
   outcome.normal = normal;

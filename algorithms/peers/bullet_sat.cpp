@@ -57,7 +57,10 @@ struct PolyhedralSat {
     }
     const btVector3 point = deepest.contact ? deepest.contact->point_on_b : highest;
     report({axis, point, -depth}, query, outcome);
-    if (outcome.answer == Answer::separated) outcome.answer = Answer::touching;  // by rounding
+    if (outcome.answer == Answer::separated) {  // by rounding
+      outcome.answer = Answer::touching;
+      clear_numbers(outcome);
+    }
   }
 
  private:

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "algorithms/pair_query.h"
+
 namespace touchstone::process {
 namespace {
 

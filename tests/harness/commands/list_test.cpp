@@ -71,6 +71,9 @@ TEST(ListCommand, TableNamesEveryAlgorithm) {
   }
   for (const NarrowPhaseEntry& entry : narrow_phases()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
+    if (!entry.tolerance.empty()) {
+      EXPECT_THAT(ran.text, HasSubstr("tolerance: " + entry.tolerance));
+    }
   }
   for (const ManifoldEntry& entry : contact_manifolds()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));

@@ -156,6 +156,33 @@ TEST_F(QueryCommand, DistancesWitnessesAndNormalsInTheOrderOfTheCase) {
   }
 }
 
+TEST_F(QueryCommand, SignedGivesTheDistanceOrTheDepthUpToAMargin) {
+  if (built_names().empty()) GTEST_SKIP() << "no narrow phase is built";
+  const std::string cases =
+      box_and_ball("far", 4) + box_and_ball("near", 2.5) + box_and_ball("deep", 1.5);
+  for (const bool has_margin : {false, true}) {
+    int distances = 0, depths = 0, beyond = 0;
+    for (const auto& row : query(cases, "signed", has_margin ? " --margin 1" : "")) {
+      if (row[5] != "ok" && row[5] != "not_reported") continue;
+      if (row[0] == "far" && has_margin) {
+        ++beyond;
+        EXPECT_EQ(row[4], "separated") << row[1];
+        EXPECT_EQ(row[6] + row[8] + row[9] + row[12], "") << row[1];
+        continue;
+      }
+      ++(row[0] == "deep" ? depths : distances);
+      const double truth = row[0] == "far" ? 2 : row[0] == "near" ? 0.5 : -0.5;
+      EXPECT_NEAR(number(row[6]), truth, 1e-2) << row[1];
+      if (!row[9].empty()) {
+        EXPECT_NEAR(number(row[9]), 1, 1e-1) << row[1];
+      }
+    }
+    EXPECT_GE(depths, 5);
+    EXPECT_GE(distances, 5);
+    EXPECT_EQ(beyond > 0, has_margin);
+  }
+}
+
 TEST_F(QueryCommand, NamesAreTakenInTheirOrderAndOnce) {
   const auto names = built_names();
   if (names.size() < 2) GTEST_SKIP() << "too few narrow phases are built";
@@ -218,6 +245,7 @@ TEST_F(QueryCommand, BadRequests) {
   expect_refusal(in + " --narrow what" + task + out,
                  "no narrow phase is called 'what'; expected some of all, ");
   expect_refusal(in + narrow + " --task touch" + out, "--task");
+  expect_refusal(in + narrow + task + " --margin -1" + out, "--margin");
   expect_refusal(in + narrow + task + " --scalar half" + out, "--scalar");
   for (const char* value : {"0", "-1", "nan", "inf", "x"}) {
     expect_refusal(in + narrow + task + " --tolerance=" + value + out, "--tolerance");

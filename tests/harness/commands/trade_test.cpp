@@ -42,6 +42,7 @@ TEST(TradeCommand, BadRequestsAreRefused) {
   expect_refusal("trade " + at + "none.toml --out " + at + "out", "none.toml: no such file",
                  folder);
   expect_refusal("trade " + at + "scene.toml --task touch", "--task", folder);
+  expect_refusal("trade " + at + "scene.toml --task signed", "intersect", folder);
   expect_refusal("trade " + at + "scene.toml --error luck", "--error", folder);
   expect_refusal("trade " + at + "scene.toml --threads 0", "--threads", folder);
   expect_refusal("run " + file + " --resume --out " + at + "out",

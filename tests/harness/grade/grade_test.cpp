@@ -186,6 +186,27 @@ TEST(Grade, ErrorsOfDepthsAndTheirTranslations) {
   EXPECT_EQ(grade(0.75, Vec3d::Zero()).depth_error, 0.25);
 }
 
+TEST(Grade, ErrorsOfSignedDistances) {
+  const Cubes apart(3), meet(1.5), touch(2);
+  const auto grade = [](const Cubes& cubes, Answer answer, double distance) {
+    Outcome o = outcome(answer, Status::ok, distance);
+    o.normal = {1, 0, 0};
+    return cubes.grade(o, Task::signed_distance);
+  };
+  EXPECT_EQ(grade(apart, Answer::separated, 1.25).distance_error, 0.25);
+  EXPECT_TRUE(std::isnan(grade(apart, Answer::separated, 1.25).depth_error));
+  EXPECT_FALSE(grade::grades_depth(Task::signed_distance, grade(apart, Answer::separated, 1)));
+  EXPECT_EQ(grade(meet, Answer::overlapping, -0.25).depth_error, -0.25);
+  EXPECT_EQ(grade(meet, Answer::overlapping, -0.25).separation_error, 0.25);
+  EXPECT_TRUE(std::isnan(grade(meet, Answer::overlapping, -0.25).distance_error));
+  EXPECT_TRUE(grade::grades_depth(Task::signed_distance, grade(meet, Answer::overlapping, -0.5)));
+  // Either number may be that of bodies that touch; one of the other side has no measure.
+  EXPECT_EQ(grade(touch, Answer::separated, 0.5).distance_error, 0.5);
+  EXPECT_EQ(grade(touch, Answer::overlapping, -0.5).depth_error, 0.5);
+  EXPECT_TRUE(std::isnan(grade(meet, Answer::separated, 0.5).distance_error));
+  EXPECT_TRUE(std::isnan(grade(apart, Answer::overlapping, -0.5).depth_error));
+}
+
 TEST(Grade, NormalOfAGap) {
   const Cubes apart(3);
   Outcome o = outcome(Answer::separated, Status::ok, 1);
