@@ -13,6 +13,9 @@ constexpr double rounding = SupportPair<double>::rounding;
 // Widths of caps (tangents of their angles) that are tried.
 constexpr std::array<double, 6> widths = {2, 1, 0.5, 0.25, 0.1, 0.03};
 
+// Without a cap only flat bodies are proven, but a lower foot may have one.
+constexpr int most_without_cap = 16;
+
 // Adds the lower bound of a core's part of K.
 void add_bound(const SmoothCore& core, const SmoothFace& face, double width, Curvature& sum) {
   using Kind = SmoothFace::Kind;
@@ -147,7 +150,9 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
   const auto descend = [&](const Vec3d& from, bool at_kink) {
     const std::optional<SmoothFoot> foot = find_foot(smooth, from, at_kink);
     if (!foot || (found && !(foot->height < found->foot.height))) return false;
-    if (!(foot->held > foot->height - margin / 4) || !(foot->held > 4 * margin)) return false;
+    // The slide lowers heights within the cap by as much at most.
+    if (!(foot->held - foot->slide > foot->height - margin / 4) || !(foot->held > 4 * margin))
+      return false;
     found = LeastOverlap{.foot = *foot, .lower = foot->held - margin};
     const double width = proven_width(smooth, *foot);
     const double cosine = width > 0 ? (1 + 1e-12) / std::sqrt(1 + width * width) : 0;
@@ -173,7 +178,8 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
   int points = 4, iterations = 0;
   // Adds the support point along m, which the face sees. Returns false if that proves nothing more.
   const auto extend = [&](const Vec3d& m, int face) {
-    if (points == most_points_) return false;
+    const bool has_cap = !found || rim.cosine > 0;
+    if (points == (has_cap ? most_points_ : std::min(most_points_, most_without_cap))) return false;
     const DifferencePoint<double> point = pair.support(m);
     ++iterations;
     const double height = m.dot(point.difference);

@@ -46,6 +46,9 @@ class SmoothNormals final : public NarrowPhase {
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);
     ahead_.bind(shapes_);
+    // GJK between the cores alone ends as soon as their distance is known.
+    cores_ = shapes_;
+    for (Body& core : cores_) core.radius = 0;
     round_.clear();
     for (const Shape& shape : shapes) round_.emplace_back(shape);
   }
@@ -73,6 +76,19 @@ class SmoothNormals final : public NarrowPhase {
  private:
   using Body = SupportShape<double>;
   static constexpr double rounding = SupportPair<double>::rounding;
+
+  // The cores of a pair, and the radii of the balls around them in its unit.
+  struct Cores {
+    Cores(const Body& a, const Body& core_a, const Pose& pose_a, const Body& b, const Body& core_b,
+          const Pose& pose_b)
+        : pair(core_a, pose_a, core_b, pose_b),
+          radius_a(a.radius / pair.unit()),
+          radius_b(b.radius / pair.unit()) {}
+
+    double radius() const { return radius_a + radius_b; }
+    SupportPair<double> pair;
+    double radius_a, radius_b;
+  };
 
   void decide(const BodyPairs& pairs, std::size_t i, Outcome& outcome) {
     const std::uint32_t first = pairs.first[i], second = pairs.second[i];
@@ -108,37 +124,40 @@ class SmoothNormals final : public NarrowPhase {
                     Outcome& outcome) {
     using End = GjkDistanceResult<double>::End;
     constexpr double coarse = 0.3;
-    SupportPair<double> pair(a, pose_a, b, pose_b);
+    const auto core_of = [&](const Body& body) -> const Body& {
+      return cores_[static_cast<std::size_t>(&body - shapes_.data())];
+    };
+    Cores cores(a, core_of(a), pose_a, b, core_of(b), pose_b);
+    SupportPair<double>& pair = cores.pair;
     // Cores within balls: their distance is wanted, whatever the task.
-    const GjkDistanceGoal<double> goal{.task = pair.radius() > 0 ? Task::distance : task,
+    const GjkDistanceGoal<double> goal{.task = cores.radius() > 0 ? Task::distance : task,
                                        .tolerance = coarse,
                                        .most_iterations = settings_.gjk_cap};
     const GjkDistanceResult<double> found = gjk_distance(pair, goal);
     outcome.iterations = found.iterations;
     if (found.end == End::contact) {
       return task == Task::penetration && found.nearest.inside &&
-             solve_depth(pair, found.simplex, outcome);
+             solve_depth(cores, found.simplex, outcome);
     }
-    const double lower = found.lower - pair.radius();
+    const double lower = found.lower - cores.radius();
     if (task == Task::penetration && lower > rounding) {
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;
       outcome.support_calls = pair.support_calls();
       return true;
     }
-    return solve_apart(task, pair, -found.nearest.direction, outcome);
+    return solve_apart(task, cores, -found.nearest.direction, outcome);
   }
 
   // Cores that are apart: their height has one negative minimum, and the foot's point is the nearest.
-  bool solve_apart(Task task, SupportPair<double>& pair, const Vec3d& normal,
-                   Outcome& outcome) const {
+  bool solve_apart(Task task, Cores& cores, const Vec3d& normal, Outcome& outcome) const {
     if (!(normal.squaredNorm() > 0.5)) return false;
-    const SmoothPair smooth(pair);
+    const SmoothPair smooth(cores.pair);
     const std::optional<SmoothFoot> foot = find_foot(smooth, normal, false);
     if (!foot) return false;
     const double lower = -foot->height, upper = std::sqrt(foot->nearest.squaredNorm());
     if (!(lower > 4 * rounding) || !(upper - lower < tolerance_)) return false;
-    const double radius = pair.radius();
+    const double radius = cores.radius();
     if (lower - radius > rounding) {
       outcome.answer = Answer::separated;
     } else if (upper - radius < -rounding) {
@@ -147,26 +166,27 @@ class SmoothNormals final : public NarrowPhase {
       return false;
     }
     outcome.status = Status::ok;
-    outcome.support_calls = pair.support_calls() + foot->support_calls;
+    outcome.support_calls = cores.pair.support_calls() + foot->support_calls;
     const bool asked = (task == Task::distance) == (outcome.answer == Answer::separated);
-    if (asked) write(pair, *foot, upper, lower, upper, outcome);
+    if (asked) write(cores, *foot, upper, lower, upper, outcome);
     return true;
   }
 
-  bool solve_depth(SupportPair<double>& pair, const Simplex<double>& simplex, Outcome& outcome) {
-    const std::optional<LeastOverlap> least = search_.find(pair, simplex, tolerance_);
+  bool solve_depth(Cores& cores, const Simplex<double>& simplex, Outcome& outcome) {
+    const std::optional<LeastOverlap> least = search_.find(cores.pair, simplex, tolerance_);
     if (!least || !(least->lower > rounding)) return false;
     outcome.answer = Answer::overlapping;
     outcome.iterations += least->iterations;
     const SmoothFoot& foot = least->foot;
-    write(pair, foot, -foot.height, -foot.height, -least->lower, outcome);
+    write(cores, foot, -foot.height, -foot.height, -least->lower, outcome);
     return true;
   }
 
   // Writes signed distances of the cores.
-  static void write(const SupportPair<double>& pair, const SmoothFoot& foot, double distance,
-                    double lower, double upper, Outcome& outcome) {
-    const double unit = pair.unit(), radius = pair.radius();
+  static void write(const Cores& cores, const SmoothFoot& foot, double distance, double lower,
+                    double upper, Outcome& outcome) {
+    const SupportPair<double>& pair = cores.pair;
+    const double unit = pair.unit(), radius = cores.radius();
     outcome.status = Status::ok;
     outcome.distance = unit * (distance - radius);
     outcome.lower = unit * (lower - radius - rounding);
@@ -174,8 +194,8 @@ class SmoothNormals final : public NarrowPhase {
     outcome.normal = foot.normal;
     // The points that the balance chose; b's is on the mirrored core.
     const Vec3d on_a = foot.a.point(), on_b = pair.centre_b() - foot.b.point();
-    outcome.witness_a = pair.to_world(on_a + pair.radius_a() * foot.normal);
-    outcome.witness_b = pair.to_world(on_b - pair.radius_b() * foot.normal);
+    outcome.witness_a = pair.to_world(on_a + cores.radius_a * foot.normal);
+    outcome.witness_b = pair.to_world(on_b - cores.radius_b * foot.normal);
     outcome.support_calls = pair.support_calls() + foot.support_calls;
   }
 
@@ -183,7 +203,7 @@ class SmoothNormals final : public NarrowPhase {
   double tolerance_;  // in the pair's unit, which is up to twice its size
   GjkQuery<double> query_;
   LeastOverlapSearch search_;
-  std::vector<Body> shapes_;
+  std::vector<Body> shapes_, cores_;
   std::vector<RoundShape> round_;
   ShapePrefetch<double> ahead_;
 };

@@ -9,12 +9,10 @@ namespace touchstone {
 namespace {
 
 constexpr double settled = 2e-15;     // a slide of rounding only, for lengths of about 1
-constexpr double almost = 1e-9;       // Newton's next step squares this
 constexpr double most_slide = 1e-11;  // of a foot
+constexpr double almost = 1e-9;       // Newton's next step squares this
 constexpr double longest_step = 0.5;  // radians
 constexpr int most_steps = 12;
-// Kinks this near to a normal (radians) belong to it.
-constexpr double kink_width = 1e-9;
 // Kinks further away than this are not tried.
 constexpr double near_kink = 0.7;
 
@@ -136,121 +134,6 @@ bool meet(const SmoothCore& a, const SmoothCore& b, Vec3d& normal) {
   return true;
 }
 
-// The points of a core with this normal.
-SmoothFace face_at(const SmoothCore& core, const Vec3d& n) {
-  SmoothFace face;
-  face.furthest = core.furthest(n);
-  face.middle = face.furthest.point;
-  if (core.has_disc() && !face.furthest.is_tip &&
-      face.furthest.reach <= kink_width * core.radius()) {
-    face.kind = SmoothFace::Kind::disc;
-    const bool down = core.is_cone() || core.edge(2).dot(n) < 0;
-    face.middle = down ? Vec3d(-core.edge(2)) : core.edge(2);
-    face.first = core.edge(0);
-    face.second = core.edge(1);
-  } else if (core.has_tie() && std::abs(core.angle_to_tie(n)) <= kink_width) {
-    face.kind = SmoothFace::Kind::tie;
-    if (core.is_cone()) {
-      // Both ends, whichever is further by rounding.
-      SmoothPoint& rim = face.furthest;
-      if (rim.is_tip) {
-        const double x = core.edge(0).dot(n), y = core.edge(1).dot(n);
-        const double reach = std::max(rim.reach, 1e-140);
-        rim.is_tip = false;
-        rim.point = (x / reach) * core.edge(0) + (y / reach) * core.edge(1) - core.edge(2);
-        rim.turn = (x / reach) * core.edge(1) - (y / reach) * core.edge(0);
-      }
-      face.first = 0.5 * (core.edge(2) - rim.point);
-      face.middle = 0.5 * (core.edge(2) + rim.point);
-    } else {
-      face.first = core.edge(2);
-      face.middle = face.furthest.point - (core.edge(2).dot(n) < 0 ? -1 : 1) * core.edge(2);
-    }
-  }
-  return face;
-}
-
-double length_of_shares(const SmoothFace& face) {
-  return std::sqrt(face.first_share * face.first_share + face.second_share * face.second_share);
-}
-
-// Chooses the shares, of least squares, that leave no slide. A core whose shares exceed 1 keeps
-// those of length 1, and the other core takes the rest.
-bool balance(const SmoothPair& pair, SmoothFoot& foot) {
-  const Vec3d& n = foot.normal;
-  Eigen::Index least = 0;
-  n.cwiseAbs().minCoeff(&least);
-  const Vec3d u = unit(n.cross(Vec3d::Unit(least))), v = n.cross(u);
-  const Vec3d base = foot.a.middle + foot.b.middle + pair.offset;
-  std::array<bool, 2> kept{};
-  const std::array<SmoothFace*, 2> faces{&foot.a, &foot.b};
-  for (int round = 0; round < 2; ++round) {
-    Vec3d from = base;
-    double uu = 0, uv = 0, vv = 0;
-    for (std::size_t k = 0; k < 2; ++k) {
-      const SmoothFace& face = *faces[k];
-      if (kept[k]) {
-        from += face.point() - face.middle;
-        continue;
-      }
-      for (const Vec3d& g : {face.first, face.second}) {
-        const double x = g.dot(u), y = g.dot(v);
-        uu += x * x;
-        uv += x * y;
-        vv += y * y;
-      }
-    }
-    const double x = -from.dot(u), y = -from.dot(v);
-    const double trace = uu + vv, determinant = uu * vv - uv * uv;
-    double p = 0, q = 0;  // the least-squares multiplier: shares are generators times this
-    if (determinant > 1e-9 * trace * trace) {
-      p = (vv * x - uv * y) / determinant;
-      q = (uu * y - uv * x) / determinant;
-    } else if (trace > 0) {
-      // One direction only: that of the matrix's longer column.
-      const double cx = uu > vv ? uu : uv, cy = uu > vv ? uv : vv;
-      const double along = (cx * x + cy * y) / ((cx * cx + cy * cy) * trace);
-      p = along * cx;
-      q = along * cy;
-    } else {
-      break;
-    }
-    bool again = false;
-    for (std::size_t k = 0; k < 2; ++k) {
-      SmoothFace& face = *faces[k];
-      if (kept[k]) continue;
-      face.first_share = face.first.dot(u) * p + face.first.dot(v) * q;
-      face.second_share = face.second.dot(u) * p + face.second.dot(v) * q;
-      const double length = length_of_shares(face);
-      if (length <= 1) continue;
-      face.first_share /= length;
-      face.second_share /= length;
-      kept[k] = again = true;
-    }
-    if (!again) break;
-  }
-  foot.nearest = pair.offset;
-  double off = 0;  // by how much the kinks miss the normal
-  for (SmoothFace* face : faces) {
-    foot.nearest += face->point();
-    face->slack = std::max(0.0, 1 - length_of_shares(*face));
-    off += std::abs(face->first.dot(n)) + std::abs(face->second.dot(n));
-  }
-  const double along = n.dot(foot.nearest);
-  foot.held = along - off;
-  foot.slide = std::sqrt((foot.nearest - along * n).squaredNorm());
-  return foot.slide <= most_slide;
-}
-
-bool make_foot(const SmoothPair& pair, const Vec3d& normal, SmoothFoot& foot) {
-  foot.normal = normal;
-  foot.a = face_at(pair.a, normal);
-  foot.b = face_at(pair.b, normal);
-  foot.height = foot.a.furthest.height + foot.b.furthest.height + normal.dot(pair.offset);
-  ++foot.support_calls;
-  return balance(pair, foot);
-}
-
 }  // namespace
 
 std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start, bool at_kink) {
@@ -258,7 +141,7 @@ std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start, 
   int calls = 0;
   const auto is_foot = [&](const Vec3d& normal) {
     foot.support_calls = calls;
-    return make_foot(pair, normal, foot);
+    return make_foot(pair, normal, foot) <= most_slide;
   };
   const double before = pair.height(start) + 1e-15;
   const auto is_lower_foot = [&](const Vec3d& normal) {

@@ -37,6 +37,9 @@ struct SmoothFoot {
   int support_calls = 0;
 };
 
+// Sets all of a foot from its normal and returns its slide.
+double make_foot(const SmoothPair& pair, const Vec3d& normal, SmoothFoot& foot);
+
 // Descends from the normal `start` to a local minimum of the height. Returns none if Newton's method
 // finds none within its steps. `at_kink`: the start itself may be one.
 std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start, bool at_kink);
