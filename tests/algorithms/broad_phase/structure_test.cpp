@@ -31,6 +31,7 @@ const std::map<std::string, Kind> kinds = {
     {"packed-rtree", Kind::tree},
     {"dynamic-bvh", Kind::tree},
     {"verlet-list", Kind::tree_or_fat_boxes},
+    {"auto", Kind::tree_or_fat_boxes},
 };
 
 std::vector<const BroadPhaseEntry*> all_of_ours() {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -126,6 +127,34 @@ TEST_F(CurveOrderTest, FarBodiesDoNotSpoilTheOrder) {
     boxes.push_back(box);
   }
   EXPECT_LT(spread(ordered(boxes)), 4 * near);
+}
+
+// Clumps of all sizes, each in one cell of the curve of all, are each in about as good an order as
+// if it were alone. Within a clump there is a denser one.
+TEST_F(CurveOrderTest, FarClumpsAreEachInOrder) {
+  std::vector<Aabb> boxes;
+  double alone = 0;
+  float at = 0;
+  for (const int count : {48, 208, 704, 3'008, 20'000}) {  // no block of 16 is in two clumps
+    const float width = std::cbrt(static_cast<float>(count));
+    std::vector<Aabb> clump;
+    for (int i = 0; i < count; ++i)
+      clump.push_back(anywhere(i % 4 == 0 ? width : width / 50, 0.1f));
+    alone += spread(ordered(clump));
+    at += 1e5f;
+    for (Aabb& box : clump) {
+      box.min[1] += at;
+      box.max[1] += at;
+      boxes.push_back(box);
+    }
+  }
+  std::ranges::shuffle(boxes, random_);
+  const AabbSoA arrays = ordered(boxes);
+  EXPECT_LT(spread(arrays), 1.3 * alone);
+  std::vector<std::uint32_t> ids = bodies(arrays, boxes);
+  EXPECT_EQ(bodies(ordered(boxes, 2), boxes), ids);
+  std::ranges::sort(ids);
+  for (std::uint32_t id = 0; id < boxes.size(); ++id) ASSERT_EQ(ids[id], id);
 }
 
 }  // namespace
