@@ -16,8 +16,8 @@ namespace touchstone::cells {
 namespace {
 
 using MakeCells = std::vector<PlannedCell> (*)(files::TomlTable&, const std::filesystem::path&);
-constexpr std::array<std::string_view, 3> kinds = {"rays", "casts", "ccd"};
-constexpr std::array<MakeCells, 3> makers = {ray_cells, cast_cells, ccd_cells};
+constexpr std::array<std::string_view, 4> kinds = {"rays", "casts", "ccd", "concave"};
+constexpr std::array<MakeCells, 4> makers = {ray_cells, cast_cells, ccd_cells, concave_cells};
 
 std::string fingerprint(const std::string& text) {
   std::uint64_t hash = 0;

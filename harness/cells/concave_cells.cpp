@@ -1,0 +1,197 @@
+// Pairs of one mesh with itself: a gap away from each other, touching, and deep in each other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+#include "harness/base/hash.h"
+#include "harness/base/plain_math.h"
+#include "harness/base/random.h"
+#include "harness/cells/choices.h"
+#include "harness/cells/kinds.h"
+#include "harness/geometry/named_mesh.h"
+
+namespace touchstone::cells {
+namespace {
+
+enum class Place : std::uint8_t { gap_10, gap_1, touching, deep };
+constexpr std::array<std::string_view, 4> place_names = {"gap 10 %", "gap 1 %", "touching", "deep"};
+constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "contacts"};
+// The oracle tests all pairs of triangles of meshes up to this size. The answers of larger ones are those
+// of `part-pairs`, which are exact too, by signs that are proven.
+constexpr std::size_t most_exact_triangles = 3000;
+// A distance that is off by more than this part of the mesh's size is wrong.
+constexpr double greatest_error = 1e-6;
+
+std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision scalar) {
+  ConcaveSettings settings;
+  settings.scalar = scalar;
+  settings.mid_phase = find_mid_phase("wide-bvh")->make;
+  settings.narrow_phase = [] { return find_narrow_phase("certified")->make({}); };
+  return entry.make(settings);
+}
+
+struct ConcaveInput {
+  std::vector<ConcaveBody> bodies;
+  double size = 0;  // half of the mesh's greatest extent, metres
+  std::vector<std::pair<PlacedBody, PlacedBody>> asked;
+  std::vector<Outcome> exact;
+  std::vector<std::uint64_t> exact_pairs;
+};
+
+// The answers of a phase to all pairs, and fingerprints of the lists of pairs.
+struct Answers {
+  std::vector<Outcome> outcomes;
+  std::vector<std::uint64_t> pairs;
+  std::vector<std::vector<IndexPair>> lists;  // kept, so that no call allocates
+
+  explicit Answers(std::size_t count) : outcomes(count), pairs(count), lists(count) {}
+  void ask(ConcavePhase& phase, ConcaveTask task, const ConcaveInput& input) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      outcomes[i] = {};
+      lists[i].clear();
+      phase.solve(task, input.asked[i].first, input.asked[i].second, outcomes[i], lists[i]);
+    }
+  }
+  void hash() {
+    for (std::size_t i = 0; i < lists.size(); ++i) pairs[i] = base::pair_hash(lists[i]);
+  }
+};
+
+// Rotations are random, and rounded to floats with all translations, so that peers see the same bodies.
+PlacedBody placed(base::Random& random) {
+  PlacedBody body{0, {random.rotation().cast<float>().cast<double>(), Vec3d::Zero()}};
+  return body;
+}
+
+// Moves b along a direction to where the bodies first touch, by bisection, and from there to its place.
+void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Random& random) {
+  PlacedBody a = placed(random), b = placed(random);
+  const Vec3d direction = random.on_sphere();
+  const auto at = [&](double distance) {
+    b.pose.translation = (distance * direction).cast<float>().cast<double>();
+    Outcome outcome;
+    std::vector<IndexPair> pairs;
+    phase.solve(ConcaveTask::intersect, a, b, outcome, pairs);
+    return outcome.answer != Answer::separated;
+  };
+  double in = 0, out = 4 * input.size;
+  for (int step = 0; step < 22; ++step) {
+    const double middle = 0.5 * (in + out);
+    (at(middle) ? in : out) = middle;
+  }
+  switch (place) {
+    case Place::gap_10: at(out + 0.2 * input.size); break;
+    case Place::gap_1: at(out + 0.02 * input.size); break;
+    case Place::touching: at(in - 0.004 * input.size); break;
+    case Place::deep: at(0.5 * in); break;
+  }
+  input.asked.emplace_back(a, b);
+}
+
+Grade grade(const ConcaveInput& input, ConcaveTask task, Answers& answers) {
+  answers.hash();
+  Grade grade;
+  for (std::size_t i = 0; i < input.exact.size(); ++i) {
+    const Outcome &found = answers.outcomes[i], &right = input.exact[i];
+    const bool sure = found.status == Status::ok || found.status == Status::not_reported;
+    if (!sure || found.answer == Answer::unknown) {
+      ++grade.unknown;
+      continue;
+    }
+    const bool hit = found.answer != Answer::separated, is_hit = right.answer != Answer::separated;
+    if (hit != is_hit) {
+      ++(is_hit ? grade.missed : grade.false_hits);
+    } else if (task == ConcaveTask::contacts) {
+      grade.other += answers.pairs[i] != input.exact_pairs[i];
+    } else if (task == ConcaveTask::distance && !hit) {
+      const double error = std::abs(found.distance - right.distance) / input.size;
+      if (!(error <= grade.error)) grade.error = error;
+      grade.other += !(error <= greatest_error);
+    }
+  }
+  return grade;
+}
+
+Cell make_cell(const std::shared_ptr<const TriangleMesh>& mesh, Place place, ConcaveTask task,
+               std::size_t count, std::uint64_t seed,
+               const std::vector<const ConcaveEntry*>& entries) {
+  const auto input = std::make_shared<ConcaveInput>();
+  input->bodies.push_back({mesh, {}});
+  for (const Vec3d& v : mesh->vertices)
+    input->size = std::max(input->size, v.cwiseAbs().maxCoeff());
+  const std::unique_ptr<ConcavePhase> placing =
+      make_phase(*find_concave_phase("part-pairs"), Precision::float64);
+  placing->bind(input->bodies);
+  base::Random random(seed, static_cast<std::uint64_t>(place));
+  for (std::size_t i = 0; i < count; ++i) place_pair(*input, place, *placing, random);
+
+  const bool brute = mesh->triangles.size() <= most_exact_triangles;
+  const std::unique_ptr<ConcavePhase> oracle =
+      make_phase(*find_concave_phase(brute ? "exact" : "part-pairs"), Precision::float64);
+  oracle->bind(input->bodies);
+  Answers truth(count);
+  truth.ask(*oracle, task, *input);
+  truth.hash();
+  input->exact = truth.outcomes;
+  input->exact_pairs = truth.pairs;
+  Cell cell;
+  cell.queries = cell.graded = static_cast<std::int64_t>(count);
+  for (const ConcaveEntry* entry : entries) {
+    if (entry->supports != nullptr && !entry->supports(input->bodies[0], input->bodies[0]))
+      continue;
+    for (const Precision scalar : entry->scalars) {
+      if (!offers(*entry, task, scalar)) continue;
+      const std::shared_ptr<ConcavePhase> phase = make_phase(*entry, scalar);
+      phase->bind(input->bodies);
+      const auto answers = std::make_shared<Answers>(count);
+      Contestant made;
+      made.name = entry->info.name;
+      if (entry->scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
+      made.origin = entry->info.origin;
+      made.approximate = entry->approximate || !entry->info.known_defect.empty();
+      made.answer = [=] { answers->ask(*phase, task, *input); };
+      made.grade = [=] { return grade(*input, task, *answers); };
+      cell.contestants.push_back(std::move(made));
+    }
+  }
+  return cell;
+}
+
+}  // namespace
+
+std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home) {
+  const auto count = static_cast<std::size_t>(table.integer("queries", 6, 100'000, 32));
+  const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
+  const std::vector<std::size_t> places = choices(table, "places", place_names);
+  const std::vector<std::size_t> tasks = choices(table, "tasks", task_names);
+  const auto entries = selected(table, concave_phases(), "concave phase");
+  std::vector<PlannedCell> cells;
+  for (const std::string& name : table.texts("meshes", {"torus-2000", "trefoil-10000"})) {
+    const auto mesh = std::make_shared<TriangleMesh>();
+    try {
+      geometry::Mesh read = geometry::named_mesh(name, home);
+      mesh->vertices = std::move(read.vertices);
+      mesh->triangles = std::move(read.triangles);
+    } catch (const base::InputError& error) {
+      table.fail("meshes", error.what());
+    }
+    if (mesh->triangles.empty()) table.fail("meshes", name + " has no triangles; expected some");
+    for (const std::size_t task : tasks) {
+      for (const std::size_t place : places) {
+        cells.push_back({fmt::format("{}, {} triangles", name, mesh->triangles.size()),
+                         fmt::format("{}, {}", task_names[task], place_names[place]), [=] {
+                           return make_cell(mesh, static_cast<Place>(place),
+                                            static_cast<ConcaveTask>(task), count, seed, entries);
+                         }});
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace touchstone::cells

@@ -1,0 +1,131 @@
+// Tests of cells: small ones of each kind, graded and timed; files that are wrong; a run that was stopped.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "harness/base/error.h"
+#include "harness/cells/cell_rows.h"
+#include "harness/cells/read_cells.h"
+#include "tests/harness/columns_page.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* few_rounds = "rounds = 6\nsample_seconds = 1e-5\nalgorithms = \"ours\"\n";
+
+cells::CellRequest request_of(const TemporaryFolder& folder, const std::string& keys) {
+  return cells::read_cells(
+      folder.write("cells.toml", "name = \"small\"\n[cells]\n" + keys + few_rounds));
+}
+
+struct Ran {
+  cells::CellRunResult result;
+  std::vector<cells::GradeRow> grades;
+  std::vector<cells::CellTimeRow> times;
+  std::vector<cells::CellBestRow> best;
+};
+Ran run(const cells::CellRequest& request, const std::filesystem::path& out) {
+  Ran ran;
+  ran.result = cells::run_cells(request, out, record::FolderStart::overwrite, [](const auto&) {});
+  cells::write_cell_tables(out, request.name);
+  ran.grades = record::read_rows<cells::GradeRow>(out / "grades.csv");
+  ran.times = record::read_rows<cells::CellTimeRow>(out / "times.csv");
+  ran.best = record::read_rows<cells::CellBestRow>(out / "best.csv");
+  return ran;
+}
+
+// Every one of ours is right or says that it is approximate, and every cell has a fastest one.
+void expect_sound(const Ran& ran, std::size_t cells) {
+  EXPECT_FALSE(ran.result.ours_wrong);
+  EXPECT_EQ(ran.best.size(), cells);
+  ASSERT_EQ(ran.times.size(), ran.grades.size());
+  for (const cells::GradeRow& row : ran.grades) {
+    EXPECT_EQ(row.status, "ok") << row.algorithm;
+    EXPECT_TRUE(row.approximate || row.is_right()) << row.cell << " " << row.algorithm;
+    EXPECT_GT(row.graded, 0);
+  }
+  for (const cells::CellTimeRow& row : ran.times) {
+    EXPECT_EQ(row.samples, 6) << row.grade.algorithm;
+    EXPECT_GT(row.seconds, 0);
+  }
+}
+
+TEST(Cells, OfRays) {
+  const TemporaryFolder folder;
+  const auto request = request_of(
+      folder, "kind = \"rays\"\nmeshes = [\"torus-200\", \"terrain-200\"]\nqueries = 64\n");
+  ASSERT_EQ(request.cells.size(), 2U * 4 * 2);
+  expect_sound(run(request, folder.path() / "out"), request.cells.size());
+}
+
+TEST(Cells, OfCasts) {
+  const TemporaryFolder folder;
+  const auto request =
+      request_of(folder,
+                 "kind = \"casts\"\nshapes = [\"sphere\", \"box\"]\nqueries = 16\n"
+                 "ways = [\"hit\", \"miss by 1e-3\", \"overlapping at the start\"]\n");
+  ASSERT_EQ(request.cells.size(), 6U);
+  expect_sound(run(request, folder.path() / "out"), request.cells.size());
+}
+
+TEST(Cells, OfMovingFeatures) {
+  const TemporaryFolder folder;
+  const auto request = request_of(folder, "kind = \"ccd\"\nqueries = 32\n");
+  ASSERT_EQ(request.cells.size(), 12U);
+  expect_sound(run(request, folder.path() / "out"), request.cells.size());
+}
+
+TEST(Cells, OfMeshes) {
+  const TemporaryFolder folder;
+  const auto request =
+      request_of(folder, "kind = \"concave\"\nmeshes = \"torus-200\"\nqueries = 6\n");
+  ASSERT_EQ(request.cells.size(), 12U);
+  expect_sound(run(request, folder.path() / "out"), request.cells.size());
+}
+
+TEST(Cells, AFinishedRunIsNotBegunAgain) {
+  const TemporaryFolder folder;
+  const auto request =
+      request_of(folder, "kind = \"ccd\"\nqueries = 16\nfamilies = \"crossing\"\n");
+  const std::filesystem::path out = folder.path() / "out";
+  run(request, out);
+  int said = 0;
+  const auto resumed =
+      cells::run_cells(request, out, record::FolderStart::resume, [&](const auto&) { ++said; });
+  EXPECT_FALSE(resumed.interrupted);
+  EXPECT_EQ(said, 0);
+}
+
+std::string error_of(const TemporaryFolder& folder, const std::string& keys) {
+  try {
+    request_of(folder, keys);
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(error_of(folder, "kind = \"stars\"\n"), HasSubstr("cells.toml:3"));
+  EXPECT_THAT(error_of(folder, "kind = \"rays\"\nmeshes = \"nothing.obj\"\n"),
+              HasSubstr("nothing.obj"));
+  EXPECT_THAT(error_of(folder, "kind = \"rays\"\nqueries = 1\n"), HasSubstr("cells.toml:4"));
+  EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nstars = 1\n"), HasSubstr("stars"));
+  EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nvertex_face = \"nothing.csv\"\n"),
+              HasSubstr("nothing.csv"));
+}
+
+TEST(Columns, OfCellsAreDocumented) {
+  expect_documented("grades.csv of cells", record::column_docs<cells::GradeRow>());
+  expect_documented("raw.csv of cells", record::column_docs<cells::CellSampleRow>());
+  expect_documented("times.csv of cells", record::column_docs<cells::CellTimeRow>());
+  expect_documented("best.csv of cells", record::column_docs<cells::CellBestRow>());
+}
+
+}  // namespace
+}  // namespace touchstone
