@@ -25,10 +25,10 @@
 //          time, and neither nodes nor pairs are ever packed.
 //          If bodies are too fast for a margin, or crowded, each frame loads the tree without one
 //          and searches all pairs.
-// Fails:   a body that overlaps most others and moves: all of its pairs are made anew.
+// Fails:   a body that overlaps most others and moves: all of its pairs are gone through.
 // Cost:    O(n + k) expected if most bodies move; O(m log n) and copying the k pairs if m do, or
 //          writing the changes alone, for m below n / 5. O(n + k) memory; k = pairs of fat boxes.
-//          About 60 bytes a body, 20 more if many move, and 37 a pair, a third of both in reserve.
+//          About 65 bytes a body, 20 more if many move, and 25 a pair.
 #include <algorithm>
 #include <array>
 
