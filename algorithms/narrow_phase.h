@@ -82,7 +82,7 @@ class NarrowPhase {
   virtual void bind(std::span<const Shape> shapes) = 0;
 
   // Writes outcomes[i] for each pair i, whatever it held: all that `only_given` takes of it, NaN
-  // where that is not known. Its other fields stay as they are. Poses are converted to the
+  // where that is not known. Its other fields may stay as they are. Poses are converted to the
   // algorithm's own scalar and types here, so the conversion is timed with the query. Never throws
   // on finite input: a failure is a status.
   virtual void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) = 0;

@@ -43,8 +43,8 @@ constexpr bool asks_for_number(Task task, Answer answer) {
 
 enum class Precision : std::uint8_t { float32, float64 };
 
-// Fields that are not known are NaN. Those that the task does not need stay as they were before the
-// call: NaN in a new outcome; `only_given` clears them in one that was used before.
+// Fields that are not known are NaN. Those that the task does not need may stay as they were before
+// the call: NaN in a new outcome; `only_given` clears them in one that was used before.
 //
 // `touching` without bounds, or with both zero, says that the bodies have common points and no
 // common interior. With other bounds, `lower` <= 0 <= `upper` for every task, it says that the signed

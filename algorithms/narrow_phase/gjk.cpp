@@ -29,6 +29,9 @@
 // Answers: `touching`, with bounds on the signed distance for every task, if the bounds enclose
 //          zero and are at most 2.9e-14 (double) or 1.6e-5 (float) of the pair's unit apart, which
 //          is at most twice its size (kernels/minkowski/resolution).
+//          A signed distance is searched as a distance, and goes to EPA where the cores meet. A
+//          distance ends at the first plane, carried one or bounding balls that part the bodies by
+//          more than the margin.
 // Warm:    gjk starts from a PairMemory, except EPA; the others start cold.
 // Fails:   unknown / not_converged where the bounds enclose zero and are further apart, as between
 //          slivers and between smooth bodies that touch. The depth of smooth, nearly round bodies

@@ -188,15 +188,17 @@ class Fcl final : public NarrowPhase {
     S gap = std::numeric_limits<S>::quiet_NaN();
     Vec3<S> witness_a, witness_b;
     solver_.shapeDistance(a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
-    clear_numbers(outcome);
     if (std::isnan(gap)) {
       outcome.answer = Answer::unknown;
       outcome.status = Status::degenerate;
+      clear_numbers(outcome);
     } else if (gap < 0) {
       outcome.answer = Answer::overlapping;
     } else {
       outcome.answer = gap > 0 ? Answer::separated : Answer::touching;
       outcome.distance = static_cast<double>(gap);
+      outcome.lower = outcome.upper = Outcome::none;
+      outcome.normal.setConstant(Outcome::none);
       outcome.witness_a = witness_a.template cast<double>();
       outcome.witness_b = witness_b.template cast<double>();
     }

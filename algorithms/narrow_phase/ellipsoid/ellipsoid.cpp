@@ -15,6 +15,7 @@
 //             least (ellipsoid_depth).
 //          7. If it does not, search all normals by branch and bound, with an ascent from each
 //             better one.
+//          A signed distance begins as in step 4, and goes on to step 6 where no plane separates.
 //          8. Write the distance with both bounds, the normal and the witness points.
 // Departs: the distance is searched among planes instead of points, so that it is exact to second
 //          order and a bound at every step; the same ascent finds depths. The least depth is proven
