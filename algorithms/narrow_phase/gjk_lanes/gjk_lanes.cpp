@@ -52,7 +52,8 @@ class GjkInLanes final : public NarrowPhase {
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
     lanes_.bind(shapes, shapes_);
-    if constexpr (std::is_same_v<Scalar, double>) {
+    const auto is_curved = [](const Shape& shape) { return Lanes::is_curved(shape.kind); };
+    if (std::is_same_v<Scalar, double> && std::ranges::any_of(shapes, is_curved)) {
       quick_shapes_ = make_support_shapes<float>(shapes);
       quick_.bind(shapes, quick_shapes_);
     }

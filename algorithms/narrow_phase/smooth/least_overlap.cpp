@@ -179,7 +179,7 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
   // Adds the support point along m, which the face sees. Returns false if that proves nothing more.
   const auto extend = [&](const Vec3d& m, int face) {
     const bool has_cap = !found || rim.cosine > 0;
-    if (points == (has_cap ? most_points_ : std::min(most_points_, most_without_cap))) return false;
+    if (points >= (has_cap ? most_points_ : std::min(most_points_, most_without_cap))) return false;
     const DifferencePoint<double> point = pair.support(m);
     ++iterations;
     const double height = m.dot(point.difference);

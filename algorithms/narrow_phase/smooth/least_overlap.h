@@ -11,8 +11,8 @@
 // vertices h m / d. So none is outside of the cap if no such vertex there is further than 1 from the
 // origin, nor any point where an edge of the polar crosses the plane of the cap's rim. The edges
 // belong to neighbouring faces.
-// Steps:   1. Start with GJK's tetrahedron around the origin, and descend to a foot from the normal of
-//             its nearest face.
+// Steps:   1. Start with GJK's tetrahedron around the origin, and descend to a foot from the lowest of
+//             its faces' normals and of the kinks known (`best_kink`).
 //          2. Find the widest cap that is proven around the foot.
 //          3. Add the support points along the normals where the proof fails: the nearest face's
 //             outside of the cap, then those on the rim.
