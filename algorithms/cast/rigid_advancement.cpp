@@ -68,14 +68,15 @@ class RigidAdvancement final : public Cast {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);
+    inner_radii_ = inner_radii(shapes, shapes_);
   }
 
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
     const BodyPairs& pairs = batch.pairs;
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::uint32_t a = pairs.first[i], b = pairs.second[i];
-      const MovingBody body_a = {&shapes_[pairs.shape_of[a]], &pairs.poses[a], &batch.motions[a]};
-      const MovingBody body_b = {&shapes_[pairs.shape_of[b]], &pairs.poses[b], &batch.motions[b]};
+      const MovingBody body_a = moving(batch, a);
+      const MovingBody body_b = moving(batch, b);
       outcomes[i] = {};
       if (batch.kind_b == ShapeKind::halfspace) {
         cast_halfspace(*body_a.shape, *body_a.pose, *body_a.motion, *body_b.shape, *body_b.pose,
@@ -93,11 +94,16 @@ class RigidAdvancement final : public Cast {
   }
 
  private:
+  MovingBody moving(const CastBatch& batch, std::uint32_t k) const {
+    const std::uint32_t shape = batch.pairs.shape_of[k];
+    return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
+  }
   static FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair,
                         const PartingPlane& plane);
 
   AdvancementGoal goal_;
   std::vector<SupportShape<double>> shapes_;
+  std::vector<double> inner_radii_;  // metres, one for each shape
 };
 
 // How long balls about the bodies' origins stay apart along the plane; 0 if they are not.

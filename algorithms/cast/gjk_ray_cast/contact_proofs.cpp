@@ -6,6 +6,7 @@
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/gjk/simplex_face.h"
+#include "algorithms/kernels/motion/inner_ball.h"
 
 namespace touchstone {
 namespace {
@@ -25,21 +26,6 @@ PathPlane plane_along(MovingPair& pair, const Vec3d& direction) {
   plane.point.difference = about - pair.start();
   if (speed < 0) plane.point.difference -= pair.velocity();
   return plane;
-}
-
-// Returns true if the origin is surely in the ball inside of the difference, or between it and a point
-// of the difference: the ray from the point through the origin meets the ball, also if both are off by
-// rounding.
-bool is_before_the_ball(const MovingPair& pair, const Vec3d& point) {
-  constexpr double rounding = MovingPair::rounding;
-  if (pair.offset().norm() + rounding < pair.inner_radius()) return true;  // in the ball itself
-  const double length = point.norm();
-  if (!(length > 4 * rounding)) return false;
-  const Vec3d along = -point / length, ball = -pair.offset();
-  const double ahead = along.dot(ball);
-  const double aside = (ball - ahead * along).norm();
-  return ahead > 0 &&
-         aside + 2 * rounding * (ahead + length) / length + rounding < pair.inner_radius();
 }
 
 }  // namespace
@@ -75,7 +61,10 @@ bool contact_is_proven(MovingPair& pair, Simplex<double> simplex, double time, i
   constexpr double margin = MovingPair::rounding;
   const double radius = pair.radius();
   pair.move_to(time, simplex);
-  if (is_before_the_ball(pair, weighted_mean(simplex).difference)) return true;
+  if (is_in_front_of_ball(weighted_mean(simplex).difference, -pair.offset(), pair.inner_radius(),
+                          margin)) {
+    return true;
+  }
   for (int k = 0; k < most_iterations; ++k) {
     ++iterations;
     const NearestPoint<double> nearest = reduce_to_nearest(simplex);

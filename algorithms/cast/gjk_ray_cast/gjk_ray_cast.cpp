@@ -30,6 +30,7 @@
 #include "algorithms/cast/gjk_ray_cast/contact_proofs.h"
 #include "algorithms/cast/gjk_ray_cast/moving_pair.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/inner_ball.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {
@@ -42,18 +43,15 @@ class GjkRayCast final : public Cast {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);
-    inner_radii_.clear();
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      inner_radii_.push_back(inner_radius(shapes[i], shapes_[i]));
-    }
+    inner_radii_ = inner_radii(shapes, shapes_);
   }
 
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
     const BodyPairs& pairs = batch.pairs;
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::uint32_t a = pairs.first[i], b = pairs.second[i];
-      const MovingBody body_a = {&shapes_[pairs.shape_of[a]], &pairs.poses[a], &batch.motions[a]};
-      const MovingBody body_b = {&shapes_[pairs.shape_of[b]], &pairs.poses[b], &batch.motions[b]};
+      const MovingBody body_a = moving(batch, a);
+      const MovingBody body_b = moving(batch, b);
       outcomes[i] = {};
       if (batch.kind_b == ShapeKind::halfspace) {
         const double tolerance = settings_.tolerance.value_or(0);
@@ -66,6 +64,11 @@ class GjkRayCast final : public Cast {
   }
 
  private:
+  MovingBody moving(const CastBatch& batch, std::uint32_t k) const {
+    const std::uint32_t shape = batch.pairs.shape_of[k];
+    return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
+  }
+
   enum class End { hit, miss, open };
 
   // The search: the pair is at the greatest time before which it is proven free.
@@ -209,11 +212,7 @@ void GjkRayCast::cast_bounded(const MovingBody& a, const MovingBody& b,
   outcome.point = a.pose->rotation * a.shape->centre + a.pose->translation +
                   outcome.toi * a.motion->displacement + pair.unit() * pair.on_a(witness, normal);
 
-  const auto inner = [&](const MovingBody& body) {
-    return inner_radii_[static_cast<std::size_t>(body.shape - shapes_.data())] *
-           least_stretch(body.pose->rotation);
-  };
-  pair.set_inner_radius(inner(a) + inner(b));
+  pair.set_inner_radius(a.inner_radius() + b.inner_radius());
   found.simplex = feature;
   if (const auto by = contact_by(pair, found, normal, outcome.iterations)) outcome.upper = *by;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algorithms/kernels/motion/relative_motion.h"
 
@@ -61,37 +60,6 @@ void MovingPair::move_to(double time, Simplex<double>& simplex) {
     DifferencePoint<double>& point = simplex.points[static_cast<std::size_t>(i)];
     point.difference = point.a - (point.b + offset_);
   }
-}
-
-double inner_radius(const Shape& shape, const SupportShape<double>& support) {
-  constexpr double inward = 1 - 1e-12;
-  switch (shape.kind) {
-    case ShapeKind::box: return shape.half_extents.minCoeff();
-    case ShapeKind::ellipsoid: return shape.radii.minCoeff() * inward;
-    case ShapeKind::cylinder: return std::min(shape.radius, shape.half_length);
-    case ShapeKind::cone: {
-      // The side from the tip to the rim is nearer to the middle of the axis than the base.
-      const double slant = std::hypot(shape.radius, 2 * shape.half_length);
-      return slant > 0 ? shape.radius * shape.half_length / slant * inward : 0;
-    }
-    case ShapeKind::hull: {
-      const Hull& hull = *shape.hull;
-      double depth = hull.faces.empty() ? 0 : std::numeric_limits<double>::infinity();
-      for (const Hull::Face& face : hull.faces) {
-        const Vec3d& corner = hull.vertices[face.loop[0]];
-        depth = std::min(depth, face.normal.dot(corner - support.centre));
-      }
-      // Normals are accurate to rounding of the size and of the distance from the origin.
-      return depth - 1e-9 * (support.size + support.centre.norm());
-    }
-    default: return 0;
-  }
-}
-
-double least_stretch(const Mat3d& matrix) {
-  // |M x|^2 = x (M^T M) x >= 1 - |M^T M - I|.
-  const Mat3d off = matrix.transpose() * matrix - Mat3d::Identity();
-  return std::max(0.0, 1 - off.norm());
 }
 
 }  // namespace touchstone

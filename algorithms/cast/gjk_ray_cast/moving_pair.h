@@ -65,11 +65,4 @@ class MovingPair {
   double time_ = 0, inner_radius_ = 0;
 };
 
-// The radius (metres) of a ball about the centre of a core, as support shapes have it, that the core
-// holds; rounded down, and 0 for cores without volume or if it is not known.
-double inner_radius(const Shape& shape, const SupportShape<double>& support);
-
-// The least factor by which a matrix lengthens a vector, if it is nearly a rotation, otherwise 0.
-double least_stretch(const Mat3d& matrix);
-
 }  // namespace touchstone

@@ -76,8 +76,11 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
     const NearestPoint<double> nearest = reduce_to_nearest(simplex);
     const Vec3d normal = -nearest.direction;
     if (!(time > 0) && !found.nearest.inside) normal_ = normal;
-    const Vec3d core = weighted_mean(simplex).a + pair.radius_a() * normal_;
+    const DifferencePoint<double> mean = weighted_mean(simplex);
+    const Vec3d core = mean.a + pair.radius_a() * normal_;
     point_ = motion_.to_world(pair.to_world(core), time);
+    nearest_ = {time, motion_.centre_a(time) + unit * mean.a,
+                motion_.centre_b(time) + unit * (mean.b - pair.centre_b())};
     return result;
   }
   const double slack = RelativeMotion::pair_rounding * unit + motion_.placement_rounding();
@@ -104,7 +107,7 @@ void AdvancementSearch::finish(double time, CastOutcome& outcome) const {
                        motion_.a().motion->rotation_vector.norm() * motion_.reach_a() +
                        motion_.b().motion->rotation_vector.norm() * motion_.reach_b();
   if (!(speed > 0)) return;
-  if (const auto by = contact_by(motion_, time, 2 * tolerance_ / speed, outcome.iterations)) {
+  if (const auto by = contact_by(motion_, nearest_, 2 * tolerance_ / speed, outcome.iterations)) {
     outcome.upper = *by;
   }
 }

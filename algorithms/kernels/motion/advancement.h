@@ -11,6 +11,7 @@
 
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/kernels/gjk/warm_start.h"
+#include "algorithms/kernels/motion/contact_by.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {
@@ -66,6 +67,7 @@ class AdvancementSearch {
   WarmStart kept_;                // the last look's simplex
   Vec3d normal_ = Vec3d::Zero();  // the last plane's
   Vec3d point_ = Vec3d::Zero();
+  NearestPoints nearest_{};
 };
 
 template <class Step>

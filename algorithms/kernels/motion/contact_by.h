@@ -1,7 +1,8 @@
 // The upper end of a bracket of the time of impact: a time by which two bodies are proven to share
 // a point. Used by the loop of
 // conservative advancement (advancement.h).
-// Steps:   1. Try a time a little after the found contact.
+// Steps:   1. Try a time a little after the found contact. If the ray from where the bodies were nearest to
+//             where they are then meets the ball inside of their difference (inner_ball.h), that is a proof.
 //          2. Run GJK there. A tetrahedron of the cores' difference around the origin, or a point of
 //             it nearer to the origin than the radii, is a proof if it holds beyond rounding.
 //          3. Otherwise try a time further on, until the end of the motion.
@@ -19,8 +20,15 @@ namespace touchstone {
 // placement is off (metres). Adds to `iterations`.
 bool contact_is_proven(SupportPair<double>& pair, double slack, int& iterations);
 
-// Returns a time in [from, 1] at which they do, or nothing. The first try is at from + step.
-std::optional<double> contact_by(const RelativeMotion& motion, double from, double step,
-                                 int& iterations);
+// The points of the cores that were nearest to each other at a time: metres, world axes, each from its
+// own body's origin.
+struct NearestPoints {
+  double time;
+  Vec3d a, b;
+};
+
+// Returns a time in [nearest.time, 1] at which they do, or nothing. The first try is a step later.
+std::optional<double> contact_by(const RelativeMotion& motion, const NearestPoints& nearest,
+                                 double step, int& iterations);
 
 }  // namespace touchstone

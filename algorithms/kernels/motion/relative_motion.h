@@ -4,6 +4,7 @@
 
 #include "algorithms/core/motion.h"
 #include "algorithms/kernels/minkowski/support.h"
+#include "algorithms/kernels/motion/inner_ball.h"
 
 namespace touchstone {
 
@@ -20,6 +21,9 @@ struct MovingBody {
   const SupportShape<double>* shape;
   const Pose* pose;      // at time 0
   const Motion* motion;  // from time 0 to 1
+  double shape_inner;    // metres: inner_radius of the shape (inner_ball.h)
+
+  double inner_radius() const { return shape_inner * least_stretch(pose->rotation); }
 };
 
 // The frame moves with the origin of body a, and keeps the world's axes. Lengths are in metres.
