@@ -1,6 +1,6 @@
 // The nearest pairs of leaves, from a heap of pairs of nodes.
 //
-// Gaps along the axes are below the true ones, because the boxes are grown by the view's slack. The
+// Gaps along the axes, and along the known way, are below the true ones, because the boxes are grown by the view's slack. The
 // root of the sum of their squares is off by less than 8 parts of 2^24, which the factor takes away.
 #include "algorithms/kernels/bvh/wide_nearest.h"
 
@@ -58,19 +58,33 @@ void bounds(const Seen& a, std::size_t i, const Seen& b, std::array<float, fan>&
   }
 }
 
+// Where the boxes end along the way, in its sense or against it.
+void ends(const Seen& seen, const std::array<float, 3>& way, float sense,
+          std::array<float, fan>& end) {
+  end = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float reach = sense * std::abs(way[k]);
+    for (std::size_t i = 0; i < fan; ++i) {
+      end[i] += way[k] * seen.centre[k][i] + reach * seen.half[k][i];
+    }
+  }
+}
+
 }  // namespace
 
-void WideNearest::run(const WideBvh& a, const WideBvh& b, const DescentFrame& frame, double known,
-                      Visit visit, void* context) {
+void WideNearest::run(const WideBvh& a, const WideBvh& b, const DescentFrame& frame, Visit visit,
+                      void* context) {
   if (a.nodes.empty() || b.nodes.empty()) return;
   const auto further = [](const Open& p, const Open& q) { return p.bound > q.bound; };
+  NearestKnown known = {std::numeric_limits<double>::infinity(), {}};
   Seen seen_a, seen_b;
+  std::array<float, fan> end_a, end_b;
   open_.assign(1, {0, false, 0xff, 0xff, 0, 0});
   while (!open_.empty()) {
     std::ranges::pop_heap(open_, further);
     const Open now = open_.back();
     open_.pop_back();
-    if (now.bound >= known) return;
+    if (now.bound >= known.distance) return;
     if (now.is_leaf) {
       known = visit(context, now.a, now.b);
       continue;
@@ -78,6 +92,8 @@ void WideNearest::run(const WideBvh& a, const WideBvh& b, const DescentFrame& fr
     const WideNode &node_a = a.nodes[now.a], &node_b = b.nodes[now.b];
     see(node_a, frame.a, 0, seen_a);
     see(node_b, frame.b, frame.b.slack, seen_b);
+    ends(seen_a, known.way, 1, end_a);
+    ends(seen_b, known.way, -1, end_b);
     for (std::size_t i = 0; i < fan; ++i) {
       const std::int32_t child_a = node_a.child[i];
       if ((now.lanes_a >> i & 1) == 0 || child_a == WideNode::no_child) continue;
@@ -86,7 +102,11 @@ void WideNearest::run(const WideBvh& a, const WideBvh& b, const DescentFrame& fr
       for (std::size_t j = 0; j < fan; ++j) {
         const std::int32_t child_b = node_b.child[j];
         if ((now.lanes_b >> j & 1) == 0 || child_b == WideNode::no_child) continue;
-        if (bound[j] >= known) continue;
+        if (bound[j] >= known.distance) continue;
+        const float gap = (end_b[j] - end_a[i] - frame.b.slack) * certain;
+        // NaN and infinity come of boundless boxes, and of what is beyond floats.
+        const float along = gap <= std::numeric_limits<float>::max() ? gap : 0;
+        if (along >= known.distance) continue;
         const bool leaf_a = WideNode::is_leaf(child_a), leaf_b = WideNode::is_leaf(child_b);
         Open next = {std::max(bound[j], now.bound),
                      leaf_a && leaf_b,
