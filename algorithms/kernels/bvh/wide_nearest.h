@@ -31,7 +31,7 @@ class WideNearest {
            void* context);
 
  private:
-  // Children of two nodes, or two leaves.
+  // Children of two nodes: a bit for each child that is meant. One of each if both are leaves.
   struct Open {
     float bound;
     bool is_leaf;
