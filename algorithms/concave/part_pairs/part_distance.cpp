@@ -36,37 +36,45 @@ struct Search {
   ConvexPairs& convex_pairs;
   double upper = none_yet, lower = none_yet;  // of what was visited
   Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
+  Vec3d way = Vec3d::Zero();  // of the nearest points; a unit vector, or zero
 
-  // Corners of a leaf's triangles in the frame.
-  static void place(const BoundBody& body, std::span<const std::uint32_t> leaf, const Pose& pose,
-                    std::array<TriangleCorners, WideBvh::leaf_size>& placed) {
-    for (std::size_t i = 0; i < leaf.size(); ++i) {
-      const TriangleCorners corners = body.corners(leaf[i]);
-      for (std::size_t k = 0; k < 3; ++k) placed[i][k] = pose(corners[k]);
+  // A leaf's triangles in the frame, with their boxes and where they end along the way.
+  struct PlacedLeaf {
+    std::array<TriangleCorners, WideBvh::leaf_size> corners;
+    std::array<Vec3d, WideBvh::leaf_size> low, high;
+    std::array<double, WideBvh::leaf_size> first, last;
+
+    PlacedLeaf(const BoundBody& body, std::span<const std::uint32_t> leaf, const Pose& pose,
+               const Vec3d& way) {
+      for (std::size_t i = 0; i < leaf.size(); ++i) {
+        const TriangleCorners given = body.corners(leaf[i]);
+        TriangleCorners& t = corners[i];
+        for (std::size_t k = 0; k < 3; ++k) t[k] = pose(given[k]);
+        low[i] = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+        high[i] = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+        const auto [begin, end] = std::minmax({way.dot(t[0]), way.dot(t[1]), way.dot(t[2])});
+        first[i] = begin;
+        last[i] = end;
+      }
     }
-  }
-
-  // A bound on the distance of the boxes around two triangles.
-  static double box_distance(const TriangleCorners& p, const TriangleCorners& q) {
-    const auto low = [](const TriangleCorners& t) { return t[0].cwiseMin(t[1]).cwiseMin(t[2]); };
-    const auto high = [](const TriangleCorners& t) { return t[0].cwiseMax(t[1]).cwiseMax(t[2]); };
-    const Vec3d gap = (low(p) - high(q)).cwiseMax(low(q) - high(p)).cwiseMax(0.0);
-    return gap.norm();
-  }
+  };
 
   void visit_meshes(std::span<const std::uint32_t> leaf_a, std::span<const std::uint32_t> leaf_b) {
-    std::array<TriangleCorners, WideBvh::leaf_size> in_a, in_b;
-    place(a, leaf_a, frame.a, in_a);
-    place(b, leaf_b, frame.b, in_b);
+    const PlacedLeaf in_a(a, leaf_a, frame.a, way), in_b(b, leaf_b, frame.b, way);
     for (std::size_t i = 0; i < leaf_a.size(); ++i) {
       for (std::size_t j = 0; j < leaf_b.size(); ++j) {
-        if (box_distance(in_a[i], in_b[j]) - rounding >= upper) continue;
-        const TriangleDistance found = triangle_distance(in_a[i], in_b[j]);
-        lower = std::min(lower, distance_bound(in_a[i], in_b[j], found) - rounding);
+        // Gaps along the way, which is a unit vector up to rounding, and of the boxes.
+        if ((in_b.first[j] - in_a.last[i]) * (1 - 0x1p-48) - rounding >= upper) continue;
+        const Vec3d gap =
+            (in_a.low[i] - in_b.high[j]).cwiseMax(in_b.low[j] - in_a.high[i]).cwiseMax(0.0);
+        if (gap.norm() - rounding >= upper) continue;
+        const TriangleDistance found = triangle_distance(in_a.corners[i], in_b.corners[j]);
+        lower = std::min(lower, distance_bound(in_a.corners[i], in_b.corners[j], found) - rounding);
         if (found.distance + rounding < upper) {
           upper = found.distance + rounding;
           on_a = found.on_a + placed_a.pose.translation;
           on_b = found.on_b + placed_a.pose.translation;
+          way = (found.on_b - found.on_a).normalized();
         }
       }
     }
@@ -88,17 +96,19 @@ struct Search {
       upper = reached;
       on_a = found.witness_a;
       on_b = found.witness_b;
+      way = found.normal.allFinite() ? found.normal : Vec3d::Zero();
     }
   }
 
-  double visit(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+  NearestKnown visit(std::uint32_t leaf_a, std::uint32_t leaf_b) {
     const auto parts_a = tree_a.leaf(leaf_a), parts_b = tree_b.leaf(leaf_b);
     if (a.mesh() != nullptr && b.mesh() != nullptr) {
       visit_meshes(parts_a, parts_b);
     } else {
       visit_parts(parts_a, parts_b);
     }
-    return upper;
+    const auto part = [&](int k) { return static_cast<float>(way[k]); };
+    return {upper, {part(0), part(1), part(2)}};
   }
 };
 
@@ -123,7 +133,7 @@ void PartDistance::measure(const PlacedBody& a, const PlacedBody& b, ConvexPairs
                 a,           b,      frame,           8 * (frame.error + 0x1p-51 * far),
                 convex_pairs};
   nearest_.run(
-      search.tree_a, search.tree_b, descent_frame(frame, first.reach, second.reach), none_yet,
+      search.tree_a, search.tree_b, descent_frame(frame, first.reach, second.reach),
       [](void* context, std::uint32_t leaf_a, std::uint32_t leaf_b) {
         return static_cast<Search*>(context)->visit(leaf_a, leaf_b);
       },

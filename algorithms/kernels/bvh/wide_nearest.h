@@ -11,19 +11,27 @@
 
 namespace touchstone {
 
+// The least distance that is known (metres), and the unit vector from a's nearest point to b's, in
+// the frame: bodies that are near each other elsewhere too mostly are along about that way, so that
+// gaps along it bound more than those of boxes. Zero if there is none yet.
+struct NearestKnown {
+  double distance;
+  std::array<float, 3> way;
+};
+
 class WideNearest {
  public:
-  // Returns the least distance that is known now (metres).
-  using Visit = double (*)(void* context, std::uint32_t leaf_a, std::uint32_t leaf_b);
+  // Returns what is known now.
+  using Visit = NearestKnown (*)(void* context, std::uint32_t leaf_a, std::uint32_t leaf_b);
 
   // Calls `visit` for every pair of leaves but those whose boxes are at least as far apart as the
-  // least distance known, which is `known` at first. The boxes of both bodies are moved by the
+  // least distance known, or their ends along the way. The boxes of both bodies are moved by the
   // frame's views.
-  void run(const WideBvh& a, const WideBvh& b, const DescentFrame& frame, double known, Visit visit,
+  void run(const WideBvh& a, const WideBvh& b, const DescentFrame& frame, Visit visit,
            void* context);
 
  private:
-  // Children of two nodes, or two leaves.
+  // Children of two nodes: a bit for each child that is meant. One of each if both are leaves.
   struct Open {
     float bound;
     bool is_leaf;

@@ -91,6 +91,24 @@ TEST(ConcaveDistance, OfMeshesAndConvexParts) {
   EXPECT_GT(apart, 2);
 }
 
+// Boxes of half-spaces have no end, along axes or along any other way.
+TEST(ConcaveDistance, OfHalfSpaces) {
+  Shape floor;
+  floor.kind = ShapeKind::halfspace;
+  const ConcaveBody torus = body_of(reference::torus(10, 5, 1, 0.25));
+  ConcaveBody ends = body_of(reference::make_sphere(0.25), moved_by({3, 0, 0}));
+  ends.parts.push_back({floor, moved_by({0, 0, -2}), 0});
+  reference::Random random(4);
+  for (int i = 0; i < drawn(12, 3); ++i) {
+    const Pose a = {random.rotation(), {0, 0, random.uniform(-0.7, 0.7)}};
+    EXPECT_TRUE(measures({torus, body_of(floor)}, a, moved_by({7, 7, -2}), 1e-11));
+    EXPECT_TRUE(measures({ends, torus}, {}, a, 1e-11));
+    const Mat3d turned = i % 2 == 0 ? Mat3d::Identity() : random.rotation();
+    const Vec3d down = turned * Vec3d(0, 0, -3);
+    EXPECT_TRUE(measures({torus, body_of(floor)}, a, {turned, down}, 1e-11));
+  }
+}
+
 TEST(ConcaveDistance, OfAnEmptyBodyIsNotKnown) {
   const ConcaveBody none = body_of(TriangleMesh{});
   const ConcaveBody ball = body_of(reference::make_sphere(1));
