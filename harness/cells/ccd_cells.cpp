@@ -11,7 +11,7 @@
 #include "harness/base/random.h"
 #include "harness/cells/choices.h"
 #include "harness/cells/kinds.h"
-#include "harness/files/ccd_queries.h"
+#include "harness/files/motion/ccd_queries.h"
 
 namespace touchstone::cells {
 namespace {
