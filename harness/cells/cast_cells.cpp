@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 8> way_names = {"hit",
 constexpr std::array<std::string_view, 5> shape_names = {"sphere", "capsule", "box", "hull-32",
                                                          "hull-128"};
 // A time of impact that is off by more than this length of path is wrong; bodies are about 1 in size.
-constexpr double greatest_error = 1e-2;
+constexpr double greatest_path_error = 1e-2;
 
 double radians(Way way) {
   switch (way) {
@@ -146,13 +146,14 @@ Grade grade(const CastInput& input, std::span<const CastOutcome> outcomes) {
     if (found.answer == CastAnswer::miss) continue;
     const double error = std::abs(found.toi - right.toi) * input.path(i);
     if (!(error <= grade.error)) grade.error = error;
-    if (!(error <= greatest_error)) ++grade.other;
+    if (!(error <= greatest_path_error)) ++grade.other;
   }
   return grade;
 }
 
-Cell make_cell(std::size_t kind, Way way, std::size_t count, std::size_t graded, std::uint64_t seed,
-               std::optional<double> tolerance, const std::vector<const CastEntry*>& entries) {
+Cell make_cast_cell(std::size_t kind, Way way, std::size_t count, std::size_t graded,
+                    std::uint64_t seed, std::optional<double> tolerance,
+                    const std::vector<const CastEntry*>& entries) {
   const auto input = std::make_shared<CastInput>();
   base::Random random(seed, static_cast<std::uint64_t>(way) << 8 | kind);
   for (std::size_t i = 0; i < count; ++i) add_pair(*input, kind, way, random);
@@ -201,8 +202,8 @@ std::vector<PlannedCell> cast_cells(files::TomlTable& table,
   for (const std::size_t way : ways) {
     for (const std::size_t shape : shapes) {
       cells.push_back({std::string(way_names[way]), std::string(shape_names[shape]), [=] {
-                         return make_cell(shape, static_cast<Way>(way), count, graded, seed,
-                                          tolerance, entries);
+                         return make_cast_cell(shape, static_cast<Way>(way), count, graded, seed,
+                                               tolerance, entries);
                        }});
     }
   }

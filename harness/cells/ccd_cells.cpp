@@ -27,7 +27,8 @@ enum class Family : std::uint8_t {
 constexpr std::array<std::string_view, 6> family_names = {
     "crossing",     "clear miss",  "contact at the end", "contact at a corner",
     "in one plane", "moving alike"};
-constexpr std::array<FeaturePair, 2> pairs = {FeaturePair::vertex_face, FeaturePair::edge_edge};
+constexpr std::array<FeaturePair, 2> feature_pairs = {FeaturePair::vertex_face,
+                                                      FeaturePair::edge_edge};
 
 // A point of each feature, by weights of its vertices: the vertex and the triangle, or both edges.
 struct Weights {
@@ -117,8 +118,8 @@ Grade grade(const CcdInput& input, std::span<const CcdOutcome> outcomes) {
   return grade;
 }
 
-Cell make_cell(const std::shared_ptr<CcdInput>& input, double tolerance,
-               const std::vector<const CcdEntry*>& entries) {
+Cell make_ccd_cell(const std::shared_ptr<CcdInput>& input, double tolerance,
+                   const std::vector<const CcdEntry*>& entries) {
   input->exact.resize(input->queries.size());
   find_ccd("exact")->make({})->solve(input->pair, input->queries, input->exact);
   Cell cell;
@@ -148,7 +149,7 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
   const std::vector<std::size_t> families = choices(table, "families", family_names);
   const auto entries = selected(table, ccds(), "ccd");
   std::vector<PlannedCell> cells;
-  for (const FeaturePair pair : pairs) {
+  for (const FeaturePair pair : feature_pairs) {
     const std::string group(to_string(pair));
     for (const std::size_t family : families) {
       cells.push_back({group, std::string(family_names[family]), [=] {
@@ -158,7 +159,7 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
                          for (std::size_t i = 0; i < count; ++i)
                            input->queries.push_back(
                                draw(pair, static_cast<Family>(family), random));
-                         return make_cell(input, tolerance, entries);
+                         return make_ccd_cell(input, tolerance, entries);
                        }});
     }
     const std::string key = pair == FeaturePair::vertex_face ? "vertex_face" : "edge_edge";
@@ -168,7 +169,7 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
         input->pair = pair;
         input->queries = files::read_ccd_queries(home / file).queries;
         cells.push_back({group, std::filesystem::path(file).filename().string(),
-                         [=] { return make_cell(input, tolerance, entries); }});
+                         [=] { return make_ccd_cell(input, tolerance, entries); }});
       } catch (const base::InputError& error) {
         table.fail(key, error.what());
       }

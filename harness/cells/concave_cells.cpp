@@ -20,12 +20,13 @@ namespace {
 
 enum class Place : std::uint8_t { gap_10, gap_1, touching, deep };
 constexpr std::array<std::string_view, 4> place_names = {"gap 10 %", "gap 1 %", "touching", "deep"};
-constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "contacts"};
+constexpr std::array<std::string_view, 3> concave_task_names = {"intersect", "distance",
+                                                                "contacts"};
 // The oracle tests all pairs of triangles of meshes up to this size. The answers of larger ones are those
 // of `part-pairs`, which are exact too, by signs that are proven.
 constexpr std::size_t most_exact_triangles = 3000;
 // A distance that is off by more than this part of the mesh's size is wrong.
-constexpr double greatest_error = 1e-6;
+constexpr double greatest_distance_error = 1e-6;
 
 std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision scalar) {
   ConcaveSettings settings;
@@ -111,15 +112,15 @@ Grade grade(const ConcaveInput& input, ConcaveTask task, Answers& answers) {
     } else if (task == ConcaveTask::distance && !hit) {
       const double error = std::abs(found.distance - right.distance) / input.size;
       if (!(error <= grade.error)) grade.error = error;
-      grade.other += !(error <= greatest_error);
+      grade.other += !(error <= greatest_distance_error);
     }
   }
   return grade;
 }
 
-Cell make_cell(const std::shared_ptr<const TriangleMesh>& mesh, Place place, ConcaveTask task,
-               std::size_t count, std::uint64_t seed,
-               const std::vector<const ConcaveEntry*>& entries) {
+Cell make_concave_cell(const std::shared_ptr<const TriangleMesh>& mesh, Place place,
+                       ConcaveTask task, std::size_t count, std::uint64_t seed,
+                       const std::vector<const ConcaveEntry*>& entries) {
   const auto input = std::make_shared<ConcaveInput>();
   input->bodies.push_back({mesh, {}});
   for (const Vec3d& v : mesh->vertices)
@@ -168,7 +169,7 @@ std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::files
   const auto count = static_cast<std::size_t>(table.integer("queries", 6, 100'000, 32));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> places = choices(table, "places", place_names);
-  const std::vector<std::size_t> tasks = choices(table, "tasks", task_names);
+  const std::vector<std::size_t> tasks = choices(table, "tasks", concave_task_names);
   const auto entries = selected(table, concave_phases(), "concave phase");
   std::vector<PlannedCell> cells;
   for (const std::string& name : table.texts("meshes", {"torus-2000", "trefoil-10000"})) {
@@ -184,9 +185,10 @@ std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::files
     for (const std::size_t task : tasks) {
       for (const std::size_t place : places) {
         cells.push_back({fmt::format("{}, {} triangles", name, mesh->triangles.size()),
-                         fmt::format("{}, {}", task_names[task], place_names[place]), [=] {
-                           return make_cell(mesh, static_cast<Place>(place),
-                                            static_cast<ConcaveTask>(task), count, seed, entries);
+                         fmt::format("{}, {}", concave_task_names[task], place_names[place]), [=] {
+                           return make_concave_cell(mesh, static_cast<Place>(place),
+                                                    static_cast<ConcaveTask>(task), count, seed,
+                                                    entries);
                          }});
       }
     }

@@ -20,13 +20,13 @@ namespace {
 enum class Aim : std::uint8_t { incoherent, coherent, vertices, edges };
 constexpr std::array<std::string_view, 4> aim_names = {"incoherent", "coherent", "vertices",
                                                        "edges"};
-constexpr std::array<std::string_view, 2> task_names = {"closest", "any"};
+constexpr std::array<std::string_view, 2> ray_task_names = {"closest", "any"};
 // The exact answer takes all triangles of a mesh for each ray, so it is asked for fewer rays.
 constexpr double most_exact_tests = 3e7;
 // A distance that is off by more than this part of itself is wrong, whatever the scalar.
-constexpr double greatest_error = 1e-4;
+constexpr double greatest_ray_error = 1e-4;
 
-Vec3d as_floats(const Vec3d& v) { return v.cast<float>().cast<double>(); }
+Vec3d ray_floats(const Vec3d& v) { return v.cast<float>().cast<double>(); }
 
 struct Box {
   Vec3d low, high;
@@ -87,8 +87,8 @@ std::vector<Ray> make_rays(const TriangleMesh& mesh, Aim aim, std::size_t count,
       }
     }
     // What is aimed at exactly stays exact where it can: the direction is a difference of floats.
-    origin = as_floats(origin);
-    const Vec3d direction = as_floats(as_floats(target) - origin);
+    origin = ray_floats(origin);
+    const Vec3d direction = ray_floats(ray_floats(target) - origin);
     if (direction.isZero(0)) {
       --i;
       continue;
@@ -122,7 +122,7 @@ Grade grade(const RayInput& input, std::span<const RayHit> hits, bool exact_verd
     // The error is the greatest, or the first that is no number.
     if (!(error <= grade.error)) grade.error = error;
     const bool off =
-        !(error <= greatest_error) || (exact_verdicts && hit.triangle != right.triangle);
+        !(error <= greatest_ray_error) || (exact_verdicts && hit.triangle != right.triangle);
     if (off) ++grade.other;
   }
   return grade;
@@ -143,8 +143,8 @@ Contestant contestant(const std::shared_ptr<const RayInput>& input, const RayCas
   return made;
 }
 
-Cell make_cell(const TriangleMesh& mesh, Aim aim, RayTask task, std::size_t count,
-               std::uint64_t seed, const std::vector<const RayCastEntry*>& entries) {
+Cell make_ray_cell(const TriangleMesh& mesh, Aim aim, RayTask task, std::size_t count,
+                   std::uint64_t seed, const std::vector<const RayCastEntry*>& entries) {
   const auto input = std::make_shared<RayInput>();
   input->mesh = mesh;
   input->rays = make_rays(mesh, aim, count, seed);
@@ -172,7 +172,7 @@ std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesyste
   const auto count = static_cast<std::size_t>(table.integer("queries", 64, 100'000'000, 4096));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> aims = choices(table, "rays", aim_names);
-  const std::vector<std::size_t> tasks = choices(table, "tasks", task_names);
+  const std::vector<std::size_t> tasks = choices(table, "tasks", ray_task_names);
   const auto entries = selected(table, ray_casts(), "ray cast");
   std::vector<PlannedCell> cells;
   for (const std::string& name :
@@ -189,9 +189,9 @@ std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesyste
     for (const std::size_t aim : aims) {
       for (const std::size_t task : tasks) {
         cells.push_back({fmt::format("{}, {} triangles", name, mesh->triangles.size()),
-                         fmt::format("{} rays, {}", aim_names[aim], task_names[task]), [=] {
-                           return make_cell(*mesh, static_cast<Aim>(aim),
-                                            static_cast<RayTask>(task), count, seed, entries);
+                         fmt::format("{} rays, {}", aim_names[aim], ray_task_names[task]), [=] {
+                           return make_ray_cell(*mesh, static_cast<Aim>(aim),
+                                                static_cast<RayTask>(task), count, seed, entries);
                          }});
       }
     }
