@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <vector>
 
@@ -104,7 +105,7 @@ std::vector<Root> candidates(const Conditions& conditions) {
   }
   // Comparing makes the cells smaller, so this sorts by hand.
   for (std::size_t i = 1; i < times.size(); ++i) {
-    for (std::size_t k = i; k > 0 && compare(times[k], times[k - 1]) < 0; --k) {
+    for (std::size_t k = i; k > 0 && std::is_lt(compare(times[k], times[k - 1])); --k) {
       std::swap(times[k], times[k - 1]);
     }
   }

@@ -127,7 +127,7 @@ std::optional<Impact> by_exact_coefficients(const MovingFeatures& features,
   for (int i = 0; i <= all.degree && !is_planar; ++i) {
     const auto k = static_cast<std::size_t>(i);
     all.volume[k] =
-        to_double(given.volume[static_cast<std::size_t>(first + i)]) / binomials[all.degree][k];
+        to_double(given.volume[k + static_cast<std::size_t>(first)]) / binomials[all.degree][k];
     most = std::max(most, std::abs(all.volume[k]));
   }
   all.volume_error = 16 * roundoff * most;

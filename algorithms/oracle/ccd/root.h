@@ -3,6 +3,7 @@
 #pragma once
 
 #include <compare>
+#include <utility>
 #include <vector>
 
 #include "algorithms/oracle/ccd/polynomial.h"
@@ -16,7 +17,8 @@ class Root {
   // The time where a cell that is a point lies.
   explicit Root(const Cell& point) : cell_(point) {}
   // The cell is open, and the coefficients of the polynomial on it have one change of sign.
-  Root(Polynomial polynomial, Cell cell) : polynomial_(std::move(polynomial)), cell_(cell) {}
+  Root(Polynomial polynomial, Cell cell)
+      : polynomial_(std::move(polynomial)), cell_(std::move(cell)) {}
 
   // The sign of a polynomial there: by refinement, and where that would not end by the divisor that
   // both polynomials share.
