@@ -13,7 +13,7 @@
 #include "harness/base/random.h"
 #include "harness/cells/choices.h"
 #include "harness/cells/kinds.h"
-#include "harness/geometry/named_mesh.h"
+#include "harness/geometry/shapes/named_mesh.h"
 
 namespace touchstone::cells {
 namespace {

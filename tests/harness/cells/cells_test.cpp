@@ -49,7 +49,7 @@ void expect_sound(const Ran& ran, std::size_t cells) {
     EXPECT_GT(row.graded, 0);
   }
   for (const cells::CellTimeRow& row : ran.times) {
-    EXPECT_EQ(row.samples, 6) << row.grade.algorithm;
+    EXPECT_GE(row.samples, 3) << row.grade.algorithm;  // a disturbed round may be left out
     EXPECT_GT(row.seconds, 0);
   }
 }

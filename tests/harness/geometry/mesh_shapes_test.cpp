@@ -1,5 +1,5 @@
 // The meshes of simple bodies: closed, oriented, and of the volume of what they stand for.
-#include "harness/geometry/mesh_shapes.h"
+#include "harness/geometry/shapes/mesh_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "harness/base/error.h"
-#include "harness/geometry/named_mesh.h"
+#include "harness/geometry/shapes/named_mesh.h"
 
 namespace touchstone::geometry {
 namespace {

@@ -1,5 +1,5 @@
 // Grids of quadrilaterals, bent to tori, knots, ellipsoids and hills.
-#include "harness/geometry/mesh_shapes.h"
+#include "harness/geometry/shapes/mesh_shapes.h"
 
 #include <algorithm>
 #include <cmath>

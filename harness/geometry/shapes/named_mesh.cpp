@@ -1,5 +1,5 @@
 // Chooses the counts of a mesh shape so that its triangles are about as long as wide.
-#include "harness/geometry/named_mesh.h"
+#include "harness/geometry/shapes/named_mesh.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "harness/base/error.h"
-#include "harness/geometry/mesh_shapes.h"
+#include "harness/geometry/shapes/mesh_shapes.h"
 
 namespace touchstone::geometry {
 namespace {
