@@ -10,6 +10,7 @@ std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
 std::vector<RayCastEntry> list_ray_casts();
+std::vector<PointQueryEntry> list_point_queries();
 
 namespace {
 
@@ -42,6 +43,11 @@ std::span<const RayCastEntry> ray_casts() {
   return list;
 }
 
+std::span<const PointQueryEntry> point_queries() {
+  static const std::vector<PointQueryEntry> list = list_point_queries();
+  return list;
+}
+
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
 }
@@ -52,6 +58,9 @@ const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
 }
 const RayCastEntry* find_ray_cast(std::string_view name) { return find(ray_casts(), name); }
+const PointQueryEntry* find_point_query(std::string_view name) {
+  return find(point_queries(), name);
+}
 
 bool offers(const NarrowPhaseEntry& entry, Task task) {
   return std::ranges::find(entry.tasks, task) != entry.tasks.end();
@@ -93,6 +102,24 @@ std::string_view to_string(Origin origin) {
     case Origin::ours: return "ours";
     case Origin::peer: return "peer";
     case Origin::oracle: return "oracle";
+  }
+  return "?";
+}
+
+std::string_view to_string(PointTask task) {
+  switch (task) {
+    case PointTask::closest: return "closest";
+    case PointTask::side: return "side";
+  }
+  return "?";
+}
+
+std::string_view to_string(PointSide side) {
+  switch (side) {
+    case PointSide::outside: return "outside";
+    case PointSide::surface: return "surface";
+    case PointSide::inside: return "inside";
+    case PointSide::unknown: return "unknown";
   }
   return "?";
 }

@@ -12,6 +12,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/contact_manifold.h"
 #include "algorithms/narrow_phase.h"
+#include "algorithms/point_query.h"
 #include "algorithms/ray_cast.h"
 
 namespace touchstone {
@@ -21,12 +22,14 @@ std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
 std::span<const RayCastEntry> ray_casts();
+std::span<const PointQueryEntry> point_queries();
 
 // Each returns null if no entry has that name.
 const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
 const RayCastEntry* find_ray_cast(std::string_view name);
+const PointQueryEntry* find_point_query(std::string_view name);
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);

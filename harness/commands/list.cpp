@@ -50,6 +50,10 @@ std::vector<Listed> all_algorithms() {
   for (const RayCastEntry& entry : ray_casts()) {
     all.push_back({&entry.info, "ray", joined(entry.tasks), joined(entry.scalars)});
   }
+  for (const PointQueryEntry& entry : point_queries()) {
+    all.push_back(
+        {&entry.info, "point", joined(entry.tasks), std::string(to_string(Precision::float64))});
+  }
   return all;
 }
 

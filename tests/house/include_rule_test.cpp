@@ -59,8 +59,9 @@ bool in(const std::string& path, const std::string& folder) {
 bool is_contract(const std::string& path) {
   return path == "algorithms/broad_phase.h" || path == "algorithms/narrow_phase.h" ||
          path == "algorithms/contact_manifold.h" || path == "algorithms/ray_cast.h" ||
-         path == "algorithms/algorithm_info.h" || path == "algorithms/broad_phase_work.h" ||
-         path == "algorithms/encoding.h" || path == "algorithms/limit.h";
+         path == "algorithms/point_query.h" || path == "algorithms/algorithm_info.h" ||
+         path == "algorithms/broad_phase_work.h" || path == "algorithms/encoding.h" ||
+         path == "algorithms/limit.h";
 }
 
 // The rooms of kernels, from the bottom up, each with those that it may include.
@@ -76,7 +77,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"mpr", {"gjk", "minkowski"}},
     {"sat", {"minkowski", "simd"}},
     {"batch", {"minkowski", "simd"}},
-    {"rays", {}},
+    {"rays", {"bvh", "simd"}},
 };
 
 // The rooms of the harness, from the bottom up: each includes itself and those before it.
@@ -87,7 +88,8 @@ const std::vector<std::string> harness_rooms = {
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
 bool is_in_algorithms(const std::string& path) {
   return in(path, "algorithms/broad_phase") || in(path, "algorithms/narrow_phase") ||
-         in(path, "algorithms/manifold") || in(path, "algorithms/ray_cast");
+         in(path, "algorithms/manifold") || in(path, "algorithms/ray_cast") ||
+         in(path, "algorithms/point_query");
 }
 
 // The part of `path` that follows `folder`, up to the next slash: "simd" of
@@ -124,7 +126,8 @@ bool may_include(const std::string& from, const std::string& to) {
   if (in(from, "algorithms/oracle")) {
     return in(to, "algorithms/oracle") ||
            (is_contract(to) &&
-            (from.ends_with("/exact.cpp") || from.ends_with("/exact_ray_cast.cpp")));
+            (from.ends_with("/exact.cpp") || from.ends_with("/exact_ray_cast.cpp") ||
+             from.ends_with("/exact_point_query.cpp")));
   }
   if (in(from, "algorithms/kernels")) {
     if (to == "algorithms/broad_phase_work.h") return true;  // counted where the work is done
@@ -239,8 +242,9 @@ TEST(IncludeRule, NoFileIncludesItselfInACircle) {
 
 TEST(House, AnAlgorithmOfOneFileHasNoHeader) {
   for (const SourceFile& file : files()) {
-    for (const char* folder : {"algorithms/broad_phase", "algorithms/narrow_phase",
-                               "algorithms/manifold", "algorithms/ray_cast"}) {
+    for (const char* folder :
+         {"algorithms/broad_phase", "algorithms/narrow_phase", "algorithms/manifold",
+          "algorithms/ray_cast", "algorithms/point_query"}) {
       if (folder_of(file.path) == folder) {
         EXPECT_TRUE(file.path.ends_with(".cpp")) << file.path;
       }
@@ -291,7 +295,7 @@ bool is_algorithm(const std::string& path) {
   const fs::path file = path;
   const fs::path folder = file.parent_path().filename();
   return folder == "broad_phase" || folder == "narrow_phase" || folder == "manifold" ||
-         folder == "ray_cast" || folder == file.stem();
+         folder == "ray_cast" || folder == "point_query" || folder == file.stem();
 }
 
 TEST(House, AnAlgorithmSaysWhatItIsBeforeItBegins) {

@@ -56,6 +56,15 @@ TEST(Registry, RayCastsAreWellDescribed) {
   }
 }
 
+TEST(Registry, PointQueriesAreWellDescribed) {
+  check_info(point_queries());
+  for (const PointQueryEntry& entry : point_queries()) {
+    EXPECT_FALSE(entry.tasks.empty()) << entry.info.name;
+    EXPECT_EQ(find_point_query(entry.info.name), &entry);
+  }
+  EXPECT_EQ(find_point_query("gjk"), nullptr);
+}
+
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   for (const BroadPhaseEntry& entry : broad_phases()) {
     EXPECT_EQ(find_broad_phase(entry.info.name), &entry);

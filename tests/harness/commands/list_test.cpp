@@ -23,14 +23,17 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
       read_rows(folder.write("list.csv", ran.text),
                 {"name", "kind", "origin", "built", "reason", "tasks", "scalars", "citation"});
   ASSERT_EQ(rows.size(), broad_phases().size() + narrow_phases().size() +
-                             contact_manifolds().size() + ray_casts().size());
+                             contact_manifolds().size() + ray_casts().size() +
+                             point_queries().size());
   std::set<std::pair<std::string, std::string>> names;
   for (const auto& row : rows) {
     EXPECT_TRUE(names.insert({row[1], row[0]}).second) << row[0];
-    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold" || row[1] == "ray");
+    ASSERT_TRUE(row[1] == "broad" || row[1] == "narrow" || row[1] == "manifold" ||
+                row[1] == "ray" || row[1] == "point");
     const AlgorithmInfo& info = row[1] == "broad"    ? find_broad_phase(row[0])->info
                                 : row[1] == "narrow" ? find_narrow_phase(row[0])->info
                                 : row[1] == "ray"    ? find_ray_cast(row[0])->info
+                                : row[1] == "point"  ? find_point_query(row[0])->info
                                                      : find_contact_manifold(row[0])->info;
     EXPECT_EQ(row[2], to_string(info.origin));
     EXPECT_EQ(row[3], is_built(info) ? "true" : "false");
