@@ -97,7 +97,7 @@ class WideBvhPoints final : public PointQuery {
     const Vec3d local = (point - frame.centre) * frame.scale;
     const std::array<float, 3> at = {static_cast<float>(local[0]), static_cast<float>(local[1]),
                                      static_cast<float>(local[2])};
-    // Distances to boxes are off by the roundings of the point and of a difference, squares by three
+    // Distances to boxes are off by the roundings of the point, of a corner and of a difference, squares by three
     // more: 2^-20 of what is compared is more than all.
     const double reach = 1 + local.cwiseAbs().maxCoeff();
     double best = std::numeric_limits<double>::infinity();  // square, in the mesh's units
@@ -113,8 +113,15 @@ class WideBvhPoints final : public PointQuery {
         continue;
       }
       const ray_tree::Leaf& leaf = mesh_->leaves()[WideNode::leaf(now.child)];
-      for (std::size_t lane = 0; lane < 8; ++lane) {
-        if (lane > 0 && leaf.triangle[lane] == leaf.triangle[lane - 1]) break;  // the padding
+      const std::array<float, 8> squares = squares_of(leaf, at);
+      // The triangle whose box is nearest comes first, since it often leaves the others out.
+      std::size_t first = 0;
+      for (std::size_t lane = 1; lane < 8; ++lane) {
+        if (squares[lane] < squares[first]) first = lane;
+      }
+      for (std::size_t turn = 0; turn < 8; ++turn) {
+        const std::size_t lane = turn == 0 ? first : (turn <= first ? turn - 1 : turn);
+        if (!(squares[lane] <= limit)) continue;  // lanes without a triangle have NaN
         const Vec3d found = closest_of(point, mesh_->corners(leaf, lane));
         const double square = (point - found).squaredNorm();
         if (!(square < best) && answer.triangle != PointAnswer::no_triangle) continue;
@@ -126,6 +133,22 @@ class WideBvhPoints final : public PointQuery {
       }
     }
     answer.distance = (point - answer.closest).stableNorm();
+  }
+
+  // The squared distances of a leaf's triangles' boxes.
+  static std::array<float, 8> squares_of(const ray_tree::Leaf& leaf,
+                                         const std::array<float, 3>& at) {
+    std::array<float, 8> square{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto &a = leaf.corners[axis], &b = leaf.corners[3 + axis], &c = leaf.corners[6 + axis];
+      for (std::size_t lane = 0; lane < 8; ++lane) {
+        const float below = std::min(std::min(a[lane], b[lane]), c[lane]) - at[axis];
+        const float above = at[axis] - std::max(std::max(a[lane], b[lane]), c[lane]);
+        const float away = std::max(std::max(below, above), 0.0F);
+        square[lane] += away * away;
+      }
+    }
+    return square;
   }
 
   // Pushes the children within the limit, the nearest last.
