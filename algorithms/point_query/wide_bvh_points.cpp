@@ -7,7 +7,7 @@
 //             takes the nearest of a triangle's interior and its three edges.
 //          3. `side` walks the triangles above the point, and counts those that turn up less those that
 //             turn down, by signs that are filtered in doubles and exact where that decides nothing.
-// Fails:   the distance is that of a rounded point, off by about 1e-15 of the coordinates' size. The
+// Fails:   the distance is that of a rounded point, off by up to 4e-15 of the coordinates' size. The
 //          status of `side` is `degenerate` where numbers beyond 2^-120 or 2^120 are in doubt.
 // Cost:    O(log n) a point near the surface; more where much of it is equally far.
 #include <algorithm>
