@@ -13,6 +13,7 @@ std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
 std::vector<RayCastEntry> list_ray_casts();
+std::vector<PointQueryEntry> list_point_queries();
 std::vector<MidPhaseEntry> list_mid_phases();
 std::vector<ConcaveEntry> list_concave_phases();
 std::vector<CastEntry> list_casts();
@@ -65,12 +66,20 @@ std::span<const ManifoldEntry> contact_manifolds() {
   return list_of<ManifoldEntry, list_contact_manifolds>();
 }
 std::span<const RayCastEntry> ray_casts() { return list_of<RayCastEntry, list_ray_casts>(); }
+std::span<const PointQueryEntry> point_queries() {
+  return list_of<PointQueryEntry, list_point_queries>();
+}
 std::span<const MidPhaseEntry> mid_phases() { return list_of<MidPhaseEntry, list_mid_phases>(); }
 std::span<const ConcaveEntry> concave_phases() {
   return list_of<ConcaveEntry, list_concave_phases>();
 }
 std::span<const CastEntry> casts() { return list_of<CastEntry, list_casts>(); }
 std::span<const CcdEntry> ccds() { return list_of<CcdEntry, list_ccds>(); }
+
+std::span<const PointQueryEntry> point_queries() {
+  static const std::vector<PointQueryEntry> list = list_point_queries();
+  return list;
+}
 
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
@@ -82,6 +91,9 @@ const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
 }
 const RayCastEntry* find_ray_cast(std::string_view name) { return find(ray_casts(), name); }
+const PointQueryEntry* find_point_query(std::string_view name) {
+  return find(point_queries(), name);
+}
 const MidPhaseEntry* find_mid_phase(std::string_view name) { return find(mid_phases(), name); }
 const ConcaveEntry* find_concave_phase(std::string_view name) {
   return find(concave_phases(), name);
@@ -135,10 +147,46 @@ std::string_view to_string(Origin origin) {
   return "?";
 }
 
+std::string_view to_string(PointTask task) {
+  switch (task) {
+    case PointTask::closest: return "closest";
+    case PointTask::side: return "side";
+  }
+  return "?";
+}
+
+std::string_view to_string(PointSide side) {
+  switch (side) {
+    case PointSide::outside: return "outside";
+    case PointSide::surface: return "surface";
+    case PointSide::inside: return "inside";
+    case PointSide::unknown: return "unknown";
+  }
+  return "?";
+}
+
 std::string_view to_string(RayTask task) {
   switch (task) {
     case RayTask::closest: return "closest";
     case RayTask::any: return "any";
+  }
+  return "?";
+}
+
+std::string_view to_string(PointTask task) {
+  switch (task) {
+    case PointTask::closest: return "closest";
+    case PointTask::side: return "side";
+  }
+  return "?";
+}
+
+std::string_view to_string(PointSide side) {
+  switch (side) {
+    case PointSide::outside: return "outside";
+    case PointSide::surface: return "surface";
+    case PointSide::inside: return "inside";
+    case PointSide::unknown: return "unknown";
   }
   return "?";
 }

@@ -16,6 +16,7 @@
 #include "algorithms/contact_manifold.h"
 #include "algorithms/mid_phase.h"
 #include "algorithms/narrow_phase.h"
+#include "algorithms/point_query.h"
 #include "algorithms/ray_cast.h"
 
 namespace touchstone {
@@ -25,6 +26,7 @@ std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
 std::span<const RayCastEntry> ray_casts();
+std::span<const PointQueryEntry> point_queries();
 std::span<const MidPhaseEntry> mid_phases();
 std::span<const ConcaveEntry> concave_phases();
 std::span<const CastEntry> casts();
@@ -35,6 +37,7 @@ const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
 const RayCastEntry* find_ray_cast(std::string_view name);
+const PointQueryEntry* find_point_query(std::string_view name);
 const MidPhaseEntry* find_mid_phase(std::string_view name);
 const ConcaveEntry* find_concave_phase(std::string_view name);
 const CastEntry* find_cast(std::string_view name);

@@ -52,6 +52,10 @@ std::vector<Listed> all_algorithms() {
   for (const RayCastEntry& entry : ray_casts()) {
     all.push_back({&entry.info, "ray", joined(entry.tasks), joined(entry.scalars)});
   }
+  for (const PointQueryEntry& entry : point_queries()) {
+    all.push_back(
+        {&entry.info, "point", joined(entry.tasks), std::string(to_string(Precision::float64))});
+  }
   for (const MidPhaseEntry& entry : mid_phases()) {
     all.push_back({&entry.info, "mid", "pairs", std::string(to_string(Precision::float32))});
   }

@@ -57,21 +57,13 @@ bool in(const std::string& path, const std::string& folder) {
 }
 
 bool is_contract(const std::string& path) {
-  static const std::set<std::string> contracts = {"broad_phase",
-                                                  "narrow_phase",
-                                                  "contact_manifold",
-                                                  "ray_cast",
-                                                  "mid_phase",
-                                                  "concave_phase",
-                                                  "cast",
-                                                  "ccd",
-                                                  "encoding",
-                                                  "limit",
-                                                  "algorithm_info",
-                                                  "broad_phase_work",
-                                                  "pair_query",
-                                                  "signed_by_two",
-                                                  "within_margin"};
+  static const std::set<std::string> contracts = {
+      "broad_phase",      "narrow_phase", "contact_manifold",
+      "ray_cast",         "point_query",  "mid_phase",
+      "concave_phase",    "cast",         "ccd",
+      "encoding",         "limit",        "algorithm_info",
+      "broad_phase_work", "pair_query",   "signed_by_two",
+      "within_margin",    "point_query"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));
 }
@@ -92,7 +84,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"triangles", {"simd"}},
     {"features", {}},
     {"motion", {"gjk", "minkowski"}},
-    {"rays", {}},
+    {"rays", {"bvh", "simd"}},
 };
 
 // The rooms of the harness, from the bottom up: each includes itself and those before it.
@@ -102,8 +94,9 @@ const std::vector<std::string> harness_rooms = {
     "cells",   "draw",     "bench", "report",   "commands"};
 
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
-const std::set<std::string> algorithm_rooms = {
-    "broad_phase", "narrow_phase", "manifold", "ray_cast", "mid_phase", "concave", "cast", "ccd"};
+const std::set<std::string> algorithm_rooms = {"broad_phase", "narrow_phase", "manifold",
+                                               "ray_cast",    "point_query",  "mid_phase",
+                                               "concave",     "cast",         "ccd"};
 bool is_in_algorithms(const std::string& path) {
   return std::ranges::any_of(algorithm_rooms,
                              [&](const auto& room) { return in(path, "algorithms/" + room); });

@@ -76,6 +76,12 @@ TEST(Registry, CastsAreWellDescribed) {
   }
 }
 
+TEST(Registry, PointQueriesAreWellDescribed) {
+  check_info(point_queries());
+  for (const PointQueryEntry& entry : point_queries())
+    EXPECT_FALSE(entry.tasks.empty()) << entry.info.name;
+}
+
 TEST(Registry, ContinuousCollisionIsWellDescribed) { check_info(ccds()); }
 
 // Each entry of a list is found by its name.
@@ -91,6 +97,7 @@ TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   expect_found(narrow_phases(), find_narrow_phase);
   expect_found(contact_manifolds(), find_contact_manifold);
   expect_found(ray_casts(), find_ray_cast);
+  expect_found(point_queries(), find_point_query);
   expect_found(mid_phases(), find_mid_phase);
   expect_found(concave_phases(), find_concave_phase);
   expect_found(casts(), find_cast);

@@ -4,8 +4,8 @@
 //          JCGT 2, 2013; Shewchuk, DCG 18, 1997 (expansions).
 // Steps:   1. `bind` builds the tree by surface area, and copies the triangles of each leaf side by
 //             side, in floats of a frame in which the mesh is about 1 in size (ray_mesh).
-//          2. A ray is brought to that frame, its origin to where it comes near (walk.cpp).
-//          3. A node's eight boxes are met at once; children are walked from near to far (walk.inl).
+//          2. A ray is brought to that frame, its origin to where it comes near (ray_walk.cpp).
+//          3. A node's eight boxes are met at once; children are walked from near to far (ray_walk.inl).
 //          4. A leaf's eight triangles are sheared at once. A bound on the rounding of floats leaves
 //             those out that are missed for certain, or too far.
 //          5. Each other one is tested in doubles with a bound of its own, and by expansions where
@@ -18,8 +18,8 @@
 //          microseconds more. 46 bytes a triangle besides the mesh.
 #include <optional>
 
+#include "algorithms/kernels/rays/ray_walk.h"
 #include "algorithms/ray_cast.h"
-#include "algorithms/ray_cast/wide_bvh/walk.h"
 
 namespace touchstone {
 namespace {

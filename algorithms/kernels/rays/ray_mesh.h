@@ -1,4 +1,4 @@
-// A mesh as wide-bvh walks it: the tree, and its leaves' triangles side by side in floats.
+// A mesh as rays and points walk it: the tree, and its leaves' triangles side by side in floats.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 namespace touchstone::ray_tree {
 
 // Eight triangles, a lane each: x, y and z of the first vertices, of the second and of the third, in
-// the frame of the tree. Lanes behind the last triangle repeat it. 320 bytes.
+// the frame of the tree. Lanes behind the last triangle have its number and NaN, which nothing hits.
+// 320 bytes.
 struct alignas(64) Leaf {
   std::array<std::array<float, 8>, 9> corners;
   std::array<std::uint32_t, 8> triangle;

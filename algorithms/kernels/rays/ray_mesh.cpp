@@ -1,8 +1,9 @@
 // The choice of the frame, and the tree with its leaves.
-#include "algorithms/ray_cast/wide_bvh/ray_mesh.h"
+#include "algorithms/kernels/rays/ray_mesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/double_double.h"
@@ -95,7 +96,9 @@ RayMesh::RayMesh(const TriangleMesh& mesh, Precision scalar) : mesh_(&mesh), sca
       for (std::size_t k = 0; k < 9; ++k) {
         const auto axis = static_cast<int>(k % 3);
         leaves_[n].corners[k][lane] =
-            static_cast<float>((at[k / 3][axis] - frame_.centre[axis]) * frame_.scale);
+            lane < numbers.size()
+                ? static_cast<float>((at[k / 3][axis] - frame_.centre[axis]) * frame_.scale)
+                : std::numeric_limits<float>::quiet_NaN();
       }
     }
   }

@@ -1,5 +1,5 @@
 // The ray in the tree's frame, and the choice of the instruction level.
-#include "algorithms/ray_cast/wide_bvh/walk.h"
+#include "algorithms/kernels/rays/ray_walk.h"
 
 #include <algorithm>
 #include <bit>
@@ -36,8 +36,17 @@ int exponent_of(double normal) {
   return static_cast<int>(std::bit_cast<std::uint64_t>(normal) >> 52 & 0x7ff) - 1023;
 }
 
-#define TOUCHSTONE_TARGET_INCLUDE "algorithms/ray_cast/wide_bvh/walk.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/rays/ray_walk.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
+
+template <class Query>
+void dispatch(const RayMesh& mesh, const LocalRay& local, RayTask task, Query& query) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::walk_tree(mesh, local, task, query);
+    case Isa::avx2: return avx2::walk_tree(mesh, local, task, query);
+    case Isa::baseline: return baseline::walk_tree(mesh, local, task, query);
+  }
+}
 
 }  // namespace
 
@@ -111,11 +120,10 @@ bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
 }
 
 void walk(const RayMesh& mesh, const LocalRay& local, RayTask task, RayQuery& query) {
-  switch (isa()) {
-    case Isa::avx512: return avx512::walk_tree(mesh, local, task, query);
-    case Isa::avx2: return avx2::walk_tree(mesh, local, task, query);
-    case Isa::baseline: return baseline::walk_tree(mesh, local, task, query);
-  }
+  dispatch(mesh, local, task, query);
+}
+void walk(const RayMesh& mesh, const LocalRay& local, RayTask task, WindingQuery& query) {
+  dispatch(mesh, local, task, query);
 }
 
 }  // namespace touchstone::ray_tree

@@ -1,4 +1,4 @@
-// The loops of walk.h. walk.cpp includes this file once for each level of vector instructions,
+// The loops of ray_walk.h. ray_walk.cpp includes this file once for each level of vector instructions,
 // inside that level's namespace. A node and a leaf have eight lanes, so the widest level uses half
 // of its lanes.
 
@@ -103,8 +103,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned possible_hits(const Leaf& leaf, con
   return bits;
 }
 
+template <class Query>
 TOUCHSTONE_TARGET void walk_tree(const RayMesh& mesh, const LocalRay& ray, RayTask task,
-                                 RayQuery& query) {
+                                 Query& query) {
   const WideNode* const nodes = mesh.tree().nodes.data();
   const Slabs slabs(ray);
   std::array<Met, WideBvh::most_open> stack;

@@ -1,8 +1,9 @@
-// The walk of one ray through the tree of wide-bvh.
+// The walk of one ray through a wide tree of triangles.
 #pragma once
 
+#include "algorithms/kernels/rays/ray_mesh.h"
 #include "algorithms/kernels/rays/ray_query.h"
-#include "algorithms/ray_cast/wide_bvh/ray_mesh.h"
+#include "algorithms/kernels/rays/winding_query.h"
 
 namespace touchstone::ray_tree {
 
@@ -30,7 +31,8 @@ struct LocalRay {
 bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local);
 
 // Offers to the query every triangle that may be hit and may matter: all hits at t < query.t_end()
-// are found. With `any`, it ends at the first hit.
+// are found. With `any`, it ends at the first that the query says is hit.
 void walk(const RayMesh& mesh, const LocalRay& local, RayTask task, RayQuery& query);
+void walk(const RayMesh& mesh, const LocalRay& local, RayTask task, WindingQuery& query);
 
 }  // namespace touchstone::ray_tree

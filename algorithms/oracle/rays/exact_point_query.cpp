@@ -1,0 +1,182 @@
+// Exact: points against a triangle mesh in integers, behind the contract of point queries.
+// Paper:   none; textbook geometry in integers without a bound on their length.
+// Steps:   1. `closest`: the squared distance to each vertex, to each edge's line where the point is
+//             beside the edge, and to each plane where the point is over the triangle; the least of these
+//             fractions.
+//          2. `side`: cast a ray whose direction is drawn, and count the triangles that it leaves through
+//             less those that it enters through. If it meets an edge, draw another.
+// Departs: it has no tree, and shares no code with the algorithms that it judges.
+// Fails:   never; the distance is rounded. The closest point itself is not given.
+// Cost:    O(n) a point, some microseconds a triangle.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "algorithms/oracle/numbers/dyadic.h"
+#include "algorithms/oracle/rays/ray_triangle.h"
+#include "algorithms/point_query.h"
+
+namespace touchstone {
+namespace {
+
+using oracle::cross;
+using oracle::dot;
+using oracle::Integer;
+using oracle::is_zero;
+using oracle::operator-;
+using oracle::IntegerVector;
+
+struct Square {
+  Integer top, bottom;
+};
+
+int least_exponent(const Vec3d& v) {
+  int least = oracle::Dyadic::of_zero;
+  for (const double x : v) least = std::min(least, oracle::dyadic(x).exponent);
+  return least;
+}
+
+IntegerVector placed(const Vec3d& v, int exponent) {
+  return {oracle::dyadic(v[0]).over_power(exponent), oracle::dyadic(v[1]).over_power(exponent),
+          oracle::dyadic(v[2]).over_power(exponent)};
+}
+
+using Seen = std::array<IntegerVector, 3>;  // the vertices from the point
+
+// The least squared distance of the origin from the triangle.
+Square distance_to(const Seen& seen) {
+  std::optional<Square> best;
+  const auto take = [&](Integer top, Integer bottom) {
+    if (!best || top * best->bottom < best->top * bottom) {
+      best = Square{std::move(top), std::move(bottom)};
+    }
+  };
+  const IntegerVector normal = cross(seen[1] - seen[0], seen[2] - seen[0]);
+  bool is_over = !is_zero(normal);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const IntegerVector &a = seen[k], &b = seen[(k + 1) % 3];
+    take(dot(a, a), 1);
+    const IntegerVector edge = b - a, volume = cross(a, b);
+    if (dot(a, edge) < 0 && dot(b, edge) > 0) take(dot(volume, volume), dot(edge, edge));
+    is_over = is_over && dot(normal, volume) >= 0;
+  }
+  if (is_over) {
+    const Integer height = dot(normal, seen[0]);
+    take(height * height, dot(normal, normal));
+  }
+  return *best;
+}
+
+// True if the origin is in the closed triangle.
+bool has_origin(const Seen& seen) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto all = [&](int sign) {
+      return std::ranges::all_of(seen, [&](const auto& v) { return v[axis].sign() == sign; });
+    };
+    if (all(1) || all(-1)) return false;
+  }
+  return distance_to(seen).top.is_zero();
+}
+
+// +1 or -1 if the ray from the origin leaves or enters through the triangle, 0 if it passes by, and
+// nothing if it meets its boundary's line of sight.
+std::optional<int> crossing(const Seen& seen, const IntegerVector& direction) {
+  int plus = 0, minus = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int sign = dot(direction, cross(seen[k], seen[(k + 1) % 3])).sign();
+    plus += sign > 0 ? 1 : 0;
+    minus += sign < 0 ? 1 : 0;
+  }
+  if (plus > 0 && minus > 0) return 0;
+  if (plus < 3 && minus < 3) return {};
+  const int side = plus == 3 ? 1 : -1;
+  return dot(seen[0], cross(seen[1], seen[2])).sign() == side ? side : 0;
+}
+
+class ExactPointQuery final : public PointQuery {
+ public:
+  void bind(const TriangleMesh& mesh) override { mesh_ = &mesh; }
+
+  void query(PointTask task, std::span<const Vec3d> points,
+             std::span<PointAnswer> answers) override {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      answers[i] = {};
+      answers[i].status = points[i].allFinite() ? Status::ok : Status::degenerate;
+      if (!points[i].allFinite()) continue;
+      place(points[i]);
+      if (task == PointTask::side) {
+        answers[i].side = side();
+      } else {
+        find_closest(answers[i]);
+      }
+    }
+  }
+
+ private:
+  void place(const Vec3d& point) {
+    exponent_ = least_exponent(point);
+    for (const auto& triangle : mesh_->triangles) {
+      for (const std::uint32_t k : triangle) {
+        exponent_ = std::min(exponent_, least_exponent(mesh_->vertices[k]));
+      }
+    }
+    if (exponent_ == oracle::Dyadic::of_zero) exponent_ = 0;
+    const IntegerVector from = placed(point, exponent_);
+    seen_.clear();
+    for (const auto& [a, b, c] : mesh_->triangles) {
+      const auto& vertices = mesh_->vertices;
+      seen_.push_back({placed(vertices[a], exponent_) - from, placed(vertices[b], exponent_) - from,
+                       placed(vertices[c], exponent_) - from});
+    }
+  }
+
+  void find_closest(PointAnswer& answer) const {
+    std::optional<Square> best;
+    for (std::size_t k = 0; k < seen_.size(); ++k) {
+      Square square = distance_to(seen_[k]);
+      if (best && square.top * best->bottom >= best->top * square.bottom) continue;
+      best = std::move(square);
+      answer.triangle = static_cast<std::uint32_t>(k);
+    }
+    if (!best) return;
+    answer.distance = std::ldexp(std::sqrt(oracle::quotient(best->top, best->bottom)), exponent_);
+  }
+
+  PointSide side() const {
+    if (std::ranges::any_of(seen_, has_origin)) return PointSide::surface;
+    std::mt19937 random(1);
+    for (;;) {
+      const auto drawn = [&] { return Integer(static_cast<int>(random() % 2000001) - 1000000); };
+      const IntegerVector direction = {drawn(), drawn(), drawn()};
+      int winding = 0;
+      bool is_clear = true;
+      for (const Seen& seen : seen_) {
+        if (is_zero(cross(seen[1] - seen[0], seen[2] - seen[0]))) continue;
+        const std::optional<int> crossed = crossing(seen, direction);
+        is_clear = is_clear && crossed;
+        winding += crossed.value_or(0);
+      }
+      if (is_clear) return winding != 0 ? PointSide::inside : PointSide::outside;
+    }
+  }
+
+  const TriangleMesh* mesh_ = nullptr;
+  int exponent_ = 0;
+  std::vector<Seen> seen_;
+};
+
+}  // namespace
+}  // namespace touchstone
+
+namespace touchstone::entries {
+
+std::vector<PointQueryEntry> oracle_exact_point_query() {
+  return {{.info = {.name = "exact",
+                    .citation = "Touchstone's oracle: points and triangles in integers",
+                    .origin = Origin::oracle},
+           .tasks = {PointTask::closest, PointTask::side},
+           .make = [] { return std::make_unique<ExactPointQuery>(); }}};
+}
+
+}  // namespace touchstone::entries
