@@ -124,8 +124,9 @@ bool may_include(const std::string& from, const std::string& to) {
   if (in(from, "algorithms/core")) return false;
   if (in(from, "algorithms/hull")) return in(to, "algorithms/hull");
   if (in(from, "algorithms/oracle")) {
-    return in(to, "algorithms/oracle") || (is_contract(to) && (from.ends_with("/exact.cpp") ||
-                                                              from.ends_with("/exact_concave.cpp")));
+    return in(to, "algorithms/oracle") ||
+           (is_contract(to) &&
+            (from.ends_with("/exact.cpp") || from.ends_with("/exact_concave.cpp")));
   }
   if (in(from, "algorithms/kernels")) {
     if (to == "algorithms/broad_phase_work.h") return true;  // counted where the work is done
