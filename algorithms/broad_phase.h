@@ -11,7 +11,7 @@
 #include "algorithms/algorithm_info.h"
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_history.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/status.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
-#include "algorithms/core/concave_body.h"
+#include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/mid_phase.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/kernels/sorting/ordered_key.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_sink.h"
 
 namespace touchstone {

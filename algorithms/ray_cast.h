@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
+#include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/core/outcome.h"
-#include "algorithms/core/triangle_mesh.h"
 
 namespace touchstone {
 

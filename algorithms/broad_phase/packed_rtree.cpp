@@ -26,8 +26,8 @@
 #include <functional>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/bvh/hilbert_sort.h"
 #include "algorithms/kernels/bvh/implicit_rtree.h"
 

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <vector>
 
-#include "algorithms/core/placed_box.h"
+#include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/mid_phase.h"
 
 namespace touchstone {

@@ -8,7 +8,7 @@
 // Cost:    O(n m) time, O(n + m) memory.
 #include <vector>
 
-#include "algorithms/core/placed_box.h"
+#include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/mid_phase.h"
 
 namespace touchstone {

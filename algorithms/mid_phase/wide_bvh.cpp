@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-#include "algorithms/core/placed_box.h"
+#include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/wide_descent.h"
 #include "algorithms/mid_phase.h"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/registry.h"
 #include "harness/base/clock.h"
 #include "harness/bench/benchmarks.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/isa.h"
 #include "algorithms/kernels/boxes/aabb_scan.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
@@ -65,7 +66,9 @@ struct Answers {
 
 // Rotations are random, and rounded to floats with all translations, so that peers see the same bodies.
 PlacedBody placed(base::Random& random) {
-  PlacedBody body{0, {random.rotation().cast<float>().cast<double>(), Vec3d::Zero()}};
+  PlacedBody body{0, {random.rotation(), Vec3d::Zero()}};
+  for (int k = 0; k < 3; ++k)
+    body.pose.rotation.col(k) = nearest_float(Vec3d(body.pose.rotation.col(k)));
   return body;
 }
 
@@ -74,7 +77,7 @@ void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Ran
   PlacedBody a = placed(random), b = placed(random);
   const Vec3d direction = random.on_sphere();
   const auto at = [&](double distance) {
-    b.pose.translation = (distance * direction).cast<float>().cast<double>();
+    b.pose.translation = nearest_float(Vec3d(distance * direction));
     Outcome outcome;
     std::vector<IndexPair> pairs;
     phase.solve(ConcaveTask::intersect, a, b, outcome, pairs);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/plain_math.h"
@@ -25,8 +26,6 @@ constexpr std::array<std::string_view, 2> ray_task_names = {"closest", "any"};
 constexpr double most_exact_tests = 3e7;
 // A distance that is off by more than this part of itself is wrong, whatever the scalar.
 constexpr double greatest_ray_error = 1e-4;
-
-Vec3d ray_floats(const Vec3d& v) { return v.cast<float>().cast<double>(); }
 
 struct Box {
   Vec3d low, high;
@@ -87,8 +86,8 @@ std::vector<Ray> make_rays(const TriangleMesh& mesh, Aim aim, std::size_t count,
       }
     }
     // What is aimed at exactly stays exact where it can: the direction is a difference of floats.
-    origin = ray_floats(origin);
-    const Vec3d direction = ray_floats(ray_floats(target) - origin);
+    origin = nearest_float(origin);
+    const Vec3d direction = nearest_float(nearest_float(target) - origin);
     if (direction.isZero(0)) {
       --i;
       continue;

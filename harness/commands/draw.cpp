@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/commands/arguments.h"

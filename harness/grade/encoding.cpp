@@ -6,12 +6,18 @@
 #include <memory>
 #include <optional>
 
+#include "algorithms/core/nearest_float.h"
+
 namespace touchstone::grade {
 namespace {
 
-double rounded(double x) { return static_cast<double>(static_cast<float>(x)); }
-
-Vec3d rounded(const Vec3d& v) { return v.cast<float>().cast<double>(); }
+double rounded(double x) { return nearest_float(x); }
+Vec3d rounded(const Vec3d& v) { return nearest_float(v); }
+Mat3d rounded(const Mat3d& m) {
+  Mat3d out;
+  for (int k = 0; k < 3; ++k) out.col(k) = rounded(Vec3d(m.col(k)));
+  return out;
+}
 
 // Moves the shape by -centre; a hull's vertices become relative to the centre.
 Shape centred(const Shape& shape, const Vec3d& centre) {
@@ -43,9 +49,7 @@ Shape rounded(const Shape& shape) {
   return out;
 }
 
-Pose rounded(const Pose& pose) {
-  return {pose.rotation.cast<float>().cast<double>(), rounded(pose.translation)};
-}
+Pose rounded(const Pose& pose) { return {rounded(pose.rotation), rounded(pose.translation)}; }
 
 template <class Scalar>
 std::array<double, 4> quaternion_of(const Mat3d& rotation) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "algorithms/broad_phase/dynamic_bvh/surface_area.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/boxes/aabb_measure.h"
 #include "algorithms/kernels/boxes/aabb_simd.h"
 #include "algorithms/kernels/boxes/group_scan.h"

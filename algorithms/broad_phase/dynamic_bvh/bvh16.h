@@ -21,7 +21,7 @@
 
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/structure_box.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 

@@ -5,7 +5,7 @@
 
 #include "algorithms/broad_phase/dynamic_bvh/bvh16.h"
 #include "algorithms/broad_phase/dynamic_bvh/surface_area.h"
-#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 
 namespace touchstone {
 namespace {

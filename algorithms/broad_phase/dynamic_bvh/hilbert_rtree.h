@@ -15,9 +15,9 @@
 #include "algorithms/broad_phase/dynamic_bvh/bvh16.h"
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/pair_sink.h"
-#include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/boxes/group_scan.h"
 #include "algorithms/kernels/bvh/hilbert_sort.h"
 

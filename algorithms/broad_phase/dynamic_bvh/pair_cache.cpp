@@ -6,8 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {

@@ -15,7 +15,7 @@
 
 #include "algorithms/broad_phase/dynamic_bvh/paged_array.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_history.h"
 #include "algorithms/core/pair_sink.h"
 

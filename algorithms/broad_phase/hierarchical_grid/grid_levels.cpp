@@ -4,8 +4,8 @@
 #include <bit>
 #include <functional>
 
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/grid/cell_space.h"
 #include "algorithms/kernels/grid/dense_cells.h"
 

@@ -15,7 +15,7 @@
 #include "algorithms/broad_phase/hierarchical_grid/magnitude_histogram.h"
 #include "algorithms/broad_phase/hierarchical_grid/serpentine_grid.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
 

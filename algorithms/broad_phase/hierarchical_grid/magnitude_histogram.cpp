@@ -1,7 +1,7 @@
 // Part of hierarchical-grid: the parallel count of boxes by magnitude.
 #include "algorithms/broad_phase/hierarchical_grid/magnitude_histogram.h"
 
-#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 
 namespace touchstone {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 
 namespace touchstone {
 

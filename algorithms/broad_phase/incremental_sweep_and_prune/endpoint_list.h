@@ -17,7 +17,7 @@
 #include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint.h"
 #include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_motion.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/grid/cell_space.h"
 
 namespace touchstone {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 
 namespace touchstone {
 

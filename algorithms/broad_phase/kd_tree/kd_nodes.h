@@ -13,7 +13,7 @@
 
 #include "algorithms/broad_phase/kd_tree/kd_bodies.h"
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 
 namespace touchstone {

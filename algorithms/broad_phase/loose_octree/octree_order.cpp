@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 
 namespace touchstone {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/kernels/grid/cell_space.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
 

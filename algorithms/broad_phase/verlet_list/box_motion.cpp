@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 
 namespace touchstone {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/concave_body.h"
+#include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/kernels/triangles/exact_triangles.h"
 
 namespace touchstone {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "algorithms/core/bounds.h"
-#include "algorithms/core/placed_box.h"
+#include "algorithms/core/mesh/placed_box.h"
 
 namespace touchstone {
 namespace {

@@ -2,7 +2,7 @@
 #include <bit>
 
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/bvh/wide_descent.h"
 #include "algorithms/kernels/triangles/triangle_signs.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/winding.h"
 
 namespace touchstone {

@@ -10,7 +10,7 @@
 #include <array>
 #include <limits>
 
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/triangle_distance.h"
 
 namespace touchstone {

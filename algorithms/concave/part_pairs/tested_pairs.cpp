@@ -1,6 +1,6 @@
 // Pairs of triangles by a mid-phase and a test of one pair.
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/triangle_signs.h"
 
 namespace touchstone {

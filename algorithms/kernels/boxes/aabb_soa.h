@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
-#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/core/executor/executor.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 
 namespace touchstone {
 

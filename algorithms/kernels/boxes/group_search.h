@@ -14,9 +14,9 @@
 #include <functional>
 #include <vector>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/pair_sink.h"
-#include "algorithms/core/parallel_blocks.h"
 
 namespace touchstone {
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/parallel_blocks.h"
 #include "algorithms/kernels/bvh/hilbert.h"
 #include "algorithms/kernels/bvh/implicit_rtree.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "algorithms/core/parallel_blocks.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/kernels/boxes/aabb_simd.h"
 #include "algorithms/kernels/boxes/structure_boxes.h"
 

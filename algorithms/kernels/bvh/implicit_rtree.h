@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "algorithms/broad_phase_work.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/structure_box.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"

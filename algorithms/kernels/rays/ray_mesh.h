@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/core/outcome.h"
-#include "algorithms/core/triangle_mesh.h"
 #include "algorithms/kernels/bvh/wide_bvh.h"
 
 namespace touchstone::ray_tree {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/core/pose.h"
-#include "algorithms/core/triangle_mesh.h"
 
 namespace touchstone {
 

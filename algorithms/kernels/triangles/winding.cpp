@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/exact_triangles.h"
 
 namespace touchstone {

@@ -3,8 +3,8 @@
 //         polygon", 2001, which counts a ray through an edge or a corner once.
 #pragma once
 
+#include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/core/pose.h"
-#include "algorithms/core/triangle_mesh.h"
 
 namespace touchstone {
 

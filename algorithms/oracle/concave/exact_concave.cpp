@@ -17,7 +17,7 @@
 
 #include "algorithms/concave_phase.h"
 #include "algorithms/core/bounds.h"
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/oracle/answer.h"
 #include "algorithms/oracle/concave/exact_winding.h"
 
@@ -28,7 +28,7 @@ using oracle::Body;
 using oracle::Measure;
 using oracle::Solid;
 
-constexpr double far = std::numeric_limits<double>::infinity();
+constexpr double none_found = std::numeric_limits<double>::infinity();
 
 Solid solid_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   Hull hull;
@@ -86,7 +86,7 @@ class ExactConcave final : public ConcavePhase {
     pairs.clear();
     bool undecided = false;
     Outcome nearest;
-    nearest.lower = nearest.upper = far;
+    nearest.lower = nearest.upper = none_found;
     const std::vector<ExactPart> parts_a = parts(a), parts_b = parts(b);
     for (std::uint32_t i = 0; i < parts_a.size(); ++i) {
       for (std::uint32_t j = 0; j < parts_b.size(); ++j) {
@@ -108,7 +108,7 @@ class ExactConcave final : public ConcavePhase {
     const bool matters = task == ConcaveTask::contacts || outcome.answer == Answer::unknown;
     if (undecided && matters) outcome.status = Status::degenerate;
     if (task == ConcaveTask::distance && outcome.answer == Answer::separated &&
-        nearest.upper < far) {
+        nearest.upper < none_found) {
       outcome = nearest;
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;

@@ -1,8 +1,8 @@
 // Part of the oracle: how often a closed surface winds around a point, in integers.
 #pragma once
 
+#include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/core/pose.h"
-#include "algorithms/core/triangle_mesh.h"
 
 namespace touchstone::oracle {
 

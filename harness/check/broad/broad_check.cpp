@@ -8,7 +8,7 @@
 #include <bit>
 #include <memory>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::check {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithms/core/concave_body.h"
+#include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/pose.h"
 #include "harness/files/cases.h"
 

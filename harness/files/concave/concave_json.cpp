@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "algorithms/core/bounds.h"
-#include "algorithms/core/common_frame.h"
-#include "algorithms/core/placed_box.h"
+#include "algorithms/core/mesh/common_frame.h"
+#include "algorithms/core/mesh/placed_box.h"
 #include "harness/files/shape_json.h"
 
 namespace touchstone::files {

@@ -4,7 +4,7 @@
 // where a part is placed like a body, and may be a compound.
 #pragma once
 
-#include "algorithms/core/concave_body.h"
+#include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/pose.h"
 #include "harness/files/json_line.h"
 

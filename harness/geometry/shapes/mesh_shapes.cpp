@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "algorithms/core/nearest_float.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/base/reproducible_math.h"
@@ -13,8 +14,6 @@ namespace touchstone::geometry {
 namespace {
 
 using Index = std::uint32_t;
-
-Vec3d as_floats(const Vec3d& v) { return v.cast<float>().cast<double>(); }
 
 double part(std::size_t i, std::size_t n) {
   return static_cast<double>(i) / static_cast<double>(n);
@@ -33,7 +32,7 @@ Mesh closed_grid(std::size_t along, std::size_t across,
   Mesh mesh;
   for (std::size_t i = 0; i < along; ++i) {
     for (std::size_t k = 0; k < across; ++k)
-      mesh.vertices.push_back(as_floats(point(part(i, along), part(k, across))));
+      mesh.vertices.push_back(nearest_float(point(part(i, along), part(k, across))));
   }
   for (std::size_t i = 0; i < along; ++i) {
     const std::size_t next = (i + 1) % along;
@@ -81,13 +80,13 @@ Mesh ellipsoid_with_poles(const Vec3d& radii, std::size_t stacks, std::size_t sl
     const auto height = base::sin_cos_turns(0.5 * part(i, stacks));
     for (std::size_t k = 0; k < slices; ++k) {
       const auto ring = base::sin_cos_turns(part(k, slices));
-      mesh.vertices.push_back(as_floats(
+      mesh.vertices.push_back(nearest_float(
           radii.cwiseProduct(Vec3d(height.sin * ring.cos, height.sin * ring.sin, -height.cos))));
     }
   }
   const std::size_t bottom = mesh.vertices.size(), top = bottom + 1, last = (stacks - 2) * slices;
-  mesh.vertices.push_back(as_floats({0, 0, -radii.z()}));
-  mesh.vertices.push_back(as_floats({0, 0, radii.z()}));
+  mesh.vertices.push_back(nearest_float({0, 0, -radii.z()}));
+  mesh.vertices.push_back(nearest_float({0, 0, radii.z()}));
   const auto at = [](std::size_t i) { return static_cast<Index>(i); };
   for (std::size_t k = 0; k < slices; ++k) {
     const std::size_t next = (k + 1) % slices;
@@ -122,7 +121,7 @@ Mesh terrain(std::size_t cells, double height, std::uint64_t seed) {
       const double x = 2 * part(column, cells) - 1, y = 2 * part(row, cells) - 1;
       double z = 0;
       for (int octave = 1; octave <= 6; ++octave) z += height * noise(octave, x, y);
-      mesh.vertices.push_back(as_floats({x, y, z}));
+      mesh.vertices.push_back(nearest_float({x, y, z}));
     }
   }
   for (std::size_t row = 0; row < cells; ++row) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "harness/measure/allocations.h"
 #include "harness/measure/phases/block_input.h"
 #include "harness/measure/sampler.h"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "harness/measure/allocations.h"
 #include "harness/measure/phases/block_input.h"
 #include "harness/measure/phases/narrow_choice.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "harness/grade/grade.h"
 #include "harness/grade/pair_groups.h"
 #include "harness/trade/pipeline/body_boxes.h"

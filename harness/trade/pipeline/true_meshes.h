@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/narrow_phase.h"
 #include "harness/trade/pipeline/stand_ins.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "algorithms/core/concave_body.h"
+#include "algorithms/core/mesh/concave_body.h"
 #include "tests/algorithms/concave/phases.h"
 #include "tests/algorithms/shapes.h"
 

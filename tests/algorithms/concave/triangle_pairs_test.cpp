@@ -1,7 +1,7 @@
 // Triangle pairs against the truth in integers, family by family and form by form.
 #include <gtest/gtest.h>
 
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/exact_triangles.h"
 #include "algorithms/kernels/triangles/triangle_signs.h"
 #include "algorithms/registry.h"

@@ -1,4 +1,4 @@
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 
 #include <gtest/gtest.h>
 #if defined(__linux__)

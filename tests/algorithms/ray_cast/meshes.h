@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithms/core/triangle_mesh.h"
+#include "algorithms/core/mesh/triangle_mesh.h"
 #include "tests/algorithms/random.h"
 
 namespace touchstone::reference {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "algorithms/core/nearest_float.h"
 #include "harness/base/error.h"
 #include "harness/geometry/shapes/named_mesh.h"
 
@@ -35,7 +36,7 @@ double volume(const Mesh& mesh) {
 
 bool has_floats(const Mesh& mesh) {
   for (const Vec3d& v : mesh.vertices) {
-    if (v != Vec3d(v.cast<float>().cast<double>())) return false;
+    if (v != nearest_float(v)) return false;
   }
   return true;
 }

@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 
 namespace touchstone {
 namespace {

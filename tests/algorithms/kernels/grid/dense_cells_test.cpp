@@ -9,7 +9,7 @@
 
 #include "algorithms/broad_phase/hierarchical_grid/grid_levels.h"
 #include "algorithms/broad_phase/loose_octree/octree_order.h"
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 
 namespace touchstone {
 namespace {

@@ -1,5 +1,5 @@
 // Part of the executor: the hand-over of tasks to threads, and their waiting.
-#include "algorithms/core/executor_crew.h"
+#include "algorithms/core/executor/executor_crew.h"
 
 #include <algorithm>
 #include <chrono>

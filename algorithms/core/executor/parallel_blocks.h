@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 
 namespace touchstone {
 

@@ -10,7 +10,7 @@
 //
 // In the moved world a map of three products and two sums is off by at most 4 u times the sum of
 // its magnitudes, and the difference of translations by u more.
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "algorithms/core/aabb.h"
-#include "algorithms/core/common_frame.h"
+#include "algorithms/core/mesh/common_frame.h"
 
 namespace touchstone {
 

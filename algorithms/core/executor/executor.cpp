@@ -1,5 +1,5 @@
 // The executor's choice between one thread and its crew, and the pinning of threads.
-#include "algorithms/core/executor.h"
+#include "algorithms/core/executor/executor.h"
 
 #if defined(__linux__)
 #include <sched.h>
@@ -12,7 +12,7 @@
 #include <typeinfo>
 #include <vector>
 
-#include "algorithms/core/executor_crew.h"
+#include "algorithms/core/executor/executor_crew.h"
 
 namespace touchstone {
 namespace {

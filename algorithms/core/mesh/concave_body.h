@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
-#include "algorithms/core/triangle_mesh.h"
 
 namespace touchstone {
 
