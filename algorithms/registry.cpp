@@ -76,11 +76,6 @@ std::span<const ConcaveEntry> concave_phases() {
 std::span<const CastEntry> casts() { return list_of<CastEntry, list_casts>(); }
 std::span<const CcdEntry> ccds() { return list_of<CcdEntry, list_ccds>(); }
 
-std::span<const PointQueryEntry> point_queries() {
-  static const std::vector<PointQueryEntry> list = list_point_queries();
-  return list;
-}
-
 const BroadPhaseEntry* find_broad_phase(std::string_view name) {
   return find(broad_phases(), name);
 }
@@ -169,24 +164,6 @@ std::string_view to_string(RayTask task) {
   switch (task) {
     case RayTask::closest: return "closest";
     case RayTask::any: return "any";
-  }
-  return "?";
-}
-
-std::string_view to_string(PointTask task) {
-  switch (task) {
-    case PointTask::closest: return "closest";
-    case PointTask::side: return "side";
-  }
-  return "?";
-}
-
-std::string_view to_string(PointSide side) {
-  switch (side) {
-    case PointSide::outside: return "outside";
-    case PointSide::surface: return "surface";
-    case PointSide::inside: return "inside";
-    case PointSide::unknown: return "unknown";
   }
   return "?";
 }
