@@ -35,7 +35,7 @@ struct ConcaveSettings {
 };
 
 // A bound body and its place.
-struct PlacedBody {
+struct PlacedConcave {
   std::uint32_t body;
   Pose pose;
 };
@@ -57,8 +57,8 @@ class ConcavePhase {
   // (triangles, or convex parts) that share a point once, in any order; a body inside of a solid one
   // has no such pair, and overlaps. Distances and points are in metres in the world; the bounds are
   // certified where there are some. Never throws on finite input.
-  virtual void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
-                     std::vector<IndexPair>& pairs) = 0;
+  virtual void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b,
+                     Outcome& outcome, std::vector<IndexPair>& pairs) = 0;
 };
 
 struct ConcaveEntry {

@@ -40,7 +40,7 @@ std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision sc
 struct ConcaveInput {
   std::vector<ConcaveBody> bodies;
   double size = 0;  // half of the mesh's greatest extent, metres
-  std::vector<std::pair<PlacedBody, PlacedBody>> asked;
+  std::vector<std::pair<PlacedConcave, PlacedConcave>> asked;
   std::vector<Outcome> exact;
   std::vector<std::uint64_t> exact_pairs;
 };
@@ -65,8 +65,8 @@ struct Answers {
 };
 
 // Rotations are random, and rounded to floats with all translations, so that peers see the same bodies.
-PlacedBody placed(base::Random& random) {
-  PlacedBody body{0, {random.rotation(), Vec3d::Zero()}};
+PlacedConcave placed(base::Random& random) {
+  PlacedConcave body{0, {random.rotation(), Vec3d::Zero()}};
   for (int k = 0; k < 3; ++k)
     body.pose.rotation.col(k) = nearest_float(Vec3d(body.pose.rotation.col(k)));
   return body;
@@ -74,7 +74,7 @@ PlacedBody placed(base::Random& random) {
 
 // Moves b along a direction to where the bodies first touch, by bisection, and from there to its place.
 void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Random& random) {
-  PlacedBody a = placed(random), b = placed(random);
+  PlacedConcave a = placed(random), b = placed(random);
   const Vec3d direction = random.on_sphere();
   const auto at = [&](double distance) {
     b.pose.translation = nearest_float(Vec3d(distance * direction));

@@ -28,7 +28,7 @@ class FusedPairs final : public MeshPairs {
     }
   }
 
-  void find(const PlacedBody& a, const PlacedBody& b, const TakePartPairs& take) override {
+  void find(const PlacedConcave& a, const PlacedConcave& b, const TakePartPairs& take) override {
     Search search{
         trees_[a.body], trees_[b.body], bodies_[a.body], bodies_[b.body], a.pose, b.pose, {}, take};
     search.frame = common_frame(a.pose, search.body_a.reach, b.pose, search.body_b.reach);

@@ -18,7 +18,7 @@ class MeshPairs {
   virtual void bind(std::span<const BoundBody> bodies) = 0;
   // Hands over the pairs of two meshes' triangles that share a point, each once, until `take` returns
   // false.
-  virtual void find(const PlacedBody& a, const PlacedBody& b, const TakePartPairs& take) = 0;
+  virtual void find(const PlacedConcave& a, const PlacedConcave& b, const TakePartPairs& take) = 0;
 };
 
 // Says whether two triangles share a point, in one frame in which each coordinate is off by at most

@@ -30,7 +30,7 @@ double reach_in(const CommonFrame& frame, double reach_a, double reach_b) {
 struct Search {
   const BoundBody &a, &b;
   const WideBvh &tree_a, &tree_b;
-  const PlacedBody &placed_a, &placed_b;
+  const PlacedConcave &placed_a, &placed_b;
   CommonFrame frame;
   double rounding;
   ConvexPairs& convex_pairs;
@@ -124,8 +124,8 @@ const WideBvh& PartDistance::tree_of(std::uint32_t body) {
   return trees_[body];
 }
 
-void PartDistance::measure(const PlacedBody& a, const PlacedBody& b, ConvexPairs& convex_pairs,
-                           Outcome& outcome) {
+void PartDistance::measure(const PlacedConcave& a, const PlacedConcave& b,
+                           ConvexPairs& convex_pairs, Outcome& outcome) {
   const BoundBody &first = bodies_[a.body], &second = bodies_[b.body];
   const CommonFrame frame = world_frame(a.pose, first.reach, b.pose, second.reach);
   const double far = reach_in(frame, first.reach, second.reach);

@@ -19,7 +19,7 @@ class PartDistance {
   // Writes the distance, its bounds, the points and the normal. `lower` and `upper` are certified:
   // they cover all rounding; between convex parts they are those of the narrow phase. Where they are further apart than 1e-9 of the distance and 1e-12 of the
   // bodies' coordinates the status is not_converged. Nothing is written if a body has no parts.
-  void measure(const PlacedBody& a, const PlacedBody& b, ConvexPairs& convex_pairs,
+  void measure(const PlacedConcave& a, const PlacedConcave& b, ConvexPairs& convex_pairs,
                Outcome& outcome);
 
  private:

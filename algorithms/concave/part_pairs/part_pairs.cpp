@@ -46,7 +46,7 @@ class PartPairs final : public ConcavePhase {
     distances_.bind(bodies_);
   }
 
-  void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
+  void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome,
              std::vector<IndexPair>& pairs) override {
     outcome.status = Status::ok;
     pairs.clear();
@@ -76,7 +76,7 @@ class PartPairs final : public ConcavePhase {
  private:
   static constexpr std::size_t portion = 64;
 
-  void find_convex(const PlacedBody& a, const PlacedBody& b, bool all,
+  void find_convex(const PlacedConcave& a, const PlacedConcave& b, bool all,
                    std::vector<IndexPair>& pairs, std::optional<Status>& undecided) {
     const auto decide = [&] {
       const auto outcomes = convex_pairs_.solve(Task::intersect, bodies_[a.body], a.pose,
@@ -101,7 +101,7 @@ class PartPairs final : public ConcavePhase {
     if (!ended && !waiting_.empty()) decide();
   }
 
-  bool is_inside(const PlacedBody& a, const PlacedBody& b) const {
+  bool is_inside(const PlacedConcave& a, const PlacedConcave& b) const {
     const BoundBody &first = bodies_[a.body], &second = bodies_[b.body];
     return (first.is_solid() && lies_inside(second, b.pose, first, a.pose)) ||
            (second.is_solid() && lies_inside(first, a.pose, second, b.pose));

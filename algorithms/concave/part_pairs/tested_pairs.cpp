@@ -14,7 +14,7 @@ class TestedPairs final : public MeshPairs {
   // The mid-phase has the bodies already.
   void bind(std::span<const BoundBody> bodies) override { bodies_ = bodies; }
 
-  void find(const PlacedBody& a, const PlacedBody& b, const TakePartPairs& take) override {
+  void find(const PlacedConcave& a, const PlacedConcave& b, const TakePartPairs& take) override {
     const BoundBody &first = bodies_[a.body], &second = bodies_[b.body];
     const CommonFrame frame = common_frame(a.pose, first.reach, b.pose, second.reach);
     mid_phase_->find_pairs(a.body, a.pose, b.body, b.pose, [&](std::span<const IndexPair> pairs) {

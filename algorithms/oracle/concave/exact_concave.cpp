@@ -80,7 +80,7 @@ class ExactConcave final : public ConcavePhase {
     }
   }
 
-  void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
+  void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome,
              std::vector<IndexPair>& pairs) override {
     outcome.status = Status::ok;
     pairs.clear();
@@ -116,7 +116,7 @@ class ExactConcave final : public ConcavePhase {
   }
 
  private:
-  std::vector<ExactPart> parts(const PlacedBody& placed) const {
+  std::vector<ExactPart> parts(const PlacedConcave& placed) const {
     const ExactBody& body = bodies_[placed.body];
     std::vector<ExactPart> all;
     for (std::size_t i = 0; i < body.solids.size(); ++i) {
@@ -153,7 +153,7 @@ class ExactConcave final : public ConcavePhase {
   }
 
   // True if a piece of `inner` is inside of `outer`'s surface; they do not meet on it.
-  bool is_inside(const PlacedBody& inner, const PlacedBody& outer) const {
+  bool is_inside(const PlacedConcave& inner, const PlacedConcave& outer) const {
     const ConcaveBody &body = *bodies_[inner.body].given, &around = *bodies_[outer.body].given;
     if (!around.mesh || !around.mesh->solid) return false;
     const auto winds = [&](const Vec3d& point, const Pose& pose) {

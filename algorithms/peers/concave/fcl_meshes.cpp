@@ -44,7 +44,7 @@ class FclMeshes final : public ConcavePhase {
     }
   }
 
-  void solve(ConcaveTask task, const PlacedBody& a, const PlacedBody& b, Outcome& outcome,
+  void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome,
              std::vector<IndexPair>& pairs) override {
     pairs.clear();
     outcome.status = Status::not_reported;
@@ -117,7 +117,7 @@ class FclMeshes final : public ConcavePhase {
     }
   }
 
-  void measure(const PlacedBody& a, const PlacedBody& b, Outcome& outcome) const {
+  void measure(const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome) const {
     const fcl::DistanceRequest<S> request(true);
     for (const Part& p : bodies_[a.body]) {
       for (const Part& q : bodies_[b.body]) {
