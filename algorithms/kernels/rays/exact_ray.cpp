@@ -20,7 +20,7 @@ struct Stretch {
   }
 };
 
-ExactFraction fraction(const Expansion& top, const Expansion& bottom) {
+ExactFraction fraction(const FloatExpansion& top, const FloatExpansion& bottom) {
   return bottom.sign() < 0 ? ExactFraction{-top, -bottom} : ExactFraction{top, bottom};
 }
 
@@ -44,7 +44,7 @@ struct Edge {
 
 // Adds the line's points on the edge, whose plane with the line's origin has the line in it if
 // `volume`, of the direction and the edge's ends, is zero.
-void add_edge(const Edge& edge, const Expansion& volume, const Expansion3& direction,
+void add_edge(const Edge& edge, const FloatExpansion& volume, const Expansion3& direction,
               Stretch& stretch) {
   if (volume.sign() != 0) return;
   const Expansion3 &p = edge.p, &q = edge.q;
@@ -57,7 +57,7 @@ void add_edge(const Edge& edge, const Expansion& volume, const Expansion3& direc
   // The vectors are parallel. The line is between p and q if they point to different sides.
   const auto i = static_cast<std::size_t>(axis_p);
   if (beside_p[i].sign() == beside_q[i].sign()) return;
-  const Expansion sum = beside_p[i] - beside_q[i];
+  const FloatExpansion sum = beside_p[i] - beside_q[i];
   stretch.add(edge.end(fraction(beside_p[i] * q[k] - beside_q[i] * p[k], direction[k] * sum),
                        beside_p[i].value() / sum.value()));
 }
@@ -89,12 +89,12 @@ std::optional<ExactHit> first_hit(const RayTriangle& pair) {
   const Expansion3 c = exact_difference(pair.c, pair.origin);
   const Expansion3 direction = exact_vector(pair.direction);
   const Expansion3 bc = cross(b, c);
-  const Expansion at_a = dot(direction, bc);
-  const Expansion at_b = dot(direction, cross(c, a));
-  const Expansion at_c = dot(direction, cross(a, b));
-  const Expansion sum = at_a + at_b + at_c;
+  const FloatExpansion at_a = dot(direction, bc);
+  const FloatExpansion at_b = dot(direction, cross(c, a));
+  const FloatExpansion at_c = dot(direction, cross(a, b));
+  const FloatExpansion sum = at_a + at_b + at_c;
   if (sum.sign() != 0) {
-    for (const Expansion* weight : {&at_a, &at_b, &at_c}) {
+    for (const FloatExpansion* weight : {&at_a, &at_b, &at_c}) {
       if (weight->sign() == -sum.sign()) return {};
     }
     const ExactFraction t = fraction(dot(a, bc), sum);

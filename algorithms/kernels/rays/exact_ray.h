@@ -10,13 +10,13 @@ namespace touchstone {
 
 // top / bottom, with bottom > 0.
 struct ExactFraction {
-  Expansion top, bottom{1};
+  FloatExpansion top, bottom{1};
 
   // The sign of this - other.
   int compare(const ExactFraction& other) const {
     return (top * other.bottom - other.top * bottom).sign();
   }
-  int compare(double x) const { return (top - Expansion(x) * bottom).sign(); }
+  int compare(double x) const { return (top - FloatExpansion(x) * bottom).sign(); }
   double value() const { return top.value() / bottom.value(); }
 };
 

@@ -7,28 +7,28 @@
 
 namespace touchstone {
 
-Expansion Expansion::difference(double a, double b) {
+FloatExpansion FloatExpansion::difference(double a, double b) {
   const DoubleDouble d = DoubleDouble::sum(a, -b);  // two-diff
-  Expansion e;
+  FloatExpansion e;
   if (d.low != 0) e.terms_.push_back(d.low);
   if (d.high != 0) e.terms_.push_back(d.high);
   return e;
 }
 
-double Expansion::value() const {
+double FloatExpansion::value() const {
   double sum = 0;
   for (const double term : terms_) sum += term;
   return sum;
 }
 
-Expansion Expansion::operator-() const {
-  Expansion e = *this;
+FloatExpansion FloatExpansion::operator-() const {
+  FloatExpansion e = *this;
   for (double& term : e.terms_) term = -term;
   return e;
 }
 
 // grow-expansion
-void Expansion::add(double x) {
+void FloatExpansion::add(double x) {
   std::size_t kept = 0;
   for (const double term : terms_) {
     const DoubleDouble s = DoubleDouble::sum(x, term);
@@ -40,7 +40,7 @@ void Expansion::add(double x) {
 }
 
 // compress
-void Expansion::compress() {
+void FloatExpansion::compress() {
   if (terms_.size() < 2) return;
   double sum = terms_.back();
   std::size_t bottom = terms_.size();
@@ -64,16 +64,16 @@ void Expansion::compress() {
 }
 
 // expansion-sum
-Expansion operator+(const Expansion& a, const Expansion& b) {
-  Expansion sum = a;
+FloatExpansion operator+(const FloatExpansion& a, const FloatExpansion& b) {
+  FloatExpansion sum = a;
   for (const double term : b.terms_) sum.add(term);
   sum.compress();
   return sum;
 }
 
 // The sum of scale-expansion's for each term of b.
-Expansion operator*(const Expansion& a, const Expansion& b) {
-  Expansion sum;
+FloatExpansion operator*(const FloatExpansion& a, const FloatExpansion& b) {
+  FloatExpansion sum;
   for (const double factor : b.terms_) {
     for (const double term : a.terms_) {
       const DoubleDouble product = DoubleDouble::product(term, factor);

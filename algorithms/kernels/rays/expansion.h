@@ -11,22 +11,24 @@
 namespace touchstone {
 
 // Exact as long as nothing underflows or overflows: see `is_safe`.
-class Expansion {
+class FloatExpansion {
  public:
-  Expansion() = default;  // 0
-  explicit Expansion(double x) {
+  FloatExpansion() = default;  // 0
+  explicit FloatExpansion(double x) {
     if (x != 0) terms_.push_back(x);
   }
-  static Expansion difference(double a, double b);
+  static FloatExpansion difference(double a, double b);
 
   int sign() const { return terms_.empty() ? 0 : (terms_.back() > 0 ? 1 : -1); }
   // Off by at most two units in its last place.
   double value() const;
 
-  Expansion operator-() const;
-  friend Expansion operator+(const Expansion& a, const Expansion& b);
-  friend Expansion operator-(const Expansion& a, const Expansion& b) { return a + -b; }
-  friend Expansion operator*(const Expansion& a, const Expansion& b);
+  FloatExpansion operator-() const;
+  friend FloatExpansion operator+(const FloatExpansion& a, const FloatExpansion& b);
+  friend FloatExpansion operator-(const FloatExpansion& a, const FloatExpansion& b) {
+    return a + -b;
+  }
+  friend FloatExpansion operator*(const FloatExpansion& a, const FloatExpansion& b);
 
  private:
   void add(double x);          // grows the sum by one double
@@ -41,16 +43,16 @@ inline bool is_safe(double x) {
   return x == 0 || (magnitude >= 0x1p-120 && magnitude <= 0x1p120);
 }
 
-using Expansion3 = std::array<Expansion, 3>;
+using Expansion3 = std::array<FloatExpansion, 3>;
 
 inline Expansion3 exact_difference(const Vec3d& a, const Vec3d& b) {
-  return {Expansion::difference(a[0], b[0]), Expansion::difference(a[1], b[1]),
-          Expansion::difference(a[2], b[2])};
+  return {FloatExpansion::difference(a[0], b[0]), FloatExpansion::difference(a[1], b[1]),
+          FloatExpansion::difference(a[2], b[2])};
 }
 inline Expansion3 exact_vector(const Vec3d& a) {
-  return {Expansion(a[0]), Expansion(a[1]), Expansion(a[2])};
+  return {FloatExpansion(a[0]), FloatExpansion(a[1]), FloatExpansion(a[2])};
 }
-inline Expansion dot(const Expansion3& a, const Expansion3& b) {
+inline FloatExpansion dot(const Expansion3& a, const Expansion3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 inline Expansion3 cross(const Expansion3& a, const Expansion3& b) {

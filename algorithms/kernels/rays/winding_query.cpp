@@ -50,7 +50,9 @@ int WindingQuery::area_sign(const Vec3d& a, const Vec3d& b) {
     undecided_ = true;
     return 0;
   }
-  const auto from = [&](const Vec3d& v, int k) { return Expansion::difference(v[k], point_[k]); };
+  const auto from = [&](const Vec3d& v, int k) {
+    return FloatExpansion::difference(v[k], point_[k]);
+  };
   const int exact = (from(a, 0) * from(b, 1) - from(a, 1) * from(b, 0)).sign();
   if (exact != 0) return exact;
   if (a[1] != b[1]) return a[1] > b[1] ? 1 : -1;
