@@ -238,6 +238,9 @@ std::vector<NarrowPhaseEntry> narrow_phase_smooth() {
            .tasks = {Task::intersect, Task::distance, Task::penetration},
            .scalars = {Precision::float64},
            .supports = takes,
+           .tolerance =
+               "the gap between both bounds on a distance or depth; 1e-12, and gjk's 1e-10 "
+               "where it answers",
            .make = make}};
 }
 

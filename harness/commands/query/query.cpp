@@ -35,6 +35,7 @@ const Arguments::Choices<QueryTask>& query_tasks() {
       {"intersect", {Task::intersect, ConcaveTask::intersect}},
       {"distance", {Task::distance, ConcaveTask::distance}},
       {"penetration", {Task::penetration, {}}},
+      {"signed", {Task::signed_distance, {}}},
       {"contacts", {{}, ConcaveTask::contacts}}};
   return choices;
 }
@@ -103,9 +104,9 @@ bool asks_concave_phases(const QueryOptions& options,
 void ask_concave_phases(const QueryOptions& options, const std::vector<files::ConcaveCase>& cases) {
   if (!options.asked.of_concave) {
     throw base::InputError(
-        fmt::format("{}: has a mesh or a compound, for which --task penetration is not there; "
+        fmt::format("{}: has a mesh or a compound, for which --task {} is not there; "
                     "expected intersect, distance or contacts",
-                    options.cases));
+                    options.cases, to_string(*options.asked.of_convex)));
   }
   query_concave({.names = options.narrow,
                  .task = *options.asked.of_concave,

@@ -53,7 +53,7 @@ TEST(SmoothBounds, MeetThoseOfGjk) {
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     for (std::size_t j = std::max<std::size_t>(i, 2); j < kinds.size(); ++j) {
       const Pairs pairs = aligned_pairs(random, {kinds[i], kinds[j]}, drawn(1500, 150));
-      for (const Task task : all_tasks) {
+      for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
         const auto of_smooth = solve(smooth, Precision::float64, task, pairs, pairs.size());
         const auto of_gjk = solve(gjk, Precision::float64, task, pairs, pairs.size());
         for (std::size_t k = 0; k < pairs.size(); ++k) {

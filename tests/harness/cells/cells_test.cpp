@@ -120,6 +120,15 @@ TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
               HasSubstr("nothing.csv"));
 }
 
+TEST(Cells, OfTheProjectsFilesAreRead) {
+  for (const char* name : {"rays", "casts", "ccd", "concave"}) {
+    const auto request = cells::read_cells(std::filesystem::path(project_folder) /
+                                           "datasets/campaigns" / (std::string(name) + ".toml"));
+    EXPECT_EQ(request.name, name);
+    EXPECT_GE(request.cells.size(), 12U) << name;
+  }
+}
+
 TEST(Columns, OfCellsAreDocumented) {
   expect_documented("grades.csv of cells", record::column_docs<cells::GradeRow>());
   expect_documented("raw.csv of cells", record::column_docs<cells::CellSampleRow>());

@@ -53,7 +53,8 @@ TEST_F(CheckCommand, GradesOursAndFindsThemWithinTheirMargins) {
   EXPECT_EQ(column("grades.csv", "algorithm"), names);
   EXPECT_EQ(column("grades.csv", "regime"), of_regimes);
   EXPECT_THAT(column("grades.csv", "scalar"), ElementsAre("double", "float"));
-  EXPECT_THAT(column("grades.csv", "task"), ElementsAre("distance", "intersect", "penetration"));
+  EXPECT_THAT(column("grades.csv", "task"),
+              ElementsAre("distance", "intersect", "penetration", "signed"));
   EXPECT_THAT(column("grades.csv", "encoding"), ElementsAre("as_given"));
   EXPECT_EQ(column("summary.csv", "algorithm"), names);
   EXPECT_THAT(column("machine.csv", "name"), testing::IsSupersetOf({"seed", "commit", "compiler"}));
