@@ -50,7 +50,7 @@ TEST(ConcaveBodies, CompoundsAgainstAnything) {
   reference::Random random(1);
   const ConcaveBody mesh = body_of(reference::torus(8, 5, 1, 0.3));
   int hits = 0, open = 0;
-  const int count = drawn(60, 8);
+  const int count = drawn(60, 30);
   for (int i = 0; i < count; ++i) {
     const ConcaveBody first = any_compound(random, 3);
     const ConcaveBody second = i % 3 == 0 ? mesh : any_compound(random, i % 3 == 1 ? 1 : 4);
@@ -70,7 +70,7 @@ TEST(ConcaveBodies, CompoundsAgainstAnything) {
 TEST(ConcaveBodies, ConvexBodiesAreCompoundsOfOnePart) {
   reference::Random random(2);
   int hits = 0;
-  const int count = drawn(60, 8);
+  const int count = drawn(60, 30);
   for (int i = 0; i < count; ++i) {
     const Pose a = {random.rotation(), random.vector(0.4)}, b = {random.rotation(), {0, 0, 0}};
     hits += agreed({body_of(any_shape(random)), body_of(any_shape(random))}, a, b).meets();

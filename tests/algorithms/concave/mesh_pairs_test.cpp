@@ -22,7 +22,7 @@ TEST(MeshPairs, ToriInRandomPoses) {
   const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(12, 6, 1, 0.3)),
                                              body_of(reference::torus(9, 5, 0.8, 0.25))};
   int hits = 0;
-  const int count = drawn(20, 4);
+  const int count = drawn(20, 12);
   for (int i = 0; i < count; ++i) {
     const Pose a = {random.rotation(), random.vector(0.8)};
     const Pose b = {random.rotation(), random.vector(0.8)};
@@ -38,7 +38,7 @@ TEST(MeshPairs, EveryMidPhaseGivesTheSameLists) {
   const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(40, 16, 1, 0.3)),
                                              body_of(reference::torus(50, 20, 1, 0.3))};
   std::size_t most = 0, least = 1000;
-  for (int i = 0; i < drawn(10, 2); ++i) {
+  for (int i = 0; i < drawn(10, 6); ++i) {
     const Pose a = {random.rotation(), random.vector(0.6)};
     const Pose b = {random.rotation(), random.vector(0.6)};
     const Answered fused = ask("fused", ConcaveTask::contacts, bodies, a, b);
@@ -74,7 +74,7 @@ TEST(MeshPairs, RotationsAreTakenLiterally) {
                                              body_of(reference::box_mesh(0.5, 0.4, 0.3))};
   reference::Random random(4);
   int hits = 0;
-  const int count = drawn(20, 4);
+  const int count = drawn(20, 12);
   for (int i = 0; i < count; ++i) {
     // Mirrored, stretched, sheared and flattened bodies.
     Pose a = {random.rotation(), random.vector(0.7)}, b = {random.rotation(), random.vector(0.7)};

@@ -100,7 +100,7 @@ TEST_P(EveryMidPhase, LeavesOutNoPairThatMeets) {
     given += found.size();
     all += boxes_a.size() * boxes_b.size();
   }
-  EXPECT_GT(meeting, 50u);
+  EXPECT_GT(meeting, one_in == 1 ? 50u : 10u);
   EXPECT_LT(given, all / 2);
 }
 

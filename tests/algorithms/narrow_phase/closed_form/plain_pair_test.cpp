@@ -140,7 +140,7 @@ TEST(PlainPair, IsRightAtEveryDistance) {
       const int pairs = 4000 / one_in;
       for (int k = 0; k < pairs; ++k)
         expect_outcome(pair_of(kind_a, kind_b, random, oracle), task, oracle, count);
-      EXPECT_GT(count.separated, pairs / 6);
+      EXPECT_GT(count.separated, pairs / 8);
       EXPECT_GT(count.overlapping, pairs / 10);
       EXPECT_GT(count.open, pairs / 100);
       // A plane across the shortest connection of the axes does not part a skewed box as well.
