@@ -8,7 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
