@@ -1,13 +1,16 @@
-// Used by ODE's narrow phase, contacts and broad phases: the set-up of ODE's library, once a
-// process, a lock for its globals, and the conversion of a pose. The calls of the broad phases run
-// under the lock, and so do making and destroying geoms.
+// Used by all that is ODE's: the set-up of ODE's library, once a
+// process, a lock for its globals, the conversion of a pose, and geoms of shapes. The calls of the
+// broad phases run under the lock, and so do making and destroying geoms.
 #pragma once
 
 #include <ode/ode.h>
 
+#include <memory>
 #include <mutex>
+#include <type_traits>
 
 #include "algorithms/core/pose.h"
+#include "algorithms/core/shape.h"
 
 namespace touchstone::ode {
 
@@ -41,5 +44,43 @@ struct Placement {
     position[3] = 0;
   }
 };
+
+struct DestroyGeom {
+  void operator()(dGeomID geom) const {
+    const auto lock = enter();
+    dGeomDestroy(geom);
+  }
+};
+using Geom = std::unique_ptr<std::remove_pointer_t<dGeomID>, DestroyGeom>;
+
+// Makes the geom of a sphere, capsule, box or half-space, which has its place yet to come.
+inline Geom make_geom(const Shape& shape) {
+  const auto length = [](double half) { return static_cast<dReal>(2 * half); };
+  const auto radius = static_cast<dReal>(shape.radius);
+  const Vec3d& half = shape.half_extents;
+  switch (shape.kind) {
+    case ShapeKind::sphere: return Geom(dCreateSphere(nullptr, radius));
+    case ShapeKind::capsule:
+      return Geom(dCreateCapsule(nullptr, radius, length(shape.half_length)));
+    case ShapeKind::box:
+      return Geom(dCreateBox(nullptr, length(half.x()), length(half.y()), length(half.z())));
+    case ShapeKind::halfspace: return Geom(dCreatePlane(nullptr, 0, 0, 1, 0));
+    default: return nullptr;
+  }
+}
+
+// Moves a geom; `shape` is its shape.
+inline void place(dGeomID geom, const Shape& shape, const Pose& pose) {
+  if (shape.kind == ShapeKind::halfspace) {
+    const Vec3d normal = pose.rotation * shape.normal;
+    const double offset = shape.offset + normal.dot(pose.translation);
+    dGeomPlaneSetParams(geom, static_cast<dReal>(normal.x()), static_cast<dReal>(normal.y()),
+                        static_cast<dReal>(normal.z()), static_cast<dReal>(offset));
+    return;
+  }
+  const Placement placement(pose);
+  dGeomSetPosition(geom, placement.position[0], placement.position[1], placement.position[2]);
+  if (shape.kind != ShapeKind::sphere) dGeomSetRotation(geom, placement.rotation);
+}
 
 }  // namespace touchstone::ode

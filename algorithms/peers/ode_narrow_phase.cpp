@@ -23,42 +23,6 @@
 namespace touchstone {
 namespace {
 
-struct DestroyGeom {
-  void operator()(dGeomID geom) const {
-    const auto lock = ode::enter();
-    dGeomDestroy(geom);
-  }
-};
-using Geom = std::unique_ptr<std::remove_pointer_t<dGeomID>, DestroyGeom>;
-
-Geom make_geom(const Shape& shape) {
-  const auto length = [](double half) { return static_cast<dReal>(2 * half); };
-  const auto radius = static_cast<dReal>(shape.radius);
-  const Vec3d& half = shape.half_extents;
-  switch (shape.kind) {
-    case ShapeKind::sphere: return Geom(dCreateSphere(nullptr, radius));
-    case ShapeKind::capsule:
-      return Geom(dCreateCapsule(nullptr, radius, length(shape.half_length)));
-    case ShapeKind::box:
-      return Geom(dCreateBox(nullptr, length(half.x()), length(half.y()), length(half.z())));
-    case ShapeKind::halfspace: return Geom(dCreatePlane(nullptr, 0, 0, 1, 0));
-    default: return nullptr;
-  }
-}
-
-void place(dGeomID geom, const Shape& shape, const Pose& pose) {
-  if (shape.kind == ShapeKind::halfspace) {
-    const Vec3d normal = pose.rotation * shape.normal;
-    const double offset = shape.offset + normal.dot(pose.translation);
-    dGeomPlaneSetParams(geom, static_cast<dReal>(normal.x()), static_cast<dReal>(normal.y()),
-                        static_cast<dReal>(normal.z()), static_cast<dReal>(offset));
-    return;
-  }
-  const ode::Placement placement(pose);
-  dGeomSetPosition(geom, placement.position[0], placement.position[1], placement.position[2]);
-  if (shape.kind != ShapeKind::sphere) dGeomSetRotation(geom, placement.rotation);
-}
-
 Vec3d to_vector(const dVector3 v) { return {v[0], v[1], v[2]}; }
 
 void report(bool contact, const Vec3d& normal, dReal depth, Task task, Outcome& outcome) {
@@ -82,7 +46,7 @@ class OdeNarrowPhase final : public NarrowPhase {
       const Vec3d side = 2 * shape.half_extents;
       sides_.push_back({static_cast<dReal>(side.x()), static_cast<dReal>(side.y()),
                         static_cast<dReal>(side.z()), 0});
-      for (auto& geoms : geoms_) geoms.push_back(make_geom(shape));
+      for (auto& geoms : geoms_) geoms.push_back(ode::make_geom(shape));
     }
   }
 
@@ -105,8 +69,8 @@ class OdeNarrowPhase final : public NarrowPhase {
         report(count > 0, to_vector(normal), depth, task, outcomes[i]);
       } else {
         const dGeomID geom_a = geoms_[0][a].get(), geom_b = geoms_[1][b].get();
-        place(geom_a, shapes_[a], pose_a);
-        place(geom_b, shapes_[b], pose_b);
+        ode::place(geom_a, shapes_[a], pose_a);
+        ode::place(geom_b, shapes_[b], pose_b);
         const int count = dCollide(geom_a, geom_b, 1, contacts.data(), sizeof contacts[0]);
         // A contact's normal points from b into a.
         report(count > 0, -to_vector(contacts[0].normal), contacts[0].depth, task, outcomes[i]);
@@ -117,7 +81,7 @@ class OdeNarrowPhase final : public NarrowPhase {
  private:
   std::span<const Shape> shapes_;
   std::vector<std::array<dReal, 4>> sides_;
-  std::array<std::vector<Geom>, 2> geoms_;  // indexed by side of a pair, then by shape
+  std::array<std::vector<ode::Geom>, 2> geoms_;  // indexed by side of a pair, then by shape
 };
 
 // The scalar for which ODE is built.

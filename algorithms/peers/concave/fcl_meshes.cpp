@@ -1,14 +1,17 @@
 // FCL: trees of oriented boxes and swept rectangles over meshes, descended together.
 // Paper:   Pan, Chitta, Manocha, "FCL: A general purpose library for collision and proximity
 //          queries", ICRA 2012; Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996; Larsen et al.,
-//          UNC TR99-018, 1999. The library is FCL 0.7: fcl::collide and fcl::distance of
-//          BVHModel<OBBRSS>, and of a model and a convex shape.
+//          UNC TR99-018, 1999; Klosowski et al., "Efficient collision detection using bounding volume
+//          hierarchies of k-DOPs", TVCG 1998. The library is FCL 0.7: fcl::collide and fcl::distance of
+//          BVHModel<OBBRSS>, fcl::collide of BVHModel<AABB> and BVHModel<KDOP<16>>, and each of a model and a
+//          convex shape.
 // Departs: contacts have neither points nor normals, which are not asked for, and as many as there
 //          are: by default FCL stops at the first. A compound's parts are asked pair by pair, in
 //          the order of their numbers, without a tree.
 // Fails:   a mesh is a surface. A rotation that is not orthonormal is taken for one that is. Pairs
 //          of a mesh and a convex shape are those of FCL's narrow phase (fcl-libccd).
-// Cost:    548 bytes a triangle; allocates a result a query.
+// Cost:    548 bytes a triangle with OBBRSS; allocates a result a query. The trees of AABB and k-DOP cannot
+//          turn: FCL copies and refits both meshes for each query of two.
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -28,7 +31,8 @@
 namespace touchstone {
 namespace {
 
-template <class S>
+// BV is the volume of the trees.
+template <class S, class BV>
 class FclMeshes final : public ConcavePhase {
  public:
   void bind(std::span<const ConcaveBody> bodies) override {
@@ -69,7 +73,7 @@ class FclMeshes final : public ConcavePhase {
   };
 
   static std::shared_ptr<fcl::CollisionGeometry<S>> model_of(const TriangleMesh& mesh) {
-    const auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSS<S>>>();
+    const auto model = std::make_shared<fcl::BVHModel<BV>>();
     std::vector<fcl::Vector3<S>> vertices;
     for (const Vec3d& vertex : mesh.vertices) vertices.push_back(vertex.cast<S>());
     std::vector<fcl::Triangle> triangles;
@@ -135,13 +139,25 @@ class FclMeshes final : public ConcavePhase {
   std::vector<std::vector<Part>> bodies_;
 };
 
-std::unique_ptr<ConcavePhase> make_fcl_meshes(const ConcaveSettings& settings) {
-  if (settings.scalar == Precision::float32) return std::make_unique<FclMeshes<float>>();
-  return std::make_unique<FclMeshes<double>>();
+// Makes the phase whose trees are of this volume.
+template <template <class> class Volume>
+std::unique_ptr<ConcavePhase> make_of(const ConcaveSettings& settings) {
+  if (settings.scalar == Precision::float32) {
+    return std::make_unique<FclMeshes<float, Volume<float>>>();
+  }
+  return std::make_unique<FclMeshes<double, Volume<double>>>();
 }
+
+template <class S>
+using Kdop16 = fcl::KDOP<S, 16>;
+
+const auto make_obbrss = make_of<fcl::OBBRSS>, make_aabb = make_of<fcl::AABB>,
+           make_kdop = make_of<Kdop16>;
 
 }  // namespace
 }  // namespace touchstone
+#else
+constexpr std::nullptr_t make_obbrss = nullptr, make_aabb = nullptr, make_kdop = nullptr;
 #endif
 
 namespace touchstone::entries {
@@ -158,11 +174,18 @@ std::vector<ConcaveEntry> peers_fcl_meshes() {
             return !(a.mesh && a.mesh->solid) && !(b.mesh && b.mesh->solid);
           },
       .approximate = true,
-      .make = nullptr};
-#ifdef TOUCHSTONE_HAS_FCL
-  entry.make = make_fcl_meshes;
-#endif
-  return {entry};
+      .make = make_obbrss};
+  std::vector<ConcaveEntry> entries = {entry};
+  entry.tasks = {ConcaveTask::intersect, ConcaveTask::contacts};
+  entry.info.name = "fcl-aabb";
+  entry.info.citation = "FCL 0.7: fcl::collide of BVHModel<AABB>";
+  entry.make = make_aabb;
+  entries.push_back(entry);
+  entry.info.name = "fcl-kdop16";
+  entry.info.citation = "FCL 0.7: fcl::collide of BVHModel<KDOP<16>>";
+  entry.make = make_kdop;
+  entries.push_back(entry);
+  return entries;
 }
 
 }  // namespace touchstone::entries
