@@ -1,4 +1,4 @@
-// FCL: trees of oriented boxes and swept rectangles over meshes, descended together.
+// FCL: trees of oriented boxes and swept spheres, of boxes, and of k-DOPs over meshes, descended together.
 // Paper:   Pan, Chitta, Manocha, "FCL: A general purpose library for collision and proximity
 //          queries", ICRA 2012; Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996; Larsen et al.,
 //          UNC TR99-018, 1999; Klosowski et al., "Efficient collision detection using bounding volume
@@ -7,7 +7,7 @@
 //          convex shape.
 // Departs: contacts have neither points nor normals, which are not asked for, and as many as there
 //          are: by default FCL stops at the first. A compound's parts are asked pair by pair, in
-//          the order of their numbers, without a tree.
+//          the order of their numbers, without a tree. Only double is asked for, as the binary has it.
 // Fails:   a mesh is a surface. A rotation that is not orthonormal is taken for one that is. Pairs
 //          of a mesh and a convex shape are those of FCL's narrow phase (fcl-libccd).
 // Cost:    548 bytes a triangle with OBBRSS; allocates a result a query. The trees of AABB and k-DOP cannot
@@ -32,7 +32,7 @@ namespace touchstone {
 namespace {
 
 // BV is the volume of the trees.
-template <class S, class BV>
+template <class BV>
 class FclMeshes final : public ConcavePhase {
  public:
   void bind(std::span<const ConcaveBody> bodies) override {
@@ -43,7 +43,7 @@ class FclMeshes final : public ConcavePhase {
         parts.push_back({model_of(*body.mesh), {}, true});
       }
       for (const ConvexPart& part : body.parts) {
-        parts.push_back({fcl_shapes::make_fcl_shape<S>(part.shape), part.pose, false});
+        parts.push_back({fcl_shapes::make_fcl_shape<double>(part.shape), part.pose, false});
       }
     }
   }
@@ -67,15 +67,15 @@ class FclMeshes final : public ConcavePhase {
 
  private:
   struct Part {
-    std::shared_ptr<fcl::CollisionGeometry<S>> geometry;
+    std::shared_ptr<fcl::CollisionGeometry<double>> geometry;
     Pose pose;
     bool is_mesh;
   };
 
-  static std::shared_ptr<fcl::CollisionGeometry<S>> model_of(const TriangleMesh& mesh) {
+  static std::shared_ptr<fcl::CollisionGeometry<double>> model_of(const TriangleMesh& mesh) {
     const auto model = std::make_shared<fcl::BVHModel<BV>>();
-    std::vector<fcl::Vector3<S>> vertices;
-    for (const Vec3d& vertex : mesh.vertices) vertices.push_back(vertex.cast<S>());
+    std::vector<Vec3d> vertices;
+    for (const Vec3d& vertex : mesh.vertices) vertices.push_back(vertex);
     std::vector<fcl::Triangle> triangles;
     for (const auto& corners : mesh.triangles) {
       triangles.emplace_back(corners[0], corners[1], corners[2]);
@@ -86,13 +86,13 @@ class FclMeshes final : public ConcavePhase {
     return model;
   }
 
-  static fcl::Transform3<S> place(const Pose& body, const Part& part) {
+  static fcl::Transform3<double> place(const Pose& body, const Part& part) {
     Pose placed = body;
     if (!part.is_mesh) {
       placed.rotation = body.rotation * part.pose.rotation;
       placed.translation = body(part.pose.translation);
     }
-    return fcl_shapes::to_fcl<S>(placed);
+    return fcl_shapes::to_fcl<double>(placed);
   }
 
   // A triangle's number if the part is a mesh, otherwise the part's.
@@ -105,8 +105,8 @@ class FclMeshes final : public ConcavePhase {
                       std::vector<IndexPair>& pairs) {
     // A mesh comes first, so that b1 is its triangle.
     const bool swap = !a.is_mesh && b.is_mesh;
-    const fcl::CollisionRequest<S> request(all ? std::size_t{1} << 31 : 1, false);
-    fcl::CollisionResult<S> result;
+    const fcl::CollisionRequest<double> request(all ? std::size_t{1} << 31 : 1, false);
+    fcl::CollisionResult<double> result;
     const auto place_a = place(pose_a, a), place_b = place(pose_b, b);
     if (swap) {
       fcl::collide(b.geometry.get(), place_b, a.geometry.get(), place_a, request, result);
@@ -122,16 +122,16 @@ class FclMeshes final : public ConcavePhase {
   }
 
   void measure(const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome) const {
-    const fcl::DistanceRequest<S> request(true);
+    const fcl::DistanceRequest<double> request(true);
     for (const Part& p : bodies_[a.body]) {
       for (const Part& q : bodies_[b.body]) {
-        fcl::DistanceResult<S> result;
-        const S found = fcl::distance(p.geometry.get(), place(a.pose, p), q.geometry.get(),
-                                      place(b.pose, q), request, result);
-        if (outcome.distance <= static_cast<double>(found)) continue;
-        outcome.distance = static_cast<double>(found);
-        outcome.witness_a = result.nearest_points[0].template cast<double>();
-        outcome.witness_b = result.nearest_points[1].template cast<double>();
+        fcl::DistanceResult<double> result;
+        const double found = fcl::distance(p.geometry.get(), place(a.pose, p), q.geometry.get(),
+                                           place(b.pose, q), request, result);
+        if (outcome.distance <= found) continue;
+        outcome.distance = found;
+        outcome.witness_a = result.nearest_points[0];
+        outcome.witness_b = result.nearest_points[1];
       }
     }
   }
@@ -139,20 +139,16 @@ class FclMeshes final : public ConcavePhase {
   std::vector<std::vector<Part>> bodies_;
 };
 
-// Makes the phase whose trees are of this volume.
-template <template <class> class Volume>
-std::unique_ptr<ConcavePhase> make_of(const ConcaveSettings& settings) {
-  if (settings.scalar == Precision::float32) {
-    return std::make_unique<FclMeshes<float, Volume<float>>>();
-  }
-  return std::make_unique<FclMeshes<double, Volume<double>>>();
+// Makes the phase whose trees are of this volume. The library's binary has FCL's templates in double
+// alone; in float they would take minutes to compile here.
+template <class Volume>
+std::unique_ptr<ConcavePhase> make_of(const ConcaveSettings&) {
+  return std::make_unique<FclMeshes<Volume>>();
 }
 
-template <class S>
-using Kdop16 = fcl::KDOP<S, 16>;
-
-const auto make_obbrss = make_of<fcl::OBBRSS>, make_aabb = make_of<fcl::AABB>,
-           make_kdop = make_of<Kdop16>;
+const auto make_obbrss = make_of<fcl::OBBRSS<double>>;
+const auto make_aabb = make_of<fcl::AABB<double>>;
+const auto make_kdop = make_of<fcl::KDOP<double, 16>>;
 
 }  // namespace
 }  // namespace touchstone
@@ -168,7 +164,7 @@ std::vector<ConcaveEntry> peers_fcl_meshes() {
                .citation = "FCL 0.7: fcl::collide and fcl::distance of BVHModel<OBBRSS>",
                .origin = Origin::peer},
       .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
-      .scalars = {Precision::float64, Precision::float32},
+      .scalars = {Precision::float64},
       .supports =
           [](const ConcaveBody& a, const ConcaveBody& b) {
             return !(a.mesh && a.mesh->solid) && !(b.mesh && b.mesh->solid);
