@@ -9,6 +9,7 @@
 
 #include "algorithms/core/bounds.h"
 #include "algorithms/oracle/certificates/certificate_check.h"
+#include "harness/check/kinds/family_job.h"
 #include "harness/grade/margins.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
@@ -34,10 +35,9 @@ class Job {
  public:
   Job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle)
       : request_(request), oracle_(oracle) {
-    const std::size_t regimes = request.regimes.size();
     JobSummary& summary = result_.summary;
-    summary.regime = static_cast<std::uint32_t>(job % regimes);
-    summary.round = job / regimes;
+    summary.regime = static_cast<std::uint32_t>(job % request.period());
+    summary.round = job / request.period();
     summary.cases = request.cases;
     const auto count = static_cast<std::uint64_t>(request.cases);
     for (std::uint64_t index = summary.round * count; index < (summary.round + 1) * count;
@@ -181,7 +181,12 @@ class Job {
 }  // namespace
 
 JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle) {
-  return Job(request, job, oracle).run();
+  const std::size_t place = job % request.period();
+  if (place < request.regime_jobs()) return Job(request, job, oracle).run();
+  JobResult result;
+  const auto family = static_cast<std::uint32_t>(place - request.regime_jobs());
+  result.families = do_family_job(request, family, job / request.period());
+  return result;
 }
 
 std::vector<Variant> sampled_variants(const files::Case& c, std::uint64_t seed,

@@ -1,4 +1,4 @@
-// A part of a check: the cases of one regime in one round, for all algorithms.
+// A part of a check: the cases of one regime or family in one round, for all algorithms.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/check_request.h"
+#include "harness/check/kinds/family_count.h"
 #include "harness/check/metamorphic.h"
 #include "harness/grade/graded_answer.h"
 
@@ -60,16 +61,18 @@ struct JobResult {
   JobSummary summary;
   std::vector<grade::GradedAnswer> answers;
   std::vector<VariantCount> variants;
+  std::vector<FamilyCount> families;  // of a job of a family, which has nothing else
 
   template <class Visit>
   void for_each_field(Visit visit) {
     visit(summary);
     visit(answers);
     visit(variants);
+    visit(families);
   }
 };
 
-// Does a job. Its number gives regime and round: all regimes of a round, then the next round.
+// Does a job. Its number gives regime or family, and round: all of a round, then the next round.
 JobResult do_job(const CheckRequest& request, std::size_t job, oracle::Oracle& oracle);
 
 // Returns the variants of a sampled case, and none for other cases.

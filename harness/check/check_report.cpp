@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "harness/base/table.h"
 #include "harness/check/check_rows.h"
 #include "harness/check/grouped_counts.h"
+#include "harness/check/kinds/family_tables.h"
 
 namespace touchstone::check {
 namespace {
@@ -67,6 +69,9 @@ std::vector<std::string> CheckReport::ours_wrong() const {
         request->regimes[failure.job.regime]->name, failure.job.refused, failure.job.boxes_broken,
         failure.id, failure.file.string()));
   }
+  for (std::string& line : broken_family_promises(*request, family_failures)) {
+    lines.push_back(std::move(line));
+  }
   for (const BroadCheck& check : broad) {
     if (check.good() || check.entry->info.origin != Origin::ours) continue;
     lines.push_back(fmt::format("{} on boxes '{}', seed {}: {}", check.entry->info.name,
@@ -76,9 +81,13 @@ std::vector<std::string> CheckReport::ours_wrong() const {
 }
 
 std::string summary_text(const CheckReport& report, std::size_t page_width) {
-  std::string text = summary_table(GroupedCounts(report)).text(page_width) + '\n' +
-                     std::string(summary_key) + '\n';
-  text += checked_text(report);
+  std::string text;
+  if (!report.request->narrow.empty()) {
+    text = summary_table(GroupedCounts(report)).text(page_width) + '\n' + std::string(summary_key) +
+           '\n';
+  }
+  if (report.request->regime_jobs() > 0 || !report.broad.empty()) text += checked_text(report);
+  text += family_summary(*report.request, report.tally->families(), page_width);
   for (const BroadPhaseEntry* entry : report.request->broad) {
     std::string scenes;
     for (const BroadCheck& check : report.broad) {

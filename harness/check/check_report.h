@@ -8,6 +8,7 @@
 
 #include "harness/check/broad/broad_check.h"
 #include "harness/check/failures.h"
+#include "harness/check/kinds/family_failures.h"
 #include "harness/check/tally.h"
 
 namespace touchstone::check {
@@ -18,6 +19,7 @@ struct CheckReport {
   std::vector<FailureCase> failures;  // failures of ours and of others
   std::vector<VariantFailure> variant_failures;
   std::vector<TruthFailure> truth_failures;
+  std::vector<FamilyFailure> family_failures;
   std::vector<BroadCheck> broad;
 
   // Lists the faults of ours beyond their documented margins, one line each; empty if there are
@@ -26,7 +28,7 @@ struct CheckReport {
 };
 
 // Returns a line for each algorithm and scalar, then the checks of certificates, boxes and broad
-// phases.
+// phases, and the tables of families.
 std::string summary_text(const CheckReport& report, std::size_t page_width);
 
 // Writes summary.csv: a row for each algorithm, scalar and regime.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/check/kinds/family.h"
 #include "harness/check/regimes/regimes.h"
 #include "harness/record/part.h"
 
@@ -18,12 +19,20 @@ namespace touchstone::check {
 struct CheckSubjects {
   std::span<const NarrowPhaseEntry* const> narrow;
   std::span<const Regime* const> regimes;
+  std::span<const CaseFamily* const> families = {};
+  std::span<const Contestant> contestants = {};
 
   auto narrow_name() const {
     return [narrow = narrow](std::size_t i) -> const std::string& { return narrow[i]->info.name; };
   }
   auto regime_name() const {
     return [regimes = regimes](std::size_t i) -> const std::string& { return regimes[i]->name; };
+  }
+  auto family_name() const {
+    return [families = families](std::size_t i) -> const std::string& { return families[i]->name; };
+  }
+  auto contestant_name() const {
+    return [contestants = contestants](std::size_t i) { return contestants[i].name(); };
   }
 };
 
@@ -39,7 +48,9 @@ struct CheckRequest {
   std::vector<const NarrowPhaseEntry*> narrow;
   std::vector<const BroadPhaseEntry*> broad;
   std::vector<Precision> scalars = {Precision::float64, Precision::float32};
-  std::vector<const Regime*> regimes;
+  std::vector<const Regime*> regimes;       // of pairs, for narrow phases
+  std::vector<const CaseFamily*> families;  // of cases, for contestants of their kinds
+  std::vector<Contestant> contestants;
   std::uint64_t seed = 1;
   int cases = 200;         // number of cases of each regime in a round
   int rounds = 1;          // number of rounds
@@ -50,7 +61,11 @@ struct CheckRequest {
   bool resume = false;               // resumes the work in the folder
   std::optional<record::Part> part;  // some jobs instead of all
 
-  CheckSubjects subjects() const { return {narrow, regimes}; }
+  CheckSubjects subjects() const { return {narrow, regimes, families, contestants}; }
+  // The jobs of one round: first those of the regimes, if there are narrow phases, then those of the
+  // families.
+  std::size_t regime_jobs() const { return narrow.empty() ? 0 : regimes.size(); }
+  std::size_t period() const { return regime_jobs() + families.size(); }
   // Returns the jobs of the part, or else all `count`.
   base::UnitRange jobs(std::int64_t count) const {
     return part ? part->units : base::UnitRange{0, count};

@@ -10,13 +10,15 @@
 #include "harness/check/check_job.h"
 #include "harness/check/check_rows.h"
 #include "harness/check/job_folder.h"
+#include "harness/check/kinds/family_failures.h"
+#include "harness/check/kinds/family_rows.h"
 
 namespace touchstone::check {
 namespace {
 
 constexpr double broad_seconds = 20;  // time limit of a broad phase for a scene
 
-enum : std::size_t { grades_file, variants_file, jobs_file };
+enum : std::size_t { grades_file, variants_file, jobs_file, families_file };
 
 // Counts the rows of an interrupted check.
 void take_up(const record::ResultFolder& folder, const CheckSubjects& subjects, Tally& tally) {
@@ -24,10 +26,10 @@ void take_up(const record::ResultFolder& folder, const CheckSubjects& subjects, 
   folder.each_row<grade::GradedAnswer>(grades_file, add, subjects);
   folder.each_row<VariantCount>(variants_file, add, subjects);
   folder.each_row<JobSummary>(jobs_file, add, subjects);
+  folder.each_row<FamilyCount>(families_file, add, subjects);
 }
 
 void grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally& tally) {
-  const std::size_t regimes = request.regimes.size();
   const bool endless = request.seconds > 0;
   const base::UnitRange jobs =
       request.jobs(endless ? std::numeric_limits<std::int64_t>::max() : jobs_of(request));
@@ -46,9 +48,13 @@ void grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally&
       [&](std::size_t job, const JobResult& result) {
         for (const grade::GradedAnswer& answer : result.answers) keep(grades_file, answer);
         for (const VariantCount& count : result.variants) keep(variants_file, count);
-        keep(jobs_file, result.summary);
+        for (const FamilyCount& count : result.families) keep(families_file, count);
+        const std::size_t place = job % request.period();
+        const bool is_family = place >= request.regime_jobs();
+        if (!is_family) keep(jobs_file, result.summary);
         if (!endless) {
-          progress.start(request.regimes[job % regimes]->name);
+          progress.start(is_family ? request.families[place - request.regime_jobs()]->name
+                                   : request.regimes[place]->name);
           return true;
         }
         progress.part(watch.seconds() / request.seconds);
@@ -63,11 +69,12 @@ record::ResultFolderPlan check_folder(const CheckRequest& request) {
   return job_folder(request, "check", regimes_fact(request),
                     {{"grades.csv", record::header_of<grade::GradedAnswer>(subjects)},
                      {"variants.csv", record::header_of<VariantCount>(subjects)},
-                     {"jobs.csv", record::header_of<JobSummary>(subjects)}});
+                     {"jobs.csv", record::header_of<JobSummary>(subjects)},
+                     {"families.csv", record::header_of<FamilyCount>(subjects)}});
 }
 
 std::int64_t jobs_of(const CheckRequest& request) {
-  return static_cast<std::int64_t>(request.regimes.size()) * request.rounds;
+  return static_cast<std::int64_t>(request.period()) * request.rounds;
 }
 
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
@@ -76,7 +83,7 @@ std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   result->report.tally = &result->tally;
   record::ResultFolder folder(check_folder(request));
   if (request.resume) take_up(folder, request.subjects(), result->tally);
-  if (!request.narrow.empty()) grade_all(request, folder, result->tally);
+  if (request.period() > 0) grade_all(request, folder, result->tally);
   if (is_interrupted(folder, request)) {
     result->interrupted = true;
     return result;
@@ -87,6 +94,7 @@ std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   result->report.failures = write_failures(request, result->tally.failures(request));
   result->report.variant_failures = write_variant_failures(request, result->tally);
   result->report.truth_failures = write_truth_failures(request, result->tally);
+  result->report.family_failures = write_family_failures(request, result->tally.families());
   result->report.broad = check_broad_phases(request.broad, result->scenes, broad_seconds);
   write_summary(result->report, request.out / "summary.csv");
   return result;

@@ -22,8 +22,8 @@ struct CheckResult {
 record::ResultFolderPlan check_folder(const CheckRequest& request);
 std::int64_t jobs_of(const CheckRequest& request);
 
-// Grades everything and writes grades.csv, variants.csv, jobs.csv, progress.csv, summary.csv,
-// machine.csv and failures/ into the request's folder, which it creates. Progress goes to standard
+// Grades everything and writes grades.csv, variants.csv, jobs.csv, families.csv, progress.csv,
+// summary.csv, machine.csv and failures/ into the request's folder, which it creates. Progress goes to standard
 // error. A part has the rows and machine.csv alone, and its result no report; an interrupt ends it
 // after the current job. Throws InputError if the folder cannot be written or resumed.
 std::unique_ptr<CheckResult> run_check(const CheckRequest& request);

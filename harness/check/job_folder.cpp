@@ -12,7 +12,10 @@ namespace touchstone::check {
 
 std::pair<std::string, std::string> regimes_fact(const CheckRequest& request) {
   std::vector<std::string_view> regimes;
-  for (const Regime* regime : request.regimes) regimes.push_back(regime->name);
+  if (!request.narrow.empty()) {
+    for (const Regime* regime : request.regimes) regimes.push_back(regime->name);
+  }
+  for (const CaseFamily* family : request.families) regimes.push_back(family->name);
   return {"regimes", fmt::format("{}", fmt::join(regimes, " "))};
 }
 
@@ -21,6 +24,10 @@ record::ResultFolderPlan job_folder(const CheckRequest& request, std::string wor
                                     std::vector<record::RowFile> files) {
   std::vector<std::string_view> narrow, scalars;
   for (const NarrowPhaseEntry* entry : request.narrow) narrow.push_back(entry->info.name);
+  std::vector<std::string> contestants;
+  for (const Contestant& contestant : request.contestants) {
+    contestants.push_back(fmt::format("{} {}", to_string(contestant.kind()), contestant.name()));
+  }
   for (const Precision scalar : request.scalars) scalars.push_back(to_string(scalar));
   record::Facts notes = {{std::string(work), request.resume ? "resumed" : "whole"}};
   for (auto& fact : record::machine_facts()) notes.push_back(std::move(fact));
@@ -28,6 +35,7 @@ record::ResultFolderPlan job_folder(const CheckRequest& request, std::string wor
                             {"cases", std::to_string(request.cases)},
                             {"narrow", fmt::format("{}", fmt::join(narrow, " "))},
                             {"scalars", fmt::format("{}", fmt::join(scalars, " "))},
+                            {"others", fmt::format("{}", fmt::join(contestants, ", "))},
                             std::move(subject),
                             {"time_limit", fmt::format("{}", request.time_limit)},
                             {"program", record::hash_of_program()}};

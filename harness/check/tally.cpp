@@ -26,6 +26,8 @@ void Tally::add(const VariantCount& count) {
 
 void Tally::add(const JobSummary& summary) { jobs_.push_back(summary); }
 
+void Tally::add(const FamilyCount& count) { add_to(families_, count); }
+
 std::vector<grade::GradedAnswer> Tally::failures(const CheckRequest& request) const {
   std::vector<grade::GradedAnswer> all;
   for (const auto& [key, worst] : failures_) {

@@ -42,10 +42,12 @@ class Tally {
   void add(const grade::GradedAnswer& answer);
   void add(const VariantCount& count);
   void add(const JobSummary& summary);
+  void add(const FamilyCount& count);
 
   const std::map<Key, grade::AnswerCount>& answers() const { return answers_; }
   const std::map<Key, FlipCount>& flips() const { return flips_; }
   const std::vector<JobSummary>& jobs() const { return jobs_; }
+  const FamilyCounts& families() const { return families_; }
 
   // The counts that contain differences of ours beyond the margins.
   const std::vector<VariantCount>& variants_beyond() const { return variants_beyond_; }
@@ -66,6 +68,7 @@ class Tally {
   std::map<Key, grade::AnswerCount> answers_;
   std::map<Key, FlipCount> flips_;
   std::vector<JobSummary> jobs_;
+  FamilyCounts families_;
   std::vector<VariantCount> variants_beyond_;
   std::map<Key, std::vector<Failure>> failures_;
 };

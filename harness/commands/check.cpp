@@ -6,12 +6,11 @@
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
-#include "harness/campaign/selection.h"
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
-#include "harness/check/regimes/select_regimes.h"
-#include "harness/check/requests/select_narrow.h"
+#include "harness/check/requests/select_cases.h"
 #include "harness/commands/arguments.h"
+#include "harness/commands/case_selection.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
@@ -21,7 +20,8 @@ namespace touchstone::commands {
 namespace {
 
 struct CheckOptions {
-  std::string narrow = "all", broad = "all", regimes, groups, out, page, certificates, saved;
+  check::CaseSelection selection;
+  std::string out, page, certificates, saved;
   check::CheckRequest request;
 };
 
@@ -35,10 +35,7 @@ int verify(const std::string& file) {
 int check(CheckOptions& options, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
   check::CheckRequest& request = options.request;
-  request.narrow = check::narrow_phases_to_grade(options.narrow, request.scalars);
-  request.broad =
-      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
-  request.regimes = check::select_regimes(options.regimes, options.groups);
+  check::select_cases(options.selection, "all", request);
   request.out = results_folder(options.out, "check");
   if (!options.page.empty()) files::check_output(options.page);
   if (!options.saved.empty()) {
@@ -49,8 +46,8 @@ int check(CheckOptions& options, const std::string& command) {
   }
   const std::unique_ptr<check::CheckResult> result = check::run_check(request);
   fmt::print("{}", check::summary_text(result->report, base::page_width()));
-  fmt::print("\nRows in {}; case files of what is wrong in {}\n",
-             (request.out / "grades.csv").string(), (request.out / "failures").string());
+  fmt::print("\nRows in grades.csv and families.csv of {}; case files of what is wrong in {}\n",
+             request.out.string(), (request.out / "failures").string());
   if (!options.page.empty())
     files::write_text(options.page, check::page_text(result->report, command));
   return result->report.ours_wrong().empty() ? exit_done : exit_measured_wrong;
@@ -61,12 +58,10 @@ int check(CheckOptions& options, const std::string& command) {
 void add_check(Arguments command) {
   const auto options = std::make_shared<CheckOptions>();
   check::CheckRequest& request = options->request;
-  add_case_options(command, request, options->narrow, options->out, "check", "check");
-  command.text("--broad", options->broad, "Broad phases: names, all, ours, peers, none")
-      .show_default();
-  command.text("--regimes", options->regimes, "Regimes: names joined by commas");
-  command.text("--group,--groups", options->groups, "Groups of regimes, joined by commas");
-  command.number("--cases", request.cases, "Cases of each regime in a round")
+  add_case_options(command, request, options->selection.narrow, options->out, "check", "check");
+  command.text("--broad", options->selection.broad, "Broad phases: names, all, ours, peers, none");
+  add_selection(command, options->selection);
+  command.number("--cases", request.cases, "Cases of each regime or family in a round")
       .within(1, 1'000'000)
       .show_default();
   command

@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "harness/base/table.h"
-#include "harness/campaign/selection.h"
-#include "harness/check/regimes/select_regimes.h"
+#include "harness/check/requests/select_cases.h"
 #include "harness/check/soak/soak_text.h"
 #include "harness/commands/arguments.h"
+#include "harness/commands/case_selection.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 
@@ -17,16 +17,16 @@ namespace touchstone::commands {
 namespace {
 
 struct SoakOptions {
-  std::string narrow = "certified", regimes, groups, out;
+  check::CaseSelection selection;
+  std::string out;
   check::SoakRequest request;
 };
 
 int soak(SoakOptions& options) {
   check::SoakRequest& request = options.request;
-  request.narrow =
-      campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
+  if (options.selection.is_unsaid()) options.selection.narrow = "certified";
+  check::select_cases(options.selection, "none", request);
   request.out = results_folder(options.out, "soak");
-  request.regimes = check::select_regimes(options.regimes, options.groups);
   const check::SoakResult result = check::run_soak(request);
   fmt::print("{}", check::soak_text(request, result, base::page_width()));
   fmt::print("\nBy regime: {}\n", (request.out / "soak.csv").string());
@@ -38,12 +38,11 @@ int soak(SoakOptions& options) {
 void add_soak(Arguments command) {
   const auto options = std::make_shared<SoakOptions>();
   check::SoakRequest& request = options->request;
-  add_case_options(command, request, options->narrow, options->out, "soak", "soak");
-  command.number("--pairs", request.pairs, "Pairs in all, spread over the regimes")
+  add_case_options(command, request, options->selection.narrow, options->out, "soak", "soak");
+  add_selection(command, options->selection);
+  command.number("--pairs", request.pairs, "Cases in all, spread over the regimes and families")
       .within(1, 1'000'000'000'000)
       .show_default();
-  command.text("--regimes", options->regimes, "Regimes: names joined by commas");
-  command.text("--group,--groups", options->groups, "Groups of regimes, joined by commas");
   command.job([options] { return soak(*options); });
 }
 

@@ -1,6 +1,8 @@
 // Reads and writes cases; bodies are in shape_json.
 #include "harness/files/cases.h"
 
+#include <array>
+
 #include "harness/files/shape_json.h"
 
 namespace touchstone::files {
@@ -45,6 +47,21 @@ std::string to_json(const Case& c) {
   out["id"] = c.id;
   out["a"] = body_to_json(c.shape_a, c.pose_a);
   out["b"] = body_to_json(c.shape_b, c.pose_b);
+  return out.dump();
+}
+
+std::string to_json(const CastCase& c) {
+  const auto moving = [](const Shape& shape, const Pose& pose, const Motion& motion) {
+    const auto numbers = [](const Vec3d& v) { return std::array{v.x(), v.y(), v.z()}; };
+    OrderedJson body = body_to_json(shape, pose);
+    body["displacement"] = numbers(motion.displacement);
+    body["rotation_vector"] = numbers(motion.rotation_vector);
+    return body;
+  };
+  OrderedJson out;
+  out["id"] = c.id;
+  out["a"] = moving(c.shape_a, c.pose_a, c.motion_a);
+  out["b"] = moving(c.shape_b, c.pose_b, c.motion_b);
   return out.dump();
 }
 

@@ -36,5 +36,7 @@ std::vector<CastCase> read_cast_cases(const std::filesystem::path& file);
 // One line, without the line break, that read_cases turns into the same bits. Rotations are written
 // as matrices.
 std::string to_json(const Case& c);
+// The same for read_cast_cases.
+std::string to_json(const CastCase& c);
 
 }  // namespace touchstone::files

@@ -31,10 +31,12 @@ record::ResultFolderPlan folder_of(const StressRequest& request) { return stress
 record::ResultFolderPlan folder_of(const SoakRequest& request) { return soak_folder(request); }
 
 // The jobs of one round, and the share of its cases with which a job is tried.
-std::int64_t period(const CheckRequest& request) { return std::ssize(request.regimes); }
+std::int64_t period(const CheckRequest& request) {
+  return static_cast<std::int64_t>(request.period());
+}
 std::int64_t period(const StressRequest& request) { return jobs_of(request); }
 std::int64_t period(const SoakRequest& request) {
-  return std::min(std::ssize(request.regimes), jobs_of(request));
+  return std::min(static_cast<std::int64_t>(request.period()), jobs_of(request));
 }
 
 // Makes the job smaller, and returns by how much. A few cases have one that is proven too.

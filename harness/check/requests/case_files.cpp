@@ -9,7 +9,7 @@
 
 #include "harness/base/error.h"
 #include "harness/campaign/selection.h"
-#include "harness/check/regimes/select_regimes.h"
+#include "harness/check/requests/select_cases.h"
 #include "harness/check/requests/select_narrow.h"
 #include "harness/files/toml_table.h"
 
@@ -35,7 +35,7 @@ auto selected(files::TomlTable& table, std::string_view key, const Select& selec
 
 // Reads the keys that all three have. A soak takes what it is told to, and the others no oracle
 // that is not named.
-void read_common(files::TomlTable& table, CheckRequest& request, const char* narrow) {
+void read_common(files::TomlTable& table, CheckRequest& request) {
   if (table.has("scalars")) {
     request.scalars.clear();
     for (const toml::node* node : table.elements("scalars")) {
@@ -43,27 +43,57 @@ void read_common(files::TomlTable& table, CheckRequest& request, const char* nar
           static_cast<Precision>(table.choice_of(*node, "scalars", scalar_names)));
     }
   }
-  const std::string names = list_of(table, "narrow", narrow);
-  request.narrow =
-      selected(table, "narrow", [&] { return narrow_phases_to_grade(names, request.scalars); });
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most, 1));
   request.time_limit = table.number("time_limit", files::positive, request.time_limit);
 }
 
-void read_regimes(files::TomlTable& table, CheckRequest& request) {
-  const std::string names = list_of(table, "regimes"), groups = list_of(table, "groups");
-  request.regimes = selected(table, names.empty() ? "groups" : "regimes",
-                             [&] { return select_regimes(names, groups); });
+// Reads the algorithms and the cases of a check or a soak.
+void read_selection(files::TomlTable& table, CaseSelection& selection) {
+  const auto read = [&](std::string_view key) {
+    return table.has(key) ? list_of(table, key) : std::string();
+  };
+  selection.narrow = read("narrow");
+  selection.regimes = read("regimes");
+  selection.groups = read("groups");
+  for (const CaseKind kind : all_case_kinds) {
+    selection.others[static_cast<std::size_t>(kind)] = read(to_string(kind));
+  }
+}
+
+void select(files::TomlTable& table, const CaseSelection& selection, const char* fallback,
+            CheckRequest& request) {
+  // Names that there are not are reported at their keys.
+  const auto expect = [&](std::string_view key, const std::string& list, const auto& take) {
+    if (list.empty()) return;
+    selected(table, key, [&] {
+      take(list);
+      return true;
+    });
+  };
+  expect("narrow", selection.narrow,
+         [&](const auto& list) { narrow_phases_to_grade(list, request.scalars); });
+  expect("broad", selection.broad, [](const auto& list) {
+    campaign::select(broad_phases(), campaign::split_names(list), "broad phase");
+  });
+  for (const CaseKind kind : all_case_kinds) {
+    expect(
+        to_string(kind), selection.others[static_cast<std::size_t>(kind)],
+        [&](const auto& list) { contestants(kind, campaign::split_names(list), request.scalars); });
+  }
+  selected(table, selection.regimes.empty() ? "groups" : "regimes", [&] {
+    select_cases(selection, fallback, request);
+    return true;
+  });
 }
 
 CheckRequest read_check(files::TomlTable& table) {
   CheckRequest request;
-  read_common(table, request, "all");
-  read_regimes(table, request);
-  const std::vector<std::string> broad = table.texts("broad", {"all"});
-  request.broad = selected(table, "broad",
-                           [&] { return campaign::select(broad_phases(), broad, "broad phase"); });
+  read_common(table, request);
+  CaseSelection selection;
+  read_selection(table, selection);
+  if (table.has("broad")) selection.broad = list_of(table, "broad");
+  select(table, selection, "all", request);
   request.cases = static_cast<int>(table.integer("cases", 1, 1'000'000, request.cases));
   request.rounds = static_cast<int>(table.integer("rounds", 1, 1'000'000'000, 1));
   return request;
@@ -71,7 +101,10 @@ CheckRequest read_check(files::TomlTable& table) {
 
 StressRequest read_stress(files::TomlTable& table) {
   StressRequest request;
-  read_common(table, request, "all");
+  read_common(table, request);
+  const std::string listed = list_of(table, "narrow", "all");
+  request.narrow =
+      selected(table, "narrow", [&] { return narrow_phases_to_grade(listed, request.scalars); });
   if (request.narrow.empty()) table.fail("narrow", "names no algorithm; expected at least one");
   const std::string axes = list_of(table, "axes");
   request.cells = selected(table, "axes", [&] { return cells_of(select_axes(axes)); });
@@ -81,8 +114,11 @@ StressRequest read_stress(files::TomlTable& table) {
 
 SoakRequest read_soak(files::TomlTable& table) {
   SoakRequest request;
-  read_common(table, request, "certified");
-  read_regimes(table, request);
+  read_common(table, request);
+  CaseSelection selection;
+  read_selection(table, selection);
+  if (selection.is_unsaid()) selection.narrow = "certified";
+  select(table, selection, "none", request);
   request.pairs = table.integer("pairs", 1, 1'000'000'000'000, request.pairs);
   return request;
 }

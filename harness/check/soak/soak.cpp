@@ -8,6 +8,7 @@
 #include "harness/base/clock.h"
 #include "harness/base/progress.h"
 #include "harness/check/job_folder.h"
+#include "harness/check/kinds/family_rows.h"
 #include "harness/check/soak/soak_job.h"
 #include "harness/check/soak/soak_rows.h"
 #include "harness/files/text_file.h"
@@ -25,6 +26,8 @@ class Soak {
       : request_(request), algorithms_(request.algorithms()), folder_(soak_folder(request)) {
     folder_.each_row<SoakJobRow>(
         0, [&](const SoakJobRow& row) { add(row); }, request_.subjects());
+    folder_.each_row<FamilyCount>(
+        1, [&](const FamilyCount& row) { add_to(result_.families, row); }, request_.subjects());
   }
 
   SoakResult run() {
@@ -38,6 +41,7 @@ class Soak {
     if (!request_.part) {
       write_summary();
       write_cases();
+      result_.failures = write_family_failures(request_, result_.families);
     }
     folder_.finish();
     return result_;
@@ -49,11 +53,11 @@ class Soak {
     base::Progress progress(1);
     progress.start(fmt::format("{} verdicts", verdicts));
     base::Stopwatch since_written;
-    do_jobs<std::vector<SoakCount>>(
+    do_jobs<SoakJobResult>(
         folder_, request_, jobs,
         [&](std::size_t job, oracle::Oracle& oracle) { return do_soak_job(request_, job, oracle); },
-        [&](std::size_t job, const std::vector<SoakCount>& counts) {
-          take(job, counts);
+        [&](std::size_t job, const SoakJobResult& result) {
+          take(job, result);
           progress.part(static_cast<double>(result_.drawn) / static_cast<double>(verdicts));
           if (!request_.part && since_written.seconds() > seconds_between_writes) {
             write_summary();
@@ -63,14 +67,17 @@ class Soak {
         });
   }
 
-  void take(std::size_t job, const std::vector<SoakCount>& counts) {
-    const std::size_t regimes = request_.regimes.size();
-    for (std::size_t i = 0; i < algorithms_.size(); ++i) {
+  void take(std::size_t job, const SoakJobResult& result) {
+    for (const FamilyCount& count : result.families) {
+      folder_.write(1, count, request_.subjects());
+      add_to(result_.families, count);
+    }
+    for (std::size_t i = 0; i < result.counts.size(); ++i) {
       const SoakJobRow row = {.entry = algorithms_[i].entry,
-                              .regime = static_cast<std::uint32_t>(job % regimes),
+                              .regime = static_cast<std::uint32_t>(job % request_.period()),
                               .scalar = algorithms_[i].scalar,
-                              .round = job / regimes,
-                              .count = counts[i]};
+                              .round = job / request_.period(),
+                              .count = result.counts[i]};
       folder_.write(0, row, request_.subjects());
       add(row);
     }
@@ -121,7 +128,8 @@ class Soak {
 
 record::ResultFolderPlan soak_folder(const SoakRequest& request) {
   auto plan = job_folder(request, "soak", regimes_fact(request),
-                         {{"jobs.csv", record::header_of<SoakJobRow>(request.subjects())}});
+                         {{"jobs.csv", record::header_of<SoakJobRow>(request.subjects())},
+                          {"families.csv", record::header_of<FamilyCount>(request.subjects())}});
   plan.removed = {summary_file};
   return plan;
 }
@@ -139,6 +147,7 @@ void SoakCount::add(const SoakCount& other) {
 }
 
 bool SoakResult::ours_are_wrong(const SoakRequest& request) const {
+  if (!broken_family_promises(request, failures).empty()) return true;
   return std::ranges::any_of(counts, [&](const auto& item) {
     const NarrowPhaseEntry& entry = *request.narrow[std::get<0>(item.first)];
     return entry.info.origin == Origin::ours && !entry.traits.approximate &&

@@ -4,15 +4,18 @@
 #include <cstdint>
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "harness/check/check_request.h"
+#include "harness/check/kinds/family_count.h"
+#include "harness/check/kinds/family_failures.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::check {
 
 // The request of a soak. `broad`, `cases` and `seconds` are not read.
 struct SoakRequest : CheckRequest {
-  std::int64_t pairs = 1'000'000;  // pairs in all, spread evenly over the regimes
+  std::int64_t pairs = 1'000'000;  // cases in all, spread evenly over the regimes and families
 };
 
 // Counts of one algorithm in one scalar in one regime.
@@ -41,16 +44,18 @@ struct SoakResult {
   // The key has places in the request's narrow phases and regimes.
   using Key = std::tuple<std::size_t, Precision, std::size_t>;
   std::map<Key, SoakCount> counts;
+  FamilyCounts families;
+  std::vector<FamilyFailure> failures;  // of families
   std::int64_t drawn = 0;    // pairs of all kinds, whether an algorithm takes them or not
   bool interrupted = false;  // a part that is not done
 
   bool ours_are_wrong(const SoakRequest& request) const;
 };
 
-// Counts verdicts and writes jobs.csv, soak.csv, progress.csv and machine.csv into the request's
+// Counts verdicts and writes jobs.csv, families.csv, soak.csv, progress.csv and machine.csv into the request's
 // folder, which it creates, and a case file of the first wrong answer of each count. soak.csv, the
 // sum of jobs.csv, is rewritten about once a second. Progress goes to standard error. A part has
-// jobs.csv, progress.csv and machine.csv alone; an interrupt ends it after the current job. Throws
+// jobs.csv, families.csv, progress.csv and machine.csv alone; an interrupt ends it after the current job. Throws
 // InputError if the folder cannot be written or resumed.
 SoakResult run_soak(const SoakRequest& request);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algorithms/pair_query.h"
+#include "harness/check/kinds/family_job.h"
 #include "harness/grade/encoding.h"
 #include "harness/grade/grade.h"
 #include "harness/process/isolate.h"
@@ -132,16 +133,22 @@ class Cases {
 
 }  // namespace
 
-std::vector<SoakCount> do_soak_job(const SoakRequest& request, std::size_t job,
-                                   oracle::Oracle& oracle) {
-  const std::size_t regimes = request.regimes.size();
-  const auto round = static_cast<std::int64_t>(job / regimes);
-  Cases cases(*request.regimes[job % regimes], request.seed, round * cases_a_soak_job, oracle);
-  std::vector<SoakCount> counts;
-  for (const auto& [entry, scalar] : request.algorithms()) {
-    counts.push_back(cases.ask(*request.narrow[entry], scalar, request.time_limit));
+SoakJobResult do_soak_job(const SoakRequest& request, std::size_t job, oracle::Oracle& oracle) {
+  const std::size_t place = job % request.period();
+  const std::uint64_t round = job / request.period();
+  const std::uint64_t first = round * static_cast<std::uint64_t>(cases_a_soak_job);
+  SoakJobResult result;
+  if (place >= request.regime_jobs()) {
+    const BlockRange range = {request.seed, first, static_cast<std::size_t>(cases_a_soak_job)};
+    const auto family = static_cast<std::uint32_t>(place - request.regime_jobs());
+    result.families = count_as_drawn(request, family, round, range);
+    return result;
   }
-  return counts;
+  Cases cases(*request.regimes[place], request.seed, static_cast<std::int64_t>(first), oracle);
+  for (const auto& [entry, scalar] : request.algorithms()) {
+    result.counts.push_back(cases.ask(*request.narrow[entry], scalar, request.time_limit));
+  }
+  return result;
 }
 
 }  // namespace touchstone::check

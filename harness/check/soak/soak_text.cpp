@@ -1,4 +1,4 @@
-// Sums the counts of a soak over the regimes.
+// Sums the counts of a soak over the regimes and families.
 #include "harness/check/soak/soak_text.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/base/table.h"
+#include "harness/check/kinds/family_tables.h"
 
 namespace touchstone::check {
 
@@ -29,7 +30,12 @@ std::string soak_text(const SoakRequest& request, const SoakResult& result,
     }
     table.add(row);
   }
-  return table.text(page_width);
+  std::string text = request.narrow.empty() ? "" : table.text(page_width);
+  text += family_summary(request, result.families, page_width);
+  for (const std::string& line : broken_family_promises(request, result.failures)) {
+    text += "Wrong: " + line + '\n';
+  }
+  return text;
 }
 
 }  // namespace touchstone::check

@@ -1,4 +1,4 @@
-// Reads cases with meshes and compounds.
+// Reads and writes cases with meshes and compounds.
 #include "harness/files/concave/concave_cases.h"
 
 #include "harness/files/concave/concave_json.h"
@@ -26,6 +26,14 @@ std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file) {
     c.is_convex = names_convex(a) && names_convex(b);
   });
   return cases;
+}
+
+std::string to_json(const ConcaveCase& c) {
+  OrderedJson out;
+  out["id"] = c.id;
+  out["a"] = concave_body_to_json(c.a, c.pose_a);
+  out["b"] = concave_body_to_json(c.b, c.pose_b);
+  return out.dump();
 }
 
 Case convex_case(const ConcaveCase& c) {

@@ -23,6 +23,10 @@ struct ConcaveCase {
 // vertices, a mesh in a compound, and a solid whose surface is open.
 std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file);
 
+// One line, without the line break, that read_concave_cases turns into the same bits. A compound's parts
+// are written one by one.
+std::string to_json(const ConcaveCase& c);
+
 // The case of two convex bodies.
 Case convex_case(const ConcaveCase& c);
 

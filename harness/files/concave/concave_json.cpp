@@ -142,4 +142,31 @@ ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
   return read;
 }
 
+OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose) {
+  const bool is_shape = !body.mesh && body.parts.size() == 1 &&
+                        body.parts[0].pose.rotation.isIdentity(0) &&
+                        body.parts[0].pose.translation.isZero(0);
+  if (is_shape) return body_to_json(body.parts[0].shape, pose);
+  OrderedJson out = body_to_json(Shape{}, pose);  // for the pose
+  OrderedJson& shape = out["shape"];
+  shape = OrderedJson();
+  if (!body.mesh) {
+    shape["type"] = "compound";
+    shape["parts"] = OrderedJson::array();
+    for (const ConvexPart& part : body.parts) {
+      shape["parts"].push_back(body_to_json(part.shape, part.pose));
+    }
+    return out;
+  }
+  shape["type"] = "mesh";
+  shape["vertices"] = OrderedJson::array();
+  for (const Vec3d& v : body.mesh->vertices) {
+    shape["vertices"].push_back(std::array{v.x(), v.y(), v.z()});
+  }
+  shape["triangles"] = OrderedJson::array();
+  for (const auto& triangle : body.mesh->triangles) shape["triangles"].push_back(triangle);
+  shape["solid"] = body.mesh->solid;
+  return out;
+}
+
 }  // namespace touchstone::files

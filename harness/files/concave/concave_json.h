@@ -14,4 +14,7 @@ namespace touchstone::files {
 // first.
 ConcaveBody read_concave_body(const JsonNode& body, Pose& pose);
 
+// A body of one convex part at its origin is written as that shape.
+OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose);
+
 }  // namespace touchstone::files

@@ -1,62 +1,22 @@
-// Moving pairs with a known answer, and what every cast must keep of it. For tests.
+// Casts of moving pairs with a known answer, and what every cast must keep of it. For tests.
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 #include "algorithms/registry.h"
-#include "tests/algorithms/random.h"
+#include "harness/families/moving_pairs.h"
 
 namespace touchstone::reference {
 
-struct MovingPairCase {
-  std::string what;
-  Shape a, b;
-  Pose pose_a, pose_b;
-  Motion motion_a, motion_b;
-  // The truth: if it is a hit, the time of impact up to `doubt`, at which the bodies close at
-  // `speed` along the plane of contact (metres; 0: not known). If it is a miss, the gap that they
-  // keep at least.
-  bool hit = false;
-  // False if the bodies may touch at one instant alone, as at two corners that pass each other: then the
-  // rounding of their placement decides, and an exact answer is either.
-  bool squarely = true;
-  double toi = 0, doubt = 0, speed = 0;
-  double gap = 0;
-  Vec3d normal = Vec3d::Zero();  // of the plane by which it was made, from a to b
-  Vec3d inward = Vec3d::Zero();  // moved along this, touching b gets deeper into a
-};
-
-// The point of the body furthest in a world direction, in the world; not for half-spaces.
-Vec3d support_point(const Shape& shape, const Pose& pose, const Vec3d& direction);
-
-// A bounded shape of a kind, of sizes between 0.3 and 1.
-Shape random_shape(ShapeKind kind, Random& random);
-
-// The pose at a time, independently of the kernels.
-Pose pose_at(const Pose& pose, const Motion& motion, double time);
-
-// How a plane of contact is chosen.
-enum class ContactFeature : std::uint8_t {
-  vertices,  // a random direction
-  face,      // an axis of body a
-  edges,     // the product of an axis of each
-};
-Vec3d contact_normal(ContactFeature feature, const Pose& a, const Pose& b, Random& random);
-
-// Bodies whose supports along +-normal meet at `toi`, before which the plane parts them.
-MovingPairCase meeting(ShapeKind a, ShapeKind b, ContactFeature feature, double toi, double path,
-                       Random& random);
-// Bodies that pass each other along a plane with a gap. If that is negative, b is in a by a point
-// that is so far from where they would touch.
-MovingPairCase passing(ShapeKind a, ShapeKind b, ContactFeature feature, double gap, double path,
-                       Random& random);
-
-// All lengths times a factor.
-MovingPairCase scaled(MovingPairCase c, double factor);
-MovingPairCase swapped(MovingPairCase c);
-// Both moved by the same displacement on top.
-MovingPairCase drifting(MovingPairCase c, const Vec3d& displacement);
+using families::ContactFeature;
+using families::drifting;
+using families::meeting;
+using families::MovingPairCase;
+using families::passing;
+using families::pose_at;
+using families::random_shape;
+using families::scaled;
+using families::support_point;
+using families::swapped;
+using Random = families::RandomDraws;
 
 CastOutcome solve(const CastEntry& entry, const MovingPairCase& c,
                   const CastSettings& settings = {});

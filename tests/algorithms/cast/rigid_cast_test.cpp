@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "harness/families/turning_pairs.h"
 #include "tests/algorithms/cast/linear_cast.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/shapes.h"
 
 namespace touchstone {
 namespace {
@@ -20,8 +19,6 @@ std::vector<const CastEntry*> turning_casts() {
   }
   return all;
 }
-
-constexpr double pi = std::numbers::pi;
 
 // The signed distance at a time, by the narrow phase gjk: negative if they overlap.
 class Watch {
@@ -94,16 +91,10 @@ TEST_P(RigidCast, RandomMotions) {
   Random random(21);
   const bool slow = entry().info.origin == Origin::oracle;
   for (int i = 0; i < drawn(slow ? 90 : 600, 40); ++i) {
-    MovingPairCase c;
-    c.a = random_shape(kinds[static_cast<std::size_t>(random.below(7))], random);
-    c.b = random_shape(kinds[static_cast<std::size_t>(random.below(7))], random);
-    c.pose_a.rotation = random.rotation();
-    c.pose_b = {random.rotation(), random.uniform(2, 4) * random.direction()};
     const double turn = i % 3 == 0 ? 0.5 : i % 3 == 1 ? 3 : 30;
-    c.motion_a = {random.vector(1), turn * random.direction()};
-    c.motion_b = {random.vector(2) - 0.5 * c.pose_b.translation, turn * random.direction()};
-    c.what = std::string(to_string(c.a.kind)) + "-" + std::string(to_string(c.b.kind)) +
-             " turning by " + std::to_string(turn) + ", number " + std::to_string(i);
+    const ShapeKind a = kinds[static_cast<std::size_t>(random.below(7))];
+    const ShapeKind b = kinds[static_cast<std::size_t>(random.below(7))];
+    const MovingPairCase c = families::turning(a, b, turn, random);
     const double tolerance = 1e-6;
     CastSettings settings;
     settings.tolerance = tolerance;
@@ -119,104 +110,35 @@ TEST_P(RigidCast, RandomMotions) {
   EXPECT_LE(counts.unknown, asked / 50);
 }
 
-// A needle that turns in place reaches a ball when its axis is a radius away from the ball.
 TEST_P(RigidCast, NeedlesThatTurnInPlace) {
   Random random(22);
   for (int i = 0; i < drawn(120, 12); ++i) {
-    const double thick = std::pow(10, random.uniform(-5, -2)), ball = random.uniform(0.001, 0.1);
-    const double away = random.uniform(0.5, 0.95), angle = random.uniform(0.6, 2.4);
-    const double reach = std::asin((thick + ball) / away);
-    MovingPairCase c;
-    c.what = "a needle turns in place";
-    c.a = make_capsule(thick, 1);
-    // The needle lies along x, and turns about z; the ball is at the angle from it.
-    c.pose_a.rotation << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-    c.b = make_sphere(ball);
-    c.pose_b.translation = away * Vec3d(std::cos(angle), std::sin(angle), 0);
-    const double turn = (i % 2 == 0 ? 1 : 0.9 * (angle - reach) / angle) * angle;
-    c.motion_a.rotation_vector = {0, 0, turn};
-    c.hit = turn > angle - reach;
-    c.toi = (angle - reach) / turn;
-    c.doubt = 1e-12;
-    // The closing speed at contact is that of the touched point.
-    c.speed = 0.5 * turn * away * std::cos(reach);
-    c.gap = c.hit ? 0 : 1e-3;
-    check(c, 1e-9);
+    check(families::turning_needle(i % 2 == 0, random), 1e-9);
   }
   EXPECT_GE(counts.hits, asked / 3);
   EXPECT_GE(counts.misses, asked / 3);
   EXPECT_EQ(counts.unknown, 0);
 }
 
-// Turns of many times: a rod that rises while it turns above a plate, and meets it at a known time.
 TEST_P(RigidCast, SeveralTurns) {
   Random random(23);
-  for (int i = 0; i < drawn(40, 6); ++i) {
-    MovingPairCase c;
-    c.what = "a spinning rod sinks";
-    c.a = make_box(2, 2, 0.1);
-    c.b = make_capsule(0.05, 1);
-    c.pose_b.rotation << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-    c.pose_b.translation = {0, 0, 0.1 + 0.05 + 0.5};
-    c.motion_b.rotation_vector = {0, 0, random.uniform(-20, 20) * pi};
-    const double sink = i % 2 == 0 ? random.uniform(0.51, 3) : random.uniform(0, 0.499);
-    c.motion_b.displacement = {0, 0, -sink};
-    c.hit = sink > 0.5;
-    c.toi = 0.5 / sink;
-    c.speed = sink;
-    c.gap = 0.5 - sink;
-    c.doubt = 1e-12;
-    check(c, 1e-9);
-  }
+  for (int i = 0; i < drawn(40, 6); ++i) check(families::sinking_rod(i % 2 == 0, random), 1e-9);
   EXPECT_GE(counts.hits, asked / 3);
   EXPECT_GE(counts.misses, asked / 3);
   EXPECT_LE(counts.unknown, asked / 4);
 }
 
-// A body whose origin is far outside of it: a small box on a long arm that comes down on a plate.
 TEST_P(RigidCast, PivotsFarFromTheBody) {
   Random random(24);
-  for (int i = 0; i < drawn(60, 6); ++i) {
-    const double arm = std::pow(10, random.uniform(0, 4)), small = 0.01;
-    const double angle = random.uniform(0.2, 1.5);  // of the plate from the start
-    MovingPairCase c;
-    c.what = "a point on an arm of " + std::to_string(arm);
-    std::vector<Vec3d> tip = {{arm, 0, 0}};
-    c.a = reference::make_hull(std::move(tip));
-    c.b = make_sphere(small);
-    c.pose_b.translation = arm * Vec3d(std::cos(angle), std::sin(angle), 0);
-    // The point meets the ball when the chord is the ball's radius.
-    const double reach = 2 * std::asin(0.5 * small / arm);
-    const double turn = i % 2 == 0 ? angle : angle - 2 * reach;
-    c.motion_a.rotation_vector = {0, 0, turn};
-    c.hit = i % 2 == 0;
-    c.toi = (angle - reach) / turn;
-    c.doubt = 1e-13 * arm / small;
-    c.speed = 0.5 * arm * turn;
-    c.gap = c.hit ? 0 : 0.5 * small;
-    check(c, 1e-6);
-  }
+  for (int i = 0; i < drawn(60, 6); ++i) check(families::far_pivot(i % 2 == 0, random), 1e-6);
   EXPECT_EQ(counts.hits, asked / 2);
   EXPECT_EQ(counts.misses, asked / 2);
 }
 
-// A corner of a turning box passes a plate at a small distance, or scratches it.
 TEST_P(RigidCast, CornersThatPassTangentially) {
   for (const double gap : {1e-2, 1e-5, 1e-7, -1e-7, -1e-5, -1e-2}) {
     for (const double scale : {0x1p-20, 1.0, 0x1p20}) {
-      MovingPairCase c;
-      c.what = "a corner passes at " + std::to_string(gap);
-      c.a = make_box(5, 1, 5);
-      c.pose_a.translation = {0, -1 - std::sqrt(2.0) - gap, 0};
-      c.b = make_box(1, 1, 0.5);
-      c.motion_b.rotation_vector = {0, 0, pi / 2};
-      c.hit = gap < 0;
-      c.gap = gap;
-      // The corner at angle 5/4 pi turns to 7/4 pi, and is lowest halfway, sqrt(2) down.
-      const double turn = std::acos(std::min(1.0, (std::sqrt(2.0) + gap) / std::sqrt(2.0)));
-      c.toi = 0.5 - turn / (pi / 2);
-      c.doubt = 1e-9;
-      check(scaled(c, scale), scale * 1e-9);
+      check(scaled(families::passing_corner(gap), scale), scale * 1e-9);
     }
   }
   // The plain one may give up, since its bound on the speed is far above the true one.

@@ -10,14 +10,14 @@
 #include "algorithms/core/isa.h"
 #include "algorithms/oracle/ccd/first_contact.h"
 #include "algorithms/registry.h"
-#include "tests/algorithms/ccd/ccd_families.h"
+#include "harness/families/ccd_families.h"
 #include "tests/algorithms/ccd/ccd_reference.h"
 #include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
 
-using reference::CcdFamily;
+using families::CcdFamily;
 
 std::vector<const CcdEntry*> our_ccds() {
   std::vector<const CcdEntry*> ours;
@@ -79,8 +79,8 @@ TEST(EveryCcd, MissesNoContactInAnyFamilyAtAnyScale) {
     Counts counts;
     int contacts = 0, at_size_1 = 0, unknown_at_size_1 = 0;
     unsigned seed = 1;
-    for (const CcdFamily& family : reference::ccd_families()) {
-      reference::Random random(seed++);
+    for (const CcdFamily& family : families::ccd_families()) {
+      families::RandomDraws random(seed++);
       for (const double scale : {1e-6, 1e-2, 1.0, 0x1p-7, 1e3, 1e6}) {
         // Without a tolerance nothing but the bound on the rounding keeps contacts from being missed.
         const CcdSettings settings = {.tolerance = scale == 1e3      ? 0
@@ -90,7 +90,7 @@ TEST(EveryCcd, MissesNoContactInAnyFamilyAtAnyScale) {
         std::vector<CcdQuery> queries;
         for (int i = 0; i < drawn(24, 6); ++i) {
           const double offset = random.below(6) == 0 ? 1e6 * scale : 0;
-          queries.push_back(reference::changed(family.draw(random), scale, offset));
+          queries.push_back(families::changed(family.draw(random), scale, offset));
         }
         const auto outcomes = solved(*entry, settings, family.pair, queries);
         for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -125,7 +125,7 @@ TEST(EveryCcd, SeparationCountsAsContact) {
     Counts counts;
     int near = 0;
     for (const FeaturePair pair : {FeaturePair::vertex_face, FeaturePair::edge_edge}) {
-      reference::Random random(7);
+      families::RandomDraws random(7);
       for (const double separation : {1e-9, 1e-3, 0.3, 100.0}) {
         const CcdSettings settings = {.tolerance = 1e-3, .separation = separation};
         std::vector<CcdQuery> queries(static_cast<std::size_t>(drawn(200, 20)));
@@ -155,8 +155,8 @@ TEST(EveryCcd, SeparationCountsAsContact) {
 
 TEST(EveryCcd, OneQueryIsAnsweredLikeMany) {
   for (const CcdEntry* entry : our_ccds()) {
-    for (const CcdFamily& family : reference::ccd_families()) {
-      reference::Random random(3);
+    for (const CcdFamily& family : families::ccd_families()) {
+      families::RandomDraws random(3);
       std::vector<CcdQuery> queries;
       for (int i = 0; i < 37; ++i) queries.push_back(family.draw(random));
       const auto together = solved(*entry, {.tolerance = 1e-4}, family.pair, queries);
@@ -173,8 +173,8 @@ TEST(EveryCcd, OneQueryIsAnsweredLikeMany) {
 TEST(EveryCcd, AnswersAlikeAtEveryLevel) {
   const Isa before = isa();
   for (const CcdEntry* entry : our_ccds()) {
-    for (const CcdFamily& family : reference::ccd_families()) {
-      reference::Random random(5);
+    for (const CcdFamily& family : families::ccd_families()) {
+      families::RandomDraws random(5);
       std::vector<CcdQuery> queries;
       for (int i = 0; i < 20; ++i) queries.push_back(family.draw(random));
       std::vector<CcdOutcome> first;

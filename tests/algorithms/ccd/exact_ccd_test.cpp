@@ -7,16 +7,16 @@
 
 #include "algorithms/oracle/ccd/first_contact.h"
 #include "algorithms/registry.h"
-#include "tests/algorithms/ccd/ccd_families.h"
+#include "harness/families/ccd_families.h"
 #include "tests/algorithms/ccd/ccd_reference.h"
 #include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
 
+using families::CcdFamily;
 using oracle::ccd::Filters;
 using oracle::ccd::Impact;
-using reference::CcdFamily;
 
 oracle::ccd::MovingFeatures features_of(FeaturePair pair, const CcdQuery& query) {
   return {pair == FeaturePair::vertex_face ? 1 : 2, query.start, query.end};
@@ -29,8 +29,8 @@ Impact exact(FeaturePair pair, const CcdQuery& query, Filters filters = Filters:
 template <class Test>
 void for_each_query(int count, const Test& test) {
   unsigned seed = 1;
-  for (const CcdFamily& family : reference::ccd_families()) {
-    reference::Random random(seed++);
+  for (const CcdFamily& family : families::ccd_families()) {
+    families::RandomDraws random(seed++);
     for (int i = 0; i < drawn(count, 8); ++i) {
       test(family, family.draw(random), random);
       if (testing::Test::HasFailure()) {
@@ -43,7 +43,7 @@ void for_each_query(int count, const Test& test) {
 
 TEST(ExactCcd, AgreesWithFloatsOfManyBits) {
   int hits = 0, misses = 0;
-  for_each_query(120, [&](const CcdFamily& family, const CcdQuery& query, reference::Random&) {
+  for_each_query(120, [&](const CcdFamily& family, const CcdQuery& query, families::RandomDraws&) {
     if (!family.is_small) return;
     const std::optional<double> time = reference::first_contact_of_small(family.pair, query);
     for (const Filters filters : {Filters::all, Filters::fixed_integers, Filters::none}) {
@@ -61,39 +61,39 @@ TEST(ExactCcd, AgreesWithFloatsOfManyBits) {
 
 TEST(ExactCcd, FiltersChangeNothing) {
   int hits = 0, misses = 0;
-  for_each_query(
-      100, [&](const CcdFamily& family, const CcdQuery& drawn_query, reference::Random& random) {
-        const double scales[] = {1, 1e-6, 1e6, 0x1p-100, 0x1p-1040, 0x1p900};
-        const double scale = scales[random.below(6)];
-        const double offset = random.below(3) == 0 ? 1e6 * scale : 0;
-        const CcdQuery query = reference::changed(drawn_query, scale, offset);
-        const Impact truth = exact(family.pair, query, Filters::none);
-        for (const Filters filters : {Filters::all, Filters::fixed_integers}) {
-          const Impact impact = exact(family.pair, query, filters);
-          ASSERT_EQ(impact.is_hit, truth.is_hit) << scale << " " << offset;
-          if (!truth.is_hit) continue;
-          EXPECT_LE(impact.free_before, truth.contact_by);
-          EXPECT_GE(impact.contact_by, truth.free_before);
-          EXPECT_LE(impact.contact_by - impact.free_before, 0x1p-40);
-        }
-        ++(truth.is_hit ? hits : misses);
-      });
+  for_each_query(100, [&](const CcdFamily& family, const CcdQuery& drawn_query,
+                          families::RandomDraws& random) {
+    const double scales[] = {1, 1e-6, 1e6, 0x1p-100, 0x1p-1040, 0x1p900};
+    const double scale = scales[random.below(6)];
+    const double offset = random.below(3) == 0 ? 1e6 * scale : 0;
+    const CcdQuery query = families::changed(drawn_query, scale, offset);
+    const Impact truth = exact(family.pair, query, Filters::none);
+    for (const Filters filters : {Filters::all, Filters::fixed_integers}) {
+      const Impact impact = exact(family.pair, query, filters);
+      ASSERT_EQ(impact.is_hit, truth.is_hit) << scale << " " << offset;
+      if (!truth.is_hit) continue;
+      EXPECT_LE(impact.free_before, truth.contact_by);
+      EXPECT_GE(impact.contact_by, truth.free_before);
+      EXPECT_LE(impact.contact_by - impact.free_before, 0x1p-40);
+    }
+    ++(truth.is_hit ? hits : misses);
+  });
   EXPECT_GT(hits, drawn(500, 40));
   EXPECT_GT(misses, drawn(500, 40));
 }
 
 TEST(ExactCcd, KnowsTheFamiliesByConstruction) {
-  for_each_query(100, [](const CcdFamily& family, const CcdQuery& query, reference::Random&) {
+  for_each_query(100, [](const CcdFamily& family, const CcdQuery& query, families::RandomDraws&) {
     if (family.truth == CcdAnswer::unknown) return;
     for (const double scale : {1.0, 0x1p-20, 0x1p20}) {
-      const CcdQuery scaled_query = reference::changed(query, scale);
+      const CcdQuery scaled_query = families::changed(query, scale);
       EXPECT_EQ(exact(family.pair, scaled_query).is_hit, family.truth == CcdAnswer::hit);
     }
   });
 }
 
 TEST(ExactCcd, OrderScaleAndDirectionOfTimeChangeNothing) {
-  for_each_query(40, [](const CcdFamily& family, const CcdQuery& query, reference::Random&) {
+  for_each_query(40, [](const CcdFamily& family, const CcdQuery& query, families::RandomDraws&) {
     const Impact whole = exact(family.pair, query);
     CcdQuery other = query;
     for (std::array<Vec3d, 4>* x : {&other.start, &other.end}) {
@@ -103,7 +103,7 @@ TEST(ExactCcd, OrderScaleAndDirectionOfTimeChangeNothing) {
         std::rotate(x->begin(), x->begin() + 2, x->end());
       }
     }
-    for (const CcdQuery& same : {other, reference::changed(query, 0x1p-100)}) {
+    for (const CcdQuery& same : {other, families::changed(query, 0x1p-100)}) {
       const Impact impact = exact(family.pair, same);
       ASSERT_EQ(impact.is_hit, whole.is_hit);
       if (!whole.is_hit) continue;
@@ -138,7 +138,7 @@ TEST(ExactCcd, OrdersTimesThatDoublesCannotTellApart) {
   };
   auto a = time(falling(2)), b = time(falling(2 + 0x1p-51)), c = time(falling(2));
   // The same time as another root of another polynomial.
-  auto d = time(reference::changed(falling(2), 3));
+  auto d = time(families::changed(falling(2), 3));
   EXPECT_TRUE(compare(a, b) > 0);
   EXPECT_TRUE(compare(b, a) < 0);
   EXPECT_TRUE(compare(a, c) == 0);

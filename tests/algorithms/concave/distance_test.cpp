@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "algorithms/hull/convex_hull.h"
+#include "harness/families/triangle_pairs.h"
 #include "tests/algorithms/concave/agreed.h"
 #include "tests/algorithms/concave/meshes.h"
-#include "tests/algorithms/concave/triangle_pair.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 
@@ -41,7 +41,7 @@ bool measures(const std::array<ConcaveBody, 2>& bodies, const Pose& a, const Pos
 }
 
 TEST(ConcaveDistance, OfTori) {
-  reference::Random random(1);
+  families::RandomDraws random(1);
   const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(10, 5, 1, 0.2)),
                                              body_of(reference::torus(8, 4, 0.8, 0.2))};
   int apart = 0;
@@ -57,14 +57,14 @@ TEST(ConcaveDistance, OfTori) {
 }
 
 TEST(ConcaveDistance, OfTrianglesOfEveryFamily) {
-  reference::Random random(2);
+  families::RandomDraws random(2);
   int apart = 0, met = 0;
-  for (const auto& family : reference::triangle_families()) {
+  for (const auto& family : families::triangle_families()) {
     SCOPED_TRACE(family.name);
-    for (const reference::Form form : reference::all_forms) {
-      for (int i = 0; i < drawn(20, 2); ++i) {
-        const reference::TrianglePair pair = in_form(family.draw(random), form, random);
-        const double size = form == reference::Form::far_away ? 4e6 : 4;
+    for (const families::TriangleForm form : families::all_triangle_forms) {
+      for (int i = 0; i < drawn(11, 1); ++i) {
+        const families::TrianglePair pair = in_form(family.draw(random), form, random);
+        const double size = form == families::TriangleForm::far_away ? 4e6 : 4;
         ++(measures({reference::mesh_of({pair.a}), reference::mesh_of({pair.b})}, pair.pose_a,
                     pair.pose_b, 1e-12 * size)
                ? apart
@@ -77,7 +77,7 @@ TEST(ConcaveDistance, OfTrianglesOfEveryFamily) {
 }
 
 TEST(ConcaveDistance, OfMeshesAndConvexParts) {
-  reference::Random random(3);
+  families::RandomDraws random(3);
   const ConcaveBody torus = body_of(reference::torus(10, 5, 1, 0.2));
   ConcaveBody pair = body_of(reference::make_capsule(0.2, 0.3), moved_by({0.5, 0, 0}));
   pair.parts.push_back({reference::make_box(0.25, 0.25, 0.25), moved_by({-0.5, 0, 0}), 0});
@@ -98,7 +98,7 @@ TEST(ConcaveDistance, OfHalfSpaces) {
   const ConcaveBody torus = body_of(reference::torus(10, 5, 1, 0.25));
   ConcaveBody ends = body_of(reference::make_sphere(0.25), moved_by({3, 0, 0}));
   ends.parts.push_back({floor, moved_by({0, 0, -2}), 0});
-  reference::Random random(4);
+  families::RandomDraws random(4);
   for (int i = 0; i < drawn(12, 3); ++i) {
     const Pose a = {random.rotation(), {0, 0, random.uniform(-0.7, 0.7)}};
     EXPECT_TRUE(measures({torus, body_of(floor)}, a, moved_by({7, 7, -2}), 1e-11));

@@ -5,27 +5,27 @@
 #include "algorithms/kernels/triangles/exact_triangles.h"
 #include "algorithms/kernels/triangles/triangle_signs.h"
 #include "algorithms/registry.h"
+#include "harness/families/triangle_pairs.h"
 #include "tests/algorithms/concave/phases.h"
-#include "tests/algorithms/concave/triangle_pair.h"
 #include "tests/algorithms/concave/triangle_truth.h"
 #include "tests/algorithms/one_in.h"
 
 namespace touchstone {
 namespace {
 
-using reference::Form;
-using reference::TriangleFamily;
-using reference::TrianglePair;
+using families::TriangleFamily;
+using families::TriangleForm;
+using families::TrianglePair;
 
 // Calls `check` with pairs of every family in every form, and their truths.
 template <class Check>
 void for_each_pair(int count, const Check& check) {
   unsigned seed = 1;
-  for (const TriangleFamily& family : reference::triangle_families()) {
+  for (const TriangleFamily& family : families::triangle_families()) {
     int hits = 0, misses = 0;
-    for (const Form form : reference::all_forms) {
+    for (const TriangleForm form : families::all_triangle_forms) {
       SCOPED_TRACE(family.name + ", form " + std::to_string(static_cast<int>(form)));
-      reference::Random random(seed++);
+      families::RandomDraws random(seed++);
       for (int i = 0; i < count; ++i) {
         const TrianglePair pair = in_form(family.draw(random), form, random);
         const bool truth = reference::triangles_meet(pair);
@@ -57,7 +57,7 @@ double reach_of(const std::array<Vec3d, 3>& corners) {
 }
 
 TEST(TrianglePairs, IntegersAreRight) {
-  for_each_pair(drawn(150, 15), [](const TrianglePair& pair, bool truth) {
+  for_each_pair(drawn(80, 8), [](const TrianglePair& pair, bool truth) {
     EXPECT_EQ(share_a_point(pair.a, pair.pose_a, pair.b, pair.pose_b), truth);
     EXPECT_EQ(share_a_point(pair.b, pair.pose_b, pair.a, pair.pose_a), truth);
   });
@@ -67,7 +67,7 @@ TEST(TrianglePairs, SignsAreRightWhereTheyDecide) {
   for (const Isa level : isa_levels()) {
     limit_isa(level);
     int decided = 0, open = 0, lanes_differ = 0;
-    for_each_pair(drawn(60, 6), [&](const TrianglePair& pair, bool truth) {
+    for_each_pair(drawn(32, 4), [&](const TrianglePair& pair, bool truth) {
       const CommonFrame frame =
           common_frame(pair.pose_a, reach_of(pair.a), pair.pose_b, reach_of(pair.b));
       ASSERT_TRUE(frame.is_of_a);
@@ -90,12 +90,12 @@ TEST(TrianglePairs, SignsAreRightWhereTheyDecide) {
 }
 
 TEST(TrianglePairs, GenericPairsAreDecidedBySigns) {
-  reference::Random random(5);
+  families::RandomDraws random(5);
   int open = 0, hits = 0;
   const int count = drawn(20000, 2000);
   for (int i = 0; i < count; ++i) {
     const TrianglePair pair =
-        in_form(reference::triangle_families()[0].draw(random), Form::two_poses, random);
+        in_form(families::triangle_families()[0].draw(random), TriangleForm::two_poses, random);
     const CommonFrame frame =
         common_frame(pair.pose_a, reach_of(pair.a), pair.pose_b, reach_of(pair.b));
     BlockSigns signs;
@@ -113,7 +113,7 @@ TEST(TrianglePairs, EveryPhaseIsRight) {
     SCOPED_TRACE(name);
     int wrong = 0, asked = 0;
     const bool approximate = find_concave_phase(name)->approximate;
-    for_each_pair(drawn(12, 2), [&](const TrianglePair& pair, bool truth) {
+    for_each_pair(drawn(7, 1), [&](const TrianglePair& pair, bool truth) {
       const std::array<ConcaveBody, 2> bodies = {reference::mesh_of({pair.a}),
                                                  reference::mesh_of({pair.b})};
       const reference::Answered answered =

@@ -67,7 +67,7 @@ bool separates(const Big& axis, const std::array<Big, 3>& a, const std::array<Bi
 
 }  // namespace
 
-bool triangles_meet(const TrianglePair& pair) {
+bool triangles_meet(const families::TrianglePair& pair) {
   int of_rotation = 0, of_points = 0;
   for (const Pose* pose : {&pair.pose_a, &pair.pose_b}) {
     for (const double x : pose->rotation.reshaped()) {

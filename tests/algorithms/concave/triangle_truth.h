@@ -2,12 +2,12 @@
 #pragma once
 
 #include "algorithms/core/pose.h"
-#include "tests/algorithms/concave/triangle_pair.h"
+#include "harness/families/triangle_pairs.h"
 
 namespace touchstone::reference {
 
 // True if the closed triangles, each under its pose, share a point: no axis of a complete set
 // separates them.
-bool triangles_meet(const TrianglePair& pair);
+bool triangles_meet(const families::TrianglePair& pair);
 
 }  // namespace touchstone::reference

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/families/aimed_rays.h"
+#include "harness/families/meshes.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/ray_cast/aimed_rays.h"
 
 namespace touchstone {
 namespace {
@@ -24,11 +25,11 @@ std::vector<RayHit> asked(const RayCastEntry& entry, Precision scalar, RayTask t
 TEST(ApproximateRayCasts, AgreeOnRaysInAnyDirection) {
   for (const RayCastEntry& entry : ray_casts()) {
     if (entry.exact_verdicts || !is_built(entry.info)) continue;
-    for (const auto& [name, mesh] : reference::ray_meshes()) {
+    for (const auto& [name, mesh] : families::ray_meshes()) {
       // Only of these are all triangles such that every library takes them.
       if (name != "none" && name != "one" && name != "ball" && name != "terrain") continue;
       SCOPED_TRACE(entry.info.name + " " + name);
-      const auto rays = reference::random_rays(mesh, drawn(1000, 100), 23);
+      const auto rays = families::random_rays(mesh, drawn(1000, 100), 23);
       for (const Precision scalar : entry.scalars) {
         const auto exact = asked(*find_ray_cast("exact"), scalar, RayTask::closest, mesh, rays);
         for (const RayTask task : entry.tasks) {
@@ -64,7 +65,7 @@ TEST(ApproximateRayCasts, AreBoundAgain) {
     const auto cast = entry.make({entry.scalars.front()});
     RayHit hit;
     for (const bool is_there : {true, false, true}) {
-      const TriangleMesh mesh = is_there ? reference::terrain_mesh(3, 1, 5) : TriangleMesh{};
+      const TriangleMesh mesh = is_there ? families::terrain_mesh(3, 1, 5) : TriangleMesh{};
       cast->bind(mesh);
       cast->cast(RayTask::closest, down, {&hit, 1});
       EXPECT_EQ(hit.hit, is_there) << entry.info.name;

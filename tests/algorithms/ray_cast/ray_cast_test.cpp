@@ -11,8 +11,9 @@
 #include "algorithms/core/isa.h"
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
+#include "harness/families/aimed_rays.h"
+#include "harness/families/meshes.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/ray_cast/aimed_rays.h"
 
 namespace touchstone {
 namespace {
@@ -99,12 +100,12 @@ void expect_exact(const TriangleMesh& mesh, const std::vector<Ray>& rays, Outcom
 
 TEST(RayCasts, AimedAtVerticesEdgesAndFacesAreExact) {
   Outcomes outcomes;
-  for (const auto& [name, mesh] : reference::ray_meshes()) {
+  for (const auto& [name, mesh] : families::ray_meshes()) {
     SCOPED_TRACE(name);
     const double most = drawn(24, 4);
     const double share =
         most / static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
-    expect_exact(mesh, reference::aimed_rays(mesh, share, 11), outcomes);
+    expect_exact(mesh, families::aimed_rays(mesh, share, 11), outcomes);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(outcomes.hits, 1000 / one_in);
@@ -113,9 +114,9 @@ TEST(RayCasts, AimedAtVerticesEdgesAndFacesAreExact) {
 
 TEST(RayCasts, InAnyDirectionAreExact) {
   Outcomes outcomes;
-  for (const auto& [name, mesh] : reference::ray_meshes()) {
+  for (const auto& [name, mesh] : families::ray_meshes()) {
     SCOPED_TRACE(name);
-    expect_exact(mesh, reference::random_rays(mesh, drawn(300, 30), 13), outcomes);
+    expect_exact(mesh, families::random_rays(mesh, drawn(300, 30), 13), outcomes);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(outcomes.hits, 1000 / one_in);
@@ -124,12 +125,12 @@ TEST(RayCasts, InAnyDirectionAreExact) {
 
 // A closed surface is hit from inside wherever it is aimed at: at each vertex, pole and edge.
 TEST(RayCasts, NoneSlipsOutOfAClosedMesh) {
-  TriangleMesh mesh = reference::ellipsoid_mesh({3, 2, 1}, 160, 80);
+  TriangleMesh mesh = families::ellipsoid_mesh({3, 2, 1}, 160, 80);
   for (const bool rounded : {true, false}) {
     // Scaled by a third, no coordinate is a float.
-    if (!rounded) mesh = reference::moved(mesh, 1 / 3.0, {0, 0, 0});
+    if (!rounded) mesh = families::moved(mesh, 1 / 3.0, {0, 0, 0});
     std::vector<Ray> rays;
-    reference::Random random(17);
+    families::RandomDraws random(17);
     for (const auto& triangle : mesh.triangles) {
       if (random.below(5 * one_in) != 0) continue;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -152,7 +153,7 @@ TEST(RayCasts, NoneSlipsOutOfAClosedMesh) {
 }
 
 TEST(RayCasts, SayWhatRaysAreNone) {
-  const TriangleMesh mesh = reference::ellipsoid_mesh({2, 2, 2}, 8, 6);
+  const TriangleMesh mesh = families::ellipsoid_mesh({2, 2, 2}, 8, 6);
   constexpr double inf = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Ray> improper = {{{0, 0, 0}, {0, 0, 0}},   {{nan, 0, 0}, {1, 0, 0}},
@@ -178,9 +179,9 @@ TEST(RayCasts, OfAnySizeAreExact) {
   Outcomes outcomes;
   for (const double scale : {0x1p-90, 0x1p-40, 1e9, 0x1p90}) {
     const TriangleMesh mesh =
-        reference::moved(reference::ellipsoid_mesh({2, 2, 2}, 8, 6), scale, {0, 0, 0});
+        families::moved(families::ellipsoid_mesh({2, 2, 2}, 8, 6), scale, {0, 0, 0});
     std::vector<Ray> rays;
-    for (Ray ray : reference::aimed_rays(reference::ellipsoid_mesh({2, 2, 2}, 8, 6), 0.2, 19)) {
+    for (Ray ray : families::aimed_rays(families::ellipsoid_mesh({2, 2, 2}, 8, 6), 0.2, 19)) {
       ray.origin *= scale;
       if (ray.t_max > 1) ray.direction *= scale;
       rays.push_back(ray);
@@ -192,7 +193,7 @@ TEST(RayCasts, OfAnySizeAreExact) {
   EXPECT_GT(outcomes.misses, 100 / one_in);
   // A vertex straight ahead, in numbers whose products vanish.
   const TriangleMesh tiny =
-      reference::moved(reference::ellipsoid_mesh({2, 2, 2}, 8, 6), 0x1p-400, {0, 0, 0});
+      families::moved(families::ellipsoid_mesh({2, 2, 2}, 8, 6), 0x1p-400, {0, 0, 0});
   const std::vector<Ray> ahead = {{{0, 0, 0}, {0, 0, 1}}};
   EXPECT_TRUE(exact_hits(Precision::float64, tiny, ahead)[0].hit);
   for (const RayCastEntry* entry : exact_casts()) {

@@ -1,28 +1,15 @@
-// Meshes for tests of ray casts. Coordinates are multiples of 2^-10, so that sums, differences and
-// halves of them are exact.
-#pragma once
+// Makes meshes.
+#include "harness/families/meshes.h"
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <string>
-#include <vector>
+#include <utility>
 
-#include "algorithms/core/mesh/triangle_mesh.h"
-#include "tests/algorithms/random.h"
+#include "harness/families/draws.h"
 
-namespace touchstone::reference {
+namespace touchstone::families {
 
-struct NamedMesh {
-  std::string name;
-  TriangleMesh mesh;
-};
-
-inline double on_grid(double x) { return std::round(x * 1024) / 1024; }
-inline Vec3d on_grid(const Vec3d& v) { return {on_grid(v[0]), on_grid(v[1]), on_grid(v[2])}; }
-
-// A closed ellipsoid; at its two poles `around` triangles meet.
-inline TriangleMesh ellipsoid_mesh(const Vec3d& radii, std::uint32_t around, std::uint32_t rings) {
+TriangleMesh ellipsoid_mesh(const Vec3d& radii, std::uint32_t around, std::uint32_t rings) {
   TriangleMesh mesh;
   for (std::uint32_t i = 1; i < rings; ++i) {
     const double polar = std::numbers::pi * i / rings;
@@ -50,9 +37,8 @@ inline TriangleMesh ellipsoid_mesh(const Vec3d& radii, std::uint32_t around, std
   return mesh;
 }
 
-// An open grid of side * side squares of size 1, with heights up to `height`.
-inline TriangleMesh terrain_mesh(std::uint32_t side, double height, unsigned seed) {
-  Random random(seed);
+TriangleMesh terrain_mesh(std::uint32_t side, double height, std::uint64_t seed) {
+  RandomDraws random(seed);
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i <= side; ++i) {
     for (std::uint32_t j = 0; j <= side; ++j) {
@@ -69,9 +55,8 @@ inline TriangleMesh terrain_mesh(std::uint32_t side, double height, unsigned see
   return mesh;
 }
 
-// Triangles without order, some of them degenerate or there twice.
-inline TriangleMesh soup_mesh(int count, unsigned seed) {
-  Random random(seed);
+TriangleMesh soup_mesh(int count, std::uint64_t seed) {
+  RandomDraws random(seed);
   TriangleMesh mesh;
   for (int i = 0; i < 3 * count; ++i) mesh.vertices.push_back(on_grid(random.vector(4)));
   for (int i = 0; i < count; ++i) {
@@ -84,7 +69,7 @@ inline TriangleMesh soup_mesh(int count, unsigned seed) {
   return mesh;
 }
 
-inline void add(TriangleMesh& mesh, const TriangleMesh& other, double scale, const Vec3d& by) {
+void add(TriangleMesh& mesh, const TriangleMesh& other, double scale, const Vec3d& by) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Vec3d& v : other.vertices) mesh.vertices.push_back(scale * v + by);
   for (const auto& [a, b, c] : other.triangles) {
@@ -92,14 +77,13 @@ inline void add(TriangleMesh& mesh, const TriangleMesh& other, double scale, con
   }
 }
 
-inline TriangleMesh moved(const TriangleMesh& mesh, double scale, const Vec3d& by) {
+TriangleMesh moved(const TriangleMesh& mesh, double scale, const Vec3d& by) {
   TriangleMesh other;
   add(other, mesh, scale, by);
   return other;
 }
 
-// The meshes of the families, small enough for the oracle.
-inline std::vector<NamedMesh> ray_meshes() {
+std::vector<NamedMesh> ray_meshes() {
   std::vector<NamedMesh> all;
   all.push_back({"none", {}});
   all.push_back({"one", {{{0, 0, 0}, {3, 0, 1}, {0, 2, 1}}, {{0, 1, 2}}, false}});
@@ -126,4 +110,48 @@ inline std::vector<NamedMesh> ray_meshes() {
   return all;
 }
 
-}  // namespace touchstone::reference
+TriangleMesh torus(int around, int across, double radius, double tube, bool solid) {
+  TriangleMesh mesh;
+  mesh.solid = solid;
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
+      const double r = radius + tube * std::cos(v);
+      mesh.vertices.push_back({r * std::cos(u), r * std::sin(u), tube * std::sin(v)});
+      const auto at = [&](int k, int l) {
+        return static_cast<std::uint32_t>(k % around * across + l % across);
+      };
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh box_mesh(double x, double y, double z, bool solid) {
+  TriangleMesh mesh;
+  mesh.solid = solid;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.push_back({i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z});
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+std::vector<NamedMesh> closed_meshes() {
+  std::vector<NamedMesh> all;
+  all.push_back({"none", {}});
+  all.push_back({"ball", ellipsoid_mesh({2, 2, 2}, 8, 6)});
+  all.push_back({"poles", ellipsoid_mesh({3, 2, 1}, 160, 4)});
+  NamedMesh nested{"nested", ellipsoid_mesh({2, 2, 2}, 8, 6)};
+  TriangleMesh hole = ellipsoid_mesh({1, 1, 1}, 7, 5);
+  for (auto& triangle : hole.triangles) std::swap(triangle[0], triangle[1]);
+  add(nested.mesh, hole, 1, {0, 0, 0});
+  add(nested.mesh, ellipsoid_mesh({1, 1, 1}, 6, 4), 1, {1.5, 0, 0});
+  all.push_back(std::move(nested));
+  all.push_back({"doubles", moved(ellipsoid_mesh({2, 1, 2}, 10, 6), 1 / 3.0, {0.1, 0.2, 0.7})});
+  return all;
+}
+
+}  // namespace touchstone::families

@@ -1,14 +1,19 @@
 // The families. Truths are exact: coordinates are integers times a power of two unless said.
-#include "tests/algorithms/ccd/ccd_families.h"
+#include "harness/families/ccd_families.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <utility>
 
-namespace touchstone::reference {
+namespace touchstone::families {
 namespace {
 
-Vec3d integers(Random& random, int reach) {
+std::string digits(double x) { return fmt::format("{:.0e}", x); }
+
+Vec3d integers(Draws& random, int reach) {
   const auto one = [&] { return static_cast<double>(random.below(2 * reach + 1) - reach); };
   return {one(), one(), one()};
 }
@@ -28,7 +33,7 @@ CcdQuery moving(const std::array<Vec3d, 4>& there, const std::array<Vec3d, 4>& v
 using Weights = std::array<int, 3>;
 
 // Features that share a point at time t / 4, with integers; `reach` of velocities.
-CcdQuery in_contact_at(Random& random, FeaturePair pair, const Weights& w, int t, int reach) {
+CcdQuery in_contact_at(Draws& random, FeaturePair pair, const Weights& w, int t, int reach) {
   std::array<Vec3d, 4> x, v;
   for (Vec3d& one : v) one = integers(random, reach);
   if (pair == FeaturePair::vertex_face) {
@@ -59,12 +64,14 @@ class Families {
   }
 
  private:
-  using Draw = std::function<CcdQuery(Random&)>;
+  using Draw = std::function<CcdQuery(Draws&)>;
 
   void add(const std::string& name, Draw draw, CcdAnswer truth = CcdAnswer::unknown,
            bool is_small = false) {
-    all.push_back({name + " " + std::string(is_face() ? "vertex-face" : "edge-edge"), pair_,
-                   std::move(draw), truth, is_small});
+    std::string joined = (is_face() ? "vertex-face-" : "edge-edge-") + name;
+    std::erase(joined, ',');
+    std::ranges::replace(joined, ' ', '-');
+    all.push_back({std::move(joined), pair_, std::move(draw), truth, is_small});
   }
   bool is_face() const { return pair_ == FeaturePair::vertex_face; }
 
@@ -72,30 +79,30 @@ class Families {
     const FeaturePair pair = pair_;
     const Weights inside = is_face() ? Weights{1, 1, 2} : Weights{1, 2, 0};
     const Weights edge = is_face() ? Weights{2, 2, 0} : Weights{0, 1, 0};
-    const auto corner = [pair](Random& r) {
+    const auto corner = [pair](Draws& r) {
       return pair == FeaturePair::vertex_face ? corners_vf[r.below(3)] : corners_ee[r.below(4)];
     };
     const auto hit = CcdAnswer::hit;
     add(
-        "inside", [=](Random& r) { return in_contact_at(r, pair, inside, r.below(5), 6); }, hit,
+        "inside", [=](Draws& r) { return in_contact_at(r, pair, inside, r.below(5), 6); }, hit,
         true);
     add(
-        "on an edge", [=](Random& r) { return in_contact_at(r, pair, edge, r.below(5), 6); }, hit,
+        "on an edge", [=](Draws& r) { return in_contact_at(r, pair, edge, r.below(5), 6); }, hit,
         true);
     add(
-        "at a corner", [=](Random& r) { return in_contact_at(r, pair, corner(r), r.below(5), 6); },
+        "at a corner", [=](Draws& r) { return in_contact_at(r, pair, corner(r), r.below(5), 6); },
         hit, true);
     add(
-        "at time 1", [=](Random& r) { return in_contact_at(r, pair, inside, 4, 6); }, hit, true);
+        "at time 1", [=](Draws& r) { return in_contact_at(r, pair, inside, 4, 6); }, hit, true);
     add(
-        "at time 1 and a corner",
-        [=](Random& r) { return in_contact_at(r, pair, corner(r), 4, 6); }, hit, true);
+        "at time 1 and a corner", [=](Draws& r) { return in_contact_at(r, pair, corner(r), 4, 6); },
+        hit, true);
     add(
-        "from time 0 apart", [=](Random& r) { return in_contact_at(r, pair, inside, 0, 6); }, hit,
+        "from time 0 apart", [=](Draws& r) { return in_contact_at(r, pair, inside, 0, 6); }, hit,
         true);
     // Out of contact by the last bits of a double.
     for (const double off : {1e-15, 1e-9}) {
-      add("inside, off by " + std::to_string(static_cast<int>(std::log10(off))), [=](Random& r) {
+      add("inside, off by " + digits(off), [=](Draws& r) {
         CcdQuery query = changed(in_contact_at(r, pair, inside, 4, 6), 0x1p-5);
         query.end[0] += off * r.direction();
         return query;
@@ -108,7 +115,7 @@ class Families {
     for (const int reach : {1, 2, 4}) {
       add(
           "small grid " + std::to_string(reach),
-          [=](Random& r) {
+          [=](Draws& r) {
             CcdQuery query;
             for (std::size_t i = 0; i < 4; ++i) {
               query.start[i] = integers(r, reach);
@@ -120,7 +127,7 @@ class Families {
     }
     add(
         "a segment or a point",
-        [=](Random& r) {
+        [=](Draws& r) {
           CcdQuery query = in_contact_at(r, pair, {0, 0, 4}, r.below(5), 3);
           const bool is_point = r.below(2) == 0;
           for (std::array<Vec3d, 4>* x : {&query.start, &query.end}) {
@@ -132,7 +139,7 @@ class Families {
         CcdAnswer::unknown, true);
     add(
         "parallel edges",
-        [=](Random& r) {
+        [=](Draws& r) {
           const Vec3d along = integers(r, 2);
           CcdQuery query;
           for (std::array<Vec3d, 4>* x : {&query.start, &query.end}) {
@@ -146,7 +153,7 @@ class Families {
     // The volume is (2 t - 1)^2 times a number.
     add(
         "double root",
-        [=](Random& r) {
+        [=](Draws& r) {
           CcdQuery query;
           const Vec3d origin = integers(r, 2), more = integers(r, 2);
           const double a = 1 + r.below(2), b = 1 + r.below(2);
@@ -166,7 +173,7 @@ class Families {
     const FeaturePair pair = pair_;
     add(
         "in one plane",
-        [=](Random& r) {
+        [=](Draws& r) {
           CcdQuery query;
           const Vec3d u = integers(r, 2), v = integers(r, 2);
           for (std::array<Vec3d, 4>* x : {&query.start, &query.end}) {
@@ -178,9 +185,8 @@ class Families {
     // The first feature slides above or in the plane of the second.
     for (const double gap : {0.0, 1e-15, 1e-9}) {
       add(
-          gap == 0 ? std::string("slides in the plane")
-                   : "slides above by " + std::to_string(static_cast<int>(std::log10(gap))),
-          [=](Random& r) {
+          gap == 0 ? std::string("slides in the plane") : "slides above by " + digits(gap),
+          [=](Draws& r) {
             CcdQuery query;
             for (std::array<Vec3d, 4>* x : {&query.start, &query.end}) {
               for (Vec3d& one : *x) one = {r.uniform(-1, 1), r.uniform(-1, 1), 0};
@@ -196,27 +202,27 @@ class Families {
   void add_motions() {
     const FeaturePair pair = pair_;
     const Weights inside = is_face() ? Weights{1, 1, 2} : Weights{1, 2, 0};
-    add("random", [](Random& r) {
+    add("random", [](Draws& r) {
       CcdQuery query;
       for (std::array<Vec3d, 4>* x : {&query.start, &query.end}) {
         for (Vec3d& one : *x) one = r.vector(1);
       }
       return query;
     });
-    for (const double reach : {1e-12, 1e-3, 1e6}) {
-      add("motion of 1e" + std::to_string(static_cast<int>(std::log10(reach))), [=](Random& r) {
+    for (const double reach : {1e-12, 1e-6, 1e-3, 1e3, 1e6}) {
+      add("motion of " + digits(reach), [=](Draws& r) {
         CcdQuery query = in_contact_at(r, pair, inside, 0, 6);
         for (std::size_t i = 0; i < 4; ++i) query.end[i] = query.start[i] + reach * r.vector(1);
         for (std::size_t i = 0; i < 1; ++i) query.start[i] += reach * 0.5 * r.vector(1);
         return query;
       });
     }
-    add("no motion", [=](Random& r) {
+    add("no motion", [=](Draws& r) {
       CcdQuery query = in_contact_at(r, pair, {r.below(7) - 1, 1, 2}, 0, 6);
       query.end = query.start;
       return query;
     });
-    add("all alike", [=](Random& r) {
+    add("all alike", [=](Draws& r) {
       CcdQuery query = in_contact_at(r, pair, {r.below(7) - 1, 1, 2}, 0, 6);
       const Vec3d motion = 64 * integers(r, 100);
       for (std::size_t i = 0; i < 4; ++i) query.end[i] = query.start[i] + motion;
@@ -239,4 +245,4 @@ CcdQuery changed(const CcdQuery& query, double factor, double offset) {
   return result;
 }
 
-}  // namespace touchstone::reference
+}  // namespace touchstone::families

@@ -1,4 +1,4 @@
-// Families of queries for tests of continuous collision: hard ones, by construction.
+// Families of queries of continuous collision: hard ones, by construction.
 #pragma once
 
 #include <functional>
@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "algorithms/ccd.h"
-#include "tests/algorithms/random.h"
+#include "harness/families/draws.h"
 
-namespace touchstone::reference {
+namespace touchstone::families {
 
 struct CcdFamily {
-  std::string name;
+  std::string name;  // lower case, words joined by '-'
   FeaturePair pair;
-  std::function<CcdQuery(Random&)> draw;
+  std::function<CcdQuery(Draws&)> draw;
   // What every query of it is; unknown where they differ.
   CcdAnswer truth = CcdAnswer::unknown;
   bool is_small = false;  // integers for first_contact_of_small
@@ -26,4 +26,4 @@ std::vector<CcdFamily> ccd_families();
 // The query with each coordinate times a factor, plus an offset along all axes (rounded).
 CcdQuery changed(const CcdQuery& query, double factor, double offset = 0);
 
-}  // namespace touchstone::reference
+}  // namespace touchstone::families

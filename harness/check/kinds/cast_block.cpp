@@ -1,0 +1,298 @@
+// Moving bodies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "algorithms/core/bounds.h"
+#include "algorithms/oracle/oracle.h"
+#include "algorithms/oracle/solid.h"
+#include "harness/check/kinds/drawn_cases.h"
+#include "harness/check/kinds/exact_forms.h"
+#include "harness/check/kinds/grading.h"
+#include "harness/families/moving_pairs.h"
+#include "harness/files/text_file.h"
+#include "harness/process/queries/solve_cast.h"
+
+namespace touchstone::check {
+namespace {
+
+using files::CastCase;
+
+// The greatest magnitude of a coordinate of both bodies and their motions (metres).
+double reach_of_motion(const CastCase& c) {
+  double reach = std::numeric_limits<double>::min();
+  const auto add = [&](const Shape& shape, const Pose& pose, const Motion& motion) {
+    reach = std::max({reach, double{loose_reach(shape, pose.rotation)} +
+                                 pose.translation.cwiseAbs().maxCoeff() +
+                                 motion.displacement.cwiseAbs().maxCoeff()});
+  };
+  add(c.shape_a, c.pose_a, c.motion_a);
+  add(c.shape_b, c.pose_b, c.motion_b);
+  return reach;
+}
+
+CastCase swapped_case(CastCase c) {
+  std::swap(c.shape_a, c.shape_b);
+  std::swap(c.pose_a, c.pose_b);
+  std::swap(c.motion_a, c.motion_b);
+  return c;
+}
+
+// The hull is made anew, since its faces are in metres too.
+Shape scaled_by(Shape s, double scale) {
+  s.radius *= scale;
+  s.half_length *= scale;
+  s.half_extents *= scale;
+  s.radii *= scale;
+  s.offset *= scale;
+  if (s.kind != ShapeKind::hull) return s;
+  auto hull = std::make_shared<Hull>(*s.hull);
+  for (Vec3d& vertex : hull->vertices) vertex *= scale;
+  s.hull = std::move(hull);
+  return s;
+}
+
+CastCase scaled_case(CastCase c, double scale) {
+  c.shape_a = scaled_by(c.shape_a, scale);
+  c.shape_b = scaled_by(c.shape_b, scale);
+  for (Pose* pose : {&c.pose_a, &c.pose_b}) pose->translation *= scale;
+  for (Motion* motion : {&c.motion_a, &c.motion_b}) motion->displacement *= scale;
+  return c;
+}
+
+std::optional<CastCase> moved_case(CastCase c, const FormNumbers& numbers) {
+  for (const auto& [pose, motion] :
+       {std::pair(&c.pose_a, &c.motion_a), std::pair(&c.pose_b, &c.motion_b)}) {
+    const auto sum = exact_sum(numbers.turn(pose->translation), numbers.shift);
+    if (!sum) return std::nullopt;
+    pose->translation = *sum;
+    pose->rotation = numbers.turn(pose->rotation);
+    motion->displacement = numbers.turn(motion->displacement);
+    motion->rotation_vector = numbers.turn(motion->rotation_vector);
+  }
+  return c;
+}
+
+// The motion from a part of the time to its end, for bodies that do not turn.
+std::optional<CastCase> from_time(CastCase c, double time) {
+  for (const auto& [pose, motion] :
+       {std::pair(&c.pose_a, &c.motion_a), std::pair(&c.pose_b, &c.motion_b)}) {
+    const auto sum = exact_sum(pose->translation, time * motion->displacement);
+    if (!sum) return std::nullopt;
+    pose->translation = *sum;
+  }
+  return c;
+}
+
+void multiply_motion(CastCase& c, double factor) {
+  c.motion_a.displacement *= factor;
+  c.motion_b.displacement *= factor;
+}
+
+// One case, or the two halves of one.
+using CastParts = std::vector<CastCase>;
+
+CastParts parts_in_form(const CastCase& c, const FormNumbers& numbers, CaseForm form) {
+  switch (form) {
+    case CaseForm::as_drawn: return {c};
+    case CaseForm::swapped: return {swapped_case(c)};
+    case CaseForm::scaled: return {scaled_case(c, numbers.scale)};
+    case CaseForm::moved: {
+      const auto moved = moved_case(c, numbers);
+      return moved ? CastParts{*moved} : CastParts{};
+    }
+    case CaseForm::reversed: {
+      if (process::turns(c)) return {};
+      auto end = from_time(c, 1);
+      if (!end) return {};
+      multiply_motion(*end, -1);
+      return {*end};
+    }
+    case CaseForm::split: {
+      if (process::turns(c)) return {};
+      auto second = from_time(c, 0.5);
+      if (!second) return {};
+      CastCase first = c;
+      multiply_motion(first, 0.5);
+      multiply_motion(*second, 0.5);
+      return {first, *second};
+    }
+  }
+  return {};
+}
+
+CastOutcome solve_parts(const CastEntry& entry, const CastSettings& settings,
+                        const CastParts& parts) {
+  CastOutcome outcome = process::solve_cast(entry, settings, parts[0]);
+  if (parts.size() == 1) return outcome;
+  const auto in_time = [](CastOutcome half, double offset) {
+    half.toi = offset + 0.5 * half.toi;
+    half.lower = offset + 0.5 * half.lower;
+    half.upper = offset + 0.5 * half.upper;
+    return half;
+  };
+  if (outcome.answer != CastAnswer::miss) return in_time(outcome, 0);
+  return in_time(process::solve_cast(entry, settings, parts[1]), 0.5);
+}
+
+class CastBlock final : public CaseBlock {
+ public:
+  CastBlock(std::uint32_t number, const BlockRange& range)
+      : family_(cast_families()[number]), range_(range) {
+    for (std::uint64_t index = range.first; index < range.first + range.count; ++index) {
+      auto draws = draws_of(CaseKind::cast, number, range.seed, index);
+      CastCase& c = cases_.emplace_back(family_.draw(draws, index));
+      c.id = fmt::format("{}/{}", family_.name, index);
+      reaches_.push_back(reach_of_motion(c));
+    }
+  }
+
+  std::vector<GradedCase> ask(const Contestant& contestant, CaseForm form,
+                              double time_limit) override {
+    const auto& entry = *std::get<const CastEntry*>(contestant.entry);
+    std::vector<GradedCase> grades(cases_.size());
+    std::vector<std::size_t> asked;
+    std::vector<CastParts> parts;
+    const bool approach = static_cast<StartContact>(contestant.task) == StartContact::approach;
+    if (approach && (form == CaseForm::reversed || form == CaseForm::split)) return grades;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const CastCase& c = cases_[i];
+      const bool turns = process::turns(c);
+      if (!is_asked(form, range_.first + i) || (approach && turns) ||
+          !offers(entry, c.shape_a.kind, c.shape_b.kind, turns)) {
+        continue;
+      }
+      CastParts in_form = parts_in_form(c, FormNumbers(range_.seed, range_.first + i), form);
+      if (in_form.empty()) continue;
+      asked.push_back(i);
+      parts.push_back(std::move(in_form));
+    }
+    if (asked.empty()) return grades;
+    const auto solved =
+        process::isolated_answers<CastOutcome>(asked.size(), block_limits(time_limit), [&] {
+          return [&](std::size_t k) {
+            CastSettings settings = settings_of(contestant);
+            const double scale = scale_of(asked[k], form);
+            settings.tolerance = scale * tolerance_of(contestant, asked[k]);
+            return solve_parts(entry, settings, parts[k]);
+          };
+        });
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      grades[asked[k]] = grade(contestant, asked[k], solved.answers[k], form);
+    }
+    return grades;
+  }
+
+  std::string write(const Contestant& contestant, std::size_t place,
+                    const std::filesystem::path& stem) const override {
+    const std::string file = stem.string() + ".jsonl";
+    files::write_text(file, files::to_json(cases_[place]) + "\n");
+    return fmt::format(
+        "touchstone cast {} --cast exact,{} --scalar {} --tolerance {} --start {} --out "
+        "answers.csv",
+        file, contestant.info().name, to_string(contestant.scalar), tolerance_of(contestant, place),
+        contestant.task_name());
+  }
+
+ private:
+  static CastSettings settings_of(const Contestant& contestant) {
+    CastSettings settings;
+    settings.scalar = contestant.scalar;
+    settings.start = static_cast<StartContact>(contestant.task);
+    return settings;
+  }
+  double scale_of(std::size_t i, CaseForm form) const {
+    return form == CaseForm::scaled ? FormNumbers(range_.seed, range_.first + i).scale : 1;
+  }
+  double tolerance_of(const Contestant& contestant, std::size_t i) const {
+    return reaches_[i] * (contestant.scalar == Precision::float64 ? 1e-9 : 1e-4);
+  }
+
+  const CastOutcome& truth(std::size_t i, StartContact start, double tolerance) {
+    auto& known = truths_[start];
+    known.resize(cases_.size());
+    if (!known[i]) {
+      const CastEntry& exact = *find_cast("exact");
+      CastSettings settings;
+      settings.start = start;
+      if (start == StartContact::approach) settings.tolerance = tolerance;
+      const CastCase& c = cases_[i];
+      known[i] = CastOutcome{};
+      if (offers(exact, settings) &&
+          offers(exact, c.shape_a.kind, c.shape_b.kind, process::turns(c))) {
+        known[i] = process::solve_cast(exact, settings, c);
+      }
+    }
+    return *known[i];
+  }
+
+  // True if the bodies are further apart at the time than the tolerance, and rounding of their places.
+  bool is_apart(std::size_t i, double time, double tolerance) {
+    const CastCase& c = cases_[i];
+    if (!(time >= 0 && time <= 1)) return true;
+    const oracle::Solid a(c.shape_a), b(c.shape_b);
+    const oracle::Body at_a(a, families::pose_at(c.pose_a, c.motion_a, time));
+    const oracle::Body at_b(b, families::pose_at(c.pose_b, c.motion_b, time));
+    const double turns = 1 + c.motion_a.rotation_vector.norm() + c.motion_b.rotation_vector.norm();
+    return oracle_.measure(at_a, at_b).lower > 1.01 * tolerance + 1e-15 * turns * reaches_[i];
+  }
+
+  GradedCase grade(const Contestant& contestant, std::size_t i, const CastOutcome& outcome,
+                   CaseForm form) {
+    const double tolerance = tolerance_of(contestant, i);
+    const CastOutcome& exact = truth(i, settings_of(contestant).start, tolerance);
+    const bool is_contact = exact.answer == CastAnswer::hit;
+    const auto with = [&](CaseGrade grade) { return GradedCase{grade, is_contact}; };
+    const bool is_unknown = outcome.answer == CastAnswer::unknown;
+    if (const auto by_status = grade_of_status(outcome.status, is_unknown)) return with(*by_status);
+    if (exact.answer == CastAnswer::unknown) return with(CaseGrade::unresolved);
+    const bool contact = outcome.answer == CastAnswer::hit;
+    if (is_contact && !contact) return with(CaseGrade::missed);
+    const bool is_backward = form == CaseForm::reversed;
+    const double time = is_backward ? 1 - outcome.toi : outcome.toi;
+    if (contact && !is_contact) {
+      const bool proven = !std::isnan(outcome.upper);
+      if (proven && contestant.info().origin != Origin::peer) return with(CaseGrade::false_hit);
+      return with(is_apart(i, time, tolerance) ? CaseGrade::false_hit : CaseGrade::near);
+    }
+    if (contact && !is_backward && is_off(contestant, i, outcome, exact, tolerance)) {
+      return with(CaseGrade::wrong);
+    }
+    return with(CaseGrade::right);
+  }
+
+  // True if the time of impact is too late, or so early that the bodies are apart, or a bound is
+  // wrong.
+  bool is_off(const Contestant& contestant, std::size_t i, const CastOutcome& outcome,
+              const CastOutcome& exact, double tolerance) {
+    if (outcome.lower > exact.upper || outcome.upper < exact.lower) return true;
+    const CastCase& c = cases_[i];
+    // What is late is later than the tolerance takes, in a peer; ours are in time but for rounding.
+    const double path =
+        (c.motion_b.displacement - c.motion_a.displacement).norm() +
+        reaches_[i] * (c.motion_a.rotation_vector.norm() + c.motion_b.rotation_vector.norm());
+    const bool promised = contestant.info().origin != Origin::peer;
+    const double late = promised || path == 0 ? 1e-14 : tolerance / path;
+    if (!(outcome.toi <= exact.upper + late)) return true;
+    return outcome.toi < exact.lower && is_apart(i, outcome.toi, tolerance);
+  }
+
+  const DrawnFamily<CastCase>& family_;
+  BlockRange range_;
+  std::vector<CastCase> cases_;
+  std::vector<double> reaches_;
+  std::map<StartContact, std::vector<std::optional<CastOutcome>>> truths_;
+  oracle::Oracle oracle_;
+};
+
+}  // namespace
+
+std::unique_ptr<CaseBlock> make_cast_block(std::uint32_t number, const BlockRange& range) {
+  return std::make_unique<CastBlock>(number, range);
+}
+
+}  // namespace touchstone::check

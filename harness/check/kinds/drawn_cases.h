@@ -1,0 +1,25 @@
+// The families of pairs of bodies that need not be convex, and of moving bodies.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "harness/families/draws.h"
+#include "harness/files/cases.h"
+#include "harness/files/concave/concave_cases.h"
+
+namespace touchstone::check {
+
+template <class Case>
+struct DrawnFamily {
+  std::string name, group;
+  int one_in = 1;
+  // Draws the case of an index, without its id.
+  std::function<Case(families::Draws& draws, std::uint64_t index)> draw;
+};
+
+std::span<const DrawnFamily<files::ConcaveCase>> concave_families();
+std::span<const DrawnFamily<files::CastCase>> cast_families();
+
+}  // namespace touchstone::check

@@ -1,0 +1,41 @@
+// The columns of families.csv.
+#pragma once
+
+#include "harness/check/check_request.h"
+#include "harness/check/kinds/family_count.h"
+#include "harness/record/row.h"
+
+namespace touchstone::check {
+
+template <record::row_of<FamilyCount> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  visit("family", record::place_in(row.family, subjects.families.size(), subjects.family_name()),
+        "Family of the cases.");
+  visit("group", record::derived([&] { return subjects.families[row.family]->group; }),
+        "Group of the family.");
+  visit("kind", record::derived([&] {
+          return std::string(to_string(subjects.families[row.family]->kind));
+        }),
+        "What is asked: concave phases, rays, points, casts or ccd.");
+  visit("algorithm",
+        record::place_in(row.contestant, subjects.contestants.size(), subjects.contestant_name()),
+        "The algorithm, its precision and its task.");
+  visit("form", row.form, "Form of the cases; all but `as drawn` are asked for every fifth case.");
+  visit("round", row.round, "Round of the check.");
+  visit("cases", row.cases, "Cases that it was asked for.");
+  visit("contacts", row.contacts, "Of these, contacts, hits or points inside by the exact answer.");
+  visit("unresolved", row.unresolved, "Cases whose exact answer is not known.");
+  visit("right", row.right, "Answers that are right.");
+  visit("near", row.near,
+        "Contacts that are none, of bodies or features that come within the tolerance.");
+  visit("missed", row.missed, "Contacts that it does not tell.");
+  visit("false_hits", row.false_hits, "Contacts that it tells where there is none.");
+  visit("wrong", row.wrong,
+        "Answers whose verdict is right, and a number, a pair, a triangle or a bound is not.");
+  visit("honest", row.honest, "Answers that it does not stand by.");
+  visit("lost", row.lost, "Queries that crashed, or gave no answer in time.");
+  visit("first_wrong", record::with_sign(row.first_wrong),
+        "First case that is missed, false, wrong or lost; -1 where there is none.");
+}
+
+}  // namespace touchstone::check

@@ -1,0 +1,168 @@
+// Points and closed triangle meshes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "harness/check/kinds/grading.h"
+#include "harness/check/kinds/mesh_targets.h"
+#include "harness/families/tried_points.h"
+#include "harness/files/text_file.h"
+
+namespace touchstone::check {
+namespace {
+
+struct PointAtMesh {
+  std::size_t mesh;
+  Vec3d point;
+};
+
+class PointBlock final : public CaseBlock {
+ public:
+  PointBlock(std::uint32_t number, const BlockRange& range) : number_(number), range_(range) {
+    static const std::vector<families::NamedMesh> meshes = families::closed_meshes();
+    first_group_ = range.first / cases_of_a_mesh;
+    for (std::size_t i = 0; i < range.count; ++i) {
+      const std::uint64_t index = range.first + i;
+      while (targets_.size() <= index / cases_of_a_mesh - first_group_) {
+        targets_.emplace_back(meshes, base::mix(range.seed) + number,
+                              first_group_ + targets_.size());
+      }
+      const MeshTarget& target = targets_[mesh_of(i)];
+      auto draws = draws_of(CaseKind::points, number, range.seed, index);
+      const int triangles = static_cast<int>(target.mesh.triangles.size());
+      TriangleMesh unscaled = target.mesh;
+      for (Vec3d& vertex : unscaled.vertices) vertex /= target.scale;
+      points_.push_back(
+          target.scale *
+          tried_point(families::all_point_places[number], unscaled,
+                      static_cast<std::size_t>(triangles > 0 ? draws.below(triangles) : 0), draws));
+    }
+  }
+
+  std::vector<GradedCase> ask(const Contestant& contestant, CaseForm form,
+                              double time_limit) override {
+    const auto& entry = *std::get<const PointQueryEntry*>(contestant.entry);
+    const auto task = static_cast<PointTask>(contestant.task);
+    std::vector<GradedCase> grades(points_.size());
+    std::vector<TriangleMesh> meshes;
+    std::vector<PointAtMesh> asked;
+    std::vector<std::size_t> places;
+    if (form == CaseForm::as_drawn) {
+      for (const MeshTarget& target : targets_) meshes.push_back(target.mesh);
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!is_asked(form, range_.first + i)) continue;
+      if (form == CaseForm::as_drawn) {
+        asked.push_back({mesh_of(i), points_[i]});
+      } else {
+        auto other = in_form(i, form);
+        if (!other) continue;
+        meshes.push_back(std::move(other->first));
+        asked.push_back({meshes.size() - 1, other->second});
+      }
+      places.push_back(i);
+    }
+    if (asked.empty()) return grades;
+    const auto solved =
+        process::isolated_answers<PointAnswer>(asked.size(), block_limits(time_limit), [&] {
+          const std::shared_ptr<PointQuery> query = entry.make();
+          const auto bound = std::make_shared<std::size_t>(meshes.size());
+          return [&, query, bound](std::size_t k) {
+            if (*bound != asked[k].mesh) query->bind(meshes[asked[k].mesh]);
+            *bound = asked[k].mesh;
+            PointAnswer answer;
+            query->query(task, {&asked[k].point, 1}, {&answer, 1});
+            return answer;
+          };
+        });
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const FormNumbers numbers(range_.seed, range_.first + places[k]);
+      grades[places[k]] =
+          grade(task, places[k], solved.answers[k], form == CaseForm::scaled ? numbers.scale : 1);
+    }
+    return grades;
+  }
+
+  std::string write(const Contestant& contestant, std::size_t place,
+                    const std::filesystem::path& stem) const override {
+    write_mesh(stem.string() + ".off", targets_[mesh_of(place)].mesh);
+    const Vec3d& p = points_[place];
+    files::write_text(stem.string() + ".csv",
+                      fmt::format("x,y,z\n{},{},{}\n", p.x(), p.y(), p.z()));
+    return fmt::format("touchstone check --points {} --regimes points-{} --seed {} --cases {}",
+                       contestant.info().name, to_string(families::all_point_places[number_]),
+                       range_.seed, range_.first + place + 1);
+  }
+
+ private:
+  std::size_t mesh_of(std::size_t place) const {
+    return static_cast<std::size_t>((range_.first + place) / cases_of_a_mesh - first_group_);
+  }
+
+  std::optional<std::pair<TriangleMesh, Vec3d>> in_form(std::size_t i, CaseForm form) const {
+    const FormNumbers numbers(range_.seed, range_.first + i);
+    const MeshTarget& target = targets_[mesh_of(i)];
+    TriangleMesh mesh = target.mesh;
+    if (form == CaseForm::scaled) {
+      for (Vec3d& vertex : mesh.vertices) vertex *= numbers.scale;
+      return std::pair(std::move(mesh), Vec3d(numbers.scale * points_[i]));
+    }
+    if (form != CaseForm::moved) return std::nullopt;
+    const Vec3d shift = target.scale * numbers.shift;
+    auto moved = moved_mesh(std::move(mesh), numbers, shift);
+    const auto point = exact_sum(numbers.turn(points_[i]), shift);
+    if (!moved || !point) return std::nullopt;
+    return std::pair(std::move(*moved), *point);
+  }
+
+  const PointAnswer& truth(std::size_t i, PointTask task) {
+    auto& known = truths_[static_cast<std::size_t>(task)];
+    if (known.empty()) {
+      known.resize(points_.size());
+      const auto exact = find_point_query("exact")->make();
+      for (std::size_t place = 0; place < points_.size(); ++place) {
+        if (place == 0 || mesh_of(place) != mesh_of(place - 1)) {
+          exact->bind(targets_[mesh_of(place)].mesh);
+        }
+        exact->query(task, {&points_[place], 1}, {&known[place], 1});
+      }
+    }
+    return known[i];
+  }
+
+  GradedCase grade(PointTask task, std::size_t i, const PointAnswer& answer, double scale) {
+    const PointAnswer& exact = truth(i, task);
+    const bool is_side = task == PointTask::side;
+    const bool is_contact = is_side ? exact.side != PointSide::outside : exact.distance == 0;
+    const auto with = [&](CaseGrade grade) { return GradedCase{grade, is_contact}; };
+    const bool is_unknown = is_side && answer.side == PointSide::unknown;
+    if (const auto by_status = grade_of_status(answer.status, is_unknown)) return with(*by_status);
+    if (is_side) {
+      const bool contact = answer.side != PointSide::outside;
+      if (const auto by_verdict = grade_of_verdict(contact, is_contact)) return with(*by_verdict);
+      return with(answer.side == exact.side ? CaseGrade::right : CaseGrade::wrong);
+    }
+    if (std::isnan(exact.distance) && std::isnan(answer.distance)) return with(CaseGrade::right);
+    double reach = points_[i].norm();
+    for (const Vec3d& v : targets_[mesh_of(i)].mesh.vertices) reach = std::max(reach, v.norm());
+    const bool is_near = std::abs(answer.distance / scale - exact.distance) <= 1e-14 * reach;
+    return with(is_near ? CaseGrade::right : CaseGrade::wrong);
+  }
+
+  std::uint32_t number_;
+  BlockRange range_;
+  std::uint64_t first_group_ = 0;
+  std::vector<MeshTarget> targets_;
+  std::vector<Vec3d> points_;
+  std::array<std::vector<PointAnswer>, 2> truths_;
+};
+
+}  // namespace
+
+std::unique_ptr<CaseBlock> make_point_block(std::uint32_t number, const BlockRange& range) {
+  return std::make_unique<PointBlock>(number, range);
+}
+
+}  // namespace touchstone::check

@@ -1,0 +1,27 @@
+// Algorithms of all kinds, and regimes and families of cases for them, by their names. Used by the
+// commands check and soak, and by files of requests.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "harness/check/check_request.h"
+
+namespace touchstone::check {
+
+// What a user names, each a list joined by commas. Empty: nothing was said.
+struct CaseSelection {
+  std::string narrow, broad;
+  std::array<std::string, all_case_kinds.size()> others;  // in the order of CaseKind
+  std::string regimes, groups;                            // of regimes and families
+
+  bool is_unsaid() const;  // no kind of algorithms is named
+};
+
+// Fills in the algorithms, regimes and families of the request, whose scalars are set. If some kind
+// of algorithms is named, only what is named is taken; otherwise `fallback` of every kind. Without
+// names of regimes and groups all are taken that the algorithms have cases of. Throws InputError for
+// a name that there is not, and for cases that none of the algorithms takes.
+void select_cases(const CaseSelection& selection, const char* fallback, CheckRequest& request);
+
+}  // namespace touchstone::check

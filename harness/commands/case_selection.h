@@ -1,0 +1,12 @@
+// The options that select algorithms of many kinds and cases for them. Used by check and soak.
+#pragma once
+
+#include "harness/check/requests/select_cases.h"
+#include "harness/commands/arguments.h"
+
+namespace touchstone::commands {
+
+// Adds --concave, --rays, --points, --cast, --ccd, --regimes and --groups.
+void add_selection(Arguments& command, check::CaseSelection& selection);
+
+}  // namespace touchstone::commands

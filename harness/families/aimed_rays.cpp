@@ -1,0 +1,136 @@
+// Draws rays.
+#include "harness/families/aimed_rays.h"
+
+#include <cmath>
+#include <limits>
+
+#include "harness/families/meshes.h"
+
+namespace touchstone::families {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+struct AimedTriangle {
+  Vec3d a, b, c;
+
+  AimedTriangle(const TriangleMesh& mesh, std::size_t triangle)
+      : a(mesh.vertices[mesh.triangles[triangle][0]]),
+        b(mesh.vertices[mesh.triangles[triangle][1]]),
+        c(mesh.vertices[mesh.triangles[triangle][2]]) {}
+  Vec3d middle() const { return (a + b) / 2; }
+  Vec3d inside() const { return (a + b + 2 * c) / 4; }
+  Vec3d any(Draws& draws) const {
+    const int which = draws.below(3);
+    return which == 0 ? a : which == 1 ? middle() : inside();
+  }
+};
+
+Ray along_axis(const Vec3d& target, Draws& draws) {
+  Vec3d along = draws.below(2) == 0 ? Vec3d::Zero() : Vec3d(-Vec3d::Zero());
+  along[draws.below(3)] = draws.below(2) == 0 ? 1 : -0.5;
+  return draws.below(2) == 0 ? Ray{target - 4 * along, along, inf} : Ray{target, along, 1};
+}
+
+Ray along_edge(const AimedTriangle& t, Draws& draws) {
+  switch (draws.below(3)) {
+    case 0: return {t.a - (t.b - t.a), t.b - t.a, inf};
+    case 1: return {t.b, t.a - t.b, inf};
+    default: return {t.middle(), t.b - t.a, 0.5};
+  }
+}
+
+Ray in_plane(const AimedTriangle& t, Draws& draws) {
+  const Vec3d u = t.b - t.a, v = t.c - t.a;
+  switch (draws.below(4)) {
+    case 0: return {t.a - u - v, u * 2 + v, inf};
+    case 1: return {t.inside(), u - v, inf};
+    case 2: return {t.a + 3 * u + v, -u, inf};
+    default: return {t.b + (t.c - t.b) / 4 - 2 * v, v, 1.75};
+  }
+}
+
+Ray any_ray(const TriangleMesh& mesh, Draws& draws) {
+  Ray ray{draws.vector(6), draws.direction(), draws.uniform(0, 20)};
+  if (mesh.vertices.empty()) return ray;
+  const int number = draws.below(static_cast<int>(mesh.vertices.size()));
+  const Vec3d& at = mesh.vertices[static_cast<std::size_t>(number)];
+  ray.origin += at;
+  if (draws.below(2) == 0) ray.direction = at + draws.vector(0.5) - ray.origin;
+  return ray;
+}
+
+Ray at_triangle(RayAim aim, const AimedTriangle& t, Draws& draws) {
+  const Vec3d around = t.a + on_grid(draws.vector(8));
+  const auto at = [&](const Vec3d& target) { return Ray{around, target - around, inf}; };
+  switch (aim) {
+    case RayAim::vertex: return at(t.a);
+    case RayAim::edge: return at(t.middle());
+    case RayAim::face: return at(t.inside());
+    case RayAim::to_the_end: {
+      Ray ray = at(t.any(draws));
+      ray.t_max = draws.below(2) == 0 ? 1 : std::nextafter(1.0, 0);
+      return ray;
+    }
+    case RayAim::from_surface: {
+      const Vec3d target = t.any(draws);
+      if (draws.below(2) == 0) return {target, on_grid(draws.vector(2)), inf};
+      return {target, target - around, 0};
+    }
+    case RayAim::far: {
+      const Vec3d target = t.any(draws), far = target + 1e6 * on_grid(draws.direction());
+      return {far, target - far, inf};
+    }
+    case RayAim::axis: return along_axis(t.any(draws), draws);
+    case RayAim::axis_plane: {
+      Vec3d slant = on_grid(draws.vector(2));
+      slant[draws.below(3)] = 0;
+      return {t.any(draws) - 2 * slant, slant, inf};
+    }
+    case RayAim::along_edge: return along_edge(t, draws);
+    default: return in_plane(t, draws);
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(RayAim aim) {
+  constexpr std::array<std::string_view, all_ray_aims.size()> names = {
+      "vertex", "edge",       "face",       "to-the-end", "from-surface", "far",
+      "axis",   "axis-plane", "along-edge", "in-plane",   "random"};
+  return names[static_cast<std::size_t>(aim)];
+}
+
+Ray aimed_ray(RayAim aim, const TriangleMesh& mesh, std::size_t triangle, Draws& draws) {
+  if (aim == RayAim::random || mesh.triangles.empty()) return any_ray(mesh, draws);
+  const AimedTriangle corners(mesh, triangle);
+  // A degenerate triangle has no direction along it.
+  for (int tries = 0; tries < 4; ++tries) {
+    const Ray ray = at_triangle(aim, corners, draws);
+    if (!ray.direction.isZero(0)) return ray;
+  }
+  return any_ray(mesh, draws);
+}
+
+std::vector<Ray> aimed_rays(const TriangleMesh& mesh, double share, std::uint64_t seed) {
+  RandomDraws draws(seed);
+  std::vector<Ray> rays;
+  for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+    if (draws.uniform(0, 1) >= share) continue;
+    for (const RayAim aim : all_ray_aims) {
+      for (int i = 0; i < 4 && aim != RayAim::random; ++i) {
+        rays.push_back(aimed_ray(aim, mesh, triangle, draws));
+      }
+    }
+  }
+  return rays;
+}
+
+std::vector<Ray> random_rays(const TriangleMesh& mesh, int count, std::uint64_t seed) {
+  RandomDraws draws(seed);
+  std::vector<Ray> rays;
+  for (int i = 0; i < count; ++i) rays.push_back(any_ray(mesh, draws));
+  return rays;
+}
+
+}  // namespace touchstone::families

@@ -1,0 +1,227 @@
+// Moving pairs by construction.
+#include "harness/families/moving_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "algorithms/hull/convex_hull.h"
+
+namespace touchstone::families {
+namespace {
+
+Vec3d support_in_body(const Shape& s, const Vec3d& d) {
+  const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
+  const double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
+  const Vec3d rim =
+      across > 0 ? Vec3d(s.radius * d.x() / across, s.radius * d.y() / across, 0) : Vec3d(0, 0, 0);
+  switch (s.kind) {
+    case ShapeKind::sphere: return s.radius * d.normalized();
+    case ShapeKind::capsule:
+      return s.radius * d.normalized() + Vec3d(0, 0, sign(d.z()) * s.half_length);
+    case ShapeKind::box:
+      return {sign(d.x()) * s.half_extents.x(), sign(d.y()) * s.half_extents.y(),
+              sign(d.z()) * s.half_extents.z()};
+    case ShapeKind::cylinder: return rim + Vec3d(0, 0, sign(d.z()) * s.half_length);
+    case ShapeKind::cone: {
+      const Vec3d tip(0, 0, s.half_length), base = rim - tip;
+      return d.dot(tip) > d.dot(base) ? tip : base;
+    }
+    case ShapeKind::ellipsoid: {
+      const Vec3d e = s.radii.cwiseProduct(d);
+      return s.radii.cwiseProduct(e / e.norm());
+    }
+    case ShapeKind::hull: {
+      Vec3d best = s.hull->vertices[0];
+      for (const Vec3d& v : s.hull->vertices) {
+        if (d.dot(v) > d.dot(best)) best = v;
+      }
+      return best;
+    }
+    case ShapeKind::halfspace: break;
+  }
+  return Vec3d::Zero();
+}
+
+Shape scaled_shape(Shape s, double factor) {
+  s.radius *= factor;
+  s.half_length *= factor;
+  s.half_extents *= factor;
+  s.radii *= factor;
+  s.offset *= factor;
+  if (s.kind == ShapeKind::hull) {
+    std::vector<Vec3d> vertices = s.hull->vertices;
+    for (Vec3d& v : vertices) v *= factor;
+    s.hull = make_hull(std::move(vertices));
+  }
+  return s;
+}
+
+// Places b so that its support along -normal is at `gap` from a's along +normal, and moves both.
+void place(MovingPairCase& c, const Vec3d& normal, double gap) {
+  const Vec3d on_a = support_point(c.a, c.pose_a, normal);
+  c.pose_b.translation += on_a + gap * normal - support_point(c.b, c.pose_b, -normal);
+}
+
+// A point inside the body, in the world.
+Vec3d middle_of(const Shape& shape, const Pose& pose) {
+  if (shape.kind != ShapeKind::hull) return pose.translation;
+  Vec3d mean = Vec3d::Zero();
+  for (const Vec3d& v : shape.hull->vertices) mean += v;
+  return pose(mean / static_cast<double>(shape.hull->vertices.size()));
+}
+
+MovingPairCase random_pair(ShapeKind a, ShapeKind b, Draws& random) {
+  MovingPairCase c;
+  c.a = random_shape(a, random);
+  c.b = random_shape(b, random);
+  c.pose_a = {random.rotation(), random.vector(1)};
+  c.pose_b = {random.rotation(), Vec3d::Zero()};
+  return c;
+}
+
+}  // namespace
+
+Shape round_shape(ShapeKind kind, double radius, double half_length) {
+  Shape shape;
+  shape.kind = kind;
+  shape.radius = radius;
+  shape.half_length = half_length;
+  return shape;
+}
+
+Shape box_shape(const Vec3d& half_extents) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.half_extents = half_extents;
+  return shape;
+}
+
+Shape hull_shape(std::vector<Vec3d> vertices) {
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  shape.hull = make_hull(std::move(vertices));
+  return shape;
+}
+
+Vec3d support_point(const Shape& shape, const Pose& pose, const Vec3d& direction) {
+  return pose(support_in_body(shape, pose.rotation.transpose() * direction));
+}
+
+Shape random_shape(ShapeKind kind, Draws& random) {
+  const auto size = [&] { return random.uniform(0.3, 1); };
+  switch (kind) {
+    case ShapeKind::sphere: return round_shape(kind, size(), 0);
+    case ShapeKind::capsule:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone: {
+      const double radius = size();
+      return round_shape(kind, radius, size());
+    }
+    case ShapeKind::box: return box_shape({size(), size(), size()});
+    case ShapeKind::ellipsoid: {
+      Shape shape;
+      shape.kind = kind;
+      shape.radii = {size(), size(), size()};
+      return shape;
+    }
+    default: break;
+  }
+  std::vector<Vec3d> vertices;
+  const int count = 4 + random.below(28);
+  for (int i = 0; i < count; ++i) vertices.push_back(random.uniform(0.5, 1) * random.direction());
+  return hull_shape(std::move(vertices));
+}
+
+Pose pose_at(const Pose& pose, const Motion& motion, double time) {
+  const double angle = motion.rotation_vector.norm();
+  Pose at = pose;
+  if (angle > 0) {
+    at.rotation = Eigen::AngleAxisd(time * angle, motion.rotation_vector / angle) * pose.rotation;
+  }
+  at.translation += time * motion.displacement;
+  return at;
+}
+
+Vec3d contact_normal(ContactFeature feature, const Pose& a, const Pose& b, Draws& random) {
+  const int axis = random.below(3);
+  if (feature == ContactFeature::face) return a.rotation.col(axis);
+  if (feature == ContactFeature::edges) {
+    return a.rotation.col(axis).cross(b.rotation.col(random.below(3))).normalized();
+  }
+  return random.direction();
+}
+
+MovingPairCase meeting(ShapeKind a, ShapeKind b, ContactFeature feature, double toi, double path,
+                       Draws& random) {
+  MovingPairCase c = random_pair(a, b, random);
+  const Vec3d normal = contact_normal(feature, c.pose_a, c.pose_b, random);
+  place(c, normal, 0);
+  c.inward = middle_of(c.a, c.pose_a) - middle_of(c.b, c.pose_b);
+  c.squarely = random.below(2) == 0;
+  Vec3d velocity = path * (c.squarely ? Vec3d(c.inward.normalized()) : random.direction());
+  if (velocity.dot(normal) > 0) velocity = -velocity;
+  if (!c.squarely) velocity -= 0.1 * path * normal;
+  c.motion_a.displacement = random.vector(path);
+  c.motion_b.displacement = c.motion_a.displacement + velocity;
+  const Vec3d relative = c.motion_b.displacement - c.motion_a.displacement;
+  c.pose_b.translation -= toi * relative;
+  c.hit = true;
+  c.toi = toi;
+  c.normal = normal;
+  c.speed = -normal.dot(relative);
+  c.doubt = 32 * 0x1p-52 * (4 + path) / c.speed;
+  c.what = std::string(to_string(a)) + "-" + std::string(to_string(b)) + " meet";
+  return c;
+}
+
+MovingPairCase passing(ShapeKind a, ShapeKind b, ContactFeature feature, double gap, double path,
+                       Draws& random) {
+  MovingPairCase c = random_pair(a, b, random);
+  const Vec3d normal = contact_normal(feature, c.pose_a, c.pose_b, random);
+  place(c, normal, std::max(gap, 0.0));
+  // If both bodies have a point, each part of the way from it to their middles is a point of both
+  // when b has moved by that part of the difference of the middles.
+  c.inward = middle_of(c.a, c.pose_a) - middle_of(c.b, c.pose_b);
+  if (gap < 0) c.pose_b.translation += -gap * c.inward.normalized();
+  const Vec3d along = path * normal.cross(random.direction()).normalized();
+  c.motion_b.displacement = along;
+  c.pose_b.translation -= 0.5 * along;
+  c.hit = gap <= 0;
+  c.gap = gap;
+  c.normal = normal;
+  c.toi = std::numeric_limits<double>::quiet_NaN();
+  c.what = std::string(to_string(a)) + "-" + std::string(to_string(b)) + " pass at " +
+           std::to_string(gap);
+  return c;
+}
+
+MovingPairCase scaled(MovingPairCase c, double factor) {
+  c.a = scaled_shape(c.a, factor);
+  c.b = scaled_shape(c.b, factor);
+  c.pose_a.translation *= factor;
+  c.pose_b.translation *= factor;
+  c.motion_a.displacement *= factor;
+  c.motion_b.displacement *= factor;
+  c.speed *= factor;
+  c.gap *= factor;
+  return c;
+}
+
+MovingPairCase swapped(MovingPairCase c) {
+  std::swap(c.a, c.b);
+  std::swap(c.pose_a, c.pose_b);
+  std::swap(c.motion_a, c.motion_b);
+  return c;
+}
+
+MovingPairCase drifting(MovingPairCase c, const Vec3d& displacement) {
+  c.motion_a.displacement += displacement;
+  c.motion_b.displacement += displacement;
+  c.doubt += 8 * 0x1p-52 * displacement.norm() / std::max(c.speed, 1e-300);
+  return c;
+}
+
+}  // namespace touchstone::families
