@@ -172,7 +172,7 @@ MovingPairCase meeting(ShapeKind a, ShapeKind b, ContactFeature feature, double 
   c.toi = toi;
   c.normal = normal;
   c.speed = -normal.dot(relative);
-  c.doubt = 32 * 0x1p-52 * (4 + path) / c.speed;
+  c.doubt = 64 * 0x1p-52 * (4 + path) / c.speed;
   c.what = std::string(to_string(a)) + "-" + std::string(to_string(b)) + " meet";
   return c;
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "harness/check/kinds/drawn_cases.h"
+#include "harness/check/kinds/blocks/drawn_cases.h"
 #include "harness/families/aimed_rays.h"
 #include "harness/families/ccd_families.h"
 #include "harness/families/tried_points.h"
@@ -24,8 +24,11 @@ std::span<const CaseFamily> case_families() {
     for (const families::RayAim aim : families::all_ray_aims) {
       add(CaseKind::rays, "rays-" + std::string(to_string(aim)), "rays");
     }
-    for (const families::PointPlace place : families::all_point_places) {
-      add(CaseKind::points, "points-" + std::string(to_string(place)), "points");
+    // First with closed meshes, for which points have a side, then with any.
+    for (const char* prefix : {"points-", "points-any-mesh-"}) {
+      for (const families::PointPlace place : families::all_point_places) {
+        add(CaseKind::points, prefix + std::string(to_string(place)), "points");
+      }
     }
     for (const auto& family : cast_families()) {
       add(CaseKind::cast, family.name, family.group, family.one_in);

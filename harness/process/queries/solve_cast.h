@@ -1,5 +1,7 @@
-// Solves one case of two moving bodies with one cast. Used by the command cast.
+// Solves cases of two moving bodies with one cast. Used by the command cast and by check.
 #pragma once
+
+#include <span>
 
 #include "algorithms/registry.h"
 #include "harness/files/cases.h"
@@ -9,8 +11,13 @@ namespace touchstone::process {
 // Returns true if either body turns.
 inline bool turns(const files::CastCase& c) { return c.motion_a.turns() || c.motion_b.turns(); }
 
-// Returns the outcome in the case's own order. The entry must be built, and take such pairs and
-// settings. The cast is bound for the query alone, so that no case can spoil another's answer.
+// Writes the outcomes of cases of one pair of kinds, in either order, asked in one call: each in the case's
+// own order. The entry must be built, and take such pairs and settings.
+void solve_casts(const CastEntry& entry, const CastSettings& settings,
+                 std::span<const files::CastCase* const> cases, std::span<CastOutcome> outcomes);
+
+// The outcome of one case. The cast is bound for the query alone, so that no case can spoil another's
+// answer.
 CastOutcome solve_cast(const CastEntry& entry, const CastSettings& settings,
                        const files::CastCase& c);
 

@@ -65,8 +65,9 @@ TEST_F(SoakRun, CountsWhatIsTrueAndWhoIsWrong) {
     EXPECT_EQ(count(2).honest, 1000);
   }
   EXPECT_TRUE(result.ours_are_wrong(request));
-  EXPECT_THAT(folder.names(), ElementsAre("jobs.csv", "machine.csv", "progress.csv", "soak.csv",
-                                          "wrong-double-balls.jsonl", "wrong-double-others.jsonl"));
+  EXPECT_THAT(folder.names(),
+              ElementsAre("families.csv", "jobs.csv", "machine.csv", "progress.csv", "soak.csv",
+                          "wrong-double-balls.jsonl", "wrong-double-others.jsonl"));
 }
 
 TEST_F(SoakRun, ACrashIsLostAndTheRestGoesOn) {

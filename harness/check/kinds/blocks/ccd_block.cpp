@@ -9,8 +9,8 @@
 #include "algorithms/oracle/ccd/first_contact.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/oracle/solid.h"
-#include "harness/check/kinds/exact_forms.h"
-#include "harness/check/kinds/grading.h"
+#include "harness/check/kinds/blocks/exact_forms.h"
+#include "harness/check/kinds/blocks/grading.h"
 #include "harness/families/ccd_families.h"
 #include "harness/files/text_file.h"
 

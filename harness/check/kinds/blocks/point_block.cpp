@@ -2,26 +2,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
-#include "harness/check/kinds/grading.h"
-#include "harness/check/kinds/mesh_targets.h"
+#include "harness/check/kinds/blocks/grading.h"
+#include "harness/check/kinds/blocks/mesh_targets.h"
 #include "harness/families/tried_points.h"
 #include "harness/files/text_file.h"
 
 namespace touchstone::check {
 namespace {
 
-struct PointAtMesh {
+// Points of one call, and their mesh; a crash costs them all.
+struct PointCall {
   std::size_t mesh;
-  Vec3d point;
+  std::vector<std::size_t> places;
+  std::vector<Vec3d> points;
+};
+
+struct PointCallAnswer {
+  Status status = Status::unsupported;
+  std::array<PointAnswer, cases_of_a_mesh> answers;
 };
 
 class PointBlock final : public CaseBlock {
  public:
-  PointBlock(std::uint32_t number, const BlockRange& range) : number_(number), range_(range) {
-    static const std::vector<families::NamedMesh> meshes = families::closed_meshes();
+  PointBlock(std::uint32_t number, const BlockRange& range)
+      : place_(families::all_point_places[number % families::all_point_places.size()]),
+        is_closed_(number < families::all_point_places.size()),
+        range_(range) {
+    static const std::vector<families::NamedMesh> closed = families::closed_meshes();
+    static const std::vector<families::NamedMesh> any = families::ray_meshes();
+    const std::vector<families::NamedMesh>& meshes = is_closed_ ? closed : any;
     first_group_ = range.first / cases_of_a_mesh;
     for (std::size_t i = 0; i < range.count; ++i) {
       const std::uint64_t index = range.first + i;
@@ -36,7 +49,7 @@ class PointBlock final : public CaseBlock {
       for (Vec3d& vertex : unscaled.vertices) vertex /= target.scale;
       points_.push_back(
           target.scale *
-          tried_point(families::all_point_places[number], unscaled,
+          tried_point(place_, unscaled,
                       static_cast<std::size_t>(triangles > 0 ? draws.below(triangles) : 0), draws));
     }
   }
@@ -46,41 +59,47 @@ class PointBlock final : public CaseBlock {
     const auto& entry = *std::get<const PointQueryEntry*>(contestant.entry);
     const auto task = static_cast<PointTask>(contestant.task);
     std::vector<GradedCase> grades(points_.size());
+    if (task == PointTask::side && !is_closed_) return grades;
     std::vector<TriangleMesh> meshes;
-    std::vector<PointAtMesh> asked;
-    std::vector<std::size_t> places;
+    std::vector<PointCall> calls;
     if (form == CaseForm::as_drawn) {
       for (const MeshTarget& target : targets_) meshes.push_back(target.mesh);
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (!is_asked(form, range_.first + i)) continue;
       if (form == CaseForm::as_drawn) {
-        asked.push_back({mesh_of(i), points_[i]});
+        if (calls.empty() || calls.back().mesh != mesh_of(i)) calls.push_back({mesh_of(i), {}, {}});
+        calls.back().places.push_back(i);
+        calls.back().points.push_back(points_[i]);
       } else {
         auto other = in_form(i, form);
         if (!other) continue;
         meshes.push_back(std::move(other->first));
-        asked.push_back({meshes.size() - 1, other->second});
+        calls.push_back({meshes.size() - 1, {i}, {other->second}});
       }
-      places.push_back(i);
     }
-    if (asked.empty()) return grades;
+    if (calls.empty()) return grades;
     const auto solved =
-        process::isolated_answers<PointAnswer>(asked.size(), block_limits(time_limit), [&] {
+        process::isolated_answers<PointCallAnswer>(calls.size(), block_limits(time_limit), [&] {
           const std::shared_ptr<PointQuery> query = entry.make();
-          const auto bound = std::make_shared<std::size_t>(meshes.size());
-          return [&, query, bound](std::size_t k) {
-            if (*bound != asked[k].mesh) query->bind(meshes[asked[k].mesh]);
-            *bound = asked[k].mesh;
-            PointAnswer answer;
-            query->query(task, {&asked[k].point, 1}, {&answer, 1});
+          return [&, query](std::size_t k) {
+            PointCallAnswer answer;
+            answer.status = Status::ok;
+            query->bind(meshes[calls[k].mesh]);
+            query->query(task, calls[k].points,
+                         std::span(answer.answers).first(calls[k].points.size()));
             return answer;
           };
         });
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const FormNumbers numbers(range_.seed, range_.first + places[k]);
-      grades[places[k]] =
-          grade(task, places[k], solved.answers[k], form == CaseForm::scaled ? numbers.scale : 1);
+    for (std::size_t k = 0; k < calls.size(); ++k) {
+      for (std::size_t at = 0; at < calls[k].places.size(); ++at) {
+        const std::size_t i = calls[k].places[at];
+        PointAnswer answer = solved.answers[k].answers[at];
+        if (solved.answers[k].status != Status::ok) answer.status = solved.answers[k].status;
+        const FormNumbers numbers(range_.seed, range_.first + i);
+        const double scale = form == CaseForm::scaled ? numbers.scale : 1;
+        grades[i] = grade(task, i, answer, scale);
+      }
     }
     return grades;
   }
@@ -91,8 +110,8 @@ class PointBlock final : public CaseBlock {
     const Vec3d& p = points_[place];
     files::write_text(stem.string() + ".csv",
                       fmt::format("x,y,z\n{},{},{}\n", p.x(), p.y(), p.z()));
-    return fmt::format("touchstone check --points {} --regimes points-{} --seed {} --cases {}",
-                       contestant.info().name, to_string(families::all_point_places[number_]),
+    return fmt::format("touchstone check --points {} --regimes points-{}{} --seed {} --cases {}",
+                       contestant.info().name, is_closed_ ? "" : "any-mesh-", to_string(place_),
                        range_.seed, range_.first + place + 1);
   }
 
@@ -151,7 +170,8 @@ class PointBlock final : public CaseBlock {
     return with(is_near ? CaseGrade::right : CaseGrade::wrong);
   }
 
-  std::uint32_t number_;
+  families::PointPlace place_;
+  bool is_closed_;
   BlockRange range_;
   std::uint64_t first_group_ = 0;
   std::vector<MeshTarget> targets_;

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "harness/check/kinds/exact_forms.h"
+#include "harness/check/kinds/blocks/exact_forms.h"
 #include "harness/families/meshes.h"
 
 namespace touchstone::check {

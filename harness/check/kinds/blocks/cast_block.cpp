@@ -5,14 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "algorithms/core/bounds.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/oracle/solid.h"
-#include "harness/check/kinds/drawn_cases.h"
-#include "harness/check/kinds/exact_forms.h"
-#include "harness/check/kinds/grading.h"
+#include "harness/check/kinds/blocks/drawn_cases.h"
+#include "harness/check/kinds/blocks/exact_forms.h"
+#include "harness/check/kinds/blocks/grading.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/files/text_file.h"
 #include "harness/process/queries/solve_cast.h"
@@ -125,18 +126,36 @@ CastParts parts_in_form(const CastCase& c, const FormNumbers& numbers, CaseForm 
   return {};
 }
 
-CastOutcome solve_parts(const CastEntry& entry, const CastSettings& settings,
-                        const CastParts& parts) {
-  CastOutcome outcome = process::solve_cast(entry, settings, parts[0]);
-  if (parts.size() == 1) return outcome;
-  const auto in_time = [](CastOutcome half, double offset) {
-    half.toi = offset + 0.5 * half.toi;
-    half.lower = offset + 0.5 * half.lower;
-    half.upper = offset + 0.5 * half.upper;
-    return half;
-  };
-  if (outcome.answer != CastAnswer::miss) return in_time(outcome, 0);
-  return in_time(process::solve_cast(entry, settings, parts[1]), 0.5);
+// Cases of one call; a crash costs them all.
+constexpr std::size_t casts_of_a_call = 24;
+
+struct CastCallAnswer {
+  Status status = Status::unsupported;
+  std::array<CastOutcome, casts_of_a_call> outcomes;
+};
+
+struct CastCall {
+  double tolerance = 0;  // metres
+  std::vector<std::size_t> places;
+  std::vector<CastParts> parts;  // of each place
+};
+
+void solve_call(const CastEntry& entry, const CastSettings& settings, const CastCall& call,
+                CastCallAnswer& answer) {
+  std::vector<const CastCase*> cases;
+  for (const CastParts& parts : call.parts) cases.push_back(&parts[0]);
+  process::solve_casts(entry, settings, cases, std::span(answer.outcomes).first(cases.size()));
+  if (call.parts[0].size() == 1) return;
+  // Contact is in the first half or in the second.
+  CastOutcome& outcome = answer.outcomes[0];
+  double offset = 0;
+  if (outcome.answer == CastAnswer::miss) {
+    outcome = process::solve_cast(entry, settings, call.parts[0][1]);
+    offset = 0.5;
+  }
+  for (double* time : {&outcome.toi, &outcome.lower, &outcome.upper}) {
+    *time = offset + 0.5 * *time;
+  }
 }
 
 class CastBlock final : public CaseBlock {
@@ -153,36 +172,30 @@ class CastBlock final : public CaseBlock {
 
   std::vector<GradedCase> ask(const Contestant& contestant, CaseForm form,
                               double time_limit) override {
-    const auto& entry = *std::get<const CastEntry*>(contestant.entry);
     std::vector<GradedCase> grades(cases_.size());
-    std::vector<std::size_t> asked;
-    std::vector<CastParts> parts;
     const bool approach = static_cast<StartContact>(contestant.task) == StartContact::approach;
     if (approach && (form == CaseForm::reversed || form == CaseForm::split)) return grades;
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      const CastCase& c = cases_[i];
-      const bool turns = process::turns(c);
-      if (!is_asked(form, range_.first + i) || (approach && turns) ||
-          !offers(entry, c.shape_a.kind, c.shape_b.kind, turns)) {
-        continue;
-      }
-      CastParts in_form = parts_in_form(c, FormNumbers(range_.seed, range_.first + i), form);
-      if (in_form.empty()) continue;
-      asked.push_back(i);
-      parts.push_back(std::move(in_form));
-    }
-    if (asked.empty()) return grades;
+    const std::vector<CastCall> calls = calls_of(contestant, form);
+    if (calls.empty()) return grades;
+    const auto& entry = *std::get<const CastEntry*>(contestant.entry);
     const auto solved =
-        process::isolated_answers<CastOutcome>(asked.size(), block_limits(time_limit), [&] {
+        process::isolated_answers<CastCallAnswer>(calls.size(), block_limits(time_limit), [&] {
           return [&](std::size_t k) {
             CastSettings settings = settings_of(contestant);
-            const double scale = scale_of(asked[k], form);
-            settings.tolerance = scale * tolerance_of(contestant, asked[k]);
-            return solve_parts(entry, settings, parts[k]);
+            settings.tolerance = calls[k].tolerance;
+            CastCallAnswer answer;
+            answer.status = Status::ok;
+            solve_call(entry, settings, calls[k], answer);
+            return answer;
           };
         });
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-      grades[asked[k]] = grade(contestant, asked[k], solved.answers[k], form);
+    for (std::size_t k = 0; k < calls.size(); ++k) {
+      const Status status = solved.answers[k].status;
+      for (std::size_t i = 0; i < calls[k].places.size(); ++i) {
+        CastOutcome outcome = solved.answers[k].outcomes[i];
+        if (status != Status::ok) outcome.status = status;
+        grades[calls[k].places[i]] = grade(contestant, calls[k].places[i], outcome, form);
+      }
     }
     return grades;
   }
@@ -199,6 +212,39 @@ class CastBlock final : public CaseBlock {
   }
 
  private:
+  // Cases as they are drawn are asked together if their kinds and tolerances are equal, in other forms
+  // one by one.
+  std::vector<CastCall> calls_of(const Contestant& contestant, CaseForm form) const {
+    const auto& entry = *std::get<const CastEntry*>(contestant.entry);
+    const bool approach = static_cast<StartContact>(contestant.task) == StartContact::approach;
+    std::vector<CastCall> calls;
+    std::map<std::tuple<ShapeKind, ShapeKind, bool, double>, std::size_t> open;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const CastCase& c = cases_[i];
+      const bool turns = process::turns(c);
+      if (!is_asked(form, range_.first + i) || (approach && turns) ||
+          !offers(entry, c.shape_a.kind, c.shape_b.kind, turns)) {
+        continue;
+      }
+      CastParts parts = parts_in_form(c, FormNumbers(range_.seed, range_.first + i), form);
+      if (parts.empty()) continue;
+      const double tolerance = scale_of(i, form) * tolerance_of(contestant, i);
+      const auto [a, b] = std::minmax(c.shape_a.kind, c.shape_b.kind);
+      const auto at = open.find({a, b, turns, tolerance});
+      std::size_t call = calls.size();
+      if (form == CaseForm::as_drawn && at != open.end() &&
+          calls[at->second].places.size() < casts_of_a_call) {
+        call = at->second;
+      } else {
+        calls.push_back({tolerance, {}, {}});
+        open[{a, b, turns, tolerance}] = call;
+      }
+      calls[call].places.push_back(i);
+      calls[call].parts.push_back(std::move(parts));
+    }
+    return calls;
+  }
+
   static CastSettings settings_of(const Contestant& contestant) {
     CastSettings settings;
     settings.scalar = contestant.scalar;
@@ -209,25 +255,32 @@ class CastBlock final : public CaseBlock {
     return form == CaseForm::scaled ? FormNumbers(range_.seed, range_.first + i).scale : 1;
   }
   double tolerance_of(const Contestant& contestant, std::size_t i) const {
-    return reaches_[i] * (contestant.scalar == Precision::float64 ? 1e-9 : 1e-4);
+    // A power of two, so that many cases have the same.
+    return std::exp2(std::floor(std::log2(reaches_[i]))) *
+           (contestant.scalar == Precision::float64 ? 1e-9 : 1e-4);
   }
 
-  const CastOutcome& truth(std::size_t i, StartContact start, double tolerance) {
-    auto& known = truths_[start];
-    known.resize(cases_.size());
-    if (!known[i]) {
-      const CastEntry& exact = *find_cast("exact");
-      CastSettings settings;
-      settings.start = start;
-      if (start == StartContact::approach) settings.tolerance = tolerance;
-      const CastCase& c = cases_[i];
-      known[i] = CastOutcome{};
-      if (offers(exact, settings) &&
-          offers(exact, c.shape_a.kind, c.shape_b.kind, process::turns(c))) {
-        known[i] = process::solve_cast(exact, settings, c);
-      }
+  const CastOutcome& truth(std::size_t i) {
+    truths_.resize(cases_.size());
+    if (!truths_[i]) truths_[i] = process::solve_cast(*find_cast("exact"), {}, cases_[i]);
+    return *truths_[i];
+  }
+
+  // The exact answer where contact at the start counts only if the bodies approach: unknown where
+  // they touch by no more than the tolerance, and no plane is known that decides.
+  CastOutcome truth_of_approach(std::size_t i, double tolerance) {
+    CastOutcome exact = truth(i);
+    if (exact.answer != CastAnswer::hit || exact.lower > 0) return exact;
+    const CastCase& c = cases_[i];
+    const oracle::Solid a(c.shape_a), b(c.shape_b);
+    if (oracle_.measure({a, c.pose_a}, {b, c.pose_b}).upper < -1.01 * tolerance) return exact;
+    const Vec3d way = c.motion_b.displacement - c.motion_a.displacement;
+    if (way.isZero(0)) return {.answer = CastAnswer::miss, .status = Status::ok};
+    if (family_.touches_along_x && way.x() >= 0) {
+      return {.answer = CastAnswer::miss, .status = Status::ok};
     }
-    return *known[i];
+    if (!family_.touches_along_x || -way.x() <= 2 * tolerance) exact.answer = CastAnswer::unknown;
+    return exact;
   }
 
   // True if the bodies are further apart at the time than the tolerance, and rounding of their places.
@@ -244,7 +297,9 @@ class CastBlock final : public CaseBlock {
   GradedCase grade(const Contestant& contestant, std::size_t i, const CastOutcome& outcome,
                    CaseForm form) {
     const double tolerance = tolerance_of(contestant, i);
-    const CastOutcome& exact = truth(i, settings_of(contestant).start, tolerance);
+    const CastOutcome exact = settings_of(contestant).start == StartContact::approach
+                                  ? truth_of_approach(i, tolerance)
+                                  : truth(i);
     const bool is_contact = exact.answer == CastAnswer::hit;
     const auto with = [&](CaseGrade grade) { return GradedCase{grade, is_contact}; };
     const bool is_unknown = outcome.answer == CastAnswer::unknown;
@@ -285,7 +340,7 @@ class CastBlock final : public CaseBlock {
   BlockRange range_;
   std::vector<CastCase> cases_;
   std::vector<double> reaches_;
-  std::map<StartContact, std::vector<std::optional<CastOutcome>>> truths_;
+  std::vector<std::optional<CastOutcome>> truths_;
   oracle::Oracle oracle_;
 };
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/check/kinds/drawn_cases.h"
+#include "harness/check/kinds/blocks/drawn_cases.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/families/triangle_pairs.h"

@@ -17,6 +17,8 @@ struct DrawnFamily {
   int one_in = 1;
   // Draws the case of an index, without its id.
   std::function<Case(families::Draws& draws, std::uint64_t index)> draw;
+  // True of moving bodies that touch at the start with faces, or a face and a ball, along x alone.
+  bool touches_along_x = false;
 };
 
 std::span<const DrawnFamily<files::ConcaveCase>> concave_families();

@@ -1,5 +1,5 @@
 // Writes meshes.
-#include "harness/check/kinds/mesh_targets.h"
+#include "harness/check/kinds/blocks/mesh_targets.h"
 
 #include <fmt/format.h>
 

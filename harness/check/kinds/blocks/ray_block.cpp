@@ -2,23 +2,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "algorithms/core/nearest_float.h"
-#include "harness/check/kinds/grading.h"
-#include "harness/check/kinds/mesh_targets.h"
+#include "harness/check/kinds/blocks/grading.h"
+#include "harness/check/kinds/blocks/mesh_targets.h"
 #include "harness/families/aimed_rays.h"
 #include "harness/files/text_file.h"
 
 namespace touchstone::check {
 namespace {
 
-// A ray and the mesh that it is cast at.
-struct RayAtMesh {
+// Rays of one call, and their mesh; a crash costs them all.
+struct RayCall {
   std::size_t mesh;
-  Ray ray;
+  std::vector<std::size_t> places;
+  std::vector<Ray> rays;
+};
+
+struct RayCallAnswer {
+  Status status = Status::unsupported;
+  std::array<RayHit, cases_of_a_mesh> answers;
 };
 
 class RayBlock final : public CaseBlock {
@@ -53,8 +60,7 @@ class RayBlock final : public CaseBlock {
     const auto task = static_cast<RayTask>(contestant.task);
     std::vector<GradedCase> grades(rays_.size());
     std::vector<TriangleMesh> meshes;
-    std::vector<RayAtMesh> asked;
-    std::vector<std::size_t> places;
+    std::vector<RayCall> calls;
     // In another form each case has a mesh of its own.
     if (form == CaseForm::as_drawn) {
       for (const MeshTarget& target : targets_) meshes.push_back(target.mesh);
@@ -62,30 +68,35 @@ class RayBlock final : public CaseBlock {
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       if (!is_asked(form, range_.first + i)) continue;
       if (form == CaseForm::as_drawn) {
-        asked.push_back({mesh_of(i), rays_[i]});
+        if (calls.empty() || calls.back().mesh != mesh_of(i)) calls.push_back({mesh_of(i), {}, {}});
+        calls.back().places.push_back(i);
+        calls.back().rays.push_back(rays_[i]);
       } else {
         auto other = in_form(i, contestant.scalar, form);
         if (!other) continue;
         meshes.push_back(std::move(other->first));
-        asked.push_back({meshes.size() - 1, other->second});
+        calls.push_back({meshes.size() - 1, {i}, {other->second}});
       }
-      places.push_back(i);
     }
-    if (asked.empty()) return grades;
+    if (calls.empty()) return grades;
     const auto solved =
-        process::isolated_answers<RayHit>(asked.size(), block_limits(time_limit), [&] {
+        process::isolated_answers<RayCallAnswer>(calls.size(), block_limits(time_limit), [&] {
           const std::shared_ptr<RayCast> cast = entry.make({contestant.scalar});
-          const auto bound = std::make_shared<std::size_t>(meshes.size());
-          return [&, cast, bound](std::size_t k) {
-            if (*bound != asked[k].mesh) cast->bind(meshes[asked[k].mesh]);
-            *bound = asked[k].mesh;
-            RayHit hit;
-            cast->cast(task, {&asked[k].ray, 1}, {&hit, 1});
-            return hit;
+          return [&, cast](std::size_t k) {
+            RayCallAnswer answer;
+            answer.status = Status::ok;
+            cast->bind(meshes[calls[k].mesh]);
+            cast->cast(task, calls[k].rays, std::span(answer.answers).first(calls[k].rays.size()));
+            return answer;
           };
         });
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      grades[places[k]] = grade(contestant, entry, places[k], solved.answers[k]);
+    for (std::size_t k = 0; k < calls.size(); ++k) {
+      for (std::size_t at = 0; at < calls[k].places.size(); ++at) {
+        const std::size_t i = calls[k].places[at];
+        RayHit answer = solved.answers[k].answers[at];
+        if (solved.answers[k].status != Status::ok) answer.status = solved.answers[k].status;
+        grades[i] = grade(contestant, entry, i, answer);
+      }
     }
     return grades;
   }

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/check/kinds/drawn_cases.h"
+#include "harness/check/kinds/blocks/drawn_cases.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/families/turning_pairs.h"
@@ -161,6 +161,7 @@ std::span<const DrawnFamily<CastCase>> cast_families() {
     }
     add("casts-on-a-grid", on_a_grid);
     add("casts-from-touch", from_touch);
+    list.back().touches_along_x = true;
     add("casts-overlapping", overlapping);
     add("casts-alike", alike);
     add("casts-far-path", far_path);

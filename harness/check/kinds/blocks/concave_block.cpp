@@ -7,9 +7,9 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "harness/base/hash.h"
-#include "harness/check/kinds/drawn_cases.h"
-#include "harness/check/kinds/exact_forms.h"
-#include "harness/check/kinds/grading.h"
+#include "harness/check/kinds/blocks/drawn_cases.h"
+#include "harness/check/kinds/blocks/exact_forms.h"
+#include "harness/check/kinds/blocks/grading.h"
 #include "harness/files/text_file.h"
 
 namespace touchstone::check {
