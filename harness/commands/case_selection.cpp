@@ -5,7 +5,7 @@
 
 namespace touchstone::commands {
 
-void add_selection(Arguments& command, check::CaseSelection& selection) {
+void add_kinds(Arguments& command, check::CaseSelection& selection) {
   const auto add = [&](check::CaseKind kind, const char* what) {
     command.text("--" + std::string(to_string(kind)),
                  selection.others[static_cast<std::size_t>(kind)],
@@ -16,6 +16,10 @@ void add_selection(Arguments& command, check::CaseSelection& selection) {
   add(check::CaseKind::points, "Point queries");
   add(check::CaseKind::cast, "Casts of moving bodies");
   add(check::CaseKind::ccd, "Continuous collision of features");
+}
+
+void add_selection(Arguments& command, check::CaseSelection& selection) {
+  add_kinds(command, selection);
   command.text("--regimes", selection.regimes,
                "Regimes and families of cases: names joined by commas (default: all)");
   command.text("--group,--groups", selection.groups, "Groups of these, joined by commas");

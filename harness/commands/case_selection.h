@@ -1,4 +1,4 @@
-// The options that select algorithms of many kinds and cases for them. Used by check and soak.
+// The options that select algorithms of many kinds and cases for them. Used by check, stress and soak.
 #pragma once
 
 #include "harness/check/requests/select_cases.h"
@@ -6,7 +6,9 @@
 
 namespace touchstone::commands {
 
-// Adds --concave, --rays, --points, --cast, --ccd, --regimes and --groups.
+// Adds --concave, --rays, --points, --cast and --ccd.
+void add_kinds(Arguments& command, check::CaseSelection& selection);
+// Adds these, --regimes and --groups.
 void add_selection(Arguments& command, check::CaseSelection& selection);
 
 }  // namespace touchstone::commands

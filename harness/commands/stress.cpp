@@ -6,8 +6,9 @@
 #include "harness/base/error.h"
 #include "harness/base/table.h"
 #include "harness/check/axes/stress_run.h"
-#include "harness/check/requests/select_narrow.h"
+#include "harness/check/requests/select_cases.h"
 #include "harness/commands/arguments.h"
+#include "harness/commands/case_selection.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures/figures.h"
 #include "harness/commands/shared_options.h"
@@ -17,7 +18,8 @@ namespace touchstone::commands {
 namespace {
 
 struct StressOptions {
-  std::string narrow = "all", axes, out, page;
+  check::CaseSelection selection;
+  std::string axes, out, page;
   bool quick = false;
   check::StressRequest request;
 };
@@ -36,11 +38,7 @@ void write_page(const StressOptions& options, const check::StressResult& result,
 
 int stress(StressOptions& options, const std::string& command) {
   check::StressRequest& request = options.request;
-  request.narrow = check::narrow_phases_to_grade(options.narrow, request.scalars);
-  if (request.narrow.empty()) {
-    throw base::InputError("--narrow names no algorithm; expected at least one");
-  }
-  request.cells = check::cells_of(check::select_axes(options.axes));
+  check::select_axes_and_algorithms(options.selection, options.axes, request);
   if (options.quick) request.cases = quick_cases;
   request.out = results_folder(options.out, "stress");
   if (!options.page.empty()) {
@@ -71,7 +69,8 @@ int stress(StressOptions& options, const std::string& command) {
 void add_stress(Arguments command) {
   const auto options = std::make_shared<StressOptions>();
   check::StressRequest& request = options->request;
-  add_case_options(command, request, options->narrow, options->out, "stress", "sweep");
+  add_case_options(command, request, options->selection.narrow, options->out, "stress", "sweep");
+  add_kinds(command, options->selection);
   command.text("--axes", options->axes, "Axes: names joined by commas (default: all)");
   const Option cases =
       command.number("--cases", request.cases, "Cases of each value; of large hulls at most 12")

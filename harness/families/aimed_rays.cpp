@@ -50,6 +50,11 @@ Ray in_plane(const AimedTriangle& t, Draws& draws) {
   }
 }
 
+Ray from_away(double distance, const AimedTriangle& t, Draws& draws) {
+  const Vec3d target = t.any(draws), far = target + distance * on_grid(draws.direction());
+  return {far, target - far, inf};
+}
+
 Ray any_ray(const TriangleMesh& mesh, Draws& draws) {
   Ray ray{draws.vector(6), draws.direction(), draws.uniform(0, 20)};
   if (mesh.vertices.empty()) return ray;
@@ -77,10 +82,7 @@ Ray at_triangle(RayAim aim, const AimedTriangle& t, Draws& draws) {
       if (draws.below(2) == 0) return {target, on_grid(draws.vector(2)), inf};
       return {target, target - around, 0};
     }
-    case RayAim::far: {
-      const Vec3d target = t.any(draws), far = target + 1e6 * on_grid(draws.direction());
-      return {far, target - far, inf};
-    }
+    case RayAim::far: return from_away(1e6, t, draws);
     case RayAim::axis: return along_axis(t.any(draws), draws);
     case RayAim::axis_plane: {
       Vec3d slant = on_grid(draws.vector(2));
@@ -110,6 +112,12 @@ Ray aimed_ray(RayAim aim, const TriangleMesh& mesh, std::size_t triangle, Draws&
     if (!ray.direction.isZero(0)) return ray;
   }
   return any_ray(mesh, draws);
+}
+
+Ray ray_from(double distance, const TriangleMesh& mesh, std::size_t triangle, Draws& draws) {
+  if (mesh.triangles.empty()) return any_ray(mesh, draws);
+  const Ray ray = from_away(distance, AimedTriangle(mesh, triangle), draws);
+  return ray.direction.isZero(0) ? any_ray(mesh, draws) : ray;
 }
 
 std::vector<Ray> aimed_rays(const TriangleMesh& mesh, double share, std::uint64_t seed) {

@@ -36,6 +36,9 @@ std::string_view to_string(RayAim aim);
 // has random rays alone.
 Ray aimed_ray(RayAim aim, const TriangleMesh& mesh, std::size_t triangle, Draws& draws);
 
+// A ray at a vertex, an edge or a face from so far away (metres).
+Ray ray_from(double distance, const TriangleMesh& mesh, std::size_t triangle, Draws& draws);
+
 // Rays of every aim at this share of the mesh's triangles.
 std::vector<Ray> aimed_rays(const TriangleMesh& mesh, double share, std::uint64_t seed);
 // Random rays.

@@ -46,6 +46,10 @@ CcdQuery in_contact_at(Draws& random, FeaturePair pair, const Weights& w, int t,
   return moving(x, v, t);
 }
 
+Weights inside_of(FeaturePair pair) {
+  return pair == FeaturePair::vertex_face ? Weights{1, 1, 2} : Weights{1, 2, 0};
+}
+
 constexpr Weights corners_vf[] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
 constexpr Weights corners_ee[] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}};
 
@@ -77,7 +81,7 @@ class Families {
 
   void add_contacts() {
     const FeaturePair pair = pair_;
-    const Weights inside = is_face() ? Weights{1, 1, 2} : Weights{1, 2, 0};
+    const Weights inside = inside_of(pair);
     const Weights edge = is_face() ? Weights{2, 2, 0} : Weights{0, 1, 0};
     const auto corner = [pair](Draws& r) {
       return pair == FeaturePair::vertex_face ? corners_vf[r.below(3)] : corners_ee[r.below(4)];
@@ -201,7 +205,6 @@ class Families {
 
   void add_motions() {
     const FeaturePair pair = pair_;
-    const Weights inside = is_face() ? Weights{1, 1, 2} : Weights{1, 2, 0};
     add("random", [](Draws& r) {
       CcdQuery query;
       for (std::array<Vec3d, 4>* x : {&query.start, &query.end}) {
@@ -210,12 +213,7 @@ class Families {
       return query;
     });
     for (const double reach : {1e-12, 1e-6, 1e-3, 1e3, 1e6}) {
-      add("motion of " + digits(reach), [=](Draws& r) {
-        CcdQuery query = in_contact_at(r, pair, inside, 0, 6);
-        for (std::size_t i = 0; i < 4; ++i) query.end[i] = query.start[i] + reach * r.vector(1);
-        for (std::size_t i = 0; i < 1; ++i) query.start[i] += reach * 0.5 * r.vector(1);
-        return query;
-      });
+      add("motion of " + digits(reach), [=](Draws& r) { return motion_query(pair, reach, r); });
     }
     add("no motion", [=](Draws& r) {
       CcdQuery query = in_contact_at(r, pair, {r.below(7) - 1, 1, 2}, 0, 6);
@@ -236,6 +234,17 @@ class Families {
 }  // namespace
 
 std::vector<CcdFamily> ccd_families() { return Families().all; }
+
+CcdQuery contact_query(FeaturePair pair, Draws& random) {
+  return in_contact_at(random, pair, inside_of(pair), random.below(5), 6);
+}
+
+CcdQuery motion_query(FeaturePair pair, double reach, Draws& random) {
+  CcdQuery query = in_contact_at(random, pair, inside_of(pair), 0, 6);
+  for (std::size_t i = 0; i < 4; ++i) query.end[i] = query.start[i] + reach * random.vector(1);
+  query.start[0] += reach * 0.5 * random.vector(1);
+  return query;
+}
 
 CcdQuery changed(const CcdQuery& query, double factor, double offset) {
   CcdQuery result = query;

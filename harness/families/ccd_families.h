@@ -23,6 +23,11 @@ struct CcdFamily {
 // All families at size about 1, for both kinds.
 std::vector<CcdFamily> ccd_families();
 
+// Features that are in contact inside of both at a quarter of the time, in integers.
+CcdQuery contact_query(FeaturePair pair, Draws& random);
+// Features in contact at first, that move by up to so much (metres).
+CcdQuery motion_query(FeaturePair pair, double reach, Draws& random);
+
 // The query with each coordinate times a factor, plus an offset along all axes (rounded).
 CcdQuery changed(const CcdQuery& query, double factor, double offset = 0);
 

@@ -15,6 +15,14 @@ double distance_of(PointPlace place) {
   }
 }
 
+// A vertex, the middle of an edge or a point of the face.
+Vec3d point_of(const TriangleMesh& mesh, std::size_t triangle, Draws& draws) {
+  const auto& [i, j, k] = mesh.triangles[triangle];
+  const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+  const int which = draws.below(3);
+  return which == 0 ? a : which == 1 ? Vec3d((a + b) / 2) : Vec3d((a + b + 2 * c) / 4);
+}
+
 }  // namespace
 
 std::string_view to_string(PointPlace place) {
@@ -24,12 +32,16 @@ std::string_view to_string(PointPlace place) {
   return names[static_cast<std::size_t>(place)];
 }
 
+Vec3d point_off(double distance, const TriangleMesh& mesh, std::size_t triangle, Draws& draws) {
+  if (mesh.triangles.empty()) return draws.vector(4);
+  return point_of(mesh, triangle, draws) + distance * draws.direction();
+}
+
 Vec3d tried_point(PointPlace place, const TriangleMesh& mesh, std::size_t triangle, Draws& draws) {
   if (mesh.triangles.empty()) return draws.vector(4);
   const auto& [i, j, k] = mesh.triangles[triangle];
   const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-  const int which = draws.below(3);
-  Vec3d on = which == 0 ? a : which == 1 ? Vec3d((a + b) / 2) : Vec3d((a + b + 2 * c) / 4);
+  Vec3d on = point_of(mesh, triangle, draws);
   switch (place) {
     case PointPlace::in_line: {
       const int kept = draws.below(3);

@@ -32,6 +32,9 @@ std::string_view to_string(PointPlace place);
 
 Vec3d tried_point(PointPlace place, const TriangleMesh& mesh, std::size_t triangle, Draws& draws);
 
+// A point so far from a vertex, an edge or a face (metres).
+Vec3d point_off(double distance, const TriangleMesh& mesh, std::size_t triangle, Draws& draws);
+
 // Points of every place at this share of the mesh's triangles, and the origin.
 std::vector<Vec3d> tried_points(const TriangleMesh& mesh, double share, std::uint64_t seed);
 

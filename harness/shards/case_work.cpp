@@ -23,7 +23,7 @@ using check::SoakRequest;
 using check::StressRequest;
 
 std::int64_t jobs_of(const StressRequest& request) {
-  return static_cast<std::int64_t>(request.cells.size());
+  return static_cast<std::int64_t>(request.job_count());
 }
 
 record::ResultFolderPlan folder_of(const CheckRequest& request) { return check_folder(request); }
@@ -52,7 +52,7 @@ void do_trial(const CheckRequest& request, std::size_t job, oracle::Oracle& orac
   check::do_job(request, job, oracle);
 }
 void do_trial(const StressRequest& request, std::size_t job, oracle::Oracle& oracle) {
-  check::do_cell(request, job, oracle);
+  check::do_stress_job(request, job, oracle);
 }
 void do_trial(const SoakRequest& request, std::size_t job, oracle::Oracle& oracle) {
   check::do_soak_job(request, job, oracle);

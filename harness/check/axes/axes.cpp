@@ -11,6 +11,7 @@
 #include "harness/base/error.h"
 #include "harness/campaign/selection.h"
 #include "harness/check/axes/axis_draws.h"
+#include "harness/check/kinds/family.h"
 
 namespace touchstone::check {
 namespace {
@@ -110,6 +111,9 @@ std::vector<const StressAxis*> select_axes(const std::string& names) {
     if (at == axes().end()) {
       std::vector<std::string_view> known;
       for (const StressAxis& axis : axes()) known.push_back(axis.name);
+      for (const CaseFamily& family : axis_families()) {
+        if (known.back() != family.axis) known.push_back(family.axis);
+      }
       throw base::InputError(
           fmt::format("no axis is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
     }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/check/kinds/family_job.h"
 #include "harness/grade/answer_count.h"
 #include "harness/grade/pair_size.h"
 #include "harness/process/queries/limited_query.h"
@@ -112,8 +113,13 @@ std::vector<grade::TrueCase> true_cases(const StressRequest& request, std::size_
   return cases;
 }
 
-CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle) {
-  return CellWork(request, cell, oracle).run();
+CellResult do_stress_job(const StressRequest& request, std::size_t job, oracle::Oracle& oracle) {
+  if (job < request.cells.size()) return CellWork(request, job, oracle).run();
+  CellResult result;
+  const auto family = static_cast<std::uint32_t>(job - request.cells.size());
+  result.families =
+      count_as_drawn(request, family, 0, cases_of_round(request, *request.families[family], 0));
+  return result;
 }
 
 }  // namespace touchstone::check

@@ -7,6 +7,7 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/axes/stress_row.h"
+#include "harness/check/kinds/family_count.h"
 #include "harness/grade/true_case.h"
 
 namespace touchstone::check {
@@ -29,16 +30,19 @@ void columns(Row& row, Visit visit, const StressRequest& request) {
 struct CellResult {
   CellSummary summary;
   std::vector<StressRow> rows;
+  std::vector<FamilyCount> families;  // of a job of a family, which has nothing else
 
   template <class Visit>
   void for_each_field(Visit visit) {
     visit(summary);
     visit(rows);
+    visit(families);
   }
 };
 
-// Runs every algorithm of the request, in each scalar, on each task that it offers.
-CellResult do_cell(const StressRequest& request, std::size_t cell, oracle::Oracle& oracle);
+// Runs every algorithm of the request, in each scalar, on each task that it offers. The job is that of
+// a cell, or of a family after these.
+CellResult do_stress_job(const StressRequest& request, std::size_t job, oracle::Oracle& oracle);
 
 // Returns the cell's cases with their exact answers.
 std::vector<grade::TrueCase> true_cases(const StressRequest& request, std::size_t cell,

@@ -6,6 +6,7 @@
 
 #include "harness/base/table.h"
 #include "harness/check/axes/stress_run.h"
+#include "harness/check/kinds/axis_tables.h"
 #include "harness/record/machine.h"
 
 namespace touchstone::check {
@@ -14,10 +15,13 @@ namespace {
 constexpr std::size_t most_lines = 40;  // number of failures listed
 
 std::string promise(const StressRequest& request, const StressResult& result) {
-  const bool asked = std::ranges::any_of(result.reaches, [&](const Reach& reach) {
-    return request.narrow[reach.entry]->info.origin == Origin::ours &&
-           reach.scalar == Precision::float64;
-  });
+  const bool asked =
+      std::ranges::any_of(result.reaches,
+                          [&](const Reach& reach) {
+                            return request.narrow[reach.entry]->info.origin == Origin::ours &&
+                                   reach.scalar == Precision::float64;
+                          }) ||
+      std::ranges::any_of(request.contestants, &Contestant::is_promised);
   if (!asked) return "";
   if (result.broken.empty()) {
     return "In double, none of our own algorithms is silently wrong, crashes or hangs.\n";
@@ -62,7 +66,16 @@ std::string failure_lines(const StressRequest& request, const StressResult& resu
 
 std::string stress_text(const StressRequest& request, const StressResult& result,
                         std::size_t page_width) {
-  std::string text =
+  std::string text;
+  if (!request.contestants.empty()) {
+    text =
+        "Of bodies that are not convex, rays, points and motion, the first value with an answer "
+        "that is "
+        "wrong and does not tell, or with a crash:\n" +
+        axis_tables(request, result.families, page_width) + "\n";
+  }
+  if (request.cells.empty()) return text + promise(request, result);
+  text +=
       "First value at which an answer is silently on the wrong side of contact, or crashes or "
       "hangs:\n\n";
   text += table(request, result.reaches, EnvelopeTable::side).text(page_width);
@@ -94,6 +107,7 @@ std::string stress_page(const StressRequest& request, const StressResult& result
       command, request.seed, request.cases, request.time_limit,
       record::facts_as_list({"compiler", "bullet", "fcl", "libccd", "ode", "commit"}));
   text += ranges(request) + "\n" + promise(request, result) + "\n";
+  text += axis_sections(request, result.families);
   text +=
       "## First value on the wrong side of contact\n\nCounted from the mild end of each axis: an "
       "answer says overlapping of bodies that are apart, or the reverse, while the algorithm says "

@@ -10,7 +10,8 @@
 namespace touchstone::check {
 
 // `cases` is the number in each cell; `time_limit` is processor time. `regimes`, `broad` and
-// `seconds` are not read: as_check() fills in `regimes`.
+// `seconds` are not read: as_check() fills in `regimes`. The families are values of axes too, for the
+// contestants of their kinds: their jobs come after those of the cells.
 struct StressRequest : CheckRequest {
   std::vector<StressCell> cells;
 
@@ -18,6 +19,7 @@ struct StressRequest : CheckRequest {
     cases = 48;
     time_limit = 0.5;
   }
+  std::size_t job_count() const { return cells.size() + families.size(); }
   // Returns the check whose regimes are the cells'. It is valid as long as this request.
   CheckRequest as_check() const {
     CheckRequest check = *this;

@@ -3,26 +3,37 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "harness/base/progress.h"
 #include "harness/check/axes/worst_cases.h"
 #include "harness/check/job_folder.h"
+#include "harness/check/kinds/family_failures.h"
+#include "harness/check/kinds/family_rows.h"
 
 namespace touchstone::check {
 namespace {
 
-enum : std::size_t { rows_file, cells_file };
+enum : std::size_t { rows_file, cells_file, families_file };
 
-void do_cells(const StressRequest& request, record::ResultFolder& folder) {
-  const base::UnitRange jobs = request.jobs(static_cast<std::int64_t>(request.cells.size()));
+void do_all_jobs(const StressRequest& request, record::ResultFolder& folder) {
+  const base::UnitRange jobs = request.jobs(static_cast<std::int64_t>(request.job_count()));
   if (folder.units() >= jobs.size()) return;
   base::Progress progress(static_cast<std::size_t>(jobs.size() - folder.units()));
   do_jobs<CellResult>(
       folder, request, jobs,
-      [&](std::size_t cell, oracle::Oracle& oracle) { return do_cell(request, cell, oracle); },
-      [&](std::size_t cell, const CellResult& result) {
+      [&](std::size_t job, oracle::Oracle& oracle) { return do_stress_job(request, job, oracle); },
+      [&](std::size_t job, const CellResult& result) {
+        if (job >= request.cells.size()) {
+          for (const FamilyCount& count : result.families) {
+            folder.write(families_file, count, request.subjects());
+          }
+          progress.start(request.families[job - request.cells.size()]->name);
+          return true;
+        }
         for (const StressRow& row : result.rows) folder.write(rows_file, row, request);
         folder.write(cells_file, result.summary, request);
-        const StressCell& done = request.cells[cell];
+        const StressCell& done = request.cells[job];
         progress.start(fmt::format("{} {}", done.axis->name, done.value().name));
         return true;
       });
@@ -35,14 +46,16 @@ record::ResultFolderPlan stress_folder(const StressRequest& request) {
   for (const StressCell& cell : request.cells) {
     if (cell.place == 0) axes += (axes.empty() ? "" : " ") + cell.axis->name;
   }
+  for (const CaseFamily* family : request.families) axes += " " + family->name;
   return job_folder(request, "sweep", {"axes", axes},
                     {{"stress.csv", record::header_of<StressRow>(request)},
-                     {"cells.csv", record::header_of<CellSummary>(request)}});
+                     {"cells.csv", record::header_of<CellSummary>(request)},
+                     {"families.csv", record::header_of<FamilyCount>(request.subjects())}});
 }
 
 StressResult run_stress(const StressRequest& request) {
   record::ResultFolder folder(stress_folder(request));
-  do_cells(request, folder);
+  do_all_jobs(request, folder);
   StressResult result;
   if (is_interrupted(folder, request)) {
     result.interrupted = true;
@@ -57,6 +70,13 @@ StressResult run_stress(const StressRequest& request) {
   result.broken = broken_promises(request, result.rows);
   write_envelope(request, result.reaches, request.out / "envelope.csv");
   result.failures = write_failures(request.as_check(), worst_cases(request, result.rows));
+  folder.each_row<FamilyCount>(
+      families_file, [&](const FamilyCount& count) { add_to(result.families, count); },
+      request.subjects());
+  const auto wrong = write_family_failures(request, result.families);
+  for (std::string& line : broken_family_promises(request, wrong)) {
+    result.broken.push_back(std::move(line));
+  }
   return result;
 }
 

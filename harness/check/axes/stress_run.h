@@ -7,6 +7,7 @@
 #include "harness/check/axes/envelope.h"
 #include "harness/check/axes/stress_cell.h"
 #include "harness/check/failures.h"
+#include "harness/check/kinds/family_count.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::check {
@@ -16,14 +17,15 @@ struct StressResult {
   std::vector<CellSummary> cells;
   std::vector<Reach> reaches;
   std::vector<FailureCase> failures;
+  FamilyCounts families;
   std::vector<std::string> broken;  // see broken_promises
   bool interrupted = false;         // a part that is not done
 };
 
-// Returns the folder that run_stress fills; it has a job for each cell.
+// Returns the folder that run_stress fills; it has a job for each cell and family.
 record::ResultFolderPlan stress_folder(const StressRequest& request);
 
-// Runs all queries and writes stress.csv, cells.csv, progress.csv, envelope.csv, machine.csv and
+// Runs all queries and writes stress.csv, cells.csv, families.csv, progress.csv, envelope.csv, machine.csv and
 // failures/ into the request's folder, which it creates. Progress goes to standard error. A part
 // has the rows and machine.csv alone, and an empty result; an interrupt ends it after the current
 // cell. Throws InputError if the folder cannot be written or resumed. The request must outlive the

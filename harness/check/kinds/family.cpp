@@ -1,44 +1,74 @@
 // Collects the families of all kinds.
 #include "harness/check/kinds/family.h"
 
+#include <utility>
 #include <vector>
 
 #include "harness/check/kinds/blocks/drawn_cases.h"
+#include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/aimed_rays.h"
 #include "harness/families/ccd_families.h"
 #include "harness/families/tried_points.h"
 
 namespace touchstone::check {
+namespace {
 
-std::span<const CaseFamily> case_families() {
-  static const std::vector<CaseFamily> all = [] {
-    std::vector<CaseFamily> list;
-    const auto add = [&](CaseKind kind, std::string name, std::string group, int one_in = 1) {
-      const bool is_first = list.empty() || list.back().kind != kind;
-      list.push_back(
-          {std::move(name), std::move(group), kind, is_first ? 0 : list.back().number + 1, one_in});
-    };
-    for (const auto& family : concave_families()) {
-      add(CaseKind::concave, family.name, family.group, family.one_in);
+struct FamilyLists {
+  std::vector<CaseFamily> families, axes;
+  std::uint32_t number = 0;  // of the next of its kind
+
+  void add(CaseKind kind, std::string name, std::string group, int one_in = 1,
+           const std::string& axis = "", const std::string& value = "") {
+    (axis.empty() ? families : axes)
+        .push_back({std::move(name), std::move(group), kind, number++, one_in, axis, value});
+  }
+  template <class Place>
+  void add_places(CaseKind kind, const std::vector<Place>& places) {
+    for (const Place& at : places) {
+      add(kind, at.axis + "-" + at.value, "axes", 1, at.axis, at.value);
     }
+  }
+  template <class Drawn>
+  void add_drawn(CaseKind kind, std::span<const Drawn> drawn) {
+    number = 0;
+    for (const Drawn& one : drawn) {
+      add(kind, one.name, one.group, one.one_in, one.axis, one.value);
+    }
+  }
+};
+
+const FamilyLists& lists() {
+  static const FamilyLists all = [] {
+    FamilyLists made;
+    made.add_drawn(CaseKind::concave, concave_families());
+    made.number = 0;
     for (const families::RayAim aim : families::all_ray_aims) {
-      add(CaseKind::rays, "rays-" + std::string(to_string(aim)), "rays");
+      made.add(CaseKind::rays, "rays-" + std::string(to_string(aim)), "rays");
     }
+    made.add_places(CaseKind::rays, ray_axis());
+    made.number = 0;
     // First with closed meshes, for which points have a side, then with any.
     for (const char* prefix : {"points-", "points-any-mesh-"}) {
       for (const families::PointPlace place : families::all_point_places) {
-        add(CaseKind::points, prefix + std::string(to_string(place)), "points");
+        made.add(CaseKind::points, prefix + std::string(to_string(place)), "points");
       }
     }
-    for (const auto& family : cast_families()) {
-      add(CaseKind::cast, family.name, family.group, family.one_in);
-    }
+    made.add_places(CaseKind::points, point_axis());
+    made.add_drawn(CaseKind::cast, cast_families());
+    made.number = 0;
     for (const auto& family : families::ccd_families()) {
-      add(CaseKind::ccd, family.name, std::string(to_string(family.pair)));
+      made.add(CaseKind::ccd, family.name, std::string(to_string(family.pair)));
     }
-    return list;
+    made.add_places(CaseKind::ccd, ccd_axes());
+    return made;
   }();
   return all;
 }
+
+}  // namespace
+
+std::span<const CaseFamily> case_families() { return lists().families; }
+
+std::span<const CaseFamily> axis_families() { return lists().axes; }
 
 }  // namespace touchstone::check

@@ -48,22 +48,22 @@ void read_common(files::TomlTable& table, CheckRequest& request) {
   request.time_limit = table.number("time_limit", files::positive, request.time_limit);
 }
 
-// Reads the algorithms and the cases of a check or a soak.
-void read_selection(files::TomlTable& table, CaseSelection& selection) {
+// Reads the names of algorithms.
+CaseSelection read_algorithms(files::TomlTable& table) {
   const auto read = [&](std::string_view key) {
     return table.has(key) ? list_of(table, key) : std::string();
   };
+  CaseSelection selection;
   selection.narrow = read("narrow");
-  selection.regimes = read("regimes");
-  selection.groups = read("groups");
   for (const CaseKind kind : all_case_kinds) {
     selection.others[static_cast<std::size_t>(kind)] = read(to_string(kind));
   }
+  return selection;
 }
 
-void select(files::TomlTable& table, const CaseSelection& selection, const char* fallback,
-            CheckRequest& request) {
-  // Names that there are not are reported at their keys.
+// Names that there are not are reported at their keys.
+void expect_algorithms(files::TomlTable& table, const CaseSelection& selection,
+                       const CheckRequest& request) {
   const auto expect = [&](std::string_view key, const std::string& list, const auto& take) {
     if (list.empty()) return;
     selected(table, key, [&] {
@@ -81,6 +81,14 @@ void select(files::TomlTable& table, const CaseSelection& selection, const char*
         to_string(kind), selection.others[static_cast<std::size_t>(kind)],
         [&](const auto& list) { contestants(kind, campaign::split_names(list), request.scalars); });
   }
+}
+
+// Reads the cases of a check or a soak.
+void read_cases_of(files::TomlTable& table, CaseSelection& selection, const char* fallback,
+                   CheckRequest& request) {
+  selection.regimes = list_of(table, "regimes");
+  selection.groups = list_of(table, "groups");
+  expect_algorithms(table, selection, request);
   selected(table, selection.regimes.empty() ? "groups" : "regimes", [&] {
     select_cases(selection, fallback, request);
     return true;
@@ -90,10 +98,9 @@ void select(files::TomlTable& table, const CaseSelection& selection, const char*
 CheckRequest read_check(files::TomlTable& table) {
   CheckRequest request;
   read_common(table, request);
-  CaseSelection selection;
-  read_selection(table, selection);
+  CaseSelection selection = read_algorithms(table);
   if (table.has("broad")) selection.broad = list_of(table, "broad");
-  select(table, selection, "all", request);
+  read_cases_of(table, selection, "all", request);
   request.cases = static_cast<int>(table.integer("cases", 1, 1'000'000, request.cases));
   request.rounds = static_cast<int>(table.integer("rounds", 1, 1'000'000'000, 1));
   return request;
@@ -102,12 +109,13 @@ CheckRequest read_check(files::TomlTable& table) {
 StressRequest read_stress(files::TomlTable& table) {
   StressRequest request;
   read_common(table, request);
-  const std::string listed = list_of(table, "narrow", "all");
-  request.narrow =
-      selected(table, "narrow", [&] { return narrow_phases_to_grade(listed, request.scalars); });
-  if (request.narrow.empty()) table.fail("narrow", "names no algorithm; expected at least one");
+  const CaseSelection selection = read_algorithms(table);
+  expect_algorithms(table, selection, request);
   const std::string axes = list_of(table, "axes");
-  request.cells = selected(table, "axes", [&] { return cells_of(select_axes(axes)); });
+  selected(table, "axes", [&] {
+    select_axes_and_algorithms(selection, axes, request);
+    return true;
+  });
   request.cases = static_cast<int>(table.integer("cases", 1, 100'000, request.cases));
   return request;
 }
@@ -115,10 +123,9 @@ StressRequest read_stress(files::TomlTable& table) {
 SoakRequest read_soak(files::TomlTable& table) {
   SoakRequest request;
   read_common(table, request);
-  CaseSelection selection;
-  read_selection(table, selection);
+  CaseSelection selection = read_algorithms(table);
   if (selection.is_unsaid()) selection.narrow = "certified";
-  select(table, selection, "none", request);
+  read_cases_of(table, selection, "none", request);
   request.pairs = table.integer("pairs", 1, 1'000'000'000'000, request.pairs);
   return request;
 }

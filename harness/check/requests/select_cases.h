@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "harness/check/axes/stress_request.h"
 #include "harness/check/check_request.h"
 
 namespace touchstone::check {
@@ -23,5 +24,10 @@ struct CaseSelection {
 // names of regimes and groups all are taken that the algorithms have cases of. Throws InputError for
 // a name that there is not, and for cases that none of the algorithms takes.
 void select_cases(const CaseSelection& selection, const char* fallback, CheckRequest& request);
+
+// Fills in the algorithms and axes of a sweep in the same way: `axes` is a list joined by commas, or
+// empty for all that the algorithms have cases of.
+void select_axes_and_algorithms(const CaseSelection& selection, const std::string& axes,
+                                StressRequest& request);
 
 }  // namespace touchstone::check

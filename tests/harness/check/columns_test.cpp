@@ -1,5 +1,6 @@
 // Tests that the columns of checks and soaks are documented.
 #include "harness/check/check_rows.h"
+#include "harness/check/kinds/family_rows.h"
 #include "harness/check/soak/soak_rows.h"
 #include "tests/harness/columns_page.h"
 
@@ -8,6 +9,11 @@ namespace {
 
 TEST(Columns, OfChecksAreDocumented) {
   expect_documented("summary.csv", record::column_docs<check::SummaryRow>(check::CheckSubjects{}));
+}
+
+TEST(Columns, OfFamiliesAreDocumented) {
+  expect_documented("families.csv",
+                    record::column_docs<check::FamilyCount>(check::CheckSubjects{}));
 }
 
 TEST(Columns, OfSoaksAreDocumented) {

@@ -11,6 +11,7 @@
 #include "algorithms/oracle/solid.h"
 #include "harness/check/kinds/blocks/exact_forms.h"
 #include "harness/check/kinds/blocks/grading.h"
+#include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/ccd_families.h"
 #include "harness/files/text_file.h"
 
@@ -108,8 +109,15 @@ class CcdBlock final : public CaseBlock {
   struct Size {
     double scale, tolerance;
   };
+  // Those of an axis come after the others.
   static const std::vector<families::CcdFamily>& all_families() {
-    static const std::vector<families::CcdFamily> all = families::ccd_families();
+    static const std::vector<families::CcdFamily> all = [] {
+      std::vector<families::CcdFamily> list = families::ccd_families();
+      for (const AxisPlace<families::CcdFamily>& axis : ccd_axes()) {
+        list.push_back(axis.of);
+      }
+      return list;
+    }();
     return all;
   }
   static Size size_of(std::uint64_t index) {

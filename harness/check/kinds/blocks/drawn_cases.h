@@ -4,7 +4,9 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "harness/check/axes/axes.h"
 #include "harness/families/draws.h"
 #include "harness/files/cases.h"
 #include "harness/files/concave/concave_cases.h"
@@ -19,7 +21,12 @@ struct DrawnFamily {
   std::function<Case(families::Draws& draws, std::uint64_t index)> draw;
   // True of moving bodies that touch at the start with faces, or a face and a ball, along x alone.
   bool touches_along_x = false;
+  // Of a family that is a value of an axis of stress; empty for others.
+  std::string axis = {}, value = {};
 };
+
+// The values of an axis of stress from 10^first to 10^last, with names such as "1e-3".
+std::vector<AxisValue> decades(int first, int last);
 
 std::span<const DrawnFamily<files::ConcaveCase>> concave_families();
 std::span<const DrawnFamily<files::CastCase>> cast_families();

@@ -1,4 +1,6 @@
 // Draws moving bodies.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -136,6 +138,42 @@ CastCase turning(double radians, Draws& draws, std::uint64_t /*index*/) {
   return case_of(families::turning(a, b, radians, draws));
 }
 
+void add_axes_of_motion(std::vector<DrawnFamily<CastCase>>& list) {
+  const auto add = [&](const char* axis, const std::vector<AxisValue>& values, int one_in,
+                       const auto& draw) {
+    for (const AxisValue& at : values) {
+      list.push_back({fmt::format("{}-{}", axis, at.name), "axes", one_in,
+                      [draw, size = at.value](Draws& draws, std::uint64_t index) {
+                        return draw(size, draws, index);
+                      },
+                      false, axis, at.name});
+    }
+  };
+  add("cast-speed", decades(0, 12), 1, [](double path, Draws& draws, std::uint64_t index) {
+    const ShapeKind a = quick_kind(draws), b = quick_kind(draws);
+    const ContactFeature feature = any_feature(draws);
+    return case_of(index % 2 == 0
+                       ? families::meeting(a, b, feature, draws.uniform(0, 1), path, draws)
+                       : families::passing(a, b, feature, 1e-3, path, draws));
+  });
+  add("cast-slowness", decades(0, -12), 1, [](double path, Draws& draws, std::uint64_t index) {
+    const ShapeKind a = quick_kind(draws), b = quick_kind(draws);
+    const ContactFeature feature = any_feature(draws);
+    return case_of(index % 2 == 0
+                       ? families::meeting(a, b, feature, draws.uniform(0, 1), path, draws)
+                       : families::passing(a, b, feature, 0.5 * path, path, draws));
+  });
+  add("cast-graze", decades(-1, -15), 1, [](double depth, Draws& draws, std::uint64_t index) {
+    return pass(-depth, draws, 5 * index);
+  });
+  add("cast-gap", decades(-1, -15), 1,
+      [](double gap, Draws& draws, std::uint64_t index) { return pass(gap, draws, 5 * index); });
+  std::vector<AxisValue> turns;
+  for (int e = -3; e <= 8; ++e)
+    turns.push_back({fmt::format("{:g}", std::ldexp(1, e)), std::ldexp(1, e)});
+  add("cast-turn", turns, 8, turning);
+}
+
 }  // namespace
 
 std::span<const DrawnFamily<CastCase>> cast_families() {
@@ -191,6 +229,7 @@ std::span<const DrawnFamily<CastCase>> cast_families() {
       const double scale = std::ldexp(1, draws.below(41) - 20);
       return case_of(scaled(families::passing_corner(corners[index % corners.size()]), scale));
     });
+    add_axes_of_motion(list);
     return list;
   }();
   return all;

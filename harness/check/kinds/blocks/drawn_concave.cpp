@@ -1,4 +1,6 @@
 // Draws pairs of triangles, meshes, compounds and convex bodies.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <memory>
@@ -178,7 +180,53 @@ ConcaveCase sizes(Draws& draws, std::uint64_t index) {
   return c;
 }
 
+ConcaveCase plain(const families::TrianglePair& pair) {
+  ConcaveCase c;
+  c.a = triangle_body(pair.a);
+  c.b = triangle_body(pair.b);
+  return c;
+}
+
+// Triangles that share a point on a grid, at a distance from the origin that may round them.
+ConcaveCase far_triangles(double distance, Draws& draws) {
+  const auto& all = families::triangle_families();
+  families::TrianglePair pair = all[draws.below(2) == 0 ? 4 : 5].draw(draws);
+  const Vec3d away = distance * draws.direction();
+  for (auto* corners : {&pair.a, &pair.b}) {
+    for (Vec3d& corner : *corners) corner += away;
+  }
+  return plain(pair);
+}
+
+void add_axes(std::vector<DrawnFamily<ConcaveCase>>& list) {
+  const auto add = [&](const char* axis, int first, int last, const auto& draw) {
+    for (const AxisValue& at : decades(first, last)) {
+      list.push_back(
+          {fmt::format("{}-{}", axis, at.name), "axes", 1,
+           [draw, size = at.value](Draws& draws, std::uint64_t) { return draw(size, draws); },
+           false, axis, at.name});
+    }
+  };
+  const auto sized = [](families::TrianglePair (*make)(Draws&, double)) {
+    return [make](double size, Draws& draws) { return plain(make(draws, size)); };
+  };
+  add("edge-gap", -1, -17, sized(families::edges_near));
+  add("face-gap", -1, -17, sized(families::vertex_near_face));
+  add("sliver-width", -1, -17, sized(families::slivers));
+  add("plane-angle", -1, -17, sized(families::parallel_planes));
+  add("mesh-distance", 0, 15, far_triangles);
+}
+
 }  // namespace
+
+std::vector<AxisValue> decades(int first, int last) {
+  std::vector<AxisValue> values;
+  for (int e = first;; e += first < last ? 1 : -1) {
+    const std::string name = fmt::format("1e{}", e);
+    values.push_back({name, std::stod(name)});
+    if (e == last) return values;
+  }
+}
 
 std::span<const DrawnFamily<ConcaveCase>> concave_families() {
   static const auto all = [] {
@@ -212,6 +260,7 @@ std::span<const DrawnFamily<ConcaveCase>> concave_families() {
     add("bodies-solid", 1, solids);
     add("bodies-compounds", 2, compounds);
     add("bodies-sizes", 4, sizes);
+    add_axes(list);
     return list;
   }();
   return all;

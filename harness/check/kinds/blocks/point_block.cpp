@@ -8,6 +8,7 @@
 
 #include "harness/check/kinds/blocks/grading.h"
 #include "harness/check/kinds/blocks/mesh_targets.h"
+#include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/tried_points.h"
 #include "harness/files/text_file.h"
 
@@ -27,11 +28,15 @@ struct PointCallAnswer {
 };
 
 class PointBlock final : public CaseBlock {
+  static constexpr std::size_t places = families::all_point_places.size();
+
  public:
+  // First those of closed meshes, then those of any, then those of the axis, with closed ones.
   PointBlock(std::uint32_t number, const BlockRange& range)
-      : place_(families::all_point_places[number % families::all_point_places.size()]),
-        is_closed_(number < families::all_point_places.size()),
+      : place_(families::all_point_places[number % places]),
+        is_closed_(number / places != 1),
         range_(range) {
+    const double distance = number < 2 * places ? 0 : point_axis()[number - 2 * places].of;
     static const std::vector<families::NamedMesh> closed = families::closed_meshes();
     static const std::vector<families::NamedMesh> any = families::ray_meshes();
     const std::vector<families::NamedMesh>& meshes = is_closed_ ? closed : any;
@@ -47,10 +52,11 @@ class PointBlock final : public CaseBlock {
       const int triangles = static_cast<int>(target.mesh.triangles.size());
       TriangleMesh unscaled = target.mesh;
       for (Vec3d& vertex : unscaled.vertices) vertex /= target.scale;
-      points_.push_back(
-          target.scale *
-          tried_point(place_, unscaled,
-                      static_cast<std::size_t>(triangles > 0 ? draws.below(triangles) : 0), draws));
+      const auto triangle = static_cast<std::size_t>(triangles > 0 ? draws.below(triangles) : 0);
+      points_.push_back(target.scale *
+                        (number < 2 * places
+                             ? tried_point(place_, unscaled, triangle, draws)
+                             : families::point_off(distance, unscaled, triangle, draws)));
     }
   }
 

@@ -10,6 +10,7 @@
 #include "algorithms/core/nearest_float.h"
 #include "harness/check/kinds/blocks/grading.h"
 #include "harness/check/kinds/blocks/mesh_targets.h"
+#include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/aimed_rays.h"
 #include "harness/files/text_file.h"
 
@@ -32,7 +33,9 @@ class RayBlock final : public CaseBlock {
  public:
   RayBlock(std::uint32_t number, const BlockRange& range) : range_(range) {
     static const std::vector<families::NamedMesh> meshes = families::ray_meshes();
-    const families::RayAim aim = families::all_ray_aims[number];
+    // Families of the axis come after the aims.
+    const std::size_t aims = families::all_ray_aims.size();
+    const double distance = number < aims ? 0 : ray_axis()[number - aims].of;
     first_group_ = range.first / cases_of_a_mesh;
     for (std::size_t i = 0; i < range.count; ++i) {
       const std::uint64_t index = range.first + i;
@@ -45,9 +48,10 @@ class RayBlock final : public CaseBlock {
       const int triangles = static_cast<int>(target.mesh.triangles.size());
       TriangleMesh unscaled = target.mesh;
       for (Vec3d& vertex : unscaled.vertices) vertex /= target.scale;
-      Ray ray = families::aimed_ray(
-          aim, unscaled, static_cast<std::size_t>(triangles > 0 ? draws.below(triangles) : 0),
-          draws);
+      const auto triangle = static_cast<std::size_t>(triangles > 0 ? draws.below(triangles) : 0);
+      Ray ray = number < aims
+                    ? families::aimed_ray(families::all_ray_aims[number], unscaled, triangle, draws)
+                    : families::ray_from(distance, unscaled, triangle, draws);
       ray.origin *= target.scale;
       ray.direction *= target.scale;
       rays_.push_back(ray);

@@ -1,0 +1,109 @@
+// Planted algorithms of the kinds that are checked on families: each answers the same to everything.
+#pragma once
+
+#include <csignal>
+#include <memory>
+
+#include "harness/check/kinds/contestant.h"
+
+namespace touchstone {
+
+enum class Habit : std::uint8_t { yes, no, gives_up, crashes };
+
+template <Habit habit>
+Status status_of_habit() {
+  if constexpr (habit == Habit::crashes) std::raise(SIGKILL);
+  return habit == Habit::gives_up ? Status::not_converged : Status::ok;
+}
+
+template <Habit habit>
+struct PlantedConcave final : ConcavePhase {
+  void bind(std::span<const ConcaveBody>) override {}
+  void solve(ConcaveTask, const PlacedConcave&, const PlacedConcave&, Outcome& outcome,
+             std::vector<IndexPair>& pairs) override {
+    outcome = {};
+    pairs.clear();
+    outcome.status = status_of_habit<habit>();
+    outcome.answer = habit == Habit::yes ? Answer::overlapping : Answer::separated;
+  }
+};
+
+template <Habit habit>
+struct PlantedRays final : RayCast {
+  void bind(const TriangleMesh&) override {}
+  void cast(RayTask, std::span<const Ray>, std::span<RayHit> hits) override {
+    for (RayHit& hit : hits) hit = {.hit = habit == Habit::yes, .status = status_of_habit<habit>()};
+  }
+};
+
+template <Habit habit>
+struct PlantedPoints final : PointQuery {
+  void bind(const TriangleMesh&) override {}
+  void query(PointTask, std::span<const Vec3d>, std::span<PointAnswer> answers) override {
+    for (PointAnswer& answer : answers) {
+      answer = {};
+      answer.status = status_of_habit<habit>();
+      answer.side = habit == Habit::yes ? PointSide::inside : PointSide::outside;
+    }
+  }
+};
+
+template <Habit habit>
+struct PlantedCast final : Cast {
+  void bind(std::span<const Shape>) override {}
+  void solve(const CastBatch&, std::span<CastOutcome> outcomes) override {
+    for (CastOutcome& outcome : outcomes) {
+      outcome = {};
+      outcome.status = status_of_habit<habit>();
+      outcome.answer = habit == Habit::yes ? CastAnswer::hit : CastAnswer::miss;
+      if (habit == Habit::yes) outcome.toi = outcome.lower = 0;
+    }
+  }
+};
+
+template <Habit habit>
+struct PlantedCcd final : Ccd {
+  void solve(FeaturePair, std::span<const CcdQuery>, std::span<CcdOutcome> outcomes) override {
+    for (CcdOutcome& outcome : outcomes) {
+      outcome = {};
+      outcome.status = status_of_habit<habit>();
+      outcome.answer = habit == Habit::yes ? CcdAnswer::hit : CcdAnswer::miss;
+      if (habit == Habit::yes) outcome.toi = outcome.free_before = outcome.contact_by = 0;
+    }
+  }
+};
+
+// One of each kind, in the order of CaseKind, in double; of points the side is asked.
+template <Habit habit>
+struct PlantedKinds {
+  Origin origin = Origin::ours;
+  ConcaveEntry concave{
+      .info = {.name = "planted", .citation = "none", .origin = origin},
+      .tasks = {ConcaveTask::intersect},
+      .scalars = {Precision::float64},
+      .make = [](const auto&) { return std::make_unique<PlantedConcave<habit>>(); }};
+  RayCastEntry rays{.info = concave.info,
+                    .tasks = {RayTask::any},
+                    .scalars = {Precision::float64},
+                    .exact_verdicts = true,
+                    .make = [](const auto&) { return std::make_unique<PlantedRays<habit>>(); }};
+  PointQueryEntry points{.info = concave.info, .tasks = {PointTask::side}, .make = [] {
+                           return std::make_unique<PlantedPoints<habit>>();
+                         }};
+  CastEntry cast{.info = concave.info,
+                 .scalars = {Precision::float64},
+                 .rotation = true,
+                 .make = [](const auto&) { return std::make_unique<PlantedCast<habit>>(); }};
+  CcdEntry ccd{.info = concave.info,
+               .make = [](const auto&) { return std::make_unique<PlantedCcd<habit>>(); }};
+
+  std::vector<check::Contestant> contestants() const {
+    return {{&concave, Precision::float64, 0},
+            {&rays, Precision::float64, 1},
+            {&points, Precision::float64, 1},
+            {&cast, Precision::float64, 0},
+            {&ccd, Precision::float64, 0}};
+  }
+};
+
+}  // namespace touchstone
