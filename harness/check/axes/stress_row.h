@@ -51,7 +51,8 @@ std::vector<const StressAxis*> axes_of(const StressRequest& request);
 template <class Row, class Visit>
 void cell_columns(Row& row, Visit& visit, const StressRequest& request) {
   const std::vector<const StressAxis*> axes = axes_of(request);
-  const StressAxis* const of_row = request.cells[row.cell].axis;
+  // A sweep of families alone has no cells, and no rows.
+  const StressAxis* const of_row = request.cells.empty() ? nullptr : request.cells[row.cell].axis;
   auto axis = static_cast<std::size_t>(std::ranges::find(axes, of_row) - axes.begin());
   visit("axis", record::place_in(axis, axes.size(), [&](std::size_t i) { return axes[i]->name; }),
         "The axis.");
@@ -64,7 +65,9 @@ void cell_columns(Row& row, Visit& visit, const StressRequest& request) {
         record::place_in(place, cells.size(),
                          [&](std::size_t i) { return request.cells[cells[i]].value().name; }),
         "The value on the axis.");
-  if constexpr (!std::is_const_v<Row>) row.cell = cells[place];
+  if constexpr (!std::is_const_v<Row>) {
+    if (!cells.empty()) row.cell = cells[place];
+  }
 }
 
 template <record::row_of<StressRow> Row, class Visit>
