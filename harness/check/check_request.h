@@ -32,7 +32,10 @@ struct CheckSubjects {
     return [families = families](std::size_t i) -> const std::string& { return families[i]->name; };
   }
   auto contestant_name() const {
-    return [contestants = contestants](std::size_t i) { return contestants[i].name(); };
+    // Algorithms of two kinds may have one name.
+    return [contestants = contestants](std::size_t i) {
+      return std::string(to_string(contestants[i].kind())) + " " + contestants[i].name();
+    };
   }
 };
 

@@ -13,13 +13,9 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
         "Family of the cases.");
   visit("group", record::derived([&] { return subjects.families[row.family]->group; }),
         "Group of the family.");
-  visit("kind", record::derived([&] {
-          return std::string(to_string(subjects.families[row.family]->kind));
-        }),
-        "What is asked: concave phases, rays, points, casts or ccd.");
   visit("algorithm",
         record::place_in(row.contestant, subjects.contestants.size(), subjects.contestant_name()),
-        "The algorithm, its precision and its task.");
+        "The kind, the algorithm, its precision and its task.");
   visit("form", row.form, "Form of the cases; all but `as drawn` are asked for every fifth case.");
   visit("round", row.round, "Round of the check.");
   visit("cases", row.cases, "Cases that it was asked for.");

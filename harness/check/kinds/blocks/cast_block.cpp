@@ -266,14 +266,25 @@ class CastBlock final : public CaseBlock {
     return *truths_[i];
   }
 
-  // The exact answer where contact at the start counts only if the bodies approach: unknown where
-  // they touch by no more than the tolerance, and no plane is known that decides.
+  // The exact answer where contact counts only if the bodies approach: unknown where they get no deeper
+  // than the tolerance into each other, and no plane is known that decides.
   CastOutcome truth_of_approach(std::size_t i, double tolerance) {
     CastOutcome exact = truth(i);
-    if (exact.answer != CastAnswer::hit || exact.lower > 0) return exact;
+    if (exact.answer != CastAnswer::hit) return exact;
     const CastCase& c = cases_[i];
     const oracle::Solid a(c.shape_a), b(c.shape_b);
-    if (oracle_.measure({a, c.pose_a}, {b, c.pose_b}).upper < -1.01 * tolerance) return exact;
+    constexpr int looks = 8;
+    for (int look = 0; look <= looks; ++look) {
+      const double time = exact.upper + (1 - exact.upper) * look / looks;
+      const oracle::Body at_a(a, families::pose_at(c.pose_a, c.motion_a, time));
+      const oracle::Body at_b(b, families::pose_at(c.pose_b, c.motion_b, time));
+      const double depth = -oracle_.measure(at_a, at_b).upper;
+      if (depth > 1.01 * tolerance + 1e-15 * reaches_[i]) return exact;
+    }
+    if (exact.lower > 0) {
+      exact.answer = CastAnswer::unknown;
+      return exact;
+    }
     const Vec3d way = c.motion_b.displacement - c.motion_a.displacement;
     if (way.isZero(0)) return {.answer = CastAnswer::miss, .status = Status::ok};
     if (family_.touches_along_x && way.x() >= 0) {
