@@ -21,12 +21,6 @@ IndexPair in_order(std::uint32_t i, std::uint32_t j) {
 
 }  // namespace
 
-std::string ContinuousChoice::cast_name() const {
-  std::string name;
-  for (const CastEntry* entry : casts) name += (name.empty() ? "" : "+") + entry->info.name;
-  return name;
-}
-
 ContinuousSteps::ContinuousSteps(const MotionInput& input, ContinuousChoice choice,
                                  Executor& executor)
     : input_(&input),
@@ -138,10 +132,13 @@ std::vector<StepAnswer> ContinuousSteps::answers() const {
           answer.unknown.push_back(pair);
         } else if (outcome.answer == CastAnswer::hit) {
           answer.hits.push_back(pair);
+        } else {
+          answer.misses.push_back(pair);
         }
       }
     }
     std::ranges::sort(answer.hits);
+    std::ranges::sort(answer.misses);
     std::ranges::sort(answer.unknown);
   }
   return answers;

@@ -19,8 +19,6 @@ struct ContinuousChoice {
   std::vector<const CastEntry*> casts;
   CastSettings settings;
   int parts = 0;  // parts of a step for the broad phase; 0: the cheapest
-
-  std::string cast_name() const;  // the names, joined by '+'
 };
 
 class ContinuousSteps {

@@ -26,12 +26,6 @@ void sort_once(std::vector<IndexPair>& pairs) {
 
 }  // namespace
 
-std::string DiscreteChoice::narrow_name() const {
-  std::string name;
-  for (const NarrowPhaseEntry* entry : narrow) name += (name.empty() ? "" : "+") + entry->info.name;
-  return name;
-}
-
 DiscreteSteps::DiscreteSteps(const MotionInput& input, DiscreteChoice choice, Executor& executor)
     : input_(&input),
       choice_(std::move(choice)),

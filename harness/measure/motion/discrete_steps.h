@@ -17,8 +17,6 @@ struct DiscreteChoice {
   std::vector<const NarrowPhaseEntry*> narrow;
   NarrowPhaseSettings settings;
   int substeps = 1;
-
-  std::string narrow_name() const;  // the names, joined by '+'
 };
 
 class DiscreteSteps {

@@ -35,6 +35,7 @@ void cut_halfspaces(const MotionInput& input, std::span<MovingBox> boxes);
 // The answer to a step. The pairs are sorted, a < b.
 struct StepAnswer {
   std::vector<IndexPair> hits;
+  std::vector<IndexPair> misses;   // of casts
   std::vector<IndexPair> unknown;  // pairs that an algorithm gave up, or does not take
   std::size_t pairs = 0;           // pairs that were asked about
 };

@@ -93,7 +93,7 @@ Generated make_robot(GeneratorInput& input) {
       body.pose.translation = base_place + base::times(plane, from[i]);
       body.velocity = base::times(plane, to[i] - from[i]) / time_step;
       const double angle = turn * (after[i] - before[i]);
-      body.angular_velocity = base::times(plane, {0, 0, angle / time_step});
+      body.angular_velocity = base::times(plane, Vec3d{0, 0, angle / time_step});
       scene.bodies.push_back(body);
     }
     for (std::int64_t i = 0; i < obstacles; ++i) {
