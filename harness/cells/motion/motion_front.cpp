@@ -80,15 +80,14 @@ MotionRequest default_motion_trade(const std::filesystem::path& scene,
 
 MotionTrade plan_motion_trade(const MotionRequest& request, double seconds) {
   MotionTrade trade;
-  const scene::Scene read =
-      scene::load_scene(request.scenes.front(), request.overrides.front());
+  const scene::Scene read = scene::load_scene(request.scenes.front(), request.overrides.front());
   trade.bodies = read.size();
   trade.steps = static_cast<std::size_t>(read.frames);
   trade.methods = methods_of(request);
   trade.cells.name = read.name;
   trade.cells.cells = plan_motion(request);
-  trade.cells.sample_seconds = sample_share * seconds /
-                               static_cast<double>(trade.methods.size()) / trade.cells.rounds;
+  trade.cells.sample_seconds =
+      sample_share * seconds / static_cast<double>(trade.methods.size()) / trade.cells.rounds;
   trade.cells.identity = {{"campaign", read.name},
                           {"scene", read.name},
                           {"scene_hash", scene::scene_hash(read)},
@@ -122,9 +121,9 @@ std::string write_motion_front(const MotionTrade& trade, const std::filesystem::
   }
   record::write_rows(folder / "points.csv", points);
   record::write_rows(folder / "front.csv", front);
-  const std::string question = fmt::format(
-      "{}: {} bodies, {} step{}; the time of a step against the share of hits missed", trade.cells.name,
-      trade.bodies, trade.steps, trade.steps == 1 ? "" : "s");
+  const std::string question =
+      fmt::format("{}: {} bodies, {} step{}; the time of a step against the share of hits missed",
+                  trade.cells.name, trade.bodies, trade.steps, trade.steps == 1 ? "" : "s");
   files::write_text(folder / "front.md", question + ".\n\n" + table.markdown());
   return fmt::format("{}\n\n{}\n{} methods: {} on the front\n", question,
                      table.text(base::page_width()), points.size(), front.size());

@@ -41,7 +41,7 @@ struct MotionMethod {
   Precision scalar = Precision::float64;
 
   std::string chain_name() const;  // the algorithms' names, joined by '+'
-  Origin origin() const;  // that of the first
+  Origin origin() const;           // that of the first
 };
 
 // The methods of a request, casts first.

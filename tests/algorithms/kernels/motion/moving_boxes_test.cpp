@@ -89,9 +89,8 @@ TEST(MovingBoxes, OnAGridAreDecidedExactly) {
   for (const float scale : {1.0F, 0.1F, 0x1p-149F, 0x1p-130F, 1e-30F, 1e30F, 0x1p122F}) {
     for (const bool moves_evenly : {false, true}) {
       const std::size_t count = 64;
-      const std::size_t meeting =
-          expect_exact(grid_boxes(random, static_cast<std::size_t>(drawn(64, 20)), scale,
-                                  moves_evenly));
+      const std::size_t meeting = expect_exact(
+          grid_boxes(random, static_cast<std::size_t>(drawn(64, 20)), scale, moves_evenly));
       EXPECT_GT(meeting, 4U) << scale;
       EXPECT_LT(meeting, count * (count - 1) / 4) << scale;
     }
@@ -133,8 +132,8 @@ TEST(MovingBoxes, ThatTouchForAnInstantMeet) {
     const float slow = static_cast<float>(1 + random.below(500)) * q;
     const MovingBox rest = make_box({0, 0, 0}, {1, 1, 1}, {0, 0, 0});
     const float x = -fast / q * p, y = 1 + slow / q * p;
-    MovingBox other = make_box({x - 1, y - 1 - slow / q * p, 0}, {x, 1 + 0 * y, 1},
-                               {fast, slow, 0});
+    MovingBox other =
+        make_box({x - 1, y - 1 - slow / q * p, 0}, {x, 1 + 0 * y, 1}, {fast, slow, 0});
     other.box.min[1] = 1 - slow / q * p;  // it leaves upwards past y = 1 at that time
     other.box.max[1] = other.box.min[1] + 1;
     ASSERT_EQ(moving_boxes_meet(rest, other), meet_exactly(rest, other));
@@ -181,8 +180,7 @@ TEST(SweptBoxes, ContainTheBoxAtEveryTime) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Rational move(body.displacement[k]), t = move >= 0 ? begin : end;
       const Rational low = Rational(body.box.min[k]) + t * move;
-      const Rational high =
-          Rational(body.box.max[k]) + Rational(move >= 0 ? end : begin) * move;
+      const Rational high = Rational(body.box.max[k]) + Rational(move >= 0 ? end : begin) * move;
       EXPECT_LE(Rational(box.min[k]), low);
       EXPECT_GE(Rational(box.max[k]), high);
       // Nothing is lost: the next floats inward are inside.
@@ -209,9 +207,11 @@ TEST(MovingBoxOf, HoldsTheBodyAtEveryTime) {
   const int rounds = drawn(400, 60);
   for (int round = 0; round < rounds; ++round) {
     const double size = std::ldexp(1.0, random.below(40) - 20);
-    const Shape shapes[] = {reference::make_sphere(size), reference::make_capsule(size / 4, size),
+    const Shape shapes[] = {reference::make_sphere(size),
+                            reference::make_capsule(size / 4, size),
                             reference::make_box(size, size / 7, size / 3),
-                            reference::make_cone(size, size), reference::make_cylinder(size, size),
+                            reference::make_cone(size, size),
+                            reference::make_cylinder(size, size),
                             reference::make_ellipsoid(size, size / 2, size / 9)};
     const Shape& shape = shapes[random.below(6)];
     const Pose pose = {random.rotation(), random.vector(10 * size)};
