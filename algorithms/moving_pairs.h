@@ -35,7 +35,7 @@ Aabb swept_box(const MovingBox& body);
 class MovingPairs {
  public:
   static constexpr int most_parts = 64;
-  static constexpr double box_cost = 8;
+  static constexpr double box_cost = 12;
 
   // `parts` is 0, or a power of two up to most_parts. Both references outlive it.
   MovingPairs(BroadPhase& broad_phase, Executor& executor, int parts = 0)

@@ -93,6 +93,11 @@ Aabb swept_box_of(const MovingBox& body, double begin, double end) {
   if (body.box.is_empty()) return body.box;
   Aabb box;
   for (std::size_t k = 0; k < 3; ++k) {
+    if (body.displacement[k] == 0) {
+      box.min[k] = std::clamp(body.box.min[k], -greatest, greatest);
+      box.max[k] = std::clamp(body.box.max[k], -greatest, greatest);
+      continue;
+    }
     // Products are exact: 24 bits times 21.
     const double first = begin * static_cast<double>(body.displacement[k]);
     const double last = end * static_cast<double>(body.displacement[k]);

@@ -222,7 +222,7 @@ Origin MotionMethod::origin() const {
 std::vector<MotionMethod> methods_of(const MotionRequest& request) {
   std::vector<MotionMethod> methods;
   const auto add = [&](MotionMethod method, const std::string& name) {
-    method.name = request.broad.size() > 1 ? name + ", " + method.broad->info.name : name;
+    method.name = request.broad.size() > 1 ? name + " on " + method.broad->info.name : name;
     methods.push_back(std::move(method));
   };
   for (const BroadPhaseEntry* broad : request.broad) {
@@ -238,7 +238,7 @@ std::vector<MotionMethod> methods_of(const MotionRequest& request) {
           const MotionMethod method = {
               .broad = broad, .narrow = narrow, .substeps = substeps, .scalar = scalar};
           add(method,
-              fmt::format("{} substep{}, {}{}", substeps, substeps == 1 ? "" : "s",
+              fmt::format("{} substep{} of {}{}", substeps, substeps == 1 ? "" : "s",
                           method.chain_name(),
                           request.scalars.size() > 1 ? fmt::format(" {}", to_string(scalar)) : ""));
         }

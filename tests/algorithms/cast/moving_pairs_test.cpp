@@ -51,13 +51,14 @@ std::vector<IndexPair> sorted(std::vector<IndexPair> pairs) {
 TEST(MovingPairs, AreThoseOfAllPairsForEveryBroadPhaseAndCut) {
   Executor executor(1);
   for (const double motion : {0.0, 1.0, 30.0}) {
-    const auto bodies = cubes(static_cast<std::size_t>(drawn(600, 150)), motion, 1);
+    const auto bodies = cubes(static_cast<std::size_t>(drawn(300, 120)), motion, 1);
     const std::vector<IndexPair> expected = all_meeting(bodies);
     ASSERT_GT(expected.size(), bodies.size() / 4);
     for (const BroadPhaseEntry& entry : broad_phases()) {
       if (!is_built(entry.info)) continue;
       const std::unique_ptr<BroadPhase> broad = entry.make(executor);
-      for (const int parts : {0, 1, 2, 16, 64}) {
+      const bool is_tried_most = entry.info.name == "linear-bvh";
+      for (const int parts : is_tried_most ? std::vector{0, 1, 2, 16, 64} : std::vector{1, 8}) {
         MovingPairs moving(*broad, executor, parts);
         std::vector<IndexPair> pairs;
         ASSERT_EQ(moving.find_pairs(bodies, pairs), Status::ok) << entry.info.name;
