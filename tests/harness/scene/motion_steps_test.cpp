@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 
@@ -9,6 +12,7 @@
 #include "harness/base/reproducible_math.h"
 #include "harness/scene/motion_steps.h"
 #include "tests/harness/temporary_folder.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
@@ -45,6 +49,23 @@ TEST(MotionSteps, OfScenesThatJumpAreRefused) {
     } catch (const base::InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("mine.toml: has"));
     }
+  }
+}
+
+// The hashes of these scenes, equal on every platform.
+TEST(MotionGenerators, DatasetsAreWhatTheyWere) {
+  const std::map<std::string, std::string> golden = {
+      {"bullets", ""},
+      {"spinners", ""},
+      {"robot", ""},
+      {"cards", ""},
+  };
+  for (const auto& [name, hash] : golden) {
+    const scene::Scene scene = scene::load_scene(
+        std::filesystem::path(project_folder) / "datasets/motion" / (name + ".toml"),
+        {.count = 150, .frames = 2});
+    EXPECT_EQ(scene.size(), 150U) << name;
+    EXPECT_EQ(scene::scene_hash(scene), hash) << name;
   }
 }
 
