@@ -17,7 +17,7 @@ constexpr std::size_t bodies_a_block = 1024;
 constexpr std::size_t pairs_a_block = 4096;
 // Bodies of the sample, each of which is tested against so many others at least, or a part of them.
 constexpr std::size_t sampled = 16;
-constexpr std::size_t least_others = 1024;
+constexpr std::size_t least_others = 512;
 constexpr std::size_t others_part = 32;
 
 // The number of pairs that a search on the boxes swept in the middle one of so many parts finds, as

@@ -125,7 +125,7 @@ def draw(rows, facts):
         axes.plot(row["seconds"] * 1e3, row["error"], marker, color=colour, zorder=5,
                   markersize=4.4)
     name_points(figure, axes, front, styles)
-    axes.set_xlabel("milliseconds a frame")
+    axes.set_xlabel("milliseconds a " + ("step" if "method" in rows[0] else "frame"))
     axes.set_ylabel("error: " + {"verdicts": "share of wrong verdicts",
                                  "false-negatives": "share of contacts missed",
                                  "mean": "mean, part of the size",

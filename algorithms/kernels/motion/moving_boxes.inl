@@ -67,8 +67,8 @@ TOUCHSTONE_TARGET std::size_t keep_whole(const MovingBox* bodies, std::span<cons
   std::size_t i = 0;
   for (; i + width <= pairs.size(); i += width) {
     for (std::size_t lane = 0; lane < width; ++lane) {
-      a[lane] = bodies[pairs[i + lane].a].box.min.data();
-      b[lane] = bodies[pairs[i + lane].b].box.min.data();
+      a[lane] = reinterpret_cast<const float*>(bodies + pairs[i + lane].a);
+      b[lane] = reinterpret_cast<const float*>(bodies + pairs[i + lane].b);
     }
     LaneVerdicts verdicts = judge(a, b);
     for (unsigned bits = verdicts.open; bits != 0; bits &= bits - 1) {

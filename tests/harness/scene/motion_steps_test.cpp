@@ -55,10 +55,10 @@ TEST(MotionSteps, OfScenesThatJumpAreRefused) {
 // The hashes of these scenes, equal on every platform.
 TEST(MotionGenerators, DatasetsAreWhatTheyWere) {
   const std::map<std::string, std::string> golden = {
-      {"bullets", ""},
-      {"spinners", ""},
-      {"robot", ""},
-      {"cards", ""},
+      {"bullets", "6088727e1c72052a"},
+      {"spinners", "f90ec0063aac386d"},
+      {"robot", "ea1da48d12ba2e1e"},
+      {"cards", "84fc2afcbf48c624"},
   };
   for (const auto& [name, hash] : golden) {
     const scene::Scene scene = scene::load_scene(
