@@ -79,7 +79,9 @@ MovingBox moving_box_of(const Shape& shape, const Pose& pose, const Motion& moti
       motion.turns() ? turning_box(shape, pose, motion.rotation_vector) : tight_box(shape, pose);
   for (std::size_t k = 0; k < 3; ++k) {
     const double displacement = motion.displacement[static_cast<Eigen::Index>(k)];
-    const auto rounded = std::clamp(static_cast<float>(displacement), -greatest, greatest);
+    const double within =
+        std::clamp(displacement, -static_cast<double>(greatest), static_cast<double>(greatest));
+    const auto rounded = static_cast<float>(within);
     // At time t the body is t times this further than the box, which grows by all of it.
     const double rest = displacement - static_cast<double>(rounded);
     body.displacement[k] = rounded;
