@@ -15,7 +15,7 @@ import common
 
 GREY = "#b0b0b0"
 NUMBERS = ("error", "seconds", "seconds_low", "seconds_high", "front", "baseline")
-PARTS = ("representation", "boxes", "broad", "narrow", "scalar", "tolerance", "max_iterations")
+PARTS = ("representation", "boxes", "substeps", "broad", "narrow", "scalar", "tolerance", "max_iterations")
 
 
 def read(folder):
@@ -39,8 +39,8 @@ def short(row, common_parts):
     """The name without what all points of the front share."""
     words = []
     for part in PARTS:
-        value = row[part]
-        if not value or part in common_parts:
+        value = row.get(part)
+        if not value or part in common_parts or (part == "substeps" and value == "0"):
             continue
         if part == "tolerance":
             value = "tol " + value
@@ -50,12 +50,16 @@ def short(row, common_parts):
             value = "boxes alone"
         elif part == "boxes":
             value += " boxes"
+        elif part == "substeps":
+            value += " substep" if value == "1" else " substeps"
         words.append(value.replace("_", " "))
     return ", ".join(words) or row["narrow"]
 
 
 def family(row):
-    """What its colour stands for: the form that stands for bodies, without its fineness."""
+    """What its colour stands for: the form that stands for bodies, without its fineness; of motion, the way."""
+    if "method" in row:
+        return row["method"]
     representation = row["representation"]
     if "=" in representation:
         return "by kind"
@@ -121,13 +125,14 @@ def draw(rows, facts):
         axes.plot(row["seconds"] * 1e3, row["error"], marker, color=colour, zorder=5,
                   markersize=4.4)
     name_points(figure, axes, front, styles)
-    axes.set_xlabel("milliseconds a frame")
+    axes.set_xlabel("milliseconds a " + ("step" if "method" in rows[0] else "frame"))
     axes.set_ylabel("error: " + {"verdicts": "share of wrong verdicts",
                                  "false-negatives": "share of contacts missed",
                                  "mean": "mean, part of the size",
                                  "p99": "99th percentile, part of the size",
                                  "greatest": "greatest, part of the size",
                                  "volume": "greatest in volume",
+                                 "missed-hits": "share of hits missed in a step",
                                  "hausdorff": "greatest Hausdorff distance, part of the size",
                                  }.get(facts.get("error", ""), "part"))
     threads = facts.get("threads", "1")
@@ -142,7 +147,7 @@ def draw(rows, facts):
 
 def name_points(figure, axes, front, styles):
     """Names in a column to the right, in the order of the points' heights, each with a thin line to its point."""
-    same = {part for part in PARTS if len({r[part] for r in front}) == 1} if len(front) > 1 else set()
+    same = {part for part in PARTS if len({r.get(part) for r in front}) == 1} if len(front) > 1 else set()
     figure.canvas.draw()
     to_axes = axes.transAxes.inverted()
     # The highest error is the quickest: from top to bottom along the front.

@@ -15,7 +15,8 @@ struct GradeRow {
   bool approximate = false, tolerant = false;
   std::int64_t queries = 0, graded = 0, missed = 0, false_hits = 0, other = 0, unknown = 0;
   double error = Outcome::none;
-  std::string status;
+  std::int64_t hits = -1, true_hits = -1;
+  std::string hit_hash, status;
 
   bool is_right() const { return missed == 0 && (tolerant || false_hits == 0) && other == 0; }
 };
@@ -35,7 +36,12 @@ void columns(Row& row, Visit visit) {
   visit("other", row.other, "Queries with another number, triangle or time than the exact one.");
   visit("unknown", row.unknown, "Queries that it gave up, and said so.");
   visit("error", row.error, "Greatest error of a number; empty where there is none.");
-  visit("status", row.status, "`ok`, or how it ended: crashed, timed_out.");
+  visit("hits", row.hits, "Of motion: pairs of bodies that it found to touch; else -1.");
+  visit("true_hits", row.true_hits, "Of motion: pairs of bodies that touch; else -1.");
+  visit("hit_hash", row.hit_hash,
+        "Of motion: hash of the pairs that it found, step by step; equal where they are.");
+  visit("status", row.status,
+        "`ok`, or how it ended: crashed, timed_out; unsupported, if it takes not all queries.");
 }
 
 // raw.csv of a cell run: one sample.

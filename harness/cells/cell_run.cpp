@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "harness/base/clock.h"
+#include "harness/base/hash.h"
 #include "harness/base/random.h"
 #include "harness/cells/cell_rows.h"
 #include "harness/measure/noise.h"
@@ -37,6 +38,7 @@ std::vector<Graded> grade(const Cell& cell, double time_limit) {
   const process::IsolationReport report =
       process::isolate(cell.contestants.size(), limits, [&]() -> process::ItemWork {
         return [&](std::size_t i) {
+          if (cell.contestants[i].prepare) cell.contestants[i].prepare();
           const base::Stopwatch watch;
           cell.contestants[i].answer();
           shared[i].seconds = watch.seconds();
@@ -114,7 +116,11 @@ class CellRun {
       if (graded[i].state == process::ItemState::done && graded[i].seconds <= request_.time_limit)
         timed.push_back(i);
     }
-    for (const std::size_t i : timed) cell.contestants[i].answer();  // what is cold is not timed
+    for (const LeftOut& left_out : cell.left_out) write_left_out(planned, cell, left_out);
+    for (const std::size_t i : timed) {
+      if (cell.contestants[i].prepare) cell.contestants[i].prepare();
+      cell.contestants[i].answer();  // what is cold is not timed
+    }
     for (int round = 0; round < request_.rounds; ++round) {
       if (process::InterruptGuard::raised()) return false;
       time_round(planned, cell, graded, round,
@@ -139,8 +145,22 @@ class CellRun {
     row.other = graded.grade.other;
     row.unknown = graded.grade.unknown;
     row.error = graded.grade.error;
+    row.hits = graded.grade.hits;
+    row.true_hits = graded.grade.true_hits;
+    if (row.hits >= 0) row.hit_hash = base::to_hex(graded.grade.hit_hash);
     row.status = to_string(graded.state);
     note(row);
+    folder_.write(grades_file, row);
+  }
+
+  void write_left_out(const PlannedCell& planned, const Cell& cell, const LeftOut& left_out) {
+    GradeRow row;
+    row.group = planned.group;
+    row.cell = planned.name;
+    row.algorithm = left_out.name;
+    row.origin = to_string(left_out.origin);
+    row.queries = cell.queries;
+    row.status = to_string(Status::unsupported);
     folder_.write(grades_file, row);
   }
 

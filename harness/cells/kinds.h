@@ -13,6 +13,7 @@ namespace touchstone::cells {
 std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> cast_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home);
+std::vector<PlannedCell> motion_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesystem::path& home);
 
 }  // namespace touchstone::cells

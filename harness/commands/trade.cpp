@@ -11,6 +11,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
+#include "harness/cells/motion/motion_front.h"
 #include "harness/commands/commands.h"
 #include "harness/trade/trade_files.h"
 
@@ -20,7 +21,7 @@ namespace {
 struct TradeOptions {
   trade::TradeRequest request;
   std::string scene, out, error;
-  bool plain = false;
+  bool plain = false, motion = false;
 };
 
 void draw(const std::filesystem::path& folder) {
@@ -36,6 +37,28 @@ void draw(const std::filesystem::path& folder) {
                  "`touchstone plot {}` installs it and draws\n",
                  folder.string());
   }
+}
+
+// Measures discrete steps against continuous ones.
+int run_motion_trade(const TradeOptions& options) {
+  const trade::TradeRequest& asked = options.request;
+  if (asked.task != Task::intersect || !options.error.empty()) {
+    throw base::InputError(
+        "--motion asks which pairs touch in a step, and its error is the share of hits missed; "
+        "expected neither --task nor --error with it");
+  }
+  const cells::MotionTrade trade = cells::plan_motion_trade(
+      cells::default_motion_trade(options.scene, asked.overrides, asked.threads), asked.seconds);
+  const std::filesystem::path folder = trade_folder(options.out, trade.cells.name + "-motion");
+  const cells::CellRunResult result =
+      cells::run_cells(trade.cells, folder, record::FolderStart::overwrite,
+                       [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  if (result.interrupted) return exit_bad_request;
+  cells::write_cell_tables(folder, trade.cells.name);
+  fmt::print("{}\n", cells::write_motion_front(trade, folder));
+  fmt::print("{}: points.csv, front.csv, front.md, tables.md, raw.csv\n", folder.string());
+  if (!options.plain) draw(folder);
+  return result.ours_wrong ? exit_measured_wrong : exit_done;
 }
 
 }  // namespace
@@ -85,9 +108,12 @@ void add_trade(Arguments command) {
       "Folder for rows, front and figure (default: results/local/trade-NAME in the project)");
   add_error_measure(command, options->error);
   command.flag("--no-figure", options->plain, "Leave the figure out");
+  command.flag("--motion", options->motion,
+               "Compare substeps of narrow phases with casts, on bodies that move within a frame");
   add_trade_axes(command, options->request);
   command.job([options] {
     trade::TradeRequest& request = options->request;
+    if (options->motion) return run_motion_trade(*options);
     request.scene = options->scene;
     request.name = request.scene.stem().string();
     take_measure(options->error, request);

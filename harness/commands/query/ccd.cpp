@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,7 +29,7 @@ namespace {
 
 struct CcdOptions {
   std::string queries, algorithms = "all", out;
-  FeaturePair pair = FeaturePair::vertex_face;
+  std::optional<FeaturePair> pair;  // a folder's files say theirs
   CcdSettings settings;
   double time_limit = 60;  // seconds a block
 };
@@ -43,7 +45,7 @@ struct CcdContestant {
 };
 
 // Runs the algorithm in a child process, which has solved the first block untimed before.
-void ask_ccd(CcdContestant& contestant, const CcdOptions& options,
+void ask_ccd(CcdContestant& contestant, const CcdOptions& options, FeaturePair pair,
              const std::vector<CcdQuery>& queries) {
   const std::size_t blocks = (queries.size() + ccd_block_size - 1) / ccd_block_size;
   process::SharedArray<CcdOutcome> outcomes(queries.size());
@@ -57,7 +59,7 @@ void ask_ccd(CcdContestant& contestant, const CcdOptions& options,
         const std::shared_ptr<Ccd> algorithm = contestant.entry->make(options.settings);
         const auto solve = [&, algorithm](std::size_t block) {
           const auto [begin, count] = part(block);
-          algorithm->solve(options.pair, std::span(queries).subspan(begin, count),
+          algorithm->solve(pair, std::span(queries).subspan(begin, count),
                            outcomes.span().subspan(begin, count));
         };
         return [&, solve, is_warm = false](std::size_t block) mutable {
@@ -86,78 +88,161 @@ void ask_ccd(CcdContestant& contestant, const CcdOptions& options,
   });
 }
 
-void write_ccd_outcomes(const CcdOptions& options, const std::vector<CcdContestant>& contestants,
-                        std::size_t count) {
-  files::CsvWriter csv(options.out, {"query", "algorithm", "answer", "toi", "status", "free_before",
-                                     "contact_by", "iterations"});
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const CcdContestant& contestant : contestants) {
-      const CcdOutcome& outcome = contestant.outcomes[i];
-      csv.field(i).field(contestant.entry->info.name).field(to_string(outcome.answer));
-      csv.field(outcome.toi).field(to_string(outcome.status));
-      csv.field(outcome.free_before).field(outcome.contact_by);
-      if (outcome.iterations >= 0) {
-        csv.field(outcome.iterations);
-      } else {
-        csv.field("");
-      }
-      csv.end_row();
-    }
-  }
-  csv.close();
-}
+// What an algorithm answered to some files, and how that holds against the truths in them.
+struct CcdCounts {
+  std::size_t queries = 0, hits = 0, misses = 0, unknown = 0, missed = 0, false_hits = 0;
+  std::size_t answered = 0;
+  double seconds = 0;  // of the queries that were answered
+  bool has_truth = true;
+  bool is_wrong = false;  // missed a contact and stood by its answer
 
-// Prints a row for each algorithm. Returns true if one that is not a peer missed a contact and stood
-// by its answer.
-bool print_ccd_counts(const CcdOptions& options, const std::vector<CcdContestant>& contestants,
-                      const std::vector<char>& contacts) {
-  base::Table table(
-      {"algorithm", "hits", "misses", "unknown", "missed contacts", "false hits", "ns a query"});
-  bool is_wrong = false;
-  for (const CcdContestant& contestant : contestants) {
-    std::size_t hits = 0, misses = 0, unknown = 0, missed = 0, false_hits = 0;
+  void add(const CcdContestant& contestant, const std::vector<char>& contacts) {
     for (std::size_t i = 0; i < contestant.outcomes.size(); ++i) {
       const CcdOutcome& outcome = contestant.outcomes[i];
       const bool is_contact = !contacts.empty() && contacts[i] != 0;
+      ++queries;
       hits += outcome.answer == CcdAnswer::hit ? 1 : 0;
       misses += outcome.answer == CcdAnswer::miss ? 1 : 0;
       unknown += outcome.answer == CcdAnswer::unknown ? 1 : 0;
       false_hits += outcome.answer == CcdAnswer::hit && !is_contact ? 1 : 0;
       if (outcome.answer != CcdAnswer::miss || !is_contact) continue;
       ++missed;
-      is_wrong = is_wrong ||
-                 (outcome.status == Status::ok && contestant.entry->info.origin != Origin::peer);
+      is_wrong = is_wrong || outcome.status == Status::ok;
     }
-    // The truths are those of a separation of 0.
-    const bool has_false_hits = !contacts.empty() && options.settings.separation == 0;
-    table.add({contestant.entry->info.name, fmt::format("{}", hits), fmt::format("{}", misses),
-               fmt::format("{}", unknown), contacts.empty() ? "-" : fmt::format("{}", missed),
-               has_false_hits ? fmt::format("{}", false_hits) : "-",
-               contestant.answered == 0
-                   ? "-"
-                   : fmt::format("{:.1f}", 1e9 * contestant.seconds /
-                                               static_cast<double>(contestant.answered))});
+    answered += contestant.answered;
+    seconds += contestant.seconds;
+    has_truth = has_truth && !contacts.empty();
   }
-  fmt::print("{}", table.text(base::page_width()));
-  return is_wrong;
+};
+
+std::string ccd_kind(FeaturePair pair) {
+  return pair == FeaturePair::vertex_face ? "vertex-face" : "edge-edge";
 }
 
+// Asks the algorithms about files, one after the other, and writes and counts their answers.
+class CcdJob {
+ public:
+  CcdJob(const CcdOptions& options, std::vector<const CcdEntry*> entries, bool is_folder)
+      : options_(options),
+        entries_(std::move(entries)),
+        is_folder_(is_folder),
+        csv_(options.out, header(is_folder)) {}
+
+  void ask(const files::CcdFile& file, const files::CcdQueries& read) {
+    rounded_ += read.rounded;
+    std::vector<CcdContestant> contestants;
+    for (const CcdEntry* entry : entries_) {
+      contestants.push_back({entry, {}});
+      ask_ccd(contestants.back(), options_, file.pair, read.queries);
+    }
+    write(file, contestants, read.queries.size());
+    std::vector<CcdCounts>& counts = counts_[{file.scene, ccd_kind(file.pair)}];
+    counts.resize(entries_.size());
+    for (std::size_t i = 0; i < entries_.size(); ++i) counts[i].add(contestants[i], read.contacts);
+  }
+
+  // Prints a row for each scene, kind and algorithm. Returns true if one that is not a peer missed a
+  // contact and stood by its answer.
+  bool finish() {
+    csv_.close();
+    if (rounded_ > 0) fmt::print("{} coordinates are not doubles, and were rounded\n", rounded_);
+    std::vector<std::string> columns = {"algorithm",       "hits",       "misses",    "unknown",
+                                        "missed contacts", "false hits", "ns a query"};
+    if (is_folder_) columns.insert(columns.begin(), {"scene", "kind", "queries"});
+    base::Table table(columns);
+    bool is_wrong = false;
+    for (const auto& [scene_and_kind, counts] : counts_) {
+      for (std::size_t i = 0; i < entries_.size(); ++i) {
+        is_wrong = is_wrong || (counts[i].is_wrong && entries_[i]->info.origin != Origin::peer);
+        std::vector<std::string> row = row_of(entries_[i]->info.name, counts[i]);
+        if (is_folder_) {
+          row.insert(row.begin(), {scene_and_kind.first, scene_and_kind.second,
+                                   fmt::format("{}", counts[i].queries)});
+        }
+        table.add(row);
+      }
+    }
+    fmt::print("{}", table.text(base::page_width()));
+    return is_wrong;
+  }
+
+ private:
+  static std::vector<std::string> header(bool is_folder) {
+    std::vector<std::string> columns = {"query",  "algorithm",   "answer",     "toi",
+                                        "status", "free_before", "contact_by", "iterations"};
+    if (is_folder) columns.insert(columns.end(), {"scene", "kind", "file"});
+    return columns;
+  }
+
+  void write(const files::CcdFile& file, const std::vector<CcdContestant>& contestants,
+             std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const CcdContestant& contestant : contestants) {
+        const CcdOutcome& outcome = contestant.outcomes[i];
+        csv_.field(i).field(contestant.entry->info.name).field(to_string(outcome.answer));
+        csv_.field(outcome.toi).field(to_string(outcome.status));
+        csv_.field(outcome.free_before).field(outcome.contact_by);
+        if (outcome.iterations >= 0) {
+          csv_.field(outcome.iterations);
+        } else {
+          csv_.field("");
+        }
+        if (is_folder_) {
+          csv_.field(file.scene).field(ccd_kind(file.pair)).field(file.file.filename().string());
+        }
+        csv_.end_row();
+      }
+    }
+  }
+
+  std::vector<std::string> row_of(const std::string& name, const CcdCounts& counts) const {
+    // The truths are those of a separation of 0.
+    const bool has_false_hits = counts.has_truth && options_.settings.separation == 0;
+    return {name,
+            fmt::format("{}", counts.hits),
+            fmt::format("{}", counts.misses),
+            fmt::format("{}", counts.unknown),
+            counts.has_truth ? fmt::format("{}", counts.missed) : "-",
+            has_false_hits ? fmt::format("{}", counts.false_hits) : "-",
+            counts.answered == 0 ? "-"
+                                 : fmt::format("{:.1f}", 1e9 * counts.seconds /
+                                                             static_cast<double>(counts.answered))};
+  }
+
+  const CcdOptions& options_;
+  std::vector<const CcdEntry*> entries_;
+  bool is_folder_;
+  files::CsvWriter csv_;
+  std::size_t rounded_ = 0;
+  std::map<std::pair<std::string, std::string>, std::vector<CcdCounts>> counts_;
+};
+
 int run_ccd(const CcdOptions& options) {
-  const auto entries = campaign::select(ccds(), campaign::split_names(options.algorithms),
-                                        "algorithm of continuous collision");
-  const files::CcdQueries read = files::read_ccd_queries(options.queries);
+  const bool is_folder = std::filesystem::is_directory(options.queries);
+  std::vector<files::CcdFile> files;
+  if (is_folder) {
+    files = files::ccd_files(options.queries);
+    if (options.pair) {
+      std::erase_if(files, [&](const files::CcdFile& file) { return file.pair != *options.pair; });
+    }
+    if (files.empty()) {
+      throw base::InputError(options.queries, 0,
+                             "no queries of the kind that --kind names; expected some");
+    }
+  } else if (options.pair) {
+    files.push_back({options.queries, "", *options.pair});
+  } else {
+    throw base::InputError("--kind is missing; expected vertex-face or edge-edge with a file");
+  }
+  auto entries = campaign::select(ccds(), campaign::split_names(options.algorithms),
+                                  "algorithm of continuous collision");
+  const files::CcdQueries first = files::read_ccd_queries(files.front().file);
   files::check_output(options.out);
-  if (read.rounded > 0) {
-    fmt::print("{} coordinates are not doubles, and were rounded\n", read.rounded);
-  }
-  std::vector<CcdContestant> contestants;
-  for (const CcdEntry* entry : entries) {
-    contestants.push_back({entry, {}});
-    ask_ccd(contestants.back(), options, read.queries);
-  }
-  write_ccd_outcomes(options, contestants, read.queries.size());
-  const bool is_wrong = print_ccd_counts(options, contestants, read.contacts);
-  return is_wrong ? exit_measured_wrong : exit_done;
+  CcdJob job(options, std::move(entries), is_folder);
+  job.ask(files.front(), first);
+  for (std::size_t i = 1; i < files.size(); ++i)
+    job.ask(files[i], files::read_ccd_queries(files[i].file));
+  return job.finish() ? exit_measured_wrong : exit_done;
 }
 
 }  // namespace
@@ -168,14 +253,15 @@ void add_ccd(Arguments command) {
       .text(
           "QUERIES", options->queries,
           "CSV without a header, eight rows a query: the vertices at time 0, then at time 1; each "
-          "coordinate a number or a numerator and a denominator; perhaps the truth (0 or 1) last")
+          "coordinate a number or a numerator and a denominator; perhaps the truth (0 or 1) last. "
+          "Or "
+          "a folder of such files: SCENE/vertex-face/NAME.csv, SCENE/edge-edge/NAME.csv")
       .required();
-  command
-      .one_of<FeaturePair>(
-          "--kind", options->pair,
-          {{"vertex-face", FeaturePair::vertex_face}, {"edge-edge", FeaturePair::edge_edge}},
-          "What the four vertices are")
-      .required();
+  command.one_of<FeaturePair>(
+      "--kind", options->pair,
+      {{"vertex-face", FeaturePair::vertex_face}, {"edge-edge", FeaturePair::edge_edge}},
+      "What the four vertices are; needed with a file, and with a folder the only kind that is "
+      "asked about");
   command.text("--ccd", options->algorithms, "Algorithms: names joined by commas, or all")
       .show_default();
   command

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -144,5 +145,30 @@ class CcdReader {
 }  // namespace
 
 CcdQueries read_ccd_queries(const std::filesystem::path& file) { return CcdReader(file).read(); }
+
+std::vector<CcdFile> ccd_files(const std::filesystem::path& folder) {
+  constexpr std::array<std::pair<std::string_view, FeaturePair>, 2> kinds = {
+      {{"edge-edge", FeaturePair::edge_edge}, {"vertex-face", FeaturePair::vertex_face}}};
+  std::vector<CcdFile> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+    const std::filesystem::path& path = entry.path();
+    if (path.extension() != ".csv" || !entry.is_regular_file()) continue;
+    const std::filesystem::path kind = path.parent_path();
+    for (const auto& [name, pair] : kinds) {
+      if (kind.filename() != name) continue;
+      const std::filesystem::path scene =
+          std::filesystem::absolute(kind).lexically_normal().parent_path();
+      files.push_back({path, scene.filename().string(), pair});
+    }
+  }
+  if (error || files.empty()) {
+    throw base::InputError(
+        folder.string(), 0,
+        "no queries; expected files SCENE/vertex-face/NAME.csv or SCENE/edge-edge/NAME.csv");
+  }
+  std::ranges::sort(files, {}, [](const CcdFile& file) { return file.file; });
+  return files;
+}
 
 }  // namespace touchstone::files

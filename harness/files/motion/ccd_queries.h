@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "algorithms/ccd.h"
@@ -22,5 +23,17 @@ struct CcdQueries {
 // Algorithm for Continuous Collision Detection", ACM TOG 40(5), 2021. Throws InputError with file and
 // line.
 CcdQueries read_ccd_queries(const std::filesystem::path& file);
+
+// A file of queries in a folder of the public data: SCENE/vertex-face/NAME.csv or
+// SCENE/edge-edge/NAME.csv.
+struct CcdFile {
+  std::filesystem::path file;
+  std::string scene;
+  FeaturePair pair = FeaturePair::vertex_face;
+};
+
+// Returns the files of a folder by scene, kind and name. The folder holds scenes, or is one. Other
+// files are left alone. Throws InputError if there are none.
+std::vector<CcdFile> ccd_files(const std::filesystem::path& folder);
 
 }  // namespace touchstone::files

@@ -16,6 +16,10 @@ std::span<const Generator> generators() {
       {"brownian", make_brownian},
       {"free_fall", make_free_fall},
       {"rotating_gravity", make_rotating_gravity},
+      {"bullets", make_bullets},
+      {"spinners", make_spinners},
+      {"robot", make_robot},
+      {"cards", make_cards},
       {"pairs", make_pairs},
   };
   return all;

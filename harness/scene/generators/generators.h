@@ -76,6 +76,10 @@ Generated make_rotating_gravity(GeneratorInput& input);
 Generated make_city(GeneratorInput& input);
 Generated make_stack(GeneratorInput& input);
 Generated make_ground(GeneratorInput& input);
+Generated make_bullets(GeneratorInput& input);
+Generated make_spinners(GeneratorInput& input);
+Generated make_robot(GeneratorInput& input);
+Generated make_cards(GeneratorInput& input);
 Generated make_pairs(GeneratorInput& input);
 
 }  // namespace touchstone::scene

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 
 #include "harness/base/error.h"
 #include "harness/cells/cell_rows.h"
+#include "harness/cells/motion/motion_front.h"
 #include "harness/cells/read_cells.h"
 #include "tests/harness/columns_page.h"
 #include "tests/harness/temporary_folder.h"
@@ -87,6 +89,44 @@ TEST(Cells, OfMeshes) {
   expect_sound(run(request, folder.path() / "out"), request.cells.size());
 }
 
+// Casts miss nothing, substeps do; answers do not depend on the threads.
+TEST(Cells, OfMotion) {
+  const TemporaryFolder folder;
+  folder.write("bullets.toml", "generator = \"bullets\"\ncount = 80\nframes = 1\n");
+  folder.write("spinners.toml", "generator = \"spinners\"\ncount = 24\nframes = 1\n");
+  const auto request = cells::read_cells(
+      folder.write("cells.toml",
+                   "[cells]\nkind = \"motion\"\nscenes = [\"bullets.toml\", \"spinners.toml\"]\n"
+                   "threads = [1, 2]\nsubsteps = [1, 16]\nrounds = 6\nsample_seconds = 1e-5\n"
+                   "casts = [\"gjk-ray-cast\", \"closed-form+gjk-ray-cast+rigid-advancement\"]\n"));
+  ASSERT_EQ(request.cells.size(), 4U);
+  const Ran ran = run(request, folder.path() / "out");
+  EXPECT_FALSE(ran.result.ours_wrong);
+  ASSERT_EQ(ran.grades.size(), 4U * 4);
+  std::map<std::string, std::string> hash_of;
+  std::int64_t missed = 0;
+  for (const cells::GradeRow& row : ran.grades) {
+    if (row.status == "unsupported") {
+      EXPECT_EQ(row.algorithm, "gjk-ray-cast");
+      EXPECT_EQ(row.group, "spinners");
+      continue;
+    }
+    EXPECT_EQ(row.status, "ok");
+    EXPECT_GT(row.true_hits, 0) << row.group;
+    EXPECT_LT(row.true_hits, row.graded) << row.group;
+    EXPECT_EQ(row.other, 0);
+    const auto [known, is_new] = hash_of.emplace(row.group + row.algorithm, row.hit_hash);
+    EXPECT_EQ(known->second, row.hit_hash) << row.algorithm;
+    if (row.algorithm.find("substep") == std::string::npos) {
+      EXPECT_EQ(row.missed + row.false_hits + row.unknown, 0) << row.group << row.algorithm;
+      EXPECT_EQ(row.hits, row.true_hits);
+    } else {
+      missed += row.missed;
+    }
+  }
+  EXPECT_GT(missed, 0);
+}
+
 TEST(Cells, AFinishedRunIsNotBegunAgain) {
   const TemporaryFolder folder;
   const auto request =
@@ -116,16 +156,17 @@ TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
               HasSubstr("nothing.obj"));
   EXPECT_THAT(error_of(folder, "kind = \"rays\"\nqueries = 1\n"), HasSubstr("cells.toml:4"));
   EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nstars = 1\n"), HasSubstr("stars"));
+  EXPECT_THAT(error_of(folder, "kind = \"motion\"\n"), HasSubstr("scenes"));
   EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nvertex_face = \"nothing.csv\"\n"),
               HasSubstr("nothing.csv"));
 }
 
 TEST(Cells, OfTheProjectsFilesAreRead) {
-  for (const char* name : {"rays", "casts", "ccd", "concave"}) {
+  for (const char* name : {"rays", "casts", "ccd", "concave", "motion"}) {
     const auto request = cells::read_cells(std::filesystem::path(project_folder) /
                                            "datasets/campaigns" / (std::string(name) + ".toml"));
     EXPECT_EQ(request.name, name);
-    EXPECT_GE(request.cells.size(), 12U) << name;
+    EXPECT_GE(request.cells.size(), 8U) << name;
   }
 }
 
@@ -134,6 +175,7 @@ TEST(Columns, OfCellsAreDocumented) {
   expect_documented("raw.csv of cells", record::column_docs<cells::CellSampleRow>());
   expect_documented("times.csv of cells", record::column_docs<cells::CellTimeRow>());
   expect_documented("best.csv of cells", record::column_docs<cells::CellBestRow>());
+  expect_documented("points.csv of motion", record::column_docs<cells::MotionPointRow>());
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "algorithms/registry.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
@@ -45,6 +48,33 @@ class CcdCommand : public ::testing::Test {
   std::filesystem::path out() const { return folder.path() / "out.csv"; }
   TemporaryFolder folder;
 };
+
+TEST_F(CcdCommand, AFolderIsAskedSceneByScene) {
+  const auto put = [&](const std::string& path, const std::string& text) {
+    const std::filesystem::path file = folder.path() / "data" / path;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  };
+  put("spikes/vertex-face/data_0_0.csv", falling(",1", ",0"));
+  put("spikes/vertex-face/data_0_1.csv", falling(",1", ",0"));
+  put("cloth/vertex-face/data_0_0.csv", falling(",1", ",0"));
+  put("cloth/README.md", "no queries");
+  const std::string ask = "ccd " + (folder.path() / "data").string() + " --out " + out().string();
+  const Ran ran = run_program(ask + " --ccd exact");
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, ::testing::ContainsRegex("cloth +vertex-face +2 +exact +1 +1 +0 +0 +0"));
+  EXPECT_THAT(ran.text, ::testing::ContainsRegex("spikes +vertex-face +4 +exact +2 +2 +0 +0 +0"));
+  std::vector<std::string> columns = ccd_columns;
+  columns.insert(columns.end(), {"iterations", "scene", "kind", "file"});
+  const auto rows = read_rows(out(), columns);
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows.front()[8], "cloth");
+  EXPECT_EQ(rows.back()[10], "data_0_1.csv");
+  // Truths that are wrong are contacts that are missed.
+  put("cloth/vertex-face/data_0_0.csv", falling(",1", ",1"));
+  EXPECT_EQ(run_program(ask + " --ccd exact").status, 1);
+  expect_refusal(ask + " --kind edge-edge", "--kind", folder);
+}
 
 TEST_F(CcdCommand, EveryAlgorithmGivesTheRowsOfTheContract) {
   for (const bool has_truth : {true, false}) {

@@ -34,6 +34,27 @@ TEST(TradeCommand, RunTakesAFileOfATrade) {
             read_rows(folder.path() / "out/points.csv", {"point"}));
 }
 
+TEST(TradeCommand, OfMotionComparesSubstepsWithCasts) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("scene.toml", "generator = \"bullets\"\ncount = 60\nframes = 1\n").string();
+  const std::string ask = "trade " + file + " --motion --no-figure --seconds 1 --out " +
+                          (folder.path() / "out").string();
+  const Ran ran = run_program(ask);
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, testing::HasSubstr("hits missed"));
+  bool has_miss = false, has_cast = false;
+  for (const auto& row : read_rows(folder.path() / "out/points.csv",
+                                   {"point", "method", "substeps", "error", "seconds", "front"})) {
+    if (row[1] == "discrete" && row[2] == "1") has_miss |= std::stod(row[3]) > 0;
+    if (row[0] == "rigid-advancement") has_cast |= std::stod(row[3]) == 0 && std::stod(row[4]) > 0;
+  }
+  EXPECT_TRUE(has_miss);
+  EXPECT_TRUE(has_cast);
+  EXPECT_GE(read_rows(folder.path() / "out/front.csv", {"point"}).size(), 1U);
+  expect_refusal(ask + "2 --error mean", "--motion", folder);
+}
+
 TEST(TradeCommand, BadRequestsAreRefused) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene);

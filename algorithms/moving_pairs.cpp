@@ -1,0 +1,123 @@
+// Pairs of moving boxes: cuts of the step, and the tests behind the broad phase.
+#include "algorithms/moving_pairs.h"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <limits>
+
+#include "algorithms/core/executor/parallel_blocks.h"
+#include "algorithms/kernels/motion/moving_boxes.h"
+#include "algorithms/kernels/motion/swept_box.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::size_t bodies_a_block = 1024;
+constexpr std::size_t pairs_a_block = 4096;
+// Bodies of the sample, each of which is tested against so many others at least, or a part of them.
+constexpr std::size_t sampled = 16;
+constexpr std::size_t least_others = 512;
+constexpr std::size_t others_part = 32;
+
+// The number of pairs that a search on the boxes swept in the middle one of so many parts finds, as
+// a sample has it.
+double expected_candidates(std::span<const MovingBox> bodies, int parts) {
+  const std::size_t count = bodies.size();
+  const std::size_t others = std::min(count, std::max(least_others, count / others_part));
+  const std::size_t own = std::min(sampled, others);
+  const double begin = static_cast<double>(parts / 2) / parts;
+  const double end = begin + 1.0 / parts;
+  std::vector<Aabb> boxes(others);
+  for (std::size_t i = 0; i < others; ++i)
+    boxes[i] = swept_box_of(bodies[i * count / others], begin, end);
+  std::size_t overlaps = 0;
+  for (std::size_t k = 0; k < own; ++k) {
+    const std::size_t i = k * others / own;
+    for (std::size_t j = 0; j < others; ++j) overlaps += i != j && overlap(boxes[i], boxes[j]);
+  }
+  const double all = static_cast<double>(count);
+  return static_cast<double>(overlaps) / 2 * (all / static_cast<double>(own)) *
+         (all / static_cast<double>(others));
+}
+
+}  // namespace
+
+MovingBox moving_box(const Shape& shape, const Pose& pose, const Motion& motion) {
+  return moving_box_of(shape, pose, motion);
+}
+
+Aabb swept_box(const MovingBox& body) { return swept_box_of(body, 0, 1); }
+
+int MovingPairs::cheapest_parts(std::span<const MovingBox> bodies) const {
+  if (bodies.empty()) return 1;
+  const double boxes = box_cost * static_cast<double>(bodies.size());
+  int best = 1;
+  double least = std::numeric_limits<double>::infinity();
+  // As soon as the boxes alone cost more than the best so far, no further cut can pay.
+  for (int parts = 1; parts <= most_parts && parts * boxes < least; parts *= 2) {
+    const double cost = parts * (boxes + expected_candidates(bodies, parts));
+    if (!(cost < least)) break;
+    least = cost;
+    best = parts;
+  }
+  return best;
+}
+
+void MovingPairs::sweep(std::span<const MovingBox> bodies, int part) {
+  std::vector<Aabb>& boxes = swept_[static_cast<std::size_t>(part)];
+  boxes.resize(bodies.size());
+  const double begin = static_cast<double>(part) / parts_;
+  const double end = static_cast<double>(part + 1) / parts_;
+  for_each_block(*executor_, bodies.size(), bodies_a_block,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i)
+                     boxes[i] = swept_box_of(bodies[i], begin, end);
+                 });
+}
+
+void MovingPairs::keep_new(std::span<const MovingBox> bodies, int part,
+                           std::vector<IndexPair>& pairs) {
+  std::vector<std::span<const IndexPair>> pieces;
+  for (const PairBuffer& chunk : found_.chunks()) {
+    for (std::size_t i = 0; i < chunk.size(); i += pairs_a_block)
+      pieces.push_back(chunk.pairs().subspan(i, std::min(pairs_a_block, chunk.size() - i)));
+  }
+  const auto seen = [&](const IndexPair& pair) {
+    for (auto k = static_cast<std::size_t>(part); k-- > 0;) {
+      if (overlap(swept_[k][pair.a], swept_[k][pair.b])) return true;
+    }
+    return false;
+  };
+  kept_.start(pieces.size());
+  const auto work = [&](std::size_t task, int) {
+    std::span<const IndexPair> fresh = pieces[task];
+    std::vector<IndexPair> unseen;
+    if (part > 0) {
+      std::ranges::remove_copy_if(fresh, std::back_inserter(unseen), seen);
+      fresh = unseen;
+    }
+    keep_meeting(bodies, fresh, kept_.chunk(task));
+  };
+  executor_->run(pieces.size(), std::cref(work));
+  for (const PairBuffer& chunk : kept_.chunks())
+    pairs.insert(pairs.end(), chunk.pairs().begin(), chunk.pairs().end());
+}
+
+Status MovingPairs::find_pairs(std::span<const MovingBox> bodies, std::vector<IndexPair>& pairs) {
+  pairs.clear();
+  candidates_ = 0;
+  parts_ = asked_parts_ > 0 ? asked_parts_ : cheapest_parts(bodies);
+  swept_.resize(std::max(swept_.size(), static_cast<std::size_t>(parts_)));
+  for (int part = 0; part < parts_; ++part) {
+    sweep(bodies, part);
+    broad_phase_->build(swept_[static_cast<std::size_t>(part)]);
+    const Status status = broad_phase_->find_pairs(found_);
+    if (status != Status::ok) return status;
+    candidates_ += found_.size();
+    keep_new(bodies, part, pairs);
+  }
+  return Status::ok;
+}
+
+}  // namespace touchstone

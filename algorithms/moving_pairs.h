@@ -1,0 +1,67 @@
+// The broad phase of motion: all pairs of moving boxes that meet in a step, by any broad phase. The
+// harness and programs that cast bodies include this.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/core/executor/executor.h"
+#include "algorithms/core/motion.h"
+#include "algorithms/core/moving_box.h"
+#include "algorithms/core/pose.h"
+#include "algorithms/core/shape.h"
+
+namespace touchstone {
+
+// Returns a box that holds every point of the body at every time of the step, whatever the rounding
+// (kernels/motion/swept_box.h).
+MovingBox moving_box(const Shape& shape, const Pose& pose, const Motion& motion);
+
+// Returns the box that holds a moving box for the whole step, cut to the range of floats.
+Aabb swept_box(const MovingBox& body);
+
+// Steps: 1. The step is cut into 1, 2, 4... or 64 parts of equal time. Boxes that move far sweep much
+//           that they are not in at the same time; each cut halves what they sweep.
+//        2. For each part, the broad phase finds the pairs of swept boxes that overlap. A pair that
+//           overlaps in an earlier part too is dropped: it has been seen.
+//        3. An exact test decides which of these pairs' moving boxes meet at some time of the whole
+//           step, so the result does not depend on the cut, the broad phase or the threads, but for
+//           its order.
+// The number of parts is the one with the least expected cost: a search costs a box as much as
+// `box_cost` candidates cost, and the candidates are estimated on a sample of bodies in the middle of
+// the step. It is doubled as long as that pays.
+class MovingPairs {
+ public:
+  static constexpr int most_parts = 64;
+  static constexpr double box_cost = 12;
+
+  // `parts` is 0, or a power of two up to most_parts. Both references outlive it.
+  MovingPairs(BroadPhase& broad_phase, Executor& executor, int parts = 0)
+      : broad_phase_(&broad_phase), executor_(&executor), asked_parts_(parts) {}
+
+  // Writes every pair whose moving boxes share a point in the step, each once, a < b, in an order
+  // that does not depend on the executor's width. The boxes have no NaN. Returns what the broad
+  // phase does; the pairs are all only with Status::ok.
+  Status find_pairs(std::span<const MovingBox> bodies, std::vector<IndexPair>& pairs);
+
+  // Of the last call: the parts, and the pairs that the broad phase found in all of them.
+  int parts() const { return parts_; }
+  std::size_t candidates() const { return candidates_; }
+
+ private:
+  int cheapest_parts(std::span<const MovingBox> bodies) const;
+  void sweep(std::span<const MovingBox> bodies, int part);
+  void keep_new(std::span<const MovingBox> bodies, int part, std::vector<IndexPair>& pairs);
+
+  BroadPhase* broad_phase_;
+  Executor* executor_;
+  int asked_parts_;
+  int parts_ = 1;
+  std::size_t candidates_ = 0;
+  std::vector<std::vector<Aabb>> swept_;  // for each part
+  PairSink found_, kept_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,132 @@
+// The points of a trade of motion, and its front.
+#include "harness/cells/motion/motion_front.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/base/table.h"
+#include "harness/campaign/selection.h"
+#include "harness/cells/cell_rows.h"
+#include "harness/files/text_file.h"
+#include "harness/trade/front.h"
+
+namespace touchstone::cells {
+namespace {
+
+constexpr int most_substeps = 64;
+constexpr const char* broad_name = "linear-bvh";
+constexpr const char* ours_in_one_chain = "closed-form+gjk-ray-cast+rigid-advancement";
+constexpr std::array<const char*, 3> narrow_names = {"closed-form+gjk", "closed-form+gjk-lanes+gjk",
+                                                     "sat+closed-form+gjk"};
+// The share of the time that goes into samples; the rest prepares and grades.
+constexpr double sample_share = 0.6;
+
+MotionPointRow point_of(const MotionMethod& method, const CellTimeRow& time, double bodies) {
+  const GradeRow& grade = time.grade;
+  MotionPointRow row;
+  row.point = method.name;
+  row.status = grade.status;
+  row.method = method.substeps > 0 ? "discrete" : "continuous";
+  row.substeps = method.substeps;
+  row.broad = method.broad->info.name;
+  row.narrow = method.chain_name();
+  row.scalar = to_string(method.scalar);
+  row.seconds = time.seconds * bodies;
+  row.low = time.low * bodies;
+  row.high = time.high * bodies;
+  row.rounds = time.samples;
+  row.true_hits = grade.true_hits;
+  row.hits = grade.hits;
+  row.missed = grade.missed;
+  row.false_hits = grade.false_hits;
+  row.unknown = grade.unknown;
+  if (grade.true_hits >= 0) {
+    row.error = static_cast<double>(grade.missed) /
+                static_cast<double>(std::max<std::int64_t>(grade.true_hits, 1));
+  }
+  return row;
+}
+
+std::vector<std::string> cells_of(const MotionPointRow& row) {
+  const auto milliseconds = [](double seconds) { return fmt::format("{:.4g}", 1e3 * seconds); };
+  return {row.point,
+          milliseconds(row.seconds),
+          std::isnan(row.low) ? "-" : milliseconds(row.low) + " to " + milliseconds(row.high),
+          fmt::format("{:.2f} %", 100 * row.error),
+          fmt::format("{}", row.hits),
+          fmt::format("{}", row.false_hits),
+          fmt::format("{}", row.unknown)};
+}
+
+}  // namespace
+
+MotionRequest default_motion_trade(const std::filesystem::path& scene,
+                                   const scene::SceneOverrides& overrides, int threads) {
+  MotionRequest request;
+  request.scenes = {scene};
+  request.overrides = {overrides};
+  request.threads = {threads};
+  request.broad = {find_broad_phase(broad_name)};
+  request.casts = {cast_chain(ours_in_one_chain)};
+  for (const CastEntry* entry : campaign::select(casts(), {"ours", "peers"}, "cast"))
+    request.casts.push_back({entry});
+  for (const char* names : narrow_names) request.narrow.push_back(narrow_chain(names));
+  for (int substeps = 1; substeps <= most_substeps; substeps *= 2)
+    request.substeps.push_back(substeps);
+  return request;
+}
+
+MotionTrade plan_motion_trade(const MotionRequest& request, double seconds) {
+  MotionTrade trade;
+  const scene::Scene read = scene::load_scene(request.scenes.front(), request.overrides.front());
+  trade.bodies = read.size();
+  trade.steps = static_cast<std::size_t>(read.frames);
+  trade.methods = methods_of(request);
+  trade.cells.name = read.name;
+  trade.cells.cells = plan_motion(request);
+  trade.cells.sample_seconds =
+      sample_share * seconds / static_cast<double>(trade.methods.size()) / trade.cells.rounds;
+  trade.cells.identity = {{"campaign", read.name},
+                          {"scene", read.name},
+                          {"scene_hash", scene::scene_hash(read)},
+                          {"bodies", std::to_string(trade.bodies)},
+                          {"frames", std::to_string(trade.steps)},
+                          {"task", "motion"},
+                          {"threads", std::to_string(request.threads.front())},
+                          {"error", "missed-hits"}};
+  return trade;
+}
+
+std::string write_motion_front(const MotionTrade& trade, const std::filesystem::path& folder) {
+  const auto times = record::read_rows<CellTimeRow>(folder / "times.csv");
+  std::vector<MotionPointRow> points;
+  for (const MotionMethod& method : trade.methods) {
+    const auto time = std::ranges::find_if(
+        times, [&](const CellTimeRow& row) { return row.grade.algorithm == method.name; });
+    if (time != times.end())
+      points.push_back(point_of(method, *time, static_cast<double>(trade.bodies)));
+  }
+  if (!points.empty()) points.front().baseline = true;
+  std::vector<trade::FrontPoint> all;
+  for (const MotionPointRow& point : points) all.push_back({point.seconds, point.error});
+  std::vector<MotionPointRow> front;
+  base::Table table(
+      {"method", "ms a step", "95 % interval", "hits missed", "hits", "false hits", "unknown"});
+  for (const std::size_t i : trade::pareto_front(all)) {
+    points[i].on_front = true;
+    front.push_back(points[i]);
+    table.add(cells_of(points[i]));
+  }
+  record::write_rows(folder / "points.csv", points);
+  record::write_rows(folder / "front.csv", front);
+  const std::string question =
+      fmt::format("{}: {} bodies, {} step{}; the time of a step against the share of hits missed",
+                  trade.cells.name, trade.bodies, trade.steps, trade.steps == 1 ? "" : "s");
+  files::write_text(folder / "front.md", question + ".\n\n" + table.markdown());
+  return fmt::format("{}\n\n{}\n{} methods: {} on the front\n", question,
+                     table.text(base::page_width()), points.size(), front.size());
+}
+
+}  // namespace touchstone::cells
