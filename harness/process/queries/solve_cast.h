@@ -1,8 +1,12 @@
 // Solves one case of two moving bodies with one cast. Used by the command cast.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "algorithms/registry.h"
 #include "harness/files/cases.h"
+#include "harness/files/proofs/cast_certificates.h"
 
 namespace touchstone::process {
 
@@ -13,5 +17,12 @@ inline bool turns(const files::CastCase& c) { return c.motion_a.turns() || c.mot
 // settings. The cast is bound for the query alone, so that no case can spoil another's answer.
 CastOutcome solve_cast(const CastEntry& entry, const CastSettings& settings,
                        const files::CastCase& c);
+
+// The answer of the cast `exact` with its proof; a half-space becomes the second body. The case must be one
+// that `exact` takes.
+files::StoredCastCertificate prove_cast(const files::CastCase& c, std::optional<double> tolerance);
+
+// Returns why a certificate does not prove its claim, or an empty string if it does.
+std::string fault_of(const files::StoredCastCertificate& stored);
 
 }  // namespace touchstone::process
