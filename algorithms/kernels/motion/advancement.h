@@ -1,5 +1,5 @@
 // The loop of conservative advancement: time grows by steps in which the bodies provably stay apart.
-// Used by conservative-advancement and rigid-advancement, which differ in the step.
+// Used by conservative-advancement, rigid-advancement and bilateral-advancement, which differ in the step.
 // Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies.
 //          2. If they are within the tolerance, it is a hit.
 //          3. The step says until when that plane proves them apart; if until the end, it is a miss.
@@ -12,22 +12,10 @@
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/kernels/gjk/warm_start.h"
 #include "algorithms/kernels/motion/contact_by.h"
+#include "algorithms/kernels/motion/parting_step.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {
-
-// A plane that parts the bodies at a time.
-struct PartingPlane {
-  double time;
-  Vec3d normal;  // unit vector from a to b
-  double gap;    // metres; proven beyond rounding, > 0
-};
-
-// How long a plane parts the bodies.
-struct FreeUntil {
-  double time;      // they are apart in [plane.time, time)
-  bool to_the_end;  // they are apart in [plane.time, 1]
-};
 
 struct AdvancementGoal {
   // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.

@@ -185,7 +185,7 @@ void add_cast(Arguments command) {
                "Also prove the exact answer of each case, and write the proofs to this file");
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
   command.exclude_others("--certificates");
-  command.job([options] {
+  command.job([options]() -> int {
     if (!options->certificates.empty()) return verify_certificates(options->certificates);
     cast(*options);
     return exit_done;
