@@ -45,7 +45,7 @@ bool load_box_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, c
          is_nearly_rotation(pose_b.rotation);
 }
 
-void cast_boxes(std::span<const BoxLane> lanes, std::span<BoxLaneTimes> times) {
+void cast_boxes(std::span<const BoxLane> lanes, std::span<LaneTimes> times) {
   switch (isa()) {
     case Isa::avx512: return avx512::cast_all_lanes(lanes, times);
     case Isa::avx2: return avx2::cast_all_lanes(lanes, times);

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "algorithms/cast.h"
+#include "algorithms/cast/gjk_ray_cast/lane_times.h"
 
 namespace touchstone {
 
@@ -32,18 +33,11 @@ struct BoxLane {
   double tolerance;
 };
 
-// The times of a pair. It is undecided unless `is_miss` or `is_hit` is set.
-struct BoxLaneTimes {
-  bool is_miss, is_hit;
-  double lower, upper;
-  Vec3d normal;  // from a to b, of any length
-};
-
 // False if the numbers are beyond the proof: matrices far from rotations, or lengths whose squares are.
 bool load_box_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, const Shape& b,
                    const Pose& pose_b, const Motion& motion_b, BoxLane& lane);
 
-// Both have the same size. A hit is one at a time > 0 with a bracket whose path is within the tolerance.
-void cast_boxes(std::span<const BoxLane> lanes, std::span<BoxLaneTimes> times);
+// Both have the same size. The path in the bracket of a hit is within the tolerance.
+void cast_boxes(std::span<const BoxLane> lanes, std::span<LaneTimes> times);
 
 }  // namespace touchstone

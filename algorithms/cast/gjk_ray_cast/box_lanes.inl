@@ -1,5 +1,5 @@
 // Part of gjk-ray-cast-lanes, included by box_lanes.cpp for each level of vector instructions.
-#include "algorithms/kernels/simd/vector3.inl"
+#include "algorithms/cast/gjk_ray_cast/lane_rows.inl"
 
 // When the shadows of a lane's boxes overlap, over all axes seen so far.
 struct LaneShadows {
@@ -61,16 +61,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void add_axis(LaneShadows& shadows, const Ve
                                       sure_end, shadows.surely_ends);
 }
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<double> three_rows(
-    const double (*rows)[Simd<double>::width]) {
-  return {Simd<double>::load(rows[0]), Simd<double>::load(rows[1]), Simd<double>::load(rows[2])};
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<double>::Vector length_of(
-    const Vector3<double>& v) {
-  return Simd<double>::sqrt(dot<double>(v, v));
-}
-
-TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, BoxLaneTimes* times,
+TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, LaneTimes* times,
                                          std::size_t count) {
   using Lanes = Simd<double>;
   using Vector = typename Lanes::Vector;
@@ -78,10 +69,7 @@ TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, BoxLaneTimes* tim
   constexpr std::size_t width = Lanes::width;
   constexpr std::size_t numbers = sizeof(BoxLane) / sizeof(double);
   alignas(64) double rows[numbers][width];
-  for (std::size_t lane = 0; lane < width; ++lane) {
-    const double* const from = reinterpret_cast<const double*>(boxes + std::min(lane, count - 1));
-    for (std::size_t k = 0; k < numbers; ++k) rows[k][lane] = from[k];
-  }
+  load_rows(boxes, count, rows);
   const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
   Vector3<double> columns[2][3], edges[2][3];
   Vector extents[2][3];
@@ -154,16 +142,18 @@ TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, BoxLaneTimes* tim
                              shadows.normal.z};
   for (std::size_t k = 0; k < 5; ++k) Lanes::store(out[k], results[k]);
   for (std::size_t lane = 0; lane < std::min(count, width); ++lane) {
-    times[lane] = {(misses >> lane & 1) != 0,
-                   (hits >> lane & 1) != 0,
-                   out[0][lane],
-                   out[1][lane],
-                   {out[2][lane], out[3][lane], out[4][lane]}};
+    times[lane] = {.is_miss = (misses >> lane & 1) != 0,
+                   .is_hit = (hits >> lane & 1) != 0,
+                   .lower = out[0][lane],
+                   .upper = out[1][lane],
+                   .normal = {out[2][lane], out[3][lane], out[4][lane]},
+                   .on_a = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN()),
+                   .iterations = 1};
   }
 }
 
 TOUCHSTONE_TARGET inline void cast_all_lanes(std::span<const BoxLane> boxes,
-                                             std::span<BoxLaneTimes> times) {
+                                             std::span<LaneTimes> times) {
   constexpr std::size_t width = Simd<double>::width;
   for (std::size_t i = 0; i < boxes.size(); i += width) {
     cast_lanes(&boxes[i], &times[i], boxes.size() - i);

@@ -17,7 +17,7 @@
 //          balls of spheres and capsules are taken off first, so that those are points and segments.
 //          Half-spaces are solved in closed form (motion/halfspace_cast). gjk-ray-cast-lanes solves boxes
 //          in lanes by the times at which their shadows on the 15 axes meet (box_lanes), without a point
-//          of contact, and one by one as here what is left: contact at the start, grazes, and edges that
+//          of contact, spheres and capsules by planes at their nearest points (round_lanes), and one by one as here what is left: contact at the start, grazes, and edges that
 //          are nearly parallel.
 // Fails:   unknown / not_converged at the cap. Bodies that graze by less than the tolerance are a hit
 //          without `upper`. With StartContact::approach, bodies that touch at time 0 and for which no
@@ -33,6 +33,7 @@
 #include "algorithms/cast/gjk_ray_cast/box_lanes.h"
 #include "algorithms/cast/gjk_ray_cast/contact_proofs.h"
 #include "algorithms/cast/gjk_ray_cast/moving_pair.h"
+#include "algorithms/cast/gjk_ray_cast/round_lanes.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
 #include "algorithms/kernels/motion/inner_ball.h"
 #include "algorithms/kernels/motion/relative_motion.h"
@@ -55,8 +56,10 @@ class GjkRayCast final : public Cast {
 
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
     if (lanes_ && batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box) {
-      solve_boxes(batch, outcomes);
-      return;
+      return solve_lanes(batch, boxes_, load_box_lane, cast_boxes, outcomes);
+    }
+    if (lanes_ && batch.kind_b <= ShapeKind::capsule) {
+      return solve_lanes(batch, round_, load_round_lane, cast_round, outcomes);
     }
     for (std::size_t i = 0; i < batch.size(); ++i) solve_one(batch, i, outcomes[i]);
   }
@@ -68,7 +71,10 @@ class GjkRayCast final : public Cast {
   }
 
   void solve_one(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const;
-  void solve_boxes(const CastBatch& batch, std::span<CastOutcome> outcomes);
+  // `load` and `cast` are those of box_lanes.h and round_lanes.h. `lanes` is scratch memory.
+  template <class Lane, class Load, class CastAll>
+  void solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, const Load& load,
+                   const CastAll& cast, std::span<CastOutcome> outcomes);
 
   enum class End { hit, miss, open };
 
@@ -93,9 +99,10 @@ class GjkRayCast final : public Cast {
   std::vector<SupportShape<double>> shapes_;
   std::vector<double> inner_radii_;  // metres, one for each shape
   std::span<const Shape> source_;
-  // Scratch: the pairs of boxes in lanes, and their places in the batch.
+  // Scratch: the pairs in lanes, and their places in the batch.
   std::vector<BoxLane> boxes_;
-  std::vector<BoxLaneTimes> times_;
+  std::vector<RoundLane> round_;
+  std::vector<LaneTimes> times_;
   std::vector<std::size_t> places_;
   bool lanes_;
 };
@@ -113,28 +120,30 @@ void GjkRayCast::solve_one(const CastBatch& batch, std::size_t i, CastOutcome& o
 }
 
 // What the lanes leave open is solved one pair at a time.
-void GjkRayCast::solve_boxes(const CastBatch& batch, std::span<CastOutcome> outcomes) {
+template <class Lane, class Load, class CastAll>
+void GjkRayCast::solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, const Load& load,
+                             const CastAll& cast, std::span<CastOutcome> outcomes) {
   const BodyPairs& pairs = batch.pairs;
-  boxes_.clear();
+  lanes.clear();
   places_.clear();
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const std::uint32_t a = pairs.first[i], b = pairs.second[i];
     const std::uint32_t shape_a = pairs.shape_of[a], shape_b = pairs.shape_of[b];
-    BoxLane& lane = boxes_.emplace_back();
-    if (!load_box_lane(source_[shape_a], pairs.poses[a], batch.motions[a], source_[shape_b],
-                       pairs.poses[b], batch.motions[b], lane)) {
-      boxes_.pop_back();
+    Lane& lane = lanes.emplace_back();
+    if (!load(source_[shape_a], pairs.poses[a], batch.motions[a], source_[shape_b], pairs.poses[b],
+              batch.motions[b], lane)) {
+      lanes.pop_back();
       solve_one(batch, i, outcomes[i]);
       continue;
     }
-    const double size = std::max(shapes_[shape_a].size, shapes_[shape_b].size);
-    lane.tolerance = settings_.tolerance.value_or(1e-9 * size);
+    const auto size = [&](std::uint32_t k) { return shapes_[k].size + shapes_[k].radius; };
+    lane.tolerance = settings_.tolerance.value_or(1e-9 * std::max(size(shape_a), size(shape_b)));
     places_.push_back(i);
   }
-  times_.resize(boxes_.size());
-  cast_boxes(boxes_, times_);
+  times_.resize(lanes.size());
+  cast(lanes, times_);
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    const BoxLaneTimes& times = times_[k];
+    const LaneTimes& times = times_[k];
     CastOutcome& outcome = outcomes[places_[k]];
     if (!times.is_miss && !times.is_hit) {
       solve_one(batch, places_[k], outcome);
@@ -142,12 +151,15 @@ void GjkRayCast::solve_boxes(const CastBatch& batch, std::span<CastOutcome> outc
     }
     outcome = {};
     outcome.status = Status::ok;
-    outcome.iterations = 1;
+    outcome.iterations = times.iterations;
     outcome.answer = times.is_miss ? CastAnswer::miss : CastAnswer::hit;
     if (times.is_miss) continue;
     outcome.toi = outcome.lower = times.lower;
     outcome.upper = times.upper;
     outcome.normal = times.normal.normalized();
+    const std::uint32_t a = pairs.first[places_[k]];
+    outcome.point =
+        pairs.poses[a].translation + outcome.toi * batch.motions[a].displacement + times.on_a;
   }
 }
 
