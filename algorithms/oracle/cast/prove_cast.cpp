@@ -35,7 +35,7 @@ IntegerVector integers(const Vec3d& v) {
   return n;
 }
 
-Fraction fraction(double time) {
+TimeFraction fraction(double time) {
   const Dyadic x = dyadic(time);
   if (x.mantissa.is_zero()) return {};
   if (x.exponent >= 0) return {x.over_power(0), 1};
@@ -85,7 +85,7 @@ class LinearProof {
   }
 
  private:
-  void add(const IntegerVector& plane, const Fraction& until) {
+  void add(const IntegerVector& plane, const TimeFraction& until) {
     certificate_.planes.push_back({until, primitive(-plane)});
   }
   void add_all(const LinearImpact& impact) {

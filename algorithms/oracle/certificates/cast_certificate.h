@@ -33,7 +33,7 @@ struct MovingBody {
 };
 
 // A time as a fraction; the denominator is positive.
-struct Fraction {
+struct TimeFraction {
   Integer numerator = 0;
   Integer denominator = 1;
 };
@@ -42,10 +42,10 @@ struct CastCertificate {
   // The claim. A miss: no common point at any time in [0, 1]. A hit: a common point at `upper`, and none
   // before `lower`. Unknown: none before `lower` alone.
   CastAnswer answer = CastAnswer::unknown;
-  Fraction lower, upper;
+  TimeFraction lower, upper;
 
   struct Plane {
-    Fraction until;
+    TimeFraction until;
     IntegerVector direction{};  // from a to b, world axes
   };
   std::vector<Plane> planes;  // in order of time

@@ -10,9 +10,9 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr mp_bitcnt_t root_bits = 256;
+constexpr mp_bitcnt_t cast_root_bits = 256;
 
-mpq_class rational(const Fraction& time) {
+mpq_class rational(const TimeFraction& time) {
   require(time.denominator > 0, "the denominator of a time is not positive");
   return oracle::rational(time.numerator) / oracle::rational(time.denominator);
 }
@@ -21,7 +21,7 @@ mpq_class rational(const Fraction& time) {
 class Track {
  public:
   explicit Track(const MovingBody& moving)
-      : start_(moving.body, root_bits),
+      : start_(moving.body, cast_root_bits),
         turns_(moving.motion.turns()),
         displacement_(rational_vector(moving.motion.displacement)),
         turn_(rational_vector(moving.motion.rotation_vector)),
@@ -48,7 +48,7 @@ class Track {
   mpq_class turning_speed(const RationalVector& n) const {
     if (!turns_) return 0;
     const RationalVector across = cross(n, turn_);
-    return root_above(dot(across, across), root_bits) * reach_;
+    return root_above(dot(across, across), cast_root_bits) * reach_;
   }
 
  private:

@@ -8,7 +8,7 @@ namespace touchstone::files {
 namespace {
 
 using oracle::CastCertificate;
-using oracle::Fraction;
+using oracle::TimeFraction;
 
 CastAnswer read_cast_answer(const JsonNode& node) {
   constexpr std::string_view expected = "hit, miss or unknown";
@@ -19,7 +19,7 @@ CastAnswer read_cast_answer(const JsonNode& node) {
   node.fail(fmt::format("found {}; expected {}", node.found(), expected));
 }
 
-Fraction read_time(const JsonNode& node) {
+TimeFraction read_time(const JsonNode& node) {
   const auto [numerator, denominator] = read_integers<2>(node);
   return {numerator, denominator};
 }
@@ -30,7 +30,7 @@ CastCertificate::Plane read_plane(const JsonNode& node) {
           read_integers<3>(node.at("direction", "an array of 3 integers in strings"))};
 }
 
-OrderedJson time_to_json(const Fraction& time) {
+OrderedJson time_to_json(const TimeFraction& time) {
   return {time.numerator.str(), time.denominator.str()};
 }
 

@@ -38,16 +38,16 @@ struct Proven {
   std::string fault(const CastCertificate& changed) const { return oracle::fault(changed, a, b); }
 };
 
-double value(const oracle::Fraction& time) {
+double value(const oracle::TimeFraction& time) {
   return time.numerator.convert_to<double>() / time.denominator.convert_to<double>();
 }
 
-bool is_equal(const oracle::Fraction& x, const oracle::Fraction& y) {
+bool is_equal(const oracle::TimeFraction& x, const oracle::TimeFraction& y) {
   return x.numerator * y.denominator == y.numerator * x.denominator;
 }
 
 // A time later, or earlier, by a millionth.
-oracle::Fraction moved(const oracle::Fraction& time, int by) {
+oracle::TimeFraction moved(const oracle::TimeFraction& time, int by) {
   return {time.numerator * 1'000'000 + by * time.denominator, time.denominator * 1'000'000};
 }
 
