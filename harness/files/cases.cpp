@@ -3,27 +3,10 @@
 
 #include <array>
 
+#include "harness/files/motion/case_json.h"
 #include "harness/files/shape_json.h"
 
 namespace touchstone::files {
-namespace {
-
-void read_case(const JsonNode& node, Case& c) {
-  node.as_object("a case: an object with \"id\", \"a\" and \"b\"");
-  c.id = node.at("id", "a string").text("a string");
-  read_body(node.at("a", "the first body"), c.shape_a, c.pose_a);
-  read_body(node.at("b", "the second body"), c.shape_b, c.pose_b);
-}
-
-Motion read_motion(const JsonNode& body) {
-  Motion motion;
-  if (body.has("displacement")) motion.displacement = body.at("displacement", "").vector();
-  if (body.has("rotation_vector")) motion.rotation_vector = body.at("rotation_vector", "").vector();
-  return motion;
-}
-
-}  // namespace
-
 std::vector<Case> read_cases(const std::filesystem::path& file) {
   std::vector<Case> cases;
   for_each_json_line(file, "case",
@@ -33,12 +16,8 @@ std::vector<Case> read_cases(const std::filesystem::path& file) {
 
 std::vector<CastCase> read_cast_cases(const std::filesystem::path& file) {
   std::vector<CastCase> cases;
-  for_each_json_line(file, "case", [&](const JsonNode& line) {
-    CastCase& c = cases.emplace_back();
-    read_case(line, c);
-    c.motion_a = read_motion(line.at("a", "the first body"));
-    c.motion_b = read_motion(line.at("b", "the second body"));
-  });
+  for_each_json_line(file, "case",
+                     [&](const JsonNode& line) { cases.push_back(read_cast_case(line)); });
   return cases;
 }
 

@@ -15,7 +15,10 @@
 // Departs: time grows only through planes whose gap is proven beyond rounding (MovingPair::rounding), so
 //          that no contact is missed and `lower` is certified; giving up is `unknown`, never a miss. The
 //          balls of spheres and capsules are taken off first, so that those are points and segments.
-//          Half-spaces are solved in closed form (motion/halfspace_cast).
+//          Half-spaces are solved in closed form (motion/halfspace_cast). gjk-ray-cast-lanes solves boxes
+//          in lanes by the times at which their shadows on the 15 axes meet (box_lanes), without a point
+//          of contact, spheres and capsules by planes at their nearest points (round_lanes), and one by one as here what is left: contact at the start, grazes, and edges that
+//          are nearly parallel.
 // Fails:   unknown / not_converged at the cap. Bodies that graze by less than the tolerance are a hit
 //          without `upper`. With StartContact::approach, bodies that touch at time 0 and for which no
 //          plane is found that they keep to are a hit at 0.
@@ -27,8 +30,10 @@
 #include <vector>
 
 #include "algorithms/cast.h"
+#include "algorithms/cast/gjk_ray_cast/box_lanes.h"
 #include "algorithms/cast/gjk_ray_cast/contact_proofs.h"
 #include "algorithms/cast/gjk_ray_cast/moving_pair.h"
+#include "algorithms/cast/gjk_ray_cast/round_lanes.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
 #include "algorithms/kernels/motion/inner_ball.h"
 #include "algorithms/kernels/motion/relative_motion.h"
@@ -38,29 +43,25 @@ namespace {
 
 class GjkRayCast final : public Cast {
  public:
-  explicit GjkRayCast(const CastSettings& settings)
-      : settings_(settings), most_iterations_(std::max(1, settings.max_iterations.value_or(128))) {}
+  GjkRayCast(const CastSettings& settings, bool lanes)
+      : settings_(settings),
+        most_iterations_(std::max(1, settings.max_iterations.value_or(128))),
+        lanes_(lanes) {}
 
   void bind(std::span<const Shape> shapes) override {
+    source_ = shapes;
     shapes_ = make_support_shapes<double>(shapes);
     inner_radii_ = inner_radii(shapes, shapes_);
   }
 
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
-    const BodyPairs& pairs = batch.pairs;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t a = pairs.first[i], b = pairs.second[i];
-      const MovingBody body_a = moving(batch, a);
-      const MovingBody body_b = moving(batch, b);
-      outcomes[i] = {};
-      if (batch.kind_b == ShapeKind::halfspace) {
-        const double tolerance = settings_.tolerance.value_or(0);
-        cast_halfspace(*body_a.shape, *body_a.pose, *body_a.motion, *body_b.shape, *body_b.pose,
-                       *body_b.motion, {tolerance, settings_.start}, outcomes[i]);
-      } else {
-        cast_bounded(body_a, body_b, outcomes[i]);
-      }
+    if (lanes_ && batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box) {
+      return solve_lanes(batch, boxes_, load_box_lane, cast_boxes, outcomes);
     }
+    if (lanes_ && batch.kind_b <= ShapeKind::capsule) {
+      return solve_lanes(batch, round_, load_round_lane, cast_round, outcomes);
+    }
+    for (std::size_t i = 0; i < batch.size(); ++i) solve_one(batch, i, outcomes[i]);
   }
 
  private:
@@ -68,6 +69,12 @@ class GjkRayCast final : public Cast {
     const std::uint32_t shape = batch.pairs.shape_of[k];
     return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
   }
+
+  void solve_one(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const;
+  // `load` and `cast` are those of box_lanes.h and round_lanes.h. `lanes` is scratch memory.
+  template <class Lane, class Load, class CastAll>
+  void solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, const Load& load,
+                   const CastAll& cast, std::span<CastOutcome> outcomes);
 
   enum class End { hit, miss, open };
 
@@ -91,7 +98,70 @@ class GjkRayCast final : public Cast {
   int most_iterations_;
   std::vector<SupportShape<double>> shapes_;
   std::vector<double> inner_radii_;  // metres, one for each shape
+  std::span<const Shape> source_;
+  // Scratch: the pairs in lanes, and their places in the batch.
+  std::vector<BoxLane> boxes_;
+  std::vector<RoundLane> round_;
+  std::vector<LaneTimes> times_;
+  std::vector<std::size_t> places_;
+  bool lanes_;
 };
+
+void GjkRayCast::solve_one(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const {
+  const MovingBody a = moving(batch, batch.pairs.first[i]);
+  const MovingBody b = moving(batch, batch.pairs.second[i]);
+  outcome = {};
+  if (batch.kind_b == ShapeKind::halfspace) {
+    cast_halfspace(*a.shape, *a.pose, *a.motion, *b.shape, *b.pose, *b.motion,
+                   {settings_.tolerance.value_or(0), settings_.start}, outcome);
+  } else {
+    cast_bounded(a, b, outcome);
+  }
+}
+
+// What the lanes leave open is solved one pair at a time.
+template <class Lane, class Load, class CastAll>
+void GjkRayCast::solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, const Load& load,
+                             const CastAll& cast, std::span<CastOutcome> outcomes) {
+  const BodyPairs& pairs = batch.pairs;
+  lanes.clear();
+  places_.clear();
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const std::uint32_t a = pairs.first[i], b = pairs.second[i];
+    const std::uint32_t shape_a = pairs.shape_of[a], shape_b = pairs.shape_of[b];
+    Lane& lane = lanes.emplace_back();
+    if (!load(source_[shape_a], pairs.poses[a], batch.motions[a], source_[shape_b], pairs.poses[b],
+              batch.motions[b], lane)) {
+      lanes.pop_back();
+      solve_one(batch, i, outcomes[i]);
+      continue;
+    }
+    const auto size = [&](std::uint32_t k) { return shapes_[k].size + shapes_[k].radius; };
+    lane.tolerance = settings_.tolerance.value_or(1e-9 * std::max(size(shape_a), size(shape_b)));
+    places_.push_back(i);
+  }
+  times_.resize(lanes.size());
+  cast(lanes, times_);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const LaneTimes& times = times_[k];
+    CastOutcome& outcome = outcomes[places_[k]];
+    if (!times.is_miss && !times.is_hit) {
+      solve_one(batch, places_[k], outcome);
+      continue;
+    }
+    outcome = {};
+    outcome.status = Status::ok;
+    outcome.iterations = times.iterations;
+    outcome.answer = times.is_miss ? CastAnswer::miss : CastAnswer::hit;
+    if (times.is_miss) continue;
+    outcome.toi = outcome.lower = times.lower;
+    outcome.upper = times.upper;
+    outcome.normal = times.normal.normalized();
+    const std::uint32_t a = pairs.first[places_[k]];
+    outcome.point =
+        pairs.poses[a].translation + outcome.toi * batch.motions[a].displacement + times.on_a;
+  }
+}
 
 GjkRayCast::End GjkRayCast::search(MovingPair& pair, double tolerance, Search& found) const {
   constexpr double rounding = MovingPair::rounding;
@@ -223,16 +293,27 @@ void GjkRayCast::cast_bounded(const MovingBody& a, const MovingBody& b,
 namespace touchstone::entries {
 
 std::vector<CastEntry> cast_gjk_ray_cast() {
-  return {{.info = {.name = "gjk-ray-cast",
-                    .citation = "van den Bergen, \"Ray casting against general convex objects with "
-                                "application to continuous collision detection\", 2004; time grows "
-                                "only through planes proven beyond rounding"},
-           .scalars = {Precision::float64},
-           .rotation = false,
-           .approach = true,
-           .make = [](const CastSettings& settings) {
-             return std::make_unique<GjkRayCast>(settings);
-           }}};
+  CastEntry plain{
+      .info = {.name = "gjk-ray-cast",
+               .citation = "van den Bergen, \"Ray casting against general convex objects with "
+                           "application to continuous collision detection\", 2004; time grows "
+                           "only through planes proven beyond rounding"},
+      .scalars = {Precision::float64},
+      .rotation = false,
+      .approach = true,
+      .make = [](const CastSettings& settings) {
+        return std::make_unique<GjkRayCast>(settings, false);
+      }};
+  CastEntry lanes = plain;
+  lanes.info.name = "gjk-ray-cast-lanes";
+  lanes.info.citation +=
+      "; boxes in lanes: Gottschalk, Lin, Manocha, \"OBBTree\", SIGGRAPH 1996, "
+      "with the time as in Ericson, \"Real-Time Collision Detection\", 2005, "
+      "section 5.5.8";
+  lanes.make = [](const CastSettings& settings) {
+    return std::make_unique<GjkRayCast>(settings, true);
+  };
+  return {plain, lanes};
 }
 
 }  // namespace touchstone::entries

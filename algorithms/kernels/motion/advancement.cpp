@@ -6,6 +6,7 @@
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/motion/contact_by.h"
+#include "algorithms/kernels/motion/round_cores.h"
 
 namespace touchstone {
 
@@ -53,11 +54,22 @@ FreeUntil apart_by_balls(const RelativeMotion& motion) {
 }
 
 Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, CastOutcome& outcome) {
-  using State = Advancement::State;
+  if (!(pair.unit() < 0x1p959)) return {};
+  if (!is_round(pair)) return look_by_gjk(pair, time, outcome.iterations);
+  ++outcome.iterations;
+  const ClosestOfRound closest = closest_of_round(pair);
+  const double distance = closest.between.norm();
+  const Vec3d normal = distance > 0 ? Vec3d(closest.between / distance) : Vec3d(Vec3d::Zero());
+  if (pair.unit() * (distance - pair.radius()) <= tolerance_) {
+    return hit(pair, {time, closest.on_a, closest.on_b}, normal);
+  }
+  return apart(pair, time, normal, -normal.dot(pair.support(normal).difference));
+}
+
+Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double time,
+                                           int& iterations) {
   constexpr int most_iterations = 128;
-  Advancement result;
   const double unit = pair.unit();
-  if (!(unit < 0x1p959)) return result;
   const GjkDistanceGoal<double> goal{
       .task = Task::distance,
       .tolerance = std::max(0.25 * tolerance_ / unit, SupportPair<double>::rounding),
@@ -65,29 +77,39 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
   const LastFrame<double> last{kept_, normal_};
   const GjkDistanceResult<double> found = gjk_distance(pair, goal, &last);
   kept_.keep(found.simplex);
-  outcome.iterations += found.iterations;
+  iterations += found.iterations;
   const bool inside = found.end == GjkDistanceResult<double>::End::contact;
   // A simplex nearer than the radii ends the search early, without the plane.
   const double upper = inside ? 0.0 : unit * (found.upper - pair.radius());
-  if (inside || upper <= tolerance_) {
-    result.state = State::hit;
-    Simplex<double> simplex = found.simplex;
-    if (simplex.size == 4) simplex.size = 3;  // an inner point has no weights
-    const NearestPoint<double> nearest = reduce_to_nearest(simplex);
-    const Vec3d normal = -nearest.direction;
-    if (!(time > 0) && !found.nearest.inside) normal_ = normal;
-    const DifferencePoint<double> mean = weighted_mean(simplex);
-    const Vec3d core = mean.a + pair.radius_a() * normal_;
-    point_ = motion_.to_world(pair.to_world(core), time);
-    nearest_ = {time, motion_.centre_a(time) + unit * mean.a,
-                motion_.centre_b(time) + unit * (mean.b - pair.centre_b())};
-    return result;
-  }
+  if (!inside && upper > tolerance_) return apart(pair, time, found.direction, found.lower);
+  Simplex<double> simplex = found.simplex;
+  if (simplex.size == 4) simplex.size = 3;  // an inner point has no weights
+  const NearestPoint<double> nearest = reduce_to_nearest(simplex);
+  const DifferencePoint<double> mean = weighted_mean(simplex);
+  return hit(pair, {time, mean.a, mean.b - pair.centre_b()},
+             found.nearest.inside ? Vec3d(Vec3d::Zero()) : Vec3d(-nearest.direction));
+}
+
+Advancement AdvancementSearch::hit(const SupportPair<double>& pair, const NearestPoints& found,
+                                   const Vec3d& normal) {
+  const double time = found.time;
+  if (!(time > 0) && !normal.isZero(0)) normal_ = normal;
+  const Vec3d core = found.a + pair.radius_a() * normal_;
+  point_ = motion_.to_world(pair.to_world(core), time);
+  nearest_ = {time, motion_.centre_a(time) + pair.unit() * found.a,
+              motion_.centre_b(time) + pair.unit() * found.b};
+  return {Advancement::State::hit, {}};
+}
+
+Advancement AdvancementSearch::apart(const SupportPair<double>& pair, double time,
+                                     const Vec3d& normal, double cores_apart) {
+  const double unit = pair.unit();
   const double slack = RelativeMotion::pair_rounding * unit + motion_.placement_rounding();
-  result.plane = {time, found.direction, unit * (found.lower - pair.radius()) - slack};
+  Advancement result;
+  result.plane = {time, normal, unit * (cores_apart - pair.radius()) - slack};
   if (result.plane.gap > 0) {
-    result.state = State::apart;
-    normal_ = found.direction;
+    result.state = Advancement::State::apart;
+    normal_ = normal;
   }
   return result;
 }

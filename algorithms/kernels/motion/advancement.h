@@ -1,6 +1,7 @@
 // The loop of conservative advancement: time grows by steps in which the bodies provably stay apart.
-// Used by conservative-advancement and rigid-advancement, which differ in the step.
-// Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies.
+// Used by conservative-advancement, rigid-advancement and bilateral-advancement, which differ in the step.
+// Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies; for spheres and
+//             capsules a closed form does (round_cores).
 //          2. If they are within the tolerance, it is a hit.
 //          3. The step says until when that plane proves them apart; if until the end, it is a miss.
 //          4. Go there, and repeat.
@@ -12,22 +13,10 @@
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/kernels/gjk/warm_start.h"
 #include "algorithms/kernels/motion/contact_by.h"
+#include "algorithms/kernels/motion/parting_step.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {
-
-// A plane that parts the bodies at a time.
-struct PartingPlane {
-  double time;
-  Vec3d normal;  // unit vector from a to b
-  double gap;    // metres; proven beyond rounding, > 0
-};
-
-// How long a plane parts the bodies.
-struct FreeUntil {
-  double time;      // they are apart in [plane.time, time)
-  bool to_the_end;  // they are apart in [plane.time, 1]
-};
 
 struct AdvancementGoal {
   // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.
@@ -62,6 +51,14 @@ class AdvancementSearch {
   void finish(double time, CastOutcome& outcome) const;
 
  private:
+  Advancement look_by_gjk(SupportPair<double>& pair, double time, int& iterations);
+  // Notes a hit. Points are from their bodies' centres, in the pair's unit; the normal is zero if it is not
+  // known.
+  Advancement hit(const SupportPair<double>& pair, const NearestPoints& found, const Vec3d& normal);
+  // `cores_apart` is the gap of the cores along the normal, in the pair's unit.
+  Advancement apart(const SupportPair<double>& pair, double time, const Vec3d& normal,
+                    double cores_apart);
+
   const RelativeMotion& motion_;
   double tolerance_;              // metres
   WarmStart kept_;                // the last look's simplex

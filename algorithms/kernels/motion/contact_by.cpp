@@ -1,21 +1,23 @@
-// Proofs of contact by GJK.
+// Proofs of contact by GJK, or the closest points of round bodies.
 #include "algorithms/kernels/motion/contact_by.h"
 
 #include <algorithm>
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
+#include "algorithms/kernels/motion/round_cores.h"
 
 namespace touchstone {
 
 bool contact_is_proven(SupportPair<double>& pair, double slack, int& iterations) {
   constexpr int most_iterations = 64;
+  const double margin = RelativeMotion::pair_rounding + slack / pair.unit();
+  if (is_round(pair)) return closest_of_round(pair).between.norm() + margin < pair.radius();
   const GjkDistanceGoal<double> goal{.task = Task::intersect,
                                      .tolerance = SupportPair<double>::rounding,
                                      .most_iterations = most_iterations};
   GjkDistanceResult<double> found = gjk_distance(pair, goal);
   iterations += found.iterations;
   if (found.simplex.size == 0) return false;
-  const double margin = RelativeMotion::pair_rounding + slack / pair.unit();
   const NearestPoint<double> nearest = reduce_to_nearest(found.simplex);
   // If every corner is off by less than the distance of the faces from the origin, the true
   // tetrahedron contains the origin too: no plane parts them.

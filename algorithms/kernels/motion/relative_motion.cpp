@@ -7,11 +7,6 @@
 namespace touchstone {
 namespace {
 
-Mat3d rotation_at(const MovingBody& body, double time) {
-  if (!body.motion->turns()) return body.pose->rotation;
-  return rotation_by(time * body.motion->rotation_vector) * body.pose->rotation;
-}
-
 double reach_of(const MovingBody& body) {
   const double reach = body.shape->centre.stableNorm() + body.shape->size;
   return reach * stretch_of(body.pose->rotation) * (1 + 1e-12);
@@ -23,18 +18,44 @@ double turning_rounding(const MovingBody& body, double reach) {
   return (4 * body.motion->rotation_vector.norm() + 30) * epsilon * reach;
 }
 
+// The matrix of the cross product with a vector.
+Mat3d cross_matrix(const Vec3d& v) {
+  Mat3d across;
+  across << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return across;
+}
+
+struct SineAndVersine {
+  double sine, versine;  // versine: 1 - cos, without cancellation
+};
+
+SineAndVersine sine_and_versine(double angle) {
+  const double sine = std::sin(angle / 2), cosine = std::cos(angle / 2);
+  return {2 * sine * cosine, 2 * sine * sine};
+}
+
 }  // namespace
 
 Mat3d rotation_by(const Vec3d& rotation_vector) {
   const double angle = rotation_vector.norm();
   if (!(angle > 0)) return Mat3d::Identity();
-  const Vec3d axis = rotation_vector / angle;
-  const double sine = std::sin(angle);
-  const double half = std::sin(angle / 2);
-  const double versine = 2 * half * half;  // 1 - cos, without cancellation
-  Mat3d across;
-  across << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+  const Mat3d across = cross_matrix(rotation_vector / angle);
+  const auto [sine, versine] = sine_and_versine(angle);
   return Mat3d::Identity() + sine * across + versine * (across * across);
+}
+
+TurningPose::TurningPose(const MovingBody& body)
+    : start_(body.pose->rotation), angle_(body.motion->rotation_vector.norm()) {
+  if (!(angle_ > 0)) return;
+  const Mat3d across = cross_matrix(body.motion->rotation_vector / angle_);
+  across_ = across * start_;
+  twice_across_ = across * across_;
+}
+
+Mat3d TurningPose::at(double time) const {
+  if (!(angle_ > 0)) return start_;
+  const auto [sine, versine] = sine_and_versine(time * angle_);
+  return start_ + sine * across_ + versine * twice_across_;
 }
 
 double stretch_of(const Mat3d& matrix) {
@@ -46,6 +67,8 @@ double stretch_of(const Mat3d& matrix) {
 RelativeMotion::RelativeMotion(const MovingBody& a, const MovingBody& b)
     : a_(a),
       b_(b),
+      turning_a_(a),
+      turning_b_(b),
       offset_(b.pose->translation - a.pose->translation),
       displacement_(b.motion->displacement - a.motion->displacement),
       reach_a_(reach_of(a)),
@@ -56,15 +79,15 @@ RelativeMotion::RelativeMotion(const MovingBody& a, const MovingBody& b)
 }
 
 Vec3d RelativeMotion::centre_a(double time) const {
-  return a_.shape->is_centred ? Vec3d(Vec3d::Zero()) : rotation_at(a_, time) * a_.shape->centre;
+  return a_.shape->is_centred ? Vec3d(Vec3d::Zero()) : turning_a_.at(time) * a_.shape->centre;
 }
 Vec3d RelativeMotion::centre_b(double time) const {
-  return b_.shape->is_centred ? Vec3d(Vec3d::Zero()) : rotation_at(b_, time) * b_.shape->centre;
+  return b_.shape->is_centred ? Vec3d(Vec3d::Zero()) : turning_b_.at(time) * b_.shape->centre;
 }
 
 SupportPair<double> RelativeMotion::at(double time) const {
-  const Pose pose_a = {rotation_at(a_, time), Vec3d::Zero()};
-  const Pose pose_b = {rotation_at(b_, time), offset(time)};
+  const Pose pose_a = {turning_a_.at(time), Vec3d::Zero()};
+  const Pose pose_b = {turning_b_.at(time), offset(time)};
   return {*a_.shape, pose_a, *b_.shape, pose_b};
 }
 

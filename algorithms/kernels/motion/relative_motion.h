@@ -1,5 +1,6 @@
 // A pair of moving bodies as seen from the origin of the first, at any time. Used by
-// conservative-advancement, rigid-advancement and the proof of contact (contact_by.h).
+// conservative-advancement, rigid-advancement, bilateral-advancement and the proof of contact
+// (contact_by.h).
 #pragma once
 
 #include "algorithms/core/motion.h"
@@ -24,6 +25,18 @@ struct MovingBody {
   double shape_inner;    // metres: inner_radius of the shape (inner_ball.h)
 
   double inner_radius() const { return shape_inner * least_stretch(pose->rotation); }
+};
+
+// A body's rotation at any time, by Rodrigues' formula with its matrices made once. As accurate as
+// rotation_by.
+class TurningPose {
+ public:
+  explicit TurningPose(const MovingBody& body);
+  Mat3d at(double time) const;
+
+ private:
+  Mat3d start_, across_, twice_across_;  // the last two are set only if the body turns
+  double angle_;
 };
 
 // The frame moves with the origin of body a, and keeps the world's axes. Lengths are in metres.
@@ -64,6 +77,7 @@ class RelativeMotion {
 
  private:
   MovingBody a_, b_;
+  TurningPose turning_a_, turning_b_;
   Vec3d offset_;        // from a's origin to b's at time 0
   Vec3d displacement_;  // of b relative to a
   double reach_a_, reach_b_;

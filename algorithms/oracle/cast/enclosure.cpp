@@ -10,6 +10,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/core/bounds.h"
+
 namespace touchstone::oracle {
 namespace {
 
@@ -57,8 +59,7 @@ class RoundedPair {
     Vec3d normal = Vec3d::Zero();
   };
   Bounds at(double time) {
-    const Pose pose_a = {rotation_at(a_, time), Vec3d::Zero()};
-    const Pose pose_b = {rotation_at(b_, time), (offset_ + time * velocity_).cast<double>()};
+    const Pose pose_a = rounded_pose(a_, a_, time), pose_b = rounded_pose(b_, a_, time);
     const Body body_a(*a_.solid, pose_a), body_b(*b_.solid, pose_b);
     const Measure measure = oracle_.measure(body_a, body_b);
     Bounds bounds{measure.lower - 2 * doubt_, measure.upper + 2 * doubt_};
@@ -99,8 +100,21 @@ class RoundedPair {
 
 }  // namespace
 
+EnclosedBody enclosed(const Shape& shape, const Solid& solid, const Pose& pose,
+                      const Motion& motion) {
+  const double reach = loose_reach(shape, pose.rotation);
+  // A half-space does not turn, and has no reach.
+  return {&solid, &pose, &motion, std::isfinite(reach) ? reach : 0};
+}
+
+Pose rounded_pose(const EnclosedBody& body, const EnclosedBody& from, double time) {
+  const Wide3 offset = wide(body.pose->translation) - wide(from.pose->translation);
+  const Wide3 velocity = wide(body.motion->displacement) - wide(from.motion->displacement);
+  return {rotation_at(body, time), (offset + time * velocity).cast<double>()};
+}
+
 void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, double tolerance,
-             CastOutcome& outcome) {
+             CastOutcome& outcome, std::vector<PartedUntil>* planes) {
   constexpr int most_steps = 20000;
   RoundedPair bodies(oracle, a, b);
   const auto overlap = [&](double time) {
@@ -123,6 +137,7 @@ void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, doubl
     if (bounds.gap > 0 && bounds.gap > (1 - time) * speed) {
       outcome.answer = CastAnswer::miss;
       outcome.lower = CastOutcome::none;
+      if (planes != nullptr) planes->push_back({bounds.normal, 1});
       return;
     }
     // Near contact, a proof of it a little later ends the search. It is tried again each time that the
@@ -144,6 +159,7 @@ void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, doubl
     const double next = time + bounds.gap / speed * (1 - 1e-12);
     if (!(bounds.gap > 0) || !(next > time)) break;
     time = std::min(next, 1.0);
+    if (planes != nullptr) planes->push_back({bounds.normal, time});
   }
   outcome.status = Status::not_converged;
 }

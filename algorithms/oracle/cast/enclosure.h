@@ -1,8 +1,8 @@
-// Part of the oracle, used by exact_cast alone: the time of impact of bodies that turn, or are curved,
+// Part of the oracle, used by exact_cast and prove_cast: the time of impact of bodies that turn, or are curved,
 // between bounds.
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/core/motion.h"
@@ -21,10 +21,23 @@ struct EnclosedBody {
   double reach;
 };
 
+EnclosedBody enclosed(const Shape& shape, const Solid& solid, const Pose& pose,
+                      const Motion& motion);
+
+// The pose at a time, rounded to doubles; its origin is given in the frame of `from`, whose origin moves
+// with it and whose axes are the world's.
+Pose rounded_pose(const EnclosedBody& body, const EnclosedBody& from, double time);
+
+// A plane with this normal, from a to b, that parts the bodies until a time.
+struct PartedUntil {
+  Vec3d normal;
+  double time;
+};
+
 // Writes a miss or a hit only if it is proven; otherwise the answer is unknown and the status
 // not_converged, with a proven `lower`. The bracket of a hit is narrowed to a path of about
-// `tolerance` (metres).
+// `tolerance` (metres). Adds the planes that parted the bodies, in order of time.
 void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, double tolerance,
-             CastOutcome& outcome);
+             CastOutcome& outcome, std::vector<PartedUntil>* planes = nullptr);
 
 }  // namespace touchstone::oracle

@@ -71,20 +71,21 @@ MovingCores::MovingCores(const Body& a, const Motion& motion_a, const Body& b,
   radius_ = sum(radii, unit);
 }
 
-IntegerVector MovingCores::least(const IntegerVector& n) const {
+MovingCores::Point MovingCores::least(const IntegerVector& n) const {
   const auto furthest = [&](const std::vector<IntegerVector>& points, bool negative) {
-    const IntegerVector* best = nullptr;
+    std::uint32_t best = 0;
     Integer height;
-    for (const IntegerVector& point : points) {
-      Integer here = dot(n, point);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      Integer here = dot(n, points[i]);
       if (negative) here = -here;
-      if (best != nullptr && here <= height) continue;
-      best = &point;
+      if (i > 0 && here <= height) continue;
+      best = i;
       height = here;
     }
-    return *best;
+    return best;
   };
-  return furthest(a_, true) - furthest(b_, false);
+  const DifferencePoint of{furthest(a_, true), furthest(b_, false)};
+  return {difference(of), of};
 }
 
 }  // namespace touchstone::oracle

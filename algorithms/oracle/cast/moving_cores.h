@@ -1,9 +1,10 @@
-// Part of the oracle, used by exact_cast alone: two polytopes that move, on one grid of integers.
+// Part of the oracle, used by linear_search and prove_cast: two polytopes that move, on one grid of integers.
 #pragma once
 
 #include <vector>
 
 #include "algorithms/core/motion.h"
+#include "algorithms/oracle/certificates/certificate.h"
 #include "algorithms/oracle/numbers/integer.h"
 #include "algorithms/oracle/solid.h"
 
@@ -18,8 +19,14 @@ class MovingCores {
   // Both cores are polytopes, and neither body turns.
   MovingCores(const Body& a, const Motion& motion_a, const Body& b, const Motion& motion_b);
 
-  // The point a - b of the difference that is least along n at time 0. Ties go to the first.
-  IntegerVector least(const IntegerVector& n) const;
+  // A point a - b of the difference at time 0, and of which points it is made.
+  struct Point {
+    IntegerVector difference;
+    DifferencePoint of;
+  };
+  // The point that is least along n. Ties go to the first.
+  Point least(const IntegerVector& n) const;
+  IntegerVector difference(const DifferencePoint& of) const { return a_[of.a] - b_[of.b]; }
   const IntegerVector& velocity() const { return velocity_; }
   const Integer& radius() const { return radius_; }  // of both balls together
 

@@ -15,15 +15,18 @@ std::optional<RationalPoint> on_segment(const IntegerVector& p, const IntegerVec
   const IntegerVector edge = q - p;
   const Integer along = -dot(p, edge), whole = dot(edge, edge);
   if (!(along > 0 && along < whole)) return {};
-  return RationalPoint{whole * p + along * edge, whole};
+  return RationalPoint{whole * p + along * edge, whole, {whole - along, along}};
 }
 
 std::optional<RationalPoint> on_triangle(const IntegerVector& p, const IntegerVector& q,
                                          const IntegerVector& r) {
   const IntegerVector n = cross(q - p, r - p);
   // Twice the areas of the triangles between the projected origin and each side.
-  if (!(dot(n, cross(p, q)) > 0 && dot(n, cross(q, r)) > 0 && dot(n, cross(r, p)) > 0)) return {};
-  return RationalPoint{dot(n, p) * n, dot(n, n)};
+  std::vector<Integer> areas = {dot(n, cross(q, r)), dot(n, cross(r, p)), dot(n, cross(p, q))};
+  for (const Integer& area : areas) {
+    if (!(area > 0)) return {};
+  }
+  return RationalPoint{dot(n, p) * n, dot(n, n), std::move(areas)};
 }
 
 std::optional<RationalPoint> in_tetrahedron(const Points& s) {
@@ -35,12 +38,14 @@ std::optional<RationalPoint> in_tetrahedron(const Points& s) {
   for (const Integer& part : parts) {
     if (part.is_zero() || (part < 0) != (parts[0] < 0)) return {};
   }
-  return RationalPoint{};
+  RationalPoint origin;
+  for (const Integer& part : parts) origin.weights.emplace_back(abs(part));
+  return origin;
 }
 
 std::optional<RationalPoint> nearest_inside(const Points& s) {
   switch (s.size()) {
-    case 1: return RationalPoint{s[0], 1};
+    case 1: return RationalPoint{s[0], 1, {1}};
     case 2: return on_segment(s[0], s[1]);
     case 3: return on_triangle(s[0], s[1], s[2]);
     default: return in_tetrahedron(s);

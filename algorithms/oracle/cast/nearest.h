@@ -1,4 +1,4 @@
-// Part of the oracle, used by exact_cast alone: the point of a simplex that is nearest to the origin,
+// Part of the oracle, used by linear_search: the point of a simplex that is nearest to the origin,
 // in integers.
 #pragma once
 
@@ -12,6 +12,7 @@ namespace touchstone::oracle {
 struct RationalPoint {
   IntegerVector numerator{};
   Integer denominator = 1;
+  std::vector<Integer> weights;  // of the points, all > 0; their sum is 1 only after division by it
 };
 
 // Reduces one to four points to those whose weights in the nearest point are positive, and returns

@@ -29,6 +29,50 @@ RationalCore::RationalCore(const Body& body, mp_bitcnt_t root_bits)
           "a polytope has no vertices");
 }
 
+void RationalCore::turn(const std::array<RationalVector, 3>& rotation) {
+  require(!is_halfspace(), "a half-space turns");
+  const std::array<RationalVector, 3> old = rows_;
+  for (int i = 0; i < 3; ++i) {
+    rows_[i] = rotation[i][0] * old[0] + rotation[i][1] * old[1] + rotation[i][2] * old[2];
+  }
+}
+
+void RationalCore::displace(const RationalVector& by) {
+  translation_ = translation_ + by;
+  if (is_halfspace()) height_ += dot(normal_, by);
+}
+
+mpq_class RationalCore::reach() const {
+  if (is_polytope()) {
+    mpq_class square = 0;
+    for (const RationalVector& vertex : vertices()) {
+      const RationalVector from_origin = vertex - translation_;
+      square = std::max<mpq_class>(square, dot(from_origin, from_origin));
+    }
+    return root_above(square, root_bits_);
+  }
+  // The greatest eigenvalue of M^T M, and so of M M^T, is at most its greatest row sum.
+  mpq_class stretch = 0;
+  for (const RationalVector& row : rows_) {
+    mpq_class sum = 0;
+    for (const RationalVector& other : rows_) sum += abs(dot(row, other));
+    stretch = std::max<mpq_class>(stretch, sum);
+  }
+  const auto& [r, s, h] = extents_;
+  mpq_class square = r * r + h * h;
+  if (solid_.core == Solid::Core::ellipsoid) {
+    const mpq_class greatest = std::max<mpq_class>({r, s, h});
+    square = greatest * greatest;
+  }
+  return root_above(stretch * square, root_bits_);
+}
+
+std::vector<RationalVector> RationalCore::vertices() const {
+  std::vector<Generator> all(solid_.vertices.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].vertex = static_cast<std::int32_t>(i);
+  return points(all);
+}
+
 std::optional<mpq_class> RationalCore::support(const RationalVector& n) const {
   if (is_halfspace()) {
     const mpq_class along = dot(n, normal_);

@@ -1,4 +1,4 @@
-// Part of the oracle, used by certificate_check alone: a body's core in the world, in rationals.
+// Part of the oracle, used by the checks of certificates: a body's core in the world, in rationals.
 #pragma once
 
 #include <array>
@@ -15,6 +15,17 @@ class RationalCore {
  public:
   // Roots are computed to `root_bits` bits.
   RationalCore(const Body& body, mp_bitcnt_t root_bits);
+
+  // Moves the core: first turns it about the body's origin, then displaces it.
+  void turn(const std::array<RationalVector, 3>& rotation);
+  void displace(const RationalVector& by);
+
+  // An upper bound on the distance of the core's points from the body's origin; not for half-spaces.
+  mpq_class reach() const;
+
+  bool is_polytope() const { return solid_.core == Solid::Core::polytope; }
+  // The vertices of a polytope in world coordinates.
+  std::vector<RationalVector> vertices() const;
 
   bool is_halfspace() const { return solid_.core == Solid::Core::halfspace; }
   // A half-space is normal . x <= height. The normal is outward; it is zero if the matrix is

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,6 +16,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
+#include "harness/files/output_file.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_cast.h"
 
@@ -24,6 +26,7 @@ namespace {
 struct CastOptions {
   std::string cases, casts, out;
   CastSettings settings;
+  std::string saved, certificates;
   double time_limit = 5;  // seconds a query
 };
 
@@ -91,10 +94,50 @@ void print_summary(const std::vector<CastAnswers>& all) {
   }
 }
 
+// Proves the exact answer of each case that the exact cast takes, and writes one certificate a line.
+void save_certificates(const std::vector<files::CastCase>& cases, const CastOptions& options) {
+  const CastEntry& exact = *find_cast("exact");
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const files::CastCase& c = cases[i];
+    if (offers(exact, c.shape_a.kind, c.shape_b.kind, process::turns(c))) taken.push_back(i);
+  }
+  std::ofstream stream(options.saved, std::ios::binary);
+  for (const std::size_t i : taken) {
+    stream << files::to_json(process::prove_cast(cases[i], options.settings.tolerance)) << '\n';
+  }
+  stream.close();
+  if (!stream) throw base::InputError(options.saved, 0, "cannot be written");
+  fmt::print("{} certificates in {}\n", taken.size(), options.saved);
+}
+
+int verify_certificates(const std::string& file) {
+  constexpr int most_told = 1000;
+  std::int64_t verified = 0, refused = 0;
+  files::read_cast_certificates(
+      file, [&](const files::StoredCastCertificate& stored, std::int64_t line) {
+        const std::string why = process::fault_of(stored);
+        ++(why.empty() ? verified : refused);
+        if (why.empty() || refused > most_told) return;
+        fmt::print(stderr, "{}:{}: {}: {}\n", file, line, stored.of.id, why);
+      });
+  fmt::print("{} certificates verified, {} refused\n", verified, refused);
+  return refused == 0 ? exit_done : exit_measured_wrong;
+}
+
 void cast(const CastOptions& options) {
+  const auto require = [](const std::string& value, const char* name) {
+    if (!value.empty()) return;
+    throw base::InputError(
+        fmt::format("{} is missing; expected it, or --certificates alone", name));
+  };
+  require(options.cases, "CASES");
+  require(options.casts, "--cast");
+  require(options.out, "--out");
   const auto entries = campaign::select(casts(), campaign::split_names(options.casts), "cast");
   const std::vector<files::CastCase> cases = files::read_cast_cases(options.cases);
   files::check_output(options.out);
+  if (!options.saved.empty()) files::check_output(options.saved);
   std::vector<CastAnswers> all;
   all.reserve(entries.size());
   for (const CastEntry* entry : entries) all.push_back(ask(*entry, cases, options));
@@ -108,6 +151,7 @@ void cast(const CastOptions& options) {
   }
   csv.close();
   print_summary(all);
+  if (!options.saved.empty()) save_certificates(cases, options);
 }
 
 }  // namespace
@@ -115,11 +159,10 @@ void cast(const CastOptions& options) {
 void add_cast(Arguments command) {
   const auto options = std::make_shared<CastOptions>();
   CastSettings& settings = options->settings;
-  command
-      .text("CASES", options->cases,
-            "Cases: JSON, one object a line; a body may have a displacement and a rotation_vector")
-      .required();
-  command.text("--cast", options->casts, "Casts: names joined by commas, or all").required();
+  command.text(
+      "CASES", options->cases,
+      "Cases: JSON, one object a line; a body may have a displacement and a rotation_vector");
+  command.text("--cast", options->casts, "Casts: names joined by commas, or all (required)");
   command.one_of("--scalar", settings.scalar, scalar_choices(), "What is calculated in")
       .show_default("double");
   command
@@ -137,8 +180,13 @@ void add_cast(Arguments command) {
               "Whether contact at time 0 counts always, or only where the bodies approach")
       .show_default("counts");
   add_time_limit(command, options->time_limit).show_default();
-  command.text("--out", options->out, "The CSV file to write").required();
-  command.job([options] {
+  command.text("--out", options->out, "The CSV file to write (required)");
+  command.text("--save-certificates", options->saved,
+               "Also prove the exact answer of each case, and write the proofs to this file");
+  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
+  command.exclude_others("--certificates");
+  command.job([options]() -> int {
+    if (!options->certificates.empty()) return verify_certificates(options->certificates);
     cast(*options);
     return exit_done;
   });

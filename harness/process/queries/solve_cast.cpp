@@ -2,8 +2,13 @@
 #include "harness/process/queries/solve_cast.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "algorithms/oracle/cast/prove_cast.h"
+#include "algorithms/oracle/certificates/cast_certificate_check.h"
 #include "algorithms/pair_query.h"
 
 namespace touchstone::process {
@@ -45,6 +50,32 @@ CastOutcome solve_cast(const CastEntry& entry, const CastSettings& settings,
   const files::CastCase* const one = &c;
   solve_casts(entry, settings, {&one, 1}, {&outcome, 1});
   return outcome;
+}
+
+files::StoredCastCertificate prove_cast(const files::CastCase& c, std::optional<double> tolerance) {
+  // A half-space is the second body of a pair.
+  const bool swap = needs_swap(c.shape_a.kind, c.shape_b.kind);
+  files::StoredCastCertificate stored{c, {}};
+  files::CastCase& of = stored.of;
+  if (swap) {
+    std::swap(of.shape_a, of.shape_b);
+    std::swap(of.pose_a, of.pose_b);
+    std::swap(of.motion_a, of.motion_b);
+  }
+  const oracle::Solid solid_a(of.shape_a), solid_b(of.shape_b);
+  const oracle::EnclosedBody a = enclosed(of.shape_a, solid_a, of.pose_a, of.motion_a);
+  const oracle::EnclosedBody b = enclosed(of.shape_b, solid_b, of.pose_b, of.motion_b);
+  oracle::Oracle oracle;
+  oracle::prove_cast(oracle, a, b, tolerance.value_or(oracle::default_tolerance(a, b)),
+                     stored.certificate);
+  return stored;
+}
+
+std::string fault_of(const files::StoredCastCertificate& stored) {
+  const files::CastCase& of = stored.of;
+  const oracle::Solid a(of.shape_a), b(of.shape_b);
+  return oracle::fault(stored.certificate, {{a, of.pose_a}, of.motion_a},
+                       {{b, of.pose_b}, of.motion_b});
 }
 
 }  // namespace touchstone::process

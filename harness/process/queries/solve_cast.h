@@ -1,10 +1,13 @@
 // Solves cases of two moving bodies with one cast. Used by the command cast and by check.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 
 #include "algorithms/registry.h"
 #include "harness/files/cases.h"
+#include "harness/files/proofs/cast_certificates.h"
 
 namespace touchstone::process {
 
@@ -20,5 +23,12 @@ void solve_casts(const CastEntry& entry, const CastSettings& settings,
 // answer.
 CastOutcome solve_cast(const CastEntry& entry, const CastSettings& settings,
                        const files::CastCase& c);
+
+// The answer of the cast `exact` with its proof; a half-space becomes the second body. The case must be one
+// that `exact` takes.
+files::StoredCastCertificate prove_cast(const files::CastCase& c, std::optional<double> tolerance);
+
+// Returns why a certificate does not prove its claim, or an empty string if it does.
+std::string fault_of(const files::StoredCastCertificate& stored);
 
 }  // namespace touchstone::process

@@ -117,6 +117,30 @@ TEST_F(CastCommand, ContactAtTheStart) {
   }
 }
 
+TEST_F(CastCommand, CertificatesAreSavedAndVerified) {
+  folder.write("in.jsonl", box_and_moving_ball("hit", -4) + box_and_moving_ball("miss", -1) +
+                               box_and_moving_ball("turning", -4, 0.5));
+  const Ran saved = run_program("cast " + path("in.jsonl") + " --cast closed-form --out " +
+                                path("out.csv") + " --save-certificates " + path("proofs.jsonl"));
+  ASSERT_EQ(saved.status, 0) << saved.text;
+  EXPECT_THAT(saved.text, testing::HasSubstr("3 certificates in"));
+  const Ran verified = run_program("cast --certificates " + path("proofs.jsonl"));
+  EXPECT_EQ(verified.status, 0) << verified.text;
+  EXPECT_THAT(verified.text, testing::HasSubstr("3 certificates verified, 0 refused"));
+  std::ifstream file(path("proofs.jsonl"));
+  std::string proofs(std::istreambuf_iterator<char>(file), {});
+  const auto place = proofs.find("\"answer\":\"hit\"");
+  ASSERT_NE(place, std::string::npos);
+  folder.write("changed.jsonl", proofs.replace(place, 14, "\"answer\":\"miss\""));
+  const Ran refused = run_program("cast --certificates " + path("changed.jsonl"));
+  EXPECT_EQ(refused.status, 1) << refused.text;
+  EXPECT_THAT(refused.text, testing::HasSubstr("changed.jsonl:1: hit: "));
+  EXPECT_THAT(refused.text, testing::HasSubstr("2 certificates verified, 1 refused"));
+  folder.write("broken.jsonl", proofs.substr(0, proofs.find("\"planes\"")) + "\"x\":0}\n");
+  expect_refusal("--certificates " + path("broken.jsonl"), "broken.jsonl:1: no \"planes\"");
+  expect_refusal("--certificates " + path("broken.jsonl") + " --cast all", "--certificates");
+}
+
 TEST_F(CastCommand, BadCasesAndRequests) {
   folder.write("in.jsonl",
                box_and_moving_ball("good", 1) +

@@ -1,0 +1,17 @@
+// Part of gjk-ray-cast-lanes: what a lane found of a pair that moves without turning.
+#pragma once
+
+#include "algorithms/core/vec.h"
+
+namespace touchstone {
+
+// The pair is undecided unless `is_miss` or `is_hit` is set. A hit is one at a time > 0, with a bracket.
+struct LaneTimes {
+  bool is_miss = false, is_hit = false;
+  double lower = 0, upper = 0;
+  Vec3d normal = Vec3d::Zero();  // from a to b, of any length
+  Vec3d on_a = Vec3d::Zero();    // from a's centre to where they touch; NaN if it is not known
+  int iterations = 0;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,24 @@
+// The closest points of cores that are points and segments, in closed form. Used by the loop of conservative
+// advancement (advancement.h) and the proof of contact (contact_by.h).
+// Paper:   Ericson, "Real-Time Collision Detection", 2005, section 5.1.9.
+#pragma once
+
+#include "algorithms/kernels/minkowski/support.h"
+
+namespace touchstone {
+
+// In the pair's unit: each point from its own body's centre, and the vector between them, from a to b.
+struct ClosestOfRound {
+  Vec3d on_a, on_b, between;
+};
+
+// True if both bodies are spheres or capsules.
+inline bool is_round(SupportPair<double>& pair) {
+  return pair.a().shape().core <= SupportCore::segment &&
+         pair.b().shape().core <= SupportCore::segment;
+}
+
+// For a pair that is round. The points lie on the cores whatever rounding does to the choice of them.
+ClosestOfRound closest_of_round(SupportPair<double>& pair);
+
+}  // namespace touchstone

@@ -1,0 +1,131 @@
+// Reads and writes the parts of certificates.
+#include "harness/files/proofs/proof_json.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+
+namespace touchstone::files {
+
+using oracle::Certificate;
+using oracle::Generator;
+using oracle::Integer;
+
+namespace {
+
+long double read_hexadecimal(const JsonNode& node) {
+  constexpr std::string_view expected = "a hexadecimal number in a string, such as \"0x1.8p-1\"";
+  const std::string& text = node.text(expected);
+  char* end = nullptr;
+  errno = 0;
+  const long double x = std::strtold(text.c_str(), &end);
+  const bool hexadecimal = text.starts_with("0x") || text.starts_with("-0x");
+  if (!hexadecimal || end != text.c_str() + text.size() || errno != 0 || !std::isfinite(x)) {
+    node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+  }
+  return x;
+}
+
+Generator read_generator(const JsonNode& node) {
+  if (node.value().is_array()) {
+    return {-1, read_items<3>(node, "hexadecimal numbers in strings", read_hexadecimal)};
+  }
+  const std::uint32_t vertex = read_index(node);
+  if (vertex > static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())) {
+    node.fail(fmt::format("found {}; expected the number of a vertex", vertex));
+  }
+  return {static_cast<std::int32_t>(vertex), {}};
+}
+
+Certificate::Term read_term(const JsonNode& node) {
+  if (!node.value().is_array() || node.size() != 3) {
+    node.fail(fmt::format("found {}; expected two indices and a weight", node.found()));
+  }
+  return {{read_index(node[0]), read_index(node[1])}, read_integer(node[2])};
+}
+
+std::string to_hexadecimal(long double x) {
+  std::array<char, 64> text;
+  const int size = std::snprintf(text.data(), text.size(), "%La", x);
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
+}  // namespace
+
+std::uint32_t read_index(const JsonNode& node) {
+  const Json& value = node.value();
+  if (!value.is_number_unsigned() ||
+      value.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+    node.fail(fmt::format("found {}; expected an index", node.found()));
+  }
+  return value.get<std::uint32_t>();
+}
+
+Integer read_integer(const JsonNode& node) {
+  constexpr std::string_view expected = "an integer in a string, such as \"-12\"";
+  const std::string& text = node.text(expected);
+  const std::string_view digits = std::string_view(text).substr(text.starts_with('-') ? 1 : 0);
+  const bool zero_first = digits.starts_with('0') && text != "0";
+  if (digits.empty() || zero_first ||
+      digits.find_first_not_of("0123456789") != std::string_view::npos) {
+    node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+  }
+  return Integer(text);
+}
+
+oracle::DifferencePoint read_point(const JsonNode& node) {
+  const auto [a, b] = read_items<2>(node, "indices", read_index);
+  return {a, b};
+}
+
+std::vector<Generator> read_generators(const JsonNode& node) {
+  return read_list(node, "an array of generators", read_generator);
+}
+
+std::vector<Certificate::Term> read_terms(const JsonNode& node) {
+  return read_list(node, "an array of weighted points", read_term);
+}
+
+Certificate::Surface read_surface(const JsonNode& node) {
+  node.as_object("an object with \"points\" and \"triangles\"");
+  return {read_list(node.at("points", "an array"), "an array of pairs of indices", read_point),
+          read_list(node.at("triangles", "an array"), "an array of triples of indices",
+                    [](const JsonNode& triangle) {
+                      return read_items<3>(triangle, "indices", read_index);
+                    })};
+}
+
+OrderedJson generators_to_json(const std::vector<Generator>& generators) {
+  OrderedJson list = OrderedJson::array();
+  for (const Generator& generator : generators) {
+    if (generator.vertex >= 0) {
+      list.push_back(generator.vertex);
+      continue;
+    }
+    OrderedJson point;
+    for (const long double x : generator.point) point.push_back(to_hexadecimal(x));
+    list.push_back(point);
+  }
+  return list;
+}
+
+OrderedJson terms_to_json(const std::vector<Certificate::Term>& terms) {
+  OrderedJson list = OrderedJson::array();
+  for (const Certificate::Term& term : terms) {
+    list.push_back({term.point.a, term.point.b, term.weight.str()});
+  }
+  return list;
+}
+
+OrderedJson surface_to_json(const Certificate::Surface& surface) {
+  OrderedJson out;
+  out["points"] = OrderedJson::array();
+  for (const auto& [a, b] : surface.points) out["points"].push_back({a, b});
+  out["triangles"] = surface.triangles;
+  return out;
+}
+
+}  // namespace touchstone::files
