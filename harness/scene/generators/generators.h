@@ -76,6 +76,8 @@ Generated make_rotating_gravity(GeneratorInput& input);
 Generated make_city(GeneratorInput& input);
 Generated make_stack(GeneratorInput& input);
 Generated make_ground(GeneratorInput& input);
+Generated make_terrain(GeneratorInput& input);
+Generated make_chain(GeneratorInput& input);
 Generated make_pairs(GeneratorInput& input);
 
 }  // namespace touchstone::scene
