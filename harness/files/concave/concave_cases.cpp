@@ -28,6 +28,13 @@ std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file) {
   return cases;
 }
 
+std::string to_json(const ConcaveCase& c) {
+  const OrderedJson json = {{"id", c.id},
+                            {"a", concave_body_to_json(c.a, c.pose_a)},
+                            {"b", concave_body_to_json(c.b, c.pose_b)}};
+  return json.dump();
+}
+
 Case convex_case(const ConcaveCase& c) {
   return {c.id, c.a.parts[0].shape, c.b.parts[0].shape, c.pose_a, c.pose_b};
 }

@@ -23,6 +23,9 @@ struct ConcaveCase {
 // vertices, a mesh in a compound, and a solid whose surface is open.
 std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file);
 
+// One line, without the line break, that read_concave_cases reads.
+std::string to_json(const ConcaveCase& c);
+
 // The case of two convex bodies.
 Case convex_case(const ConcaveCase& c);
 

@@ -112,4 +112,29 @@ ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
   return read;
 }
 
+OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose) {
+  if (body.mesh == nullptr && body.parts.size() == 1 && body.parts[0].pose.rotation.isIdentity(0) &&
+      body.parts[0].pose.translation.isZero(0)) {
+    return body_to_json(body.parts[0].shape, pose);
+  }
+  OrderedJson shape;
+  if (body.mesh != nullptr) {
+    OrderedJson vertices = OrderedJson::array();
+    for (const Vec3d& v : body.mesh->vertices) vertices.push_back({v.x(), v.y(), v.z()});
+    shape = {{"type", "mesh"},
+             {"vertices", std::move(vertices)},
+             {"triangles", body.mesh->triangles},
+             {"solid", body.mesh->solid}};
+  } else {
+    OrderedJson parts = OrderedJson::array();
+    for (const ConvexPart& part : body.parts) {
+      parts.push_back(body_to_json(part.shape, part.pose));
+    }
+    shape = {{"type", "compound"}, {"parts", std::move(parts)}};
+  }
+  OrderedJson placed = body_to_json(Shape{}, pose);
+  placed["shape"] = std::move(shape);
+  return placed;
+}
+
 }  // namespace touchstone::files

@@ -7,11 +7,15 @@
 #include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/pose.h"
 #include "harness/files/json_line.h"
+#include "harness/files/shape_json.h"
 
 namespace touchstone::files {
 
 // Throws InputError as described at read_concave_cases. Parts of nested compounds are numbered depth
 // first.
 ConcaveBody read_concave_body(const JsonNode& body, Pose& pose);
+
+// A body of one part with no place of its own is written as that shape.
+OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose);
 
 }  // namespace touchstone::files
