@@ -11,8 +11,8 @@
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 #include "algorithms/oracle/oracle.h"
+#include "harness/grade/concave/part_list.h"
 #include "harness/grade/pair_groups.h"
-#include "harness/grade/part_list.h"
 
 namespace touchstone::grade {
 

@@ -9,8 +9,8 @@
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/hull/convex_hull.h"
-#include "harness/geometry/compound.h"
 #include "harness/geometry/mesh_mass.h"
+#include "harness/geometry/shapes/compound.h"
 
 namespace touchstone::scene {
 namespace {

@@ -7,9 +7,9 @@
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/reproducible_math.h"
-#include "harness/geometry/compound.h"
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
+#include "harness/geometry/shapes/compound.h"
 #include "harness/geometry/shapes/mesh_shapes.h"
 #include "harness/scene/placement.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/grade/concave_reference.h"
+#include "harness/grade/concave/concave_reference.h"
 #include "harness/grade/outcome_check.h"
 #include "harness/measure/phases/block_input.h"
 

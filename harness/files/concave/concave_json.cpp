@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/files/shape_json.h"
-#include "harness/geometry/compound.h"
+#include "harness/geometry/shapes/compound.h"
 
 namespace touchstone::files {
 namespace {

@@ -11,13 +11,22 @@
 
 namespace touchstone::measure {
 
+std::vector<ConcaveBody> concave_bodies(const scene::Scene& scene) {
+  std::vector<ConcaveBody> bodies;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    const ConcaveBody* body = scene.concave_of(i);
+    bodies.push_back(body != nullptr ? *body : ConcaveBody{nullptr, {{scene.shapes[i], Pose{}}}});
+  }
+  return bodies;
+}
+
 BlockInput::BlockInput(const scene::Scene& scene, scene::BoxKind kind, bool with_poses)
     : shapes(scene.shapes) {
   for (const scene::Body& body : scene.bodies) shape_of.push_back(body.shape);
   if (!scene.concave.empty()) {
+    bodies = concave_bodies(scene);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       const ConcaveBody* body = scene.concave_of(i);
-      bodies.push_back(body != nullptr ? *body : ConcaveBody{nullptr, {{shapes[i], Pose{}}}});
       kinds.emplace_back(body == nullptr         ? ""
                          : body->mesh == nullptr ? "compound"
                          : body->mesh->solid     ? "solid"

@@ -24,6 +24,9 @@ struct BlockFrame {
   FrameChange change() const { return {boxes, moved, inserted, removed}; }
 };
 
+// The bodies of all shapes, convex ones as compounds of one part.
+std::vector<ConcaveBody> concave_bodies(const scene::Scene& scene);
+
 struct BlockInput {
   // Plays the scene. The true pairs are those of overlapping_pairs, unless the scene lists its
   // pairs.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "algorithms/core/executor/executor.h"
-#include "harness/grade/part_list.h"
+#include "harness/grade/concave/part_list.h"
 #include "harness/measure/allocations.h"
 #include "harness/measure/phases/block_input.h"
 #include "harness/measure/phases/narrow_choice.h"

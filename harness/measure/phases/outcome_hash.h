@@ -8,8 +8,8 @@
 
 #include "algorithms/core/outcome.h"
 #include "harness/base/hash.h"
+#include "harness/grade/concave/part_list.h"
 #include "harness/grade/pair_groups.h"
-#include "harness/grade/part_list.h"
 
 namespace touchstone::measure {
 

@@ -1,5 +1,5 @@
 // Places parts of compounds, and puts their surfaces together.
-#include "harness/geometry/compound.h"
+#include "harness/geometry/shapes/compound.h"
 
 #include <algorithm>
 #include <map>

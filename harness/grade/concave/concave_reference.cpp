@@ -1,5 +1,5 @@
 // Asks the oracle about pairs of bodies, part by part.
-#include "harness/grade/concave_reference.h"
+#include "harness/grade/concave/concave_reference.h"
 
 #include <algorithm>
 #include <cmath>
