@@ -97,13 +97,17 @@ parts = [
   {translation = [0, 2, 0], quaternion_wxyz = [0.7071067811865476, 0, 0, 0.7071067811865476], shape = {type = "compound", parts = [
     {shape = {type = "capsule", radius = 0.25, half_length = 1, axis = "x"}, translation = [1, 0, 0]},
   ]}},
+  {quaternion_wxyz = [0.9, 0.1, 0.2, 0.3], shape = {type = "compound", parts = [
+    {shape = {type = "sphere", radius = 0.1}, translation = [0.1, 0.2, 0.3], quaternion_wxyz = [0.7, 0.5, 0.1, 0.1]},
+  ]}},
 ]
 )");
   const ConcaveBody& body = *scene.concave_of(0);
-  ASSERT_EQ(body.parts.size(), 2u);
+  ASSERT_EQ(body.parts.size(), 3u);
   EXPECT_EQ(body.parts[0].rounding, 0);
-  EXPECT_GT(body.parts[1].rounding, 0);
-  EXPECT_LT(body.parts[1].rounding, 1e-13);
+  EXPECT_EQ(body.parts[1].rounding, 0);  // a quarter turn is exact
+  EXPECT_GT(body.parts[2].rounding, 0);
+  EXPECT_LT(body.parts[2].rounding, 1e-13);
   // A quarter turn about z takes x to y, and so the part's centre to y = 3.
   EXPECT_NEAR(body.parts[1].pose.translation.y(), 3, 1e-12);
   EXPECT_NEAR((body.parts[1].pose.rotation * Vec3d(0, 0, 1)).cwiseAbs().y(), 1, 1e-12);
