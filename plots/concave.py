@@ -1,7 +1,9 @@
 """Time a query of each concave phase on scenes whose bodies are not convex, with 95 % intervals, a panel a scene, kind of
-pairs and task; who answered wrong is hollow, with the number of wrong answers."""
+pairs and task; beside who answered wrong stands how often."""
 
 import sys
+
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 import common
 
@@ -33,14 +35,17 @@ def draw(tables):
                          for end in ("seconds_low", "seconds_high"))
             count = wrong.get(tuple(row[c] for c in GRADED), 0)
             style = {**styles[row["algorithm"]], "linestyle": ""}
-            style["markerfacecolor"] = "white" if count else style["color"]
             axes.errorbar([row["seconds"] * 1e6], [place], xerr=[[low], [high]], capsize=1.5, elinewidth=0.7,
                           capthick=0.7, **style)
             if count:
                 axes.annotate(f"{int(count)} wrong", (row["seconds"] * 1e6, place), xytext=(6, -2),
-                              textcoords="offset points", fontsize=5)
+                              textcoords="offset points", fontsize=5, color="#D55E00")
         axes.set_yticks(range(len(rows)), [row["algorithm"] for row in rows], fontsize=5.5)
         axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.tick_params(axis="x", labelsize=5, labelrotation=45)
         axes.grid(True, axis="x")
         axes.set_title(f"{common.words(rows[0], named)}\n{rows[0]['pair_kind']}, {rows[0]['task']}",
                        loc="left", fontsize=6.5)
